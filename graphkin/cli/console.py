@@ -16,6 +16,7 @@ import click
 from click.exceptions import Exit
 from msgspec.structs import replace
 
+from graphkin.scene.findings import near_name
 from graphkin.text.errors import (
     PLAIN_TRACEBACK,
     ClosureError,
@@ -134,10 +135,8 @@ def of_scene(scene: str, problem: Problem) -> Problem:
 
 def nearest(name: str, names: list[str]) -> str:
     """The nearest name as a question, or all names."""
-    from difflib import get_close_matches
-
-    near = get_close_matches(name.lower(), names, n=1, cutoff=0.5)
-    return f"did you mean {near[0]}?" if near else f"commands are {', '.join(names)}"
+    near = near_name(name, names)
+    return f"did you mean {near}?" if near else f"commands are {', '.join(names)}"
 
 
 def speak_utf8() -> None:

@@ -26,6 +26,10 @@ LINE, GAP = 6.0, 3.0
 BY_HAND = (7.5, 7.0, 6.5)
 """Distances of lines to be filled in, where these take no more pages for it."""
 LEFT, RIGHT = A4_AREA[0] + 4, A4_AREA[2] - 4
+INDENT = 3.0
+"""How far lines are set in below their heading, in mm."""
+ROOM = RIGHT - LEFT - INDENT
+"""The width of these lines, in mm."""
 TOP, BOTTOM = A4_AREA[1] + 8, A4_AREA[3] - 4
 DOT = ". "
 BLANK = DOT * 13 + DOT[0]
@@ -78,16 +82,12 @@ def all_rows(
         words = drawings[0].words
         yield CalculationRow(words(f"calculation.{section}"), heading=True)
         if solved and section == FIRST:
-            said = words_of(words("calculation.readings"))
-            for line in flowed(said, "", RIGHT - LEFT - 3, LETTER):
-                yield CalculationRow(line, legend=True)
-        if solved and section == FIRST and any(relation.equation for relation in found):
-            yield CalculationRow(words("calculation.underlined"), legend=True)
-            if any(drawing.auxiliary for drawing in drawings):
-                yield CalculationRow(words("calculation.tried"), legend=True)
+            for key in legends(drawings, found):
+                for line in flowed(words_of(words(f"calculation.{key}")), "", ROOM, LETTER):
+                    yield CalculationRow(line, legend=True)
         for relation in found:
             if relation.equation and relation.equation.sums:
-                for part in equation_lines(relation.equation, RIGHT - LEFT - 3, solved=solved):
+                for part in equation_lines(relation.equation, ROOM, solved=solved):
                     deep = depth(part, solved=solved)
                     yield CalculationRow(part.markup, equation=part, depth=deep)
                 continue
@@ -95,6 +95,15 @@ def all_rows(
             tag = f"({number})" if relation.result else ""
             hint = computed.get(relation.left, "") if relation.result else ""
             yield from broken(relation, tag, drawings[0], hint, solved=solved)
+
+
+def legends(drawings: Sequence[Drawing], found: Sequence[Relation]) -> Iterator[str]:
+    """What is said below the first heading: of readings, and of vector equations if there are."""
+    yield "readings"
+    if any(relation.equation for relation in found):
+        yield "underlined"
+        if any(drawing.auxiliary for drawing in drawings):
+            yield "tried"
 
 
 def broken(
@@ -197,18 +206,22 @@ def page_of(
     title = "; ".join([escape(title_of(drawing)), *parameters(drawing.scene, words)])
     name = words("sheet.document_calculation", view=words(f"sheet.{view}"))
     sheet = drawing.scene.sheet
-    marks: list[Mark] = [
-        *page_frame((title, name), (escape(sheet.author) or words("page.student"), number))
-    ]
+    made, whose = escape(sheet.author), escape(sheet.student)
+    if view == "task" or whose or not made:
+        made = f"{words('block.creator')}: {made}" if made else ""
+        foot = whose or words("page.student"), "   ".join(filter(None, (made, number)))
+    else:
+        foot = made, number
+    marks: list[Mark] = [*page_frame((title, name), foot)]
     for y, row in rows:
         if row.heading:
             marks.append(Text(LEFT, y, row.markup, "caption", 3.5))
             continue
         if row.equation:
-            marks += equation_marks(row.equation, LEFT + 3, y, words, solved=view == "key")
+            marks += equation_marks(row.equation, LEFT + INDENT, y, words, solved=view == "key")
             continue
         look = "caption equation" if row.legend else "caption"
-        marks.append(Text(LEFT + 3, y, row.markup, look, LETTER))
+        marks.append(Text(LEFT + INDENT, y, row.markup, look, LETTER))
         if row.number:
             marks.append(Text(RIGHT, y, row.number, "caption", LETTER, "end"))
     page = Page(*A4_SIZE, tuple(marks), f"{title_of(drawing)} – {name}", words.language)

@@ -20,6 +20,8 @@ from graphkin.text.plain_table import NOISE, Cell, number, table
 FAR = 1e9
 """Breadths of the mechanism beyond which a centre counts as at infinity."""
 NOT_SURE = "not sure"
+SURE = 9
+"""Decimals of a direction in degrees, beyond which it is rounding."""
 
 
 def place_of(ratio: Ratio | None, breadth: float) -> complex | None:
@@ -121,7 +123,7 @@ def centre_words(ratio: Ratio | None, breadth: float) -> str:
         return point_words(place)
     if ratio is None or ratio.shift == 0:
         return "every point: the link is at rest"
-    return f"at infinity, in direction {number(degrees(phase(ratio.shift)) % 180)}°"
+    return f"at infinity, in direction {number(direction(ratio.shift) % 180)}°"
 
 
 def pole_words(ratio: Ratio | None, acceleration: complex | None, breadth: float) -> str:
@@ -131,7 +133,12 @@ def pole_words(ratio: Ratio | None, acceleration: complex | None, breadth: float
         return point_words(place)
     if ratio is None or not acceleration:
         return "every point: none of them accelerates"
-    return f"at infinity: all accelerate alike, towards {number(degrees(phase(acceleration)))}°"
+    return f"at infinity: all accelerate alike, towards {number(direction(acceleration))}°"
+
+
+def direction(vector: complex) -> float:
+    """The direction of a vector in degrees, without what is only rounding."""
+    return round(degrees(phase(vector)), SURE) + 0.0
 
 
 def relative_table(solution: Solution, names: Iterable[str]) -> list[str]:

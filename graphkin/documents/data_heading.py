@@ -14,7 +14,9 @@ from graphkin.text.errors import PageError, Problem
 NAME = "data"
 """The name of the marks of the data."""
 LETTERS, ROW, BASE, PAD = 2.5, 4.5, 3.1, 3.0
-"""Of the table in mm: letters, rows, how far below its upper line these stand, room beside them."""
+"""Of the table in mm: letters, least rows, least depth of a baseline, room beside the letters."""
+CLEAR = 0.3
+"""How far signs of the table stay from its lines above and below, in mm."""
 ABOVE = 2.6
 """How far the table begins above the first line's foot, in mm."""
 GAP = 5.0
@@ -56,6 +58,11 @@ def in_table(found: Sequence[Datum], x: float, y: float) -> list[Mark]:
         PAD + max(extent(markup, LETTERS)[0] for markup in (datum.name, datum.value))
         for datum in valued
     ]
+    rows = [
+        row_for([getattr(datum, part) for datum in valued]) for part in ("name", "value") if valued
+    ]
+    if y - ABOVE + sum(height for height, _ in rows) > LOWEST:
+        return []
     left = x + sum(widths) + GAP
     room = AREA[2] - 3 - left
     if not valued or room < max((extent(piece, LETTERS)[0] for piece in said), default=0.0):
@@ -65,7 +72,7 @@ def in_table(found: Sequence[Datum], x: float, y: float) -> list[Mark]:
     if lines and not (leading and are_clear(lines, LETTERS, leading)):
         return []
     return [
-        *ruled(valued, widths, x, y - ABOVE),
+        *ruled(valued, widths, rows, x, y - ABOVE),
         *(
             Text(left, y + low + leading * i, line, "caption", LETTERS, name=NAME)
             for i, line in enumerate(lines)
@@ -73,16 +80,30 @@ def in_table(found: Sequence[Datum], x: float, y: float) -> list[Mark]:
     ]
 
 
-def ruled(valued: Sequence[Datum], widths: Sequence[float], x: float, top: float) -> Iterator[Mark]:
-    """The table: names over values."""
-    low, right = top + 2 * ROW, x + sum(widths)
-    yield box(x, top, right - x, ROW, "shade")
-    for y in (top, top + ROW, low):
+def row_for(texts: Sequence[str]) -> tuple[float, float]:
+    """The height of a row of texts, and how deep their baseline is in it, in mm."""
+    _, tops, bottoms = zip(*(extent(text, LETTERS) for text in texts), strict=True)
+    base = max(BASE, CLEAR - min(tops))
+    return max(ROW, base + max(bottoms) + CLEAR), base
+
+
+def ruled(
+    valued: Sequence[Datum],
+    widths: Sequence[float],
+    rows: Sequence[tuple[float, float]],
+    x: float,
+    top: float,
+) -> Iterator[Mark]:
+    """The table: names over values, in rows of a height with their baselines."""
+    (upper, named), (lower, told) = rows
+    middle, low, right = top + upper, top + upper + lower, x + sum(widths)
+    yield box(x, top, right - x, upper, "shade")
+    for y in (top, middle, low):
         yield LineMark(x, y, right, y, "panel")
     yield LineMark(x, top, x, low, "panel")
     for datum, width in zip(valued, widths, strict=True):
-        for y, markup in ((top, datum.name), (top + ROW, datum.value)):
-            yield Text(x + width / 2, y + BASE, markup, "table", LETTERS, "middle", NAME)
+        for y, markup in ((top + named, datum.name), (middle + told, datum.value)):
+            yield Text(x + width / 2, y, markup, "table", LETTERS, "middle", NAME)
         x += width
         yield LineMark(x, top, x, low, "panel")
 

@@ -91,14 +91,48 @@ def with_detail(*boards: FieldContent) -> list[Mark]:
 
 
 def parted(*boards: FieldContent) -> list[FieldMarks]:
-    """Finished fields, and apart from each its detail circles; no marks where there is none."""
+    """Finished fields, and apart from each its detail circles; no marks where there is none.
+
+    The letters of points that find no place in a field are those of a detail about them, where
+    there is room for it.
+    """
+    before = [copied(board) for board in boards]
+    fields = enlarged(boards)
+    lost = [[x for x in board.unplaced if segment_of(x) is None] for board in boards]
+    if not any(lost):
+        return fields
+    for board, letters in zip(before, lost, strict=True):
+        for point in (letter.point for letter in letters):
+            if all(dist(point, crowd) > RADIUS / CROWDED - DOT for crowd in board.crowds):
+                board.crowds.append(point)
+    tried = enlarged(before, lost)
+    shown = [{m.markup for m in each.details if isinstance(m, Text)} for each in tried]
+    both = zip(lost, shown, strict=True)
+    is_told = all(letter.markup in said for letters, said in both for letter in letters)
+    return tried if is_told else fields
+
+
+def copied(board: FieldContent) -> FieldContent:
+    """The same field, to be finished by itself."""
+    return replace(
+        board, marks=[*board.marks], labels=[*board.labels], crowds=[*board.crowds], unplaced=[]
+    )
+
+
+def enlarged(
+    boards: Sequence[FieldContent], lost: Sequence[Sequence[Label]] = ()
+) -> list[FieldMarks]:
+    """Finished fields and their details; the labels that are ``lost`` in each are its details'."""
+    needed = [label for letters in lost for label in letters]
     found = [(board, source) for board in boards for source in sources(board)]
     details = [
-        Detail(board, source, enlarged_part(board, source, at))
+        Detail(board, source, enlarged_part(board, source, at, needed))
         for (board, source), at in zip(found, aside(boards), strict=False)
     ]
     for board, source in found:
         board.marks.append(source.circle())
+    for board, letters in zip(boards, lost, strict=bool(lost)):
+        board.labels = [label for label in board.labels if label not in letters]
     every, places = finished(boards, [detail.board for detail in details])
     fields = [FieldMarks(marks, [], []) for marks in every]
     for detail, spots in zip(details, places, strict=True):
@@ -147,8 +181,13 @@ def scale_words(times: int) -> str:
     return f"{times}:1"
 
 
-def enlarged_part(board: FieldContent, source: Source, at: XY) -> FieldContent:
-    """What lies in a small circle, drawn again in a large one with its middle at a place."""
+def enlarged_part(
+    board: FieldContent, source: Source, at: XY, needed: Sequence[Label] = ()
+) -> FieldContent:
+    """What lies in a small circle, drawn again in a large one with its middle at a place.
+
+    Labels that are ``needed`` there take a leader where they have no place beside their point.
+    """
     x, y = at
     part = FieldContent((x - RADIUS, y - RADIUS, x + RADIUS, y + RADIUS))
     part.marks.append(CircleMark(x, y, RADIUS, "detail"))
@@ -156,7 +195,7 @@ def enlarged_part(board: FieldContent, source: Source, at: XY) -> FieldContent:
         shown = style_class(mark) in SHOWN
         if isinstance(mark, LineMark) and shown and passes(mark, source.at, RADIUS / source.times):
             draw_part(part, mark, source, at)
-    part.labels = [*named(board, source, at)]
+    part.labels = [*named(board, source, at, needed)]
     part.marks += dots(part.labels)
     return part
 
@@ -203,7 +242,7 @@ def larger(point: XY, source: Source, at: XY) -> XY:
     return at[0] + times * (point[0] - x), at[1] + times * (point[1] - y)
 
 
-def named(board: FieldContent, source: Source, at: XY) -> Iterator[Label]:
+def named(board: FieldContent, source: Source, at: XY, needed: Sequence[Label]) -> Iterator[Label]:
     """The names of the vectors and points of a small circle; those that lie whole in it come first.
 
     The others are left out where they find no place.
@@ -216,7 +255,7 @@ def named(board: FieldContent, source: Source, at: XY) -> Iterator[Label]:
         if ends is None:
             if label.cls not in HELPERS and dist(label.point, source.at) <= small:
                 subject = larger(label.point, source, at)
-                yield replace(bare, subject=subject, radius=DOT, optional=True)
+                yield replace(bare, subject=subject, radius=DOT, optional=label not in needed)
         elif label.cls in VECTORS:
             part = within(LineMark(*ends[0], *ends[1], ""), source.at, small)
             if part is None:

@@ -36,7 +36,7 @@ from graphkin.documents.signs import mechanism_signs, plan_signs
 from graphkin.documents.task_scale import plan_at
 from graphkin.drawing.areas import A3_AREA, AREA, BELOW, SCHEME, TABLES
 from graphkin.drawing.bare_stretches import at_bare_stretches
-from graphkin.drawing.frame import CELLS, TitleBlock, check_bar, sheet_frame, wrapped
+from graphkin.drawing.frame import CELLS, STUDENT, TitleBlock, check_bar, sheet_frame, wrapped
 from graphkin.drawing.label import Label, segment_of
 from graphkin.drawing.labels import FieldContent, FootNote
 from graphkin.drawing.marks import LineMark, Mark, Page, Text, reach, style_class
@@ -135,12 +135,13 @@ def title_block(drawing: Drawing, view: str, number: str) -> TitleBlock:
     """The fields of the title block."""
     words, sheet = drawing.words, drawing.scene.sheet
     labels = {name: words(f"block.{name}") for name, _, _ in CELLS}
-    if view == "task":
-        labels["creator"] = words("task.person")
+    if view == "task" or sheet.student:
+        labels[STUDENT] = words("task.person")
     return TitleBlock(
         legal_owner=sheet.owner,
         title=title_of(drawing),
         creator=sheet.author,
+        student=sheet.student,
         approved_by=sheet.approved,
         document_type=words(
             f"sheet.document_{name_of_sheet(drawing)}", view=words(f"sheet.{view}")

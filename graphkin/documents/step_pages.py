@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from math import degrees
+from typing import NamedTuple
 
 from msgspec.structs import replace
 
@@ -29,15 +30,20 @@ from graphkin.documents.step_visibility import appearing, marks_at_stage, when_t
 from graphkin.drawing.areas import A3_TITLE_BLOCK, BELOW, MARKED
 from graphkin.drawing.frame import sheet_frame
 from graphkin.drawing.marks import LineMark, Mark, Page, Text
-from graphkin.drawing.richtext import flowed, words_of
+from graphkin.drawing.richtext import flowed, flowed_pieces, words_of
 from graphkin.drawing.style import NOW
 
-LEADING, SMALL_LEADING = 6.2, 4.6
-"""Distance of lines of the sentence to do, and of those that are done, in mm."""
+LARGE, CLOSE, DONE = (3.5, 6.2), (2.5, 4.2), (2.5, 4.6)
+"""Height and distance in mm of the lines of sentences to do, of those to do that have no room so
+large, and of those that are done."""
 LEFT, TOP, RIGHT = BELOW[0] + 2, BELOW[1] + 4.5, BELOW[2] - 4
 """Where these begin and end, in mm."""
-ROOM = int((A3_TITLE_BLOCK[1] - TOP - 8) // LEADING)
-"""Lines to do that have room above the title block."""
+FIRST, ABOVE = TOP + 8, A3_TITLE_BLOCK[1] - 4
+"""The foot of the first line to do, and of the lowest above the title block, in mm."""
+BESIDE, CLEAR = A3_TITLE_BLOCK[0] - LEFT - 5, MARKED[0] - LEFT - 7
+"""The width of lines beside the title block, and of those clear of the centring mark, in mm."""
+MOST = 150
+"""Words that no line holds."""
 LEFT_OUT = "…"
 """What stands for the sentences that are done and have no room."""
 
@@ -89,19 +95,21 @@ def growing(drawing: Drawing, number: str) -> tuple[Page, ...]:
             f"{title}, {stage + 1}/{len(said)}",
             drawing.words.language,
         )
-        for first, stage in spans(fields, [len(to_do(each)) for each in said])
+        for first, stage in spans(fields, lambda first, last: to_do(said, first, last).is_held)
     )
 
 
-def spans(fields: Sequence[Sequence[Mark]], lines: Sequence[int]) -> Iterator[tuple[int, int]]:
-    """The first and the last sentence of each page, of so many ``lines`` each.
+def spans(
+    fields: Sequence[Sequence[Mark]], held: Callable[[int, int], bool]
+) -> Iterator[tuple[int, int]]:
+    """The first and the last sentence of each page, which holds those from one to another or not.
 
     The last draws what is new on the page, or is followed by one for which there is no room.
     """
     first = 0
     for stage, field in enumerate(fields):
-        is_full = sum(lines[first : stage + 2]) > ROOM
-        if stage == len(fields) - 1 or is_full or any(NOW in mark.cls.split() for mark in field):
+        is_new = any(NOW in mark.cls.split() for mark in field)
+        if stage == len(fields) - 1 or is_new or not held(first, stage + 1):
             yield first, stage
             first = stage + 1
 
@@ -132,9 +140,42 @@ def stage_of_crossing(drawing: Drawing, crossing: Crossing, staged: Mapping[int,
     return staged[group.closing if group is not None and group.locus else crossing.number]
 
 
-def to_do(sentence: Sentence, number: str = "") -> list[str]:
-    """The lines of a sentence to do."""
-    return list(flowed(words_of(number + sentence.markup), " ", RIGHT - LEFT, 3.5))
+class ToDo(NamedTuple):
+    """The lines of sentences to do with their feet, the height of their letters, the foot of a line
+    below them, and whether the page holds them."""
+
+    lines: list[tuple[float, str]]
+    height: float
+    low: float
+    is_held: bool
+
+
+def to_do(said: Sequence[Sentence], first: int, last: int) -> ToDo:
+    """Sentences from one to another: large above the title block, else smaller and beside it."""
+    markups = [
+        f"{number}. {each.markup}" if first < last else each.markup
+        for number, each in enumerate(said[first : last + 1], first + 1)
+    ]
+    for (height, leading), lowest in ((LARGE, ABOVE), (CLOSE, BELOW[3])):
+        lines: list[tuple[float, str]] = []
+        y = FIRST
+        for markup in markups:
+            for line in wrapped(markup, height, leading, y):
+                lines.append((y, line))
+                y += leading
+        if y - leading <= lowest:
+            return ToDo(lines, height, y, True)
+    return ToDo(lines, height, y, False)
+
+
+def wrapped(markup: str, height: float, leading: float, y: float) -> Iterator[str]:
+    """The lines of a sentence from a foot on, narrower where they are beside the title block."""
+    words = words_of(markup)
+    while words:
+        wide = RIGHT - LEFT if y <= ABOVE else BESIDE if y <= MARKED[1] else CLEAR
+        line, held = flowed_pieces(words[:MOST], " ", wide, height)[0]
+        yield line
+        words, y = words[len(held) :], y + leading
 
 
 def told(drawing: Drawing, said: Sequence[Sentence], first: int, stage: int) -> Iterator[Mark]:
@@ -145,23 +186,21 @@ def told(drawing: Drawing, said: Sequence[Sentence], first: int, stage: int) -> 
     )
     caption = words(key, number=stage + 1, all=len(said), **several)
     yield Text(LEFT, TOP, caption, "caption", 3.5, name="step")
-    y = TOP + 8
-    for number, sentence in enumerate(said[first : stage + 1], first + 1):
-        for line in to_do(sentence, f"{number}. " if several else ""):
-            yield Text(LEFT, y, line, "caption", 3.5, name="sentence")
-            y += LEADING
-    yield LineMark(LEFT, y - 2.5, A3_TITLE_BLOCK[0] - 5, y - 2.5, "panel")
-    width = MARKED[0] - LEFT - 7
+    lines, height, y, _ = to_do(said, first, stage)
+    for foot, line in lines:
+        yield Text(LEFT, foot, line, "caption", height, name="sentence")
+    if y - 2.5 < MARKED[1]:
+        yield LineMark(LEFT, y - 2.5, A3_TITLE_BLOCK[0] - 5, y - 2.5, "panel")
     done = [
         (f"{number}." if i == 0 else "", line)
         for number, sentence in enumerate(said[:first], 1)
-        for i, line in enumerate(flowed(words_of(sentence.markup), " ", width, 2.5))
+        for i, line in enumerate(flowed(words_of(sentence.markup), " ", CLEAR, DONE[0]))
     ]
-    room = max(int((BELOW[3] - y - 3.5) // SMALL_LEADING) + 1, 0)
+    room = max(int((BELOW[3] - y - 3.5) // DONE[1]) + 1, 0)
     shown = done
     if len(done) > room:  # a line tells that sentences before are left out
         shown = done[len(done) - room + 1 :]
         while shown and not shown[0][0]:
             shown = shown[1:]
         shown = [("", LEFT_OUT), *shown][:room]
-    yield from written(shown, LEFT, y + 2.5, 2.5, SMALL_LEADING)
+    yield from written(shown, LEFT, y + 2.5, *DONE)

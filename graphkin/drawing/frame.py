@@ -28,12 +28,14 @@ class TitleBlock(Struct, frozen=True):
     """The data fields of ISO 7200 in plain text; ``scale`` is markup, ``labels`` name the fields.
 
     ``labels`` is keyed by the names of the fields; a field without a label shows its value alone,
-    an empty value leaves its cell free for handwriting.
+    an empty value leaves its cell free for handwriting. A block with a label for the ``student``
+    has that cell where the creator's is in others.
     """
 
     legal_owner: str = ""
     title: str = ""
     creator: str = ""
+    student: str = ""
     approved_by: str = ""
     document_type: str = ""
     identification: str = ""
@@ -59,6 +61,25 @@ CELLS: tuple[tuple[str, Rect, float], ...] = (
     ("language", (138, 26, 150, 36), 3.5),
     ("sheet", (150, 26, 180, 36), 3.5),
 )
+STUDENT = "student"
+"""The name of the field that says whose a sheet is."""
+STUDENTS: tuple[tuple[str, Rect, float], ...] = (
+    CELLS[0],
+    (STUDENT, *CELLS[1][1:]),
+    CELLS[2],
+    ("document_type", (74, 15.3, 108, 26), 3.5),
+    ("creator", (108, 15.3, 144, 26), 3.5),
+    ("approved_by", (144, 15.3, 180, 26), 3.5),
+    *CELLS[5:],
+)
+"""The same of a sheet that is a student's, who writes or is named where others name the creator."""
+
+
+def cells_of(block: TitleBlock) -> tuple[tuple[str, Rect, float], ...]:
+    """The cells of a block; a student's has one for the creator where the scene names an author."""
+    if STUDENT not in block.labels:
+        return CELLS
+    return STUDENTS if block.creator else (CELLS[0], STUDENTS[1], *CELLS[2:])
 
 
 def sheet_frame(title_block: TitleBlock) -> tuple[Mark, ...]:
@@ -180,7 +201,7 @@ def cell(name: str, rect: Rect, most: float, label: str, value: str) -> list[Mar
 def title_block_marks(block: TitleBlock, x: float, y: float) -> tuple[Mark, ...]:
     """Draw the title block with its top-left corner at (x, y)."""
     marks: list[Mark] = [box(x, y, TITLE_WIDTH, TITLE_HEIGHT, "frame title-block")]
-    for name, (left, top, right, bottom), most in CELLS:
+    for name, (left, top, right, bottom), most in cells_of(block):
         rect = (x + left, y + top, x + right, y + bottom)
         if left:
             marks.append(LineMark(rect[0], rect[1], rect[0], rect[3], "border title-block"))

@@ -36,8 +36,6 @@ LEFT_OUT = "…"
 """What stands for the notes that have no room there."""
 KEY = 4
 """Priority of a key number."""
-MANY = 30
-"""How many letters and numbers a field must have for some of them to be noted at its foot."""
 NEAR = 0.6
 """How near to a note a label may stand, in mm."""
 HELPERS = ("construction", OWN_LINES)
@@ -66,6 +64,7 @@ class FieldContent(Struct):
     ``lettered`` the places of the labels that are letters of points; ``unnamed`` begins the note
     that lists the vectors for whose names there is no room. At ``crowds`` so much meets that it is
     shown enlarged. Labels that are ``dispensable`` are drawn where the others leave room near.
+    ``unplaced`` are letters and numbers of a finished field that are only noted at its foot.
     """
 
     rect: Rect
@@ -77,6 +76,7 @@ class FieldContent(Struct):
     unnamed: str = ""
     crowds: list[XY] = field(default_factory=list)
     dispensable: list[Label] = field(default_factory=list)
+    unplaced: list[Label] = field(default_factory=list)
 
     @property
     def lettering(self) -> Rect:
@@ -100,8 +100,8 @@ class FieldContent(Struct):
 
         ``made`` are the field's foot and the places of all labels if these were sought before,
         with other boards'. In a worse crowd letters of the construction are left out, then names
-        of vectors, and a note says which. Raises PageError when another label finds no place even
-        so. Where more than HOPELESS find none, key numbers would not help either.
+        of vectors, at last other letters, and a note says which. Where more than HOPELESS find
+        none, key numbers would not help either.
         """
         meanings: list[FootNote] = []
         wished = list(self.labels)
@@ -327,7 +327,7 @@ def by_need(
 
     First the labels as they were wished, then as they stand, with what their key numbers mean.
     The foot of the field is returned with the places. Where a letter or a number of a link finds
-    no place even so, it is noted there if there are ``MANY``; else PageError is raised.
+    no place even so, it is noted there.
     """
     shortened = board.labels
     try:
@@ -338,8 +338,6 @@ def by_need(
     try:
         return in_turn(board, [*board.notes, *meanings])
     except PageError:
-        if sum(must_be_named(label) for label in wished) < MANY:
-            raise
         board.labels = shortened
         return in_turn(board, [*board.notes, *meanings], wished)
 
@@ -378,6 +376,7 @@ def in_turn(
         if not crowded:
             break
         left_out = sorted([*left_out, *crowded])
+    board.unplaced = [noted[i] for i in left_out if noted and must_be_named(noted[i])]
     kept = [i for i in sorted(found) if found[i].free]
     board.labels = [labels[i] for i in kept]
     return foot, [found[i] for i in kept]

@@ -196,9 +196,8 @@ def are_clear(lines: Sequence[str], height: float, leading: float) -> bool:
 
 def nearer(above: str, below: str, height: float, leading: float) -> bool:
     """Whether a sign of a line stands less than clear above one of the line below."""
-    low = [
-        box for box in signs(above, height) if box[3] > extent(below, height)[1] + leading - CLEAR
-    ]
+    reached = extent(below, height)[1] + leading - CLEAR
+    low = [box for box in signs(above, height) if box[3] > reached]
     return any(
         left < end and start < right and bottom + CLEAR > leading + top
         for left, right, _, bottom in low
@@ -206,15 +205,18 @@ def nearer(above: str, below: str, height: float, leading: float) -> bool:
     )
 
 
-def signs(markup: str, height: float) -> Iterator[tuple[float, float, float, float]]:
+@lru_cache(maxsize=1024)
+def signs(markup: str, height: float) -> tuple[tuple[float, float, float, float], ...]:
     """Give the left, right, top and bottom of the ink of each sign, from the baseline's start."""
+    boxes: list[tuple[float, float, float, float]] = []
     for run in laid(markup, height)[0]:
         x = run.x
         for sign in run.text:
             end, found = x + advance(sign, run.italic) * run.size, ink(sign, run.italic)
             if found:
-                yield x, end, run.y - found[1] * run.size, run.y - found[0] * run.size
+                boxes.append((x, end, run.y - found[1] * run.size, run.y - found[0] * run.size))
             x = end
+    return tuple(boxes)
 
 
 def words_of(markup: str) -> list[str]:

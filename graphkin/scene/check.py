@@ -30,7 +30,7 @@ from graphkin.scene.model import (
 )
 from graphkin.scene.quantity import Quantity, shortest
 from graphkin.scene.read_joints import check_profiles
-from graphkin.scene.requests import ANY_LINK
+from graphkin.scene.requests import ANY_LINK, WAYS_OF_LINK, sides
 from graphkin.scene.wheels import check_centres, check_driven, check_tracks
 from graphkin.text.errors import SceneError, Written
 
@@ -135,12 +135,12 @@ def check_branches(scene: Scene, findings: Findings) -> None:
         place = f"branches.{name}"
         if name not in points and name not in scene.links:
             known = [*points, *scene.links]
-            findings.add(place, f"{name} is no point or link", listed(known), nearest(name, known))
+            free = (each for each in known if each not in scene.branches)
+            findings.add(place, f"{name} is no point or link", listed(known), nearest(name, free))
         elif isinstance(branch, Side):
             if name not in points:
-                expected = ", ".join(each.value for each in ANY_LINK)
-                hint = side_hint(scene, name, branch)
-                findings.add(place, f"a side for link {name}", expected, hint, ANY_LINK)
+                hint = ways_hint(scene, name, branch)
+                findings.add(place, f"a side for link {name}", WAYS_OF_LINK, hint, ANY_LINK)
             for point in (branch.first, branch.second):
                 known_point(point, points, "the mechanism", place, findings)
             if name in (branch.first, branch.second):
@@ -148,13 +148,8 @@ def check_branches(scene: Scene, findings: Findings) -> None:
         elif isinstance(branch, Way) and is_of_several_ways(scene, name):
             continue
         elif name not in scene.links:
-            expected = '"left of P-Q" or "right of P-Q"'
-            blocks = [link for link in scene.links.values() if link.slides and name in link.points]
-            hint = "a block's branch is written under the link's name: "
-            hint += " or ".join(f'{block.name} = "{branch}"' for block in blocks)
             found = f"forward, backward or a closure for point {name}"
-            outer = f"P and Q are the outer pins of the two links that {name} joins"
-            findings.add(place, found, expected, hint if blocks else outer)
+            findings.add(place, found, *sides(name, scene.links, branch))
 
 
 def is_of_several_ways(scene: Scene, point: str) -> bool:
@@ -164,7 +159,7 @@ def is_of_several_ways(scene: Scene, point: str) -> bool:
     return any(point in scene.link(name).points for name in near if name != FRAME)
 
 
-def side_hint(scene: Scene, name: str, side: Side) -> str:
+def ways_hint(scene: Scene, name: str, side: Side) -> str:
     """Where a side belongs that is written under a link: a block takes a way, a pin a side."""
     pin = side_of_pin(scene, name, side)
     if scene.links[name].paths:

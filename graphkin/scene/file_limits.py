@@ -21,6 +21,8 @@ LARGEST_KEPT = 64 << 20
 """Bytes of a file that an earlier run kept: a manifest, a table of marks, a reading."""
 LONGEST_LINE = 4000
 DOTTED = r"(?<![\w\"'.-])(?>[\w\"'-]+[ \t]*\.[ \t]*){16}"
+ROUNDED = r"[=\[,]\s*(\([^][()\"']*,[^][()\"']*[])]|\[[^][()\"']*,[^][()\"']*\))"
+"""A list with a round bracket."""
 CURLED = "“”„‟‘’‚«»″"
 """Quotes that a word processor writes."""
 WHERE = r"\s*\(at (?:line (\d+), column (\d+)|end of document)\)\s*$"
@@ -156,6 +158,10 @@ def value_hint(line: str, at: int) -> Hint:
         return 'use straight quotes: "'
     if at < 0:
         return ""
+    rounded = re.search(ROUNDED, line)
+    if rounded:
+        value = f"[{rounded[1][1:-1]}]"
+        return Mend(rounded[1], value, f"a list is written in square brackets: {value}")
     begins = max(line.rfind(mark, 0, at) for mark in "=[,") + 1
     value = re.split(r"[],}#]", line[begins:], maxsplit=1)[0].strip()
     if not begins or not re.fullmatch(r"[\w.°(+-][\w.°()*/^+ -]*", value):
@@ -163,7 +169,8 @@ def value_hint(line: str, at: int) -> Hint:
     if re.fullmatch(r"[\d._ ]+", value):
         return ""
     if re.search(r"[\d*/+(^]|^-", value):
-        return unit_hint(value) or in_quotes("expression", value)
+        whole = value.count("(") == value.count(")")
+        return unit_hint(value) or (in_quotes("expression", value) if whole else "")
     return number_hint(line[:begins]) or in_quotes("text", value)
 
 

@@ -4,9 +4,13 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 
+from graphkin.text import paths
 from graphkin.text.errors import MOST, About, Change, Hint, Mend, Problem, SceneError
 
 LISTED = 12
+BEGUN = 3
+"""Letters in which a name and a longer one must begin alike for either to be near the other."""
+DIGITS = "0123456789"
 COMBINING = "\u0300"
 """The first sign that combines with the letter before it: what is all below is composed."""
 
@@ -148,11 +152,55 @@ def numbered(place: str, index: int, count: int) -> str:
 
 def nearest(name: str, known: Iterable[str]) -> Hint:
     """The known name nearest to one that is not known as its mend; empty when none is near."""
-    from difflib import get_close_matches
+    near = near_name(name, known)
+    return Mend(name, near) if near else ""
 
-    folded = {candidate.lower(): candidate for candidate in known}
-    close = get_close_matches(name[:60].lower(), folded, n=1, cutoff=0.5)
-    return Mend(name, folded[close[0]]) if close else ""
+
+def near_name(name: str, known: Iterable[str]) -> str:
+    """The known name nearest to one that is not known; empty when none is near.
+
+    Near is what differs by its case or its number, what begins alike, and what at most a third of
+    its letters would have to change for.
+    """
+    meant = name[:60].lower()
+    near: dict[str, tuple[int, int]] = {}
+    for candidate in known:
+        other = candidate.lower()
+        short, long = sorted((len(meant), len(other)))
+        begun = short >= BEGUN and other[:short] == meant[:short]
+        numbered_otherwise = meant.rstrip(DIGITS) == other.rstrip(DIGITS) != ""
+        if begun or numbered_otherwise or 3 * (long - short) <= long:
+            changes = changes_between(meant, other)
+            if begun or numbered_otherwise or 3 * changes <= long:
+                near[candidate] = changes, abs(number_of(meant) - number_of(other))
+    return min(near, key=lambda candidate: near[candidate], default="")
+
+
+def number_of(name: str) -> int:
+    """The number at the end of a name, 0 where it has none."""
+    return int(f"0{name[len(name.rstrip(DIGITS)) :]}")
+
+
+def changes_between(name: str, other: str) -> int:
+    """How many letters must be put in, left out, replaced or exchanged with the next one."""
+    before: list[int] = [0] * (len(other) + 1)
+    row: list[int] = [*range(len(other) + 1)]
+    for i, letter in enumerate(name, 1):
+        earlier, before, row = before, row, [i]
+        for j, sign in enumerate(other, 1):
+            row.append(min(before[j] + 1, row[-1] + 1, before[j - 1] + (letter != sign)))
+            if i > 1 < j and name[i - 2 : i] == sign + other[j - 2]:
+                row[-1] = min(row[-1], earlier[j - 2] + 1)
+    return row[-1]
+
+
+def near_file(path: str, files: Iterable[str]) -> str:
+    """The file whose name is nearest to that of one that is not there, whatever their endings."""
+    ending = path.rpartition(".")[2]
+    known: dict[str, str] = {}
+    for each in sorted(files, key=lambda each: each.rpartition(".")[2] != ending):
+        known.setdefault(paths.stem(each), each)
+    return known.get(near_name(paths.stem(path), known), "")
 
 
 def listed(names: Iterable[str]) -> str:

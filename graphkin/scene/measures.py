@@ -12,7 +12,7 @@ from msgspec.structs import replace
 from graphkin.scene.expression import FARTHEST, TIME, Number, UnreadableError, decimal, integer
 from graphkin.scene.findings import Findings, listed, nearest, shown
 from graphkin.scene.quantity import Quantity, exact, expression
-from graphkin.text.errors import Hint, Mend, SceneError
+from graphkin.text.errors import Hint, SceneError
 
 Pair = tuple[Quantity, Quantity]
 LARGEST = 10**FARTHEST
@@ -96,7 +96,7 @@ class Measures:
                 read.place,
                 f"{shown(read.text)} uses {name}, which is no parameter",
                 f"{number}, or an expression with {known}" if known else number,
-                Mend(name, *names) if len(names) == 1 else nearest(name, names),
+                nearest(name, names),
             )
         if TIME not in used:
             return not unknown

@@ -507,11 +507,12 @@ class Sheet(Struct, frozen=True):
     ``plan`` what velocities are drawn as: images alone, or Kutzbach's plan of a train with them.
     ``rule`` is how large plans are: as large as they fit, or as the lab draws them, the vectors of
     the crank's pin as long as the crank; ``enlarge`` how many times as long, one number for each
-    plan or one for both.
+    plan or one for both. ``student`` is whose sheet it is: a class says so, no scene.
     """
 
     owner: str = ""
     author: str = ""
+    student: str = ""
     approved: str = ""
     date: str = ""
     number: str = ""

@@ -139,8 +139,8 @@ def branch_words(text: str) -> Branch | None:
     return side_words(text)
 
 
-BEGINS = (*SIDES, *WAYS, "closure")
-"""The first words of the branches."""
+CLOSURE = "closure"
+"""The first word of a branch that is a closure by its number."""
 PLACES = (*SIDES, "on", "beyond")
 """Those of what says where a point of a link lies."""
 

@@ -159,7 +159,7 @@ def assembled(
         frame=frame,
         links=links,
         drivers=drivers,
-        branches=read_branches(top.table("branches"), links, findings),
+        branches=read_branches(top.table("branches"), frame, links, findings),
         ask=Ask(),
         sheet=read_sheet(top.table("sheet"), measures),
         time=time,

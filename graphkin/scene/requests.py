@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterator
+from collections.abc import Iterator, Mapping
 from datetime import date, datetime
 from fractions import Fraction
 from itertools import combinations
@@ -11,9 +11,11 @@ from graphkin.scene.findings import Findings, Table, numbered, plain_text, shown
 from graphkin.scene.known_names import known_link, known_point
 from graphkin.scene.link_points import ends_of
 from graphkin.scene.measures import Measures
-from graphkin.scene.model import FRAME, Ask, Branch, Scene, Sheet
+from graphkin.scene.model import FRAME, Ask, Branch, Link, Scene, Sheet
 from graphkin.scene.phrases import (
-    BEGINS,
+    CLOSURE,
+    SIDES,
+    WAYS,
     asked_point,
     branch_words,
     link_name,
@@ -21,7 +23,7 @@ from graphkin.scene.phrases import (
     point_name,
 )
 from graphkin.scene.quantity import Quantity, exact
-from graphkin.text.errors import Written
+from graphkin.text.errors import Hint, Written
 
 LANGUAGES = ("en", "it", "ro")
 POINTS_ASKED = ("velocity", "acceleration")
@@ -35,8 +37,10 @@ LINKS_ASKED = tuple(
 ALL = "all"
 """Asks for the relative centres of all links."""
 BRANCH_WORDS = '"left of P-Q", "right of P-Q", "forward", "backward" or "closure 1"'
+SIDES_OF_PIN = '"left of P-Q" or "right of P-Q"'
 ANY_LINK = tuple(map(Written, ('"forward"', '"backward"', '"closure 1"')))
 """The branches that need no names."""
+WAYS_OF_LINK = ", ".join(each.value for each in ANY_LINK)
 KLEIN = "klein"
 METHODS = ("triangles", KLEIN)
 """What gives the components of accelerations."""
@@ -46,16 +50,16 @@ RULES = ("largest", "lab")
 MOST = 500
 
 
-def read_branches(table: Table, links: Collection[str], findings: Findings) -> dict[str, Branch]:
+def read_branches(
+    table: Table, frame: Link, links: Mapping[str, Link], findings: Findings
+) -> dict[str, Branch]:
     """The chosen closures, by the name of a pin or of a link."""
     branches: dict[str, Branch] = {}
     for key, raw in table.raw.items():
         branch = branch_words(raw) if isinstance(raw, str) else None
         name = link_name(table.at(key), key, findings)
         if branch is None:
-            ways = ANY_LINK if key in links else ()  # the side of a pin needs the names of others
-            hint = phrase_hint(raw, BEGINS)
-            findings.add(table.at(key), shown(raw), BRANCH_WORDS, hint, ways)
+            findings.add(table.at(key), shown(raw), *wanted(key, raw, frame, links))
         elif name == FRAME:
             findings.add(
                 table.at(key), "a branch of the frame, which is at rest", "a pin or a link"
@@ -63,6 +67,31 @@ def read_branches(table: Table, links: Collection[str], findings: Findings) -> d
         elif name is not None:
             branches[name] = branch
     return branches
+
+
+def wanted(
+    name: str, raw: object, frame: Link, links: Mapping[str, Link]
+) -> tuple[str, Hint, tuple[Written, ...]]:
+    """Which branches a name may have, a hint for one that is none, and changes that mend it.
+
+    A link has a way or a closure, a pin a side, which needs the names of other points.
+    """
+    if name in links:
+        return WAYS_OF_LINK, phrase_hint(raw, (*WAYS, CLOSURE)), ANY_LINK
+    if any(name in link.points for link in (frame, *links.values())):
+        expected, hint = sides(name, links)
+        return expected, phrase_hint(raw, SIDES) or hint, ()
+    return BRANCH_WORDS, phrase_hint(raw, (*SIDES, *WAYS, CLOSURE)), ()
+
+
+def sides(name: str, links: Mapping[str, Link], branch: object = "") -> tuple[str, str]:
+    """Which branches a pin may have, and a hint; those of a block's pin are under the block."""
+    blocks = [link.name for link in links.values() if link.slides and name in link.points]
+    if not blocks:
+        return SIDES_OF_PIN, f"P and Q are the outer pins of the two links that {name} joins"
+    ways = [str(branch)] if branch else WAYS
+    told = " or ".join(f'{block} = "{way}"' for block in blocks for way in ways)
+    return told, "a block's branch is written under the link's name"
 
 
 def read_ask(table: Table, findings: Findings, scene: Scene) -> Ask:

@@ -2,14 +2,18 @@
 
 from __future__ import annotations
 
+import re
+from contextlib import suppress
 from typing import TYPE_CHECKING
 
+from graphkin.scene.findings import near_file
 from graphkin.text import paths
 from graphkin.text.errors import Problem, SceneError
 from graphkin.text.hooks import service
 from graphkin.text.paths import within
 
 if TYPE_CHECKING:
+    from collections.abc import Iterator
     from pathlib import Path
 
 HERE = paths.beside(paths.beside(__file__))
@@ -20,6 +24,8 @@ EXAMPLES = (within(HERE, "scenes"), within(ABOVE, "examples", "scenes"))
 """The folders with the scenes that come with it, likewise."""
 LAB, SCENE, ENDING = "lab.toml", "scene.toml", ".toml"
 """The file that makes a scene a lab, the scene of a folder, and how all of them end."""
+BEGINS, HEAD = re.compile(rb"^\s*graphkin\s*=", re.MULTILINE), 4096
+"""The first key of a scene, and how many bytes of a file are looked at for it."""
 
 UNFINISHED = ".graphkin-unfinished"
 """The folder, beside a scene or the files of a class, in which what is written waits."""
@@ -81,6 +87,17 @@ def folder(name: str | Path) -> Path | None:
     return path if (path / LAB).is_file() else None
 
 
+def scenes_beside(path: str) -> Iterator[str]:
+    """The scenes in the folder of a path: files that begin as one, and folders with a scene."""
+    around = path[: len(path) - len(paths.name_of(path))]
+    for other in paths.in_folder(around or "."):
+        file = within(around, other, SCENE) if paths.is_folder(around + other) else around + other
+        if file.endswith(ENDING) and paths.is_file(file):
+            with suppress(OSError):
+                if BEGINS.search(paths.first_bytes(file, HEAD)):
+                    yield around + other
+
+
 def find(name: str) -> str:
     """The scene file of a path, of a folder with a scene.toml, or of a shipped lab's name."""
     path = name or "."
@@ -97,13 +114,8 @@ def find(name: str) -> str:
     if paths.is_folder(path):
         expected = "a folder with scene.toml, a .toml file or the name of a lab"
         raise SceneError(Problem(path, "is a folder without scene.toml", expected))
-    around = path[: len(path) - len(paths.name_of(path))]
-    beside = [around + other for other in paths.in_folder(around or ".") if other.endswith(ENDING)]
-    from difflib import get_close_matches
-
-    others = [other for other in (*beside, *names()) if other != name]
-    near = get_close_matches(name, others, n=1)
-    hint = f"did you mean {near[0]}? " if near else ""
+    near = near_file(name, [*scenes_beside(path), *names()])
+    hint = f"did you mean {near}? " if near else ""
     raise SceneError(
         Problem(
             name,

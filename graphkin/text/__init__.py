@@ -63,8 +63,9 @@ class Words:
         return f"({x}{self('place_mark')}{y})"
 
     def fixed(self, number: float, places: int) -> str:
-        """A number with so many places after the mark; never minus nought."""
-        return self.decimal(f"{round(number, places) + 0.0:.{places}f}")
+        """A number with so many places after the mark; what rounds to zero is 0."""
+        rounded = round(number, places)
+        return self.decimal(f"{rounded:.{places}f}") if rounded else "0"
 
     def significant(self, number: float, digits: int = 4) -> str:
         """A number rounded to so many significant digits, by powers of ten when far from one."""

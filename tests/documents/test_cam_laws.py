@@ -15,6 +15,7 @@ from graphkin.construction.core.drawn_scene import Drawing
 from graphkin.construction.core.given_data import given
 from graphkin.construction.core.kind import constructions
 from graphkin.documents.calculation import calculation
+from graphkin.documents.relations import relations
 from graphkin.documents.sentences import sentences
 from graphkin.documents.sheet_documents import drawings_of, proved
 from graphkin.drawing.marks import Text
@@ -142,6 +143,19 @@ def test_the_sentence_leads_from_the_pivot_to_the_centre_under_a_flat_face():
     way = sum(float(size) * SIDES[side] for size, side in laid)
     assert len(laid) == 2
     assert way == pytest.approx(drawing.on_paper(spot(centre.name) - spot(cam.pivot)), abs=0.01)
+
+
+@pytest.mark.parametrize("name", ["cam-table", "cam-flat", "cam-plate"])
+def test_a_sentence_tells_the_law_in_millimetres_of_paper_as_it_tells_the_centre(name):
+    """The calculation has it as the scene has: larger by the scale of the mechanism."""
+    drawing, *_ = drawings(name)
+    said = next(s.markup for s in sentences(drawing) if "by the law" in s.markup)
+    lift = r"\*s\*_\{\w+\} = (−?[\d.]+) mm"
+    written = next(r for _, rs in relations([drawing]) for r in rs if re.match(r"\*s\*_", r.left))
+    real = float(written.result.replace("−", "-"))
+    drawn = float(re.search(lift, said)[1].replace("−", "-"))
+    assert written.unit == "mm"
+    assert drawn == pytest.approx(float(drawing.on_paper(real / 1000)), abs=0.001)
 
 
 def test_a_form_asks_for_the_law_and_the_distance_before_the_velocity_that_follows():

@@ -6,10 +6,12 @@ from itertools import cycle, pairwise
 from math import degrees
 
 import pytest
+from msgspec.structs import replace
 
 from graphkin.construction.core.layout import lay_out
 from graphkin.construction.core.naming import angle_symbol
 from graphkin.construction.core.relation import divided, inverse
+from graphkin.documents.calculation import calculation
 from graphkin.documents.relations import relations
 from graphkin.documents.scheme import elsewhere, full_size, scheme
 from graphkin.documents.sheet import asked_words, sheet
@@ -178,3 +180,38 @@ def test_vectors_longer_than_in_the_plan_are_so_many_times_as_they_can_be_laid_o
     (drawing, _) = drawings_from(NAMED.format(crank="A", rocker="B"))
     assert inverse(drawing, times) == said
     assert divided(drawing, "v", times) == f"{said}·v"
+
+
+def block_texts(page):
+    """What is written in the title block of a page, by the name of its cell, without labels."""
+    block = [mark for mark in page.marks if isinstance(mark, Text) and mark.cls == "title"]
+    return {mark.name: plain(mark.markup) for mark in block if mark.name}
+
+
+def authored(student=""):
+    """The drawings of a lab by an author, and for a student of a class."""
+    for drawing in drawings("pump", 7):
+        told = replace(drawing.scene.sheet, author="J. Lecturer", student=student)
+        yield replace(drawing, scene=replace(drawing.scene, sheet=told))
+
+
+@pytest.mark.parametrize(("view", "student"), [("task", ""), ("task", "A. S"), ("key", "A. S")])
+def test_the_box_of_the_student_is_the_students_whoever_made_the_lab(view, student):
+    made = [*authored(student)]
+    for drawing in made:
+        page = sheet(drawing, view, "1/2")
+        found = block_texts(page)
+        assert found["creator"] == "J. Lecturer"
+        assert found.get("student", "") == student
+        said = [plain(mark.markup) for mark in page.marks if isinstance(mark, Text)]
+        assert {"Name, group, date", "Created by"} <= {*said}
+    for page in calculation(made, view):
+        foot = [plain(m.markup) for m in page.marks if isinstance(m, Text) and m.name == "footer"]
+        assert foot[0].startswith(student or "Name, group, date: . .")
+        assert foot[1].startswith("Created by: J. Lecturer")
+
+
+def test_the_key_that_is_nobodys_names_its_author_as_the_creator():
+    for drawing in authored():
+        found = block_texts(sheet(drawing, "key", "1/2"))
+        assert found["creator"] == "J. Lecturer" and "student" not in found

@@ -15,9 +15,9 @@ from graphkin.construction.guides.slide_symbols import frame_guides
 from graphkin.construction.links.wheel_symbols import straight_tracks
 from graphkin.documents.sentences import sentences
 from graphkin.documents.sheet_documents import drawings_of, drawn_sheets, hand_out
-from graphkin.documents.step_pages import ROOM, spans, told
+from graphkin.documents.step_pages import spans, to_do, told
 from graphkin.documents.step_visibility import noted
-from graphkin.drawing.areas import AREA, BELOW
+from graphkin.drawing.areas import A3_AREA, A3_TITLE_BLOCK, AREA, BELOW, MARKED
 from graphkin.drawing.marks import CircleMark, Mark, SharedLetter, Text, reach
 from graphkin.drawing.richtext import signs
 from graphkin.drawing.style import NOW, TINTS, style_of
@@ -194,11 +194,13 @@ def test_where_sentences_that_are_done_are_left_out_a_page_says_so(name):
         for page in steps:
             done = spanned(page)[0] - 1
             texts = [m for m in page.marks if isinstance(m, Text) and m.cls == "caption"]
-            told = [m for m in texts if m.height == 2.5 and m.y > BELOW[1] + 12]
+            to_do = [m.y for m in texts if m.name == "sentence"]
+            told = [m for m in texts if m.y > max(to_do) and m.name != "step"]
             numbers = [int(m.markup[:-1]) for m in told if m.anchor == "end"]
             assert numbers == [*range(done + 1 - len(numbers), done + 1)]
             first = min((m for m in told if m.anchor == "start"), key=lambda m: m.y, default=None)
-            assert (len(numbers) < done) is (first is not None and first.markup == "…")
+            is_full = max(to_do) + 7 > BELOW[3]
+            assert is_full or (len(numbers) < done) is bool(first and first.markup == "…")
             assert all(m.y <= BELOW[3] for m in told)
 
 
@@ -239,9 +241,23 @@ def test_notes_that_stand_already_stand_where_the_whole_line_has_them():
 def test_sentences_that_draw_nothing_share_a_page_as_far_as_they_have_room():
     """Each stands on one page, and none but the last of a page draws; no page is too full."""
     new, none = (CircleMark(0, 0, 1, f"point {NOW}"),), (CircleMark(0, 0, 1, "point"),)
-    assert list(spans([none, none, new, none, new], [1] * 5)) == [(0, 2), (3, 4)]
-    lines = [ROOM // 2] * 5
-    found = list(spans([none] * 5, lines))
-    assert [n for first, last in found for n in range(first, last + 1)] == list(range(5))
+    assert list(spans([none, none, new, none, new], lambda *_: True)) == [(0, 2), (3, 4)]
+    said = [Sentence(n, "", "of what is computed alone " * 14) for n in range(30)]
+    found = list(spans([none] * 30, lambda first, last: to_do(said, first, last).is_held))
+    assert [n for first, last in found for n in range(first, last + 1)] == list(range(30))
     assert len(found) > 1
-    assert all(sum(lines[first : last + 1]) <= ROOM for first, last in found)
+    assert all(to_do(said, *each).is_held for each in found)
+
+
+@pytest.mark.parametrize("many", range(1, 6))
+def test_sentences_to_do_stay_above_the_title_block_and_beside_it(many):
+    """They are large as long as all are above it; none reaches over its frame or the mark."""
+    said = [Sentence(n, "", "of what is computed alone " * 14) for n in range(many)]
+    marks = [*told(material("pump")[0], said, 0, many - 1)]
+    words = [mark for mark in marks if isinstance(mark, Text) and mark.name == "sentence"]
+    assert {mark.height for mark in words} == {3.5 if many < 3 else 2.5}
+    left, top, *_ = A3_TITLE_BLOCK
+    for mark in words:
+        box = reach(mark)
+        assert box[3] < top or box[2] < (left if box[3] < MARKED[1] + 1 else MARKED[0])
+        assert box[3] < A3_AREA[3] and box[2] < BELOW[2]

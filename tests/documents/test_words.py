@@ -15,8 +15,11 @@ import graphkin
 from graphkin.classroom.grading.feedback_rows import SLIPS
 from graphkin.classroom.lab.fairness import WORDS as LIMITS
 from graphkin.construction.core.drawn_scene import Drawing
+from graphkin.construction.core.parameter_words import variant
+from graphkin.construction.core.quantities import OnPaper, in_mm
 from graphkin.construction.registry import PALETTE
 from graphkin.documents.calculation import calculation
+from graphkin.documents.centre_tables import centre_words
 from graphkin.documents.sheet import Moved, asked_words
 from graphkin.documents.sheet_documents import (
     CALCULATED,
@@ -29,12 +32,13 @@ from graphkin.drawing.marks import Page, Text
 from graphkin.drawing.richtext import plain
 from graphkin.mechanism import Mechanism
 from graphkin.numbers.cam_motions import MOTIONS
+from graphkin.numbers.plane import Ratio
 from graphkin.reading.desk_app import SAID
 from graphkin.scene.read_scene import read_text
 from graphkin.text import LANGUAGES, Words, words
 from graphkin.text.errors import PageError
 from graphkin.web.your_turn import reasons
-from tests.chosen import CHOSEN, SCENES
+from tests.chosen import CHOSEN, FOLDER, SCENES
 from tests.documents.centre_scenes import ASKING
 from tests.documents.sheet_tools import (
     HEAD,
@@ -279,3 +283,28 @@ def test_a_true_minus_stands_before_negative_numbers(spoken):
 def test_every_text_says_something(spoken):
     _, found = spoken
     assert not [mark for mark in found if not plain(mark.markup).strip()]
+
+
+@pytest.mark.parametrize("language", LANGUAGES)
+def test_zero_is_printed_as_0_and_rounding_never(language):
+    spoken = words(language)
+    for number in (0.0, -0.0, 4e-16, -1e-17, 0.004):
+        assert spoken.fixed(number, 2) == "0"
+    assert spoken.fixed(-0.006, 2) == f"−0{spoken.sentences['decimal_mark']}01"
+    assert in_mm(spoken, OnPaper(3e-14)) == "0"
+    assert in_mm(spoken, OnPaper(0.001)).startswith("<")
+
+
+@pytest.mark.parametrize("slip", [6e-17, -6e-17, 0.0])
+def test_a_direction_is_told_without_its_rounding(slip):
+    """Along the x axis it is 0°, neither 3.86018e-15° nor 180°."""
+    parallel = Ratio(0j, complex(1.0, slip), 0.0)
+    assert centre_words(parallel, 1.0) == "at infinity, in direction 0°"
+
+
+def test_a_parameter_called_as_its_unit_is_told_without_it():
+    """No sheet says rpm = 50 rev/min."""
+    text = (FOLDER / "crank-rocker.toml").read_text(encoding="utf-8")
+    text = text.replace("[parameters]", "[parameters]\nrpm = { value = 50, min = 10, max = 90 }")
+    text = text.replace("speed = 10", 'speed = "rpm + 10"').replace('"rad/s"', '"rev/min"')
+    assert "*rpm* = 50" in variant(read_text(text, "r", None, {}), words("en"))

@@ -9,6 +9,7 @@ from msgspec.structs import replace
 
 from graphkin.construction.core.drawn_scene import Drawing
 from graphkin.construction.core.layout import lay_out
+from graphkin.documents.detail import parted
 from graphkin.documents.scaling import scales
 from graphkin.documents.sentences import sentences
 from graphkin.documents.sheet import boards, sheet
@@ -19,7 +20,9 @@ from graphkin.drawing.marks import LineMark, Page, Text, reach
 from graphkin.drawing.richtext import plain
 from graphkin.text import words
 from graphkin.text.errors import PageError
+from tests.documents.full_scenes import drawings_from
 from tests.examples.scenes import mechanism
+from tests.scene_files import scene_text
 
 POINT = Label("*A*", "", (25.0, 10.0), 3.5, "A", priority=2)
 VECTOR = Label("*v*_A", "velocity", ((5.0, 10.0), (45.0, 10.0)), 2.5, "oa", spare=True)
@@ -60,6 +63,29 @@ def test_a_letter_without_room_is_refused():
     board.labels = [replace(POINT, subject=(25.0, 10.0))]
     with pytest.raises(PageError, match="no free place for A"):
         in_turn(board, [])
+
+
+def near_points(right: float) -> FieldContent:
+    """Two points that nearly fall together amid lines too close for letters, in a wide field."""
+    lines = [LineMark(x, 5.0, x, 95.0, "construction") for x in (5 + 1.6 * k for k in range(52))]
+    board = FieldContent((0.0, 0.0, right, 100.0), lines, unnamed="no room for:")
+    points = (("*o*′", (45.0, 50.0)), ("*p*_{19}′", (45.7, 50.3)))
+    board.labels = [Label(name, "acceleration", at, 2.5, plain(name)) for name, at in points]
+    return board
+
+
+def test_letters_without_room_are_those_of_a_detail_about_their_points():
+    (field,) = parted(near_points(150.0))
+    said = [plain(mark.markup) for mark in field.details if isinstance(mark, Text)]
+    assert {"o′", "p19′"} < {*said}
+    assert not [mark for mark in field.marks if isinstance(mark, Text)]
+
+
+def test_letters_are_noted_where_a_detail_has_no_room_either():
+    (field,) = parted(near_points(90.0))
+    assert not field.details
+    note = " ".join(plain(mark.markup) for mark in field.marks if isinstance(mark, Text))
+    assert note == "no room for: o′, p19′"
 
 
 # --- plans too small at the scale of their crank -------------------------------------------------
@@ -157,3 +183,14 @@ def test_letters_that_no_sentence_says_give_way_to_the_others():
     assert not any(label.markup in said for label in left.dispensable)
     named = {mark.markup for mark in left.finish() if isinstance(mark, Text)}
     assert {label.markup for label in left.labels} <= named
+
+
+def test_eleven_links_close_together_have_a_sheet_that_names_every_point_and_link():
+    """In the field, in a detail, by a key number, or in the note of what has no room there."""
+    for drawing in drawings_from(scene_text("documents/eleven-links")):
+        left, right = parted(*boards(drawing, lay_out(drawing), "key"))
+        said = {plain(m.markup) for m in (*left.marks, *left.details) if isinstance(m, Text)}
+        words_ = {word.strip(",;") for each in said for word in each.split()}
+        assert {*drawing.scene.links} <= words_
+        assert {f"P{n}" for n in range(16)} <= words_
+        assert right.marks

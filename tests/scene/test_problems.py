@@ -8,6 +8,7 @@ from pathlib import Path
 import pytest
 
 from graphkin.mechanism import load
+from graphkin.scene.findings import near_name
 from graphkin.scene.read_scene import read_text
 from graphkin.text.errors import Problem, SceneError
 from tests.scene_files import scene_text
@@ -218,7 +219,7 @@ SAID = [
         '5 = "forward"',
         'D = "forward"',
         "branches.D: forward, backward or a closure for point D",
-        "a block's branch is written under the link's name: 5 = \"forward\"",
+        "expected 5 = \"forward\"; a block's branch is written under the link's name",
     ),
     (
         'B = "right of A-O2"',
@@ -427,11 +428,52 @@ def test_an_empty_file_is_one_problem(text: str, said: str) -> None:
     assert str(caught.value) == f"{said}; expected a scene, its first line graphkin = 1"
 
 
-def test_a_file_that_is_not_there_is_held_against_those_beside_it(tmp_path: Path) -> None:
-    (tmp_path / "slider-crank.toml").write_text("")
+@pytest.mark.parametrize(
+    ("beside", "near"),
+    [
+        ({"slider-crank.toml": "graphkin = 1"}, "slider-crank.toml"),
+        ({"slider-crank/scene.toml": "graphkin = 1"}, "slider-crank"),
+        ({"slider-crank.toml": "[fair]", "slider-cran.csv": "id,name"}, ""),
+        ({"m8_short.toml": "graphkin = 1"}, ""),
+    ],
+    ids=str,
+)
+def test_a_file_that_is_not_there_is_held_against_the_scenes_beside_it(
+    tmp_path: Path, beside: dict[str, str], near: str
+) -> None:
+    for name, text in beside.items():
+        (tmp_path / name).parent.mkdir(exist_ok=True)
+        (tmp_path / name).write_text(text)
     with pytest.raises(SceneError) as raised:
         load(tmp_path / "slider-cran.toml")
-    assert f"did you mean {tmp_path / 'slider-crank.toml'}?" in str(raised.value)
+    asked = f"did you mean {tmp_path / near}?" if near else "did you mean"
+    assert (asked in str(raised.value)) is bool(near)
+
+
+@pytest.mark.parametrize(
+    ("name", "known", "near"),
+    [
+        ("de", ("en", "it", "ro"), ""),
+        ("es", ("en", "it", "ro"), ""),
+        ("whitworht", ("m8_short", "pump"), ""),
+        ("whitworht", ("m8_short", "whitworth"), "whitworth"),
+        ("O3", ("A", "O1", "O2"), "O2"),
+        ("n", ("N", "m"), "N"),
+        ("rihgt", ("left", "right"), "right"),
+        ("degree", ("deg", "rad"), "deg"),
+        ("7", ("1", "2"), ""),
+        ("lock", ("slides", "wheel"), ""),
+    ],
+)
+def test_a_name_is_near_another_by_a_third_of_its_letters_or_its_number(
+    name: str, known: tuple[str, ...], near: str
+) -> None:
+    assert near_name(name, known) == near
+
+
+def test_a_list_in_round_brackets_is_mended_in_square_ones(problem: Finder) -> None:
+    for wrong in ("(0, -30)", "[0, -30)", "(0, -30]"):
+        assert "a list is written in square brackets: [0, -30]" in str(problem("[0, -30]", wrong))
 
 
 @pytest.mark.parametrize("strange", ["a", 1 + 2j, [None], [True]])

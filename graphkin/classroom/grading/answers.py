@@ -7,7 +7,6 @@ from __future__ import annotations
 
 from collections import defaultdict
 from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
-from difflib import get_close_matches
 from functools import cached_property
 from pathlib import Path
 
@@ -33,7 +32,7 @@ from graphkin.classroom.roster.spreadsheets import (
     sheet_in,
 )
 from graphkin.classroom.roster.student_signs import EMAIL, Match, Signs
-from graphkin.scene.findings import nearest, visible
+from graphkin.scene.findings import near_name, nearest, visible
 from graphkin.text.errors import Hint, InTable, Problem, RosterError, problems_of
 
 ABSENT = (
@@ -400,8 +399,8 @@ class AnswerReading(Struct, dict=True):
     def stranger(self, sheet: Spreadsheet, cell: str) -> None:
         """Note what is no field; of those that are shown, with the field that may be meant."""
         few = len(self.answers.strangers) < SHOWN
-        near = get_close_matches(cell[:60], list(self.known), n=1) if few else []
-        self.answers.strangers.append(Stranger(sheet.name, visible(cell), near[0] if near else ""))
+        near = near_name(cell, self.known) if few else ""
+        self.answers.strangers.append(Stranger(sheet.name, visible(cell), near))
 
     def cell(
         self,

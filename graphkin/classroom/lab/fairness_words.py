@@ -61,7 +61,8 @@ def again_words(rule: LabRule, unfair: float) -> str:
     tries = f"after {rule.tries} draws at most"
     if left < 0.1:
         return f"{tries} nearly everybody has fair data"
-    return f"{tries} some {left:.2g} of 100 students keep unfair data, the least unfair drawn"
+    some = f"{float(f'{left:.2g}'):g}"
+    return f"{tries} some {some} of 100 students keep unfair data, the least unfair drawn"
 
 
 def rule_words(lab: Lab) -> str:

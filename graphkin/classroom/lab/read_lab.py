@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from difflib import get_close_matches
 from fractions import Fraction
 from itertools import pairwise
 from pathlib import Path
@@ -25,7 +24,7 @@ from graphkin.mechanism import Mechanism
 from graphkin.scene import scene_files
 from graphkin.scene.expression import UnreadableError
 from graphkin.scene.file_limits import decoded, read_bytes, tables_of
-from graphkin.scene.findings import Findings, Table, listed, nearest, shown
+from graphkin.scene.findings import Findings, Table, listed, near_name, nearest, shown
 from graphkin.scene.measures import FloatText, quantity
 from graphkin.scene.model import Parameter, Scene
 from graphkin.scene.parameters import optional, out_of_range, plain, rational
@@ -77,8 +76,8 @@ def find(name: str | Path) -> Path:
         found = f"is a scene without {LAB}" if (beside / "scene.toml").is_file() else "is no lab"
         hint = "graphkin new lab NAME makes a lab to start from"
         raise SceneError(Problem(str(name), found, f"a folder with scene.toml and {LAB}", hint))
-    near = get_close_matches(str(name), known, n=1)
-    hint = f"did you mean {near[0]}?" if near else ""
+    near = near_name(str(name), known)
+    hint = f"did you mean {near}?" if near else ""
     expected = f"a folder with scene.toml and {LAB}, or one of {', '.join(known)}"
     raise SceneError(Problem(str(name), "is neither a folder nor a shipped lab", expected, hint))
 

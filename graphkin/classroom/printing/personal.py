@@ -14,7 +14,7 @@ from graphkin.classroom.roster.taker import Taker
 from graphkin.construction.core.drawn_scene import Drawing
 from graphkin.documents.overlay import FOOT
 from graphkin.drawing.areas import A3_AREA
-from graphkin.drawing.frame import CELLS, fitting, room_in
+from graphkin.drawing.frame import STUDENT, STUDENTS, fitting, room_in
 from graphkin.drawing.glyphs import known, measures
 from graphkin.drawing.marks import Page, Text
 from graphkin.drawing.symbol_markup import escape
@@ -84,8 +84,8 @@ def shortened(text: str) -> str:
 def fits(text: str) -> bool:
     """Whether a name fits the title block in the smallest lettering."""
     try:
-        _, rect, most = next(cell for cell in CELLS if cell[0] == "creator")
-        fitting("creator", text, *room_in(rect), most)
+        _, rect, most = next(cell for cell in STUDENTS if cell[0] == STUDENT)
+        fitting(STUDENT, text, *room_in(rect), most)
     except PageError:
         return False
     return True
@@ -95,12 +95,12 @@ def owned(drawing: Drawing, whose: Owner) -> Drawing:
     """A drawing whose title block names its student and bears the code."""
     number = drawing.scene.sheet.number
     both = f"{number} / {whose.code}" if number else whose.code
-    return with_sheet(drawing, author=whose.name, number=both)
+    return with_sheet(drawing, student=whose.name, number=both)
 
 
 def owned_pages(drawings: Sequence[Drawing], whose: Owner) -> list[Drawing]:
     """Drawings whose calculation pages name their student and the code at the foot."""
-    return [with_sheet(drawing, author=whose.line) for drawing in drawings]
+    return [with_sheet(drawing, student=whose.line) for drawing in drawings]
 
 
 def with_sheet(drawing: Drawing, **said: str) -> Drawing:

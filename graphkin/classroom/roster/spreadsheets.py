@@ -26,8 +26,8 @@ from graphkin.classroom.roster.sheet_rows import (
     too_large,
 )
 from graphkin.scene.file_limits import file_bytes
-from graphkin.scene.findings import Findings, nearest, visible
-from graphkin.text.errors import MOST, About, Change, Hint, InTable, Problem, RosterError
+from graphkin.scene.findings import Findings, near_file, visible
+from graphkin.text.errors import MOST, About, Change, Hint, InTable, Mend, Problem, RosterError
 
 LARGEST = 16 * 1024 * 1024
 """Bytes of a table."""
@@ -201,8 +201,9 @@ def beside(path: Path) -> Hint:
     if not folder.is_dir():
         return f"there is no folder {folder}"
     tables = [each.name for each in folder.iterdir() if each.suffix.lower() in (".csv", ".xlsx")]
-    near = nearest(path.name, tables) if path.name not in tables else ""
-    return near or "a spreadsheet program saves one as XLSX or as CSV UTF-8"
+    near = near_file(path.name, tables) if path.name not in tables else ""
+    saved = "a spreadsheet program saves one as XLSX or as CSV UTF-8"
+    return Mend(path.name, near) if near else saved
 
 
 def text_of(data: bytes, name: str) -> str:

@@ -327,19 +327,23 @@ class CurvatureCentre(Determined, frozen=True, kw_only=True):
         return fields
 
     def law_words(self, drawing: Drawing) -> str:
-        """The follower's displacement, with its link's index, and its derivatives, by numbers."""
+        """The follower's displacement, with its link's index, and its derivatives, as drawn."""
         return ", ".join(
             f"{name} = {number}{'' if unit in ('', '°') else ' '}{unit}"
-            for name, number, unit in self.law_values(drawing)
+            for name, number, unit in self.law_values(drawing, on_paper=True)
         )
 
-    def law_values(self, drawing: Drawing) -> Iterator[tuple[str, str, str]]:
+    def law_values(
+        self, drawing: Drawing, *, on_paper: bool = False
+    ) -> Iterator[tuple[str, str, str]]:
         """The displacement and its two derivatives: each with its symbol, number and unit.
 
-        A derivative is by the cam's angle, or by the coordinate of a plate.
+        A derivative is by the cam's angle, or by the coordinate of a plate. Lengths are in the
+        scene's unit, or in millimetres of paper.
         """
-        cam, words, one = drawing.scene.cams[self.follower], drawing.words, drawing.length(1.0)
-        mm, k = drawing.scene.units["length"], escape(self.follower)
+        cam, words, k = drawing.scene.cams[self.follower], drawing.words, escape(self.follower)
+        mm = "mm" if on_paper else drawing.scene.units["length"]
+        one = float(drawing.on_paper(1.0)) if on_paper else drawing.length(1.0)
         at, rate, bend = (drawing.trace.values[each] for each in (self.lift, self.rate, self.bend))
         letter, per = ("ψ" if cam.lever else "s"), (1.0 if cam.lever else one)
         units = ["°", "", ""] if cam.lever else [mm] * 3

@@ -12,6 +12,7 @@ from graphkin.drawing.symbol_markup import escape
 from graphkin.scene.expression import CONSTANT, TIME
 from graphkin.scene.model import Scene, lengths_of, quantities_within
 from graphkin.scene.quantity import LENGTHS, Quantity, shortest
+from graphkin.scene.read_scene import SPELLINGS
 from graphkin.text import Words
 from graphkin.text.errors import SceneError
 
@@ -71,7 +72,8 @@ def parameter_symbol(name: str) -> str:
 def as_set(scene: Scene, words: Words, name: str) -> tuple[str, str]:
     """A parameter's symbol and what it is set to; t is the moment of laws of time, in seconds."""
     unit = "s" if name == TIME else unit_of(scene, name)
-    printed = unit_words(words, unit)
+    says_it = SPELLINGS.get(name.lower(), name) == unit  # rpm = 50, not 50 rev/min of rpm
+    printed = "" if says_it else unit_words(words, unit)
     space = " " if printed and printed != "°" else ""
     return parameter_symbol(name), words.decimal(shortest(scene.values[name])) + space + printed
 

@@ -166,10 +166,14 @@ def in_degrees(scene: Scene, words: Words, quantity: Quantity) -> str:
     return f"{words.fixed(degrees(float(quantity.si(scene.values))), 2)}°"
 
 
+ROUNDING = 1e-6
+"""A length on paper below this, in mm, is zero but for rounding."""
+
+
 def in_mm(words: Words, length: OnPaper) -> str:
     """A drawn length in mm as it is written: one that no ruler shows as less than what one does."""
     under = f"<\N{NO-BREAK SPACE}{words.fixed(0.01, 2)}"
-    return under if 0 < abs(length) < 0.005 else words.fixed(length, 2)
+    return under if ROUNDING < abs(length) < 0.005 else words.fixed(length, 2)
 
 
 def quantity_text(scene: Scene, words: Words, quantity: Quantity) -> str:

@@ -1,9 +1,9 @@
 // Numbers as the language of the page writes them.
 
-/** A number with so many places after the mark. */
+/** A number with so many places after the mark; what rounds to zero is 0. */
 function written(number, places) {
-  const text = (Number(number.toFixed(places)) + 0).toFixed(places);
-  return text.replace("-", "−").replace(".", data.mark);
+  const text = number.toFixed(places);
+  return Number(text) === 0 ? "0" : text.replace("-", "−").replace(".", data.mark);
 }
 
 /** A number rounded to so many significant digits, by powers of ten when far from one. */
