@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from itertools import groupby, pairwise
+from itertools import groupby
 from typing import TYPE_CHECKING
 
 from graphkin.scene.model import Closure
@@ -66,10 +66,6 @@ def number_words(cycle: Cycle, pieces: Sequence[Piece]) -> Iterator[str]:
         low, high = part[0].low.at, part[-1].high.at
         if not is_short(cycle, low, high):
             yield f'{span_words(cycle, low, high)}: {name} = "closure {number}"'
-    for before, after in pairwise(pieces):
-        low, high = before.high.at, after.low.at
-        if not is_short(cycle, low, high):
-            yield f"{span_words(cycle, low, high)}: no rows, two closures lie too close together"
 
 
 def numbered(piece: Piece) -> tuple[str, int]:
