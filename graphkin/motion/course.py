@@ -205,29 +205,29 @@ class Course(Struct, frozen=True, dict=True):
         return tuple(n for n in self.early if closer_of(self.program.steps[n]) is not None)
 
     @cached_property
+    def closed_links(self) -> tuple[tuple[str, ...], ...]:
+        """The links of these groups, in the same order."""
+        kinds = [construction(self.program.steps[number]) for number in self.closers]
+        return tuple(kind.closes for kind in kinds if isinstance(kind, ClosedGroup))
+
+    @cached_property
     def numbered(self) -> tuple[str, ...]:
         """The links at which the closures of these groups are numbered, in the same order."""
-        return tuple(self._named(n) for n in self.closers)
+        stated = [name for name, each in self.branches.items() if isinstance(each, Closure)]
+        every = self.closed_links
+        return tuple(next(name for name in stated if name in links) for links in every)
 
     @cached_property
     def within_groups(self) -> frozenset[int]:
         """The steps that construct the links of these groups once they are closed."""
         found: set[int] = set()
-        for number in self.closers:
-            kind = construction(self.program.steps[number])
-            assert isinstance(kind, ClosedGroup)
-            every = [("axis", link) for link in kind.closes]
-            every += [("position", p) for name in kind.closes for p in self.scene.link(name).points]
+        for number, links in zip(self.closers, self.closed_links, strict=True):
+            every = [("axis", link) for link in links]
+            every += [("position", p) for name in links for p in self.scene.link(name).points]
             last = max(self.program.targets.get(target, 0) for target in every)
             steps = range(number + 1, last + 1)
             found |= {n for n in steps if number not in self.program.steps[n].args}
         return frozenset(found)
-
-    def _named(self, number: int) -> str:
-        kind = construction(self.program.steps[number])
-        assert isinstance(kind, ClosedGroup)
-        stated = (name for name, each in self.branches.items() if isinstance(each, Closure))
-        return next(name for name in stated if name in kind.closes)
 
     def group(self, k: int) -> GroupOnWay:
         """A group of higher class on its way, those before it followed."""

@@ -194,8 +194,8 @@ def just_before(at: float, inside: float) -> Reals:
 def dead(course: Course, inside: float, outside: float) -> Event:
     """The dead point between a position that closes and one that does not."""
     low, high = min(inside, outside), max(inside, outside)
-    for way in course.closures:
-        fold = way.folded(low, high)
+    for each in course.closures:
+        fold = each.folded(low, high)
         if fold is not None and course.closes(just_before(fold, inside))[0]:
             return Event("dead", fold, (), fold + (fold - inside) * BESIDE_FOLD)
     last = last_closing(course.closes, inside, outside)

@@ -379,6 +379,11 @@ class FollowedClosure(Struct, frozen=True, eq=False):
     signs: Reals
     ends: tuple[End, End] = ("open", "open")
 
+    @property
+    def width(self) -> int:
+        """How many numbers close the group: what is tried, and the signs."""
+        return int(self.tried.shape[1] + self.signs.shape[1])
+
     def within(self, low: float, high: float) -> FollowedClosure:
         """The part from one u to another, with the next places beyond both."""
         first = max(int(np.searchsorted(self.at, low, side="right")) - 1, 0)

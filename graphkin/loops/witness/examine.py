@@ -49,12 +49,12 @@ Flags = np.ndarray[Any, np.dtype[np.bool_]]
 
 
 def branch_conditions(
-    scene: Scene, solved: LoopSolution, *, numbered: bool = True
+    scene: Scene, solved: LoopSolution, *, numbered: int = NUMBERED
 ) -> dict[str, Flags]:
     """Whether each statement of [branches] holds: arrays of shape (N,).
 
-    Numbers of closures, and ways of groups other than dyads, are verified on at most ``NUMBERED``
-    settings of a batch, evenly spread; not at all without ``numbered``.
+    Numbers of closures, and ways of groups other than dyads, are verified on at most so many
+    settings of a batch, evenly spread, as are ``numbered``.
     """
     found: dict[str, Flags] = {}
     stated = scene.branches.items()
@@ -72,7 +72,7 @@ def branch_conditions(
             elif not numbered:
                 continue
             else:
-                holds = picked_rows(branch, solved, group, name)
+                holds = picked_rows(branch, solved, group, name, numbered)
             found[name] = found.get(name, True) & holds
     return found
 
@@ -96,13 +96,14 @@ def way_of_dyad(branch: Way, solved: LoopSolution, group: Group) -> Flags:
     return np.asarray(branch.way * (stands - other) > -ON_LINE * loops.size - 4 * error)
 
 
-def picked_rows(branch: Way | Closure, solved: LoopSolution, group: Group, name: str) -> Flags:
-    """Whether a group stands as stated, by looking for all its closures."""
+def picked_rows(
+    branch: Way | Closure, solved: LoopSolution, group: Group, name: str, most: int
+) -> Flags:
+    """Whether a group stands as stated, by looking for all its closures in ``most`` settings."""
     count = solved.loops.numbers.count
     holds = np.ones(count, dtype=np.bool_)
     settings = np.flatnonzero(solved.report.good)
-    spread = np.linspace(0, max(len(settings) - 1, 0), min(len(settings), NUMBERED))
-    for n in settings[np.unique(spread.astype(int))]:
+    for n in settings[evenly(len(settings), most)]:
         if isinstance(branch, Closure):
             row = solved.unknowns[n]
             numbers = closure_numbers(solved.loops, group, row, int(n))
@@ -110,6 +111,14 @@ def picked_rows(branch: Way | Closure, solved: LoopSolution, group: Group, name:
         else:
             holds[n] = farthest(branch, solved, group, name, int(n))
     return holds
+
+
+def evenly(count: int, most: int) -> list[int]:
+    """The numbers of at most so many of some things, evenly spread; the middle one of one."""
+    if most == 1:
+        return [count // 2] if count else []
+    spread = np.linspace(0, max(count - 1, 0), min(count, most))
+    return [*dict.fromkeys(spread.astype(int).tolist())]
 
 
 def farthest(branch: Way, solved: LoopSolution, group: Group, name: str, n: int) -> bool:
@@ -141,7 +150,7 @@ def compare(
     nothing of branches for which all closures would have to be counted. Raises WitnessError where
     the loops do not close or are singular, StructureError where drivers are missing.
     """
-    examined = examine(scene, solution, values, numbered=numbered)
+    examined = examine(scene, solution, values, numbered=NUMBERED if numbered else 0)
     difference, quantity, limit = examined.told(0)
     broken = tuple(name for name, holds in examined.branches.items() if not holds[0])
     report = examined.solved.report
@@ -217,7 +226,7 @@ def examine(
     solution: Solution,
     values: Mapping[str, Any] | None,
     *,
-    numbered: bool = True,
+    numbered: int = NUMBERED,
 ) -> Examined:
     """Solve the loops from the solution's positions and compare all that the solution holds.
 
