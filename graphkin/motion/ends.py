@@ -28,7 +28,9 @@ WITHIN = 4
 PAST = 2
 """Positions past the end of a window that are looked at."""
 BESIDE_FOLD = 1e-6
-"""How near to a fold it is looked whether all closes, in parts of a step of the grid."""
+"""How near to a group's end it is looked whether all closes, in parts of a step of the grid."""
+BESIDE_END = 4e-10
+"""How far beyond such an end it is looked what fails, in parts of the usual sweep."""
 SOUGHT = 16 * TOUCH
 """As TOUCH, where groups of higher class are closed: their sines come from differences."""
 NARROW = 2
@@ -193,15 +195,28 @@ def just_before(at: float, inside: float) -> Reals:
 
 def dead(course: Course, inside: float, outside: float) -> Event:
     """The dead point between a position that closes and one that does not."""
-    low, high = min(inside, outside), max(inside, outside)
     for each in course.closures:
-        fold = each.folded(low, high)
-        if fold is not None and course.closes(just_before(fold, inside))[0]:
-            return Event("dead", fold, (), fold + (fold - inside) * BESIDE_FOLD)
+        end = each.end_between(min(inside, outside), max(inside, outside))
+        if end is None or not course.closes(just_before(end[0], inside))[0]:
+            continue
+        at, kind = end
+        way = 1.0 if outside > inside else -1.0
+        beyond = at + way * BESIDE_END * course.sweep.usual
+        steps = () if kind == "fold" else before_groups(course, beyond)
+        return Event("dead", at, steps, beyond)
     last = last_closing(course.closes, inside, outside)
     way = 1.0 if outside > inside else -1.0
     past = last + way * max(1e-9 * course.sweep.grid_step, 8 * float(np.spacing(abs(last))))
     last = last_closing(course.is_placed, last, past)
-    failing = np.flatnonzero(~np.isfinite(course.margins(np.array([past]))[:-1, 0]))
-    steps = (course.crossings[failing[0]],) if failing.size else ()
-    return Event("dead", last, steps, past)
+    return Event("dead", last, tuple(failing(course, past)[:1]), past)
+
+
+def failing(course: Course, at: float) -> list[int]:
+    """The crossings that cannot be found at a place, in order."""
+    lost = ~np.isfinite(course.margins(np.array([at]))[:-1, 0])
+    return [course.crossings[n] for n in np.flatnonzero(lost)]
+
+
+def before_groups(course: Course, at: float) -> tuple[int, ...]:
+    """The first crossing that fails at a place, of those before all groups of higher class."""
+    return tuple(n for n in failing(course, at)[:1] if n < course.closers[0])

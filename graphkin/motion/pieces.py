@@ -33,6 +33,9 @@ BACK = 1e-6
 """Miss after a whole turn, in parts of the mechanism's size, with which it has come back."""
 MOST_PIECES = 400
 """Pieces into which change points may part a range."""
+FEWER = 360
+"""Positions of a sweep at which a group of higher class is sought that does not close where the
+scene is drawn."""
 MOST_TURNS = 24
 """Turns of the driver, forth and back, through which a motion that wheels carry on is followed."""
 MOST_WAYS = 200
@@ -95,7 +98,8 @@ def reachable_ranges(sweep: Sweep, branches: Branches | None = None) -> Path:
         found, whole, returns = from_start(carried_about(course, start), start)
         return shown(sweep, Path((in_numbers(found),), whole, returns))
     course = led(course, sweep.stands, sweep.start)
-    grid = sweep.low + (np.arange(GRID) + 0.5) * ((sweep.high - sweep.low) / GRID)
+    count = FEWER if course.closers else GRID
+    grid = sweep.low + (np.arange(count) + 0.5) * ((sweep.high - sweep.low) / count)
     free = course.closes(grid)
     whole = returns = False
     start = beside_touch(course, sweep.start)
@@ -119,7 +123,7 @@ def reachable_ranges(sweep: Sweep, branches: Branches | None = None) -> Path:
                 "graphkin check shows what is wrong",
             )
         )
-    return shown(sweep, Path(tuple(ranges), whole, returns))
+    return shown(sweep, Path(tuple(map(in_numbers, ranges)), whole, returns))
 
 
 def shown(sweep: Sweep, path: Path) -> Path:
@@ -168,6 +172,9 @@ def in_numbers(found: Range) -> Range:
     """The pieces of a range, parted where the closure of a group has a new number."""
     pieces = list[Piece]()
     for piece in found:
+        if not piece.course.closures:
+            pieces.append(piece)
+            continue
         parts = numbers_between(piece.course, piece.low.at, piece.high.at)
         starts = [piece.low, *(Event("number", at) for at, _ in parts[1:])]
         ends = [*starts[1:], piece.high]

@@ -423,11 +423,11 @@ class FollowedClosure(Struct, frozen=True, eq=False):
         low, high = (end != "open" for end in self.ends)
         return (low & (at < self.at[0])) | (high & (at > self.at[-1]))
 
-    def folded(self, low: float, high: float) -> float | None:
-        """Where the way meets another closure between two places; None where it does not."""
+    def end_between(self, low: float, high: float) -> tuple[float, End] | None:
+        """Where, and how, the way ends for good between two places; None where it does not."""
         for end, at in zip(self.ends, (float(self.at[0]), float(self.at[-1])), strict=True):
-            if end == "fold" and low <= at <= high:
-                return at
+            if end != "open" and low <= at <= high:
+                return at, end
         return None
 
     def closed(
@@ -493,7 +493,7 @@ class FollowedClosure(Struct, frozen=True, eq=False):
             sine = trying.sines(group.known(at), between, signs)
         rows[near] = np.column_stack([between, signs, sine])[near]
         rest = np.flatnonzero(~near)
-        if not rest.size:
+        if not rest.size or len(self.at) < ORDER:
             return rows
         every = group.closures(at[rest])
         for n, k in enumerate(rest):
