@@ -128,7 +128,6 @@ def test_two_groups_on_one_crank_move_as_each_does_alone():
     assert both.path.whole and both.path.returns
     for name, points in (("two-triads-first", "A"), ("two-triads-second", "B")):
         alike(both, cycle(load(scene_of(name)), steps=90), points)
-    assert both.witnessed.agrees.all()
 
 
 def test_two_groups_on_two_cranks_move_as_each_does_alone():
@@ -143,14 +142,14 @@ def test_two_groups_on_two_cranks_move_as_each_does_alone():
 @pytest.mark.parametrize("name", ["two-triads-one-crank", "triad-moves-triad"])
 def test_no_group_leaps_from_row_to_row(name):
     found = cycle(load(scene_of(name)), steps=360)
+    assert found.path.whole and found.path.returns
     assert leaps(found, np.radians(1) / 2.0) < 0.01
 
 
 def test_a_group_that_another_moves_is_numbered_with_it():
-    found = cycle(load(scene_of("triad-moves-triad")), steps=90)
-    assert found.path.returns
+    found = cycle(load(scene_of("triad-moves-triad")), low=95, high=160, steps=6)
     numbers = [(piece.branches["a2"].number, piece.branches["b2"].number) for piece in found.pieces]
-    assert len(set(numbers)) > 2
+    assert numbers == [(2, 4), (2, 6), (1, 6)]
     assert found.witnessed.agrees.all()
 
 
