@@ -159,8 +159,13 @@ def cycle(
     stem = file_stem(mechanism.scene.name, pairs_of(settings))
     refuse_folder(folder, [f"{stem}-cycle.csv"], force=force)
     first, last = bounds_in_si(mechanism.scene, driver, low, high)
+    say = progress()
+    say("following the motion")
     found = moved(mechanism, driver=driver, steps=steps, low=first, high=last)
-    tell(cycle_lines(found))
+    say("checking every row")
+    lines = [*cycle_lines(found)]
+    say("")
+    tell(lines)
     files = {f"{stem}-cycle.csv": cycle_table(found).encode()}
     curves = [kind for kind in kinds if kind in CURVES]
     files |= picture_files(found, stem, curves) if curves else {}

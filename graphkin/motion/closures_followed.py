@@ -1,146 +1,286 @@
-"""Where a group closes along a motion: sought near the places on both sides."""
+"""Groups of higher class along a sweep: each closure followed, and the numbers that it has.
+
+The number that the scene picks counts where the scene is drawn. From there the motion leads each
+group, in the order of construction, given how those before it move.
+"""
 
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
-from msgspec import Struct
 
-from graphkin.construction.higher_class.closure_solver import (
-    HIDDEN,
-    Closures,
-    ClosureSolver,
-    Trying,
+from graphkin.construction.higher_class.closure_solver import closing
+from graphkin.construction.higher_class.following import (
+    FollowedClosure,
+    GroupOnWay,
+    PairedClosures,
 )
-from graphkin.construction.higher_class.several_trials import SeveralTrials
+from graphkin.motion.course import Course
+from graphkin.motion.driving import TURN
+from graphkin.motion.turns_counted import name_of
+from graphkin.motion.turns_followed import Followed, following, led
+from graphkin.scene.model import Closure
+from graphkin.text.errors import ClosureError, Problem
 
 Reals = np.ndarray[Any, np.dtype[Any]]
 
-NEAR = 0.3
-"""How far a closure may lie from where it is sought, in parts of the way between its neighbours."""
-CUBIC = 4
-"""Places through which the way of what is tried is laid."""
+PLACES, FEWER = 360, 120
+"""Places in a usual sweep at which closures are numbered; fewer where several links are tried at
+once, as each costs a hundred times as much."""
+ENOUGH = 1e-10
+"""Share of the usual sweep to which the places of new numbers are narrowed."""
+PARTS, HALVES = 16, 2
+"""Parts into which an interval with a new number is cut, all at once; of a group that tries several
+links places together cost as much as apart."""
+TIED = 1e-7
+"""Share of the usual sweep within which numbers that change to and fro are one change."""
+BESIDE = 1e-6
+"""How far from a place where two closures meet they are numbered, in parts of the usual sweep."""
+MOST = 20_000
+"""Places at which closures are numbered in one sweep at most."""
 
 
-class FollowedClosures(Struct, frozen=True, eq=False):
-    """One closure at rising u (N,), in rows (N, n) as its solver splits them."""
-
-    at: Reals
-    rows: Reals
-
-    def within(self, low: float, high: float) -> FollowedClosures:
-        """The part from one u to another, with the next places beyond both."""
-        first = max(int(np.searchsorted(self.at, low, side="right")) - 1, 0)
-        last = int(np.searchsorted(self.at, high)) + 1
-        return FollowedClosures(self.at[first:last], self.rows[first:last])
-
-    def moved(self, by: float) -> FollowedClosures:
-        """The same closures at other places."""
-        return FollowedClosures(self.at + by, self.rows)
-
-    def joined(self, other: FollowedClosures | None) -> FollowedClosures:
-        """With the places of another that follow on these."""
-        if other is None:
-            return self
-        before = self.at < other.at[0]
-        both = zip((self.at[before], self.rows[before]), (other.at, other.rows), strict=True)
-        return FollowedClosures(*(np.concatenate(part) for part in both))
-
-    def closed(self, solver: ClosureSolver, known: list[Reals], at: Reals) -> tuple[Any, ...]:
-        """What closes the group at each u (K,), as its solver gives it.
-
-        Where it is not sure, every closure is sought, and that of the number taken.
-        """
-        trying = solver.trying
-        assert isinstance(trying, SeveralTrials)
-        rows = self.beside(trying, known, at)
-        closed = np.column_stack([np.arange(len(rows)), rows])
-        found = [np.array(part) for part in trying.parts(closed)]
-        rest = np.flatnonzero(np.isnan(rows[:, 0]))
-        if rest.size:
-            again = trying.closed([array[rest] for array in known], solver.number)
-            for whole, part in zip(found, again, strict=True):
-                whole[rest] = part
-        return tuple(found)
-
-    def beside(self, trying: SeveralTrials, known: list[Reals], at: Reals) -> Reals:
-        """The rows (K, n) at each u, by Newton's method from between the places on both sides.
-
-        NaN where it may lead to another closure.
-        """
-        count = len(self.at)
-        rows = np.full((len(at), self.rows.shape[1]), np.nan)
-        which = np.flatnonzero((self.at[0] <= at) & (at <= self.at[-1]) & (count > 1))
-        if not which.size:
-            return rows
-        after = np.clip(np.searchsorted(self.at, at[which]), 1, count - 1)
-        turning = [one.turns for one in trying.unknowns]
-        led, every, _ = trying.split(self.rows)
-        led, signs = led.copy(), every[after - 1]
-        led[:, turning] = np.unwrap(led[:, turning], axis=0)
-        between, way = interpolated(self.at, led, at[which], after), led[after] - led[after - 1]
-        here = [array[which] for array in known]
-        tried = trying.closed_beside(here, between, signs)
-        sine = trying.sines(here, tried, signs)
-        sure = abs(tried - between).max(axis=1) <= NEAR * abs(way).max(axis=1)
-        sure &= (signs == every[after]).all(axis=1) & (sine > HIDDEN)
-        rows[which[sure]] = np.column_stack([tried, signs, sine])[sure]
-        return rows
-
-
-def interpolated(at: Reals, rows: Reals, wanted: Reals, after: Reals) -> Reals:
-    """Rows (K, n) at wanted places by the polynomial through the four nearest ones, or all.
-
-    ``after`` is the number of the first place beyond each.
+def carried(course: Course, start: float, stop: float) -> Course:
+    """The course with its groups of higher class, and the links that count turns, followed from one
+    place to another, or as far as they go; what was followed before is kept.
     """
-    some = min(CUBIC, len(at))
-    first = np.clip(after - CUBIC // 2, 0, len(at) - some)
-    which = first[:, None] + np.arange(some)
-    places, found = at[which], np.zeros((len(wanted), rows.shape[1]))
-    for k in range(some):
-        others = np.delete(places, k, axis=1)
-        weight = ((wanted[:, None] - others) / (places[:, k, None] - others)).prod(axis=1)
-        found += weight[:, None] * rows[which[:, k]]
+    if course.closers and start != stop:
+        end = stop
+        for number in range(len(course.closers)):
+            onward = followed(course, number, start, end)
+            if onward is None:
+                return course.along(closures=())
+            course, at = onward, onward.closures[number].at
+            end = min(end, float(at[-1])) if stop > start else max(end, float(at[0]))
+    return led(course, start, stop)
+
+
+def carried_about(course: Course, start: float) -> Course:
+    """The course with its groups followed from where the scene is drawn, forth and back."""
+    sweep = course.sweep
+    far = (start + TURN, start - TURN) if sweep.whole else (sweep.high, sweep.low)
+    course = carried(course, start, max(far[0], start))
+    if sweep.whole and not any(way.lost(np.array(far))[0] for way in course.closures):
+        return course
+    return carried(course, start, min(far[1], start))
+
+
+def followed(course: Course, k: int, start: float, stop: float) -> Course | None:
+    """The course with a group followed as far as a place; None where it does not close.
+
+    Where it is followed already it goes on from there.
+    """
+    known = course.closures[k] if k < len(course.closures) else None
+    if known is not None:
+        stops = np.array([stop])
+        if (known.covers(stops) | known.lost(stops))[0]:
+            return course
+        start = float(known.at[-1 if stop > start else 0])
+    step = course.closers[k]
+    counting = counted_for(course, step)
+    before = [link for link in counting if not hangs_on(course, link, step)]
+    inside = [link for link in counting if link not in before]
+    course = led(course, start, stop, links=before)
+    moving = Counting(course, step, following(course, start, inside), inside, stop)
+    group = moving.group()
+    if known is not None:
+        row = known.row_at(start)
+    else:
+        row = group.begun(start, closing(course.program.steps[step]).number)
+    if row is None:
+        return None
+    way = group.followed(row, start, stop, moving.seen)
+    if known is not None:
+        ways = (known, way) if stop > start else (way, known)
+        way = ways[0].joined(ways[1], [one.turns for one in group.trying.unknowns])
+    return moving.course.along(closures=(*course.closures[:k], way, *course.closures[k + 1 :]))
+
+
+class Counting:
+    """A group on its way, with the links in it whose turns count followed from place to place."""
+
+    def __init__(
+        self, course: Course, step: int, counted: Followed, links: Sequence[str], stop: float
+    ) -> None:
+        self.course, self.step, self.counted = course, step, counted
+        self.links, self.stop = links, stop
+
+    def group(self) -> GroupOnWay:
+        """The group, on what is known by the turns counted so far."""
+        trying = closing(self.course.program.steps[self.step]).trying
+        usual = self.course.sweep.usual
+        return GroupOnWay(trying, lambda at: self.course.known_at(self.step, at), usual)
+
+    def seen(self, at: float, row: Reals) -> None:
+        """Count on from a place where a link has gone too far."""
+        if not self.links:
+            return
+        trying = closing(self.course.program.steps[self.step]).trying
+        closed = {self.step: trying.parts(np.array([[0.0, *row, 1.0]]))}
+        here = np.array([at])
+        values = self.course.values(here)
+        angles = self.course.counted(values, here, self.links, closed)
+        degrees = {link: float(np.degrees(row[0])) for link, row in angles.items()}
+        if np.isfinite([*degrees.values()]).all() and self.counted.counts_on(at, degrees):
+            turned = self.counted.turned(self.stop).beside(self.course.turned)
+            self.course = self.course.along(turned=turned)
+
+
+def counted_for(course: Course, step: int) -> list[str]:
+    """The links whose counted turns a group hangs on."""
+    steps = course.program.steps
+    given = (steps[n].given for n in course.program.behind((step,)))
+    used = {name for each in given if each is not None for name in each.uses()}
+    return [link for link in course.counting if name_of(link) in used]
+
+
+def hangs_on(course: Course, link: str, step: int) -> bool:
+    """Whether the turn of a link follows from what closes a group."""
+    return step in course.program.behind((course.program.targets["turned", link],))
+
+
+# --- the numbers along the way -------------------------------------------------------------------
+
+
+class Bracket(NamedTuple):
+    """Two places between which the number of a closure changes, and the numbers there."""
+
+    low: float
+    first: int
+    high: float
+    last: int
+    pairs: PairedClosures | None = None
+
+
+def numbers_between(course: Course, low: float, high: float) -> list[tuple[float, Course]]:
+    """Where each part of a way begins on which all closures keep their numbers, and the course with
+    these numbers stated."""
+    marks = [
+        (at, name, number)
+        for k, name in enumerate(course.numbered)
+        for at, number in changes(course, k, low, high)
+    ]
+    numbers = dict[str, int]()
+    found = list[tuple[float, dict[str, int]]]()
+    for at, name, number in sorted(marks):
+        numbers = numbers | {name: number}
+        found = (
+            [*found[:-1], (at, numbers)]
+            if found and found[-1][0] == at
+            else [*found, (at, numbers)]
+        )
+    ends = [*(at for at, _ in found[1:]), high]
+    return [(at, stated(course, n, at, end)) for (at, n), end in zip(found, ends, strict=True)]
+
+
+def stated(course: Course, numbers: dict[str, int], low: float, high: float) -> Course:
+    """The course as it is written on a part of its way: with the numbers of the closures there."""
+    branches = {**course.branches, **{name: Closure(n) for name, n in numbers.items()}}
+    ways = tuple(way.within(low, high) for way in course.closures)
+    other = Course(course.sweep, branches, (low + high) / 2, course.turned, ways)
+    return course.along(closures=ways) if branches == dict(course.branches) else other
+
+
+def changes(course: Course, k: int, low: float, high: float) -> list[tuple[float, int]]:
+    """The number of the closure of a group at the beginning of a way, and each new one."""
+    group, way = course.group(k), course.closures[k]
+    usual = course.sweep.usual
+    places = FEWER if group.trying.several else PLACES
+    count = max(int(np.ceil((high - low) / usual * places)), 2)
+    if count > MOST:
+        raise too_many(course)
+    grid = np.linspace(low, high, count + 1)
+    numbers = known_numbers(group.numbers(way, grid), course.branches[course.numbered[k]])
+    brackets = at_meetings(group, way, parted(grid, numbers))
+    while wide := [each for each in brackets if each.high - each.low > ENOUGH * usual]:
+        done = [each for each in brackets if each not in wide]
+        brackets = sorted([*done, *narrowed(group, way, wide)], key=lambda each: each.low)
+    marks = ((each.low + each.high) / 2 for each in brackets)
+    return settled(low, int(numbers[0]), [*zip(marks, brackets, strict=True)], usual * TIED)
+
+
+def settled(
+    low: float, first: int, marks: Sequence[tuple[float, Bracket]], near: float
+) -> list[tuple[float, int]]:
+    """The numbers from a place on, each with where it begins: the last one where several change
+    hands near one place, as the angles of two closures are equal there but for rounding."""
+    found = [(low, first)]
+    for n, (at, each) in enumerate(marks):
+        if n + 1 < len(marks) and marks[n + 1][0] - at < near:
+            continue
+        if each.last != found[-1][1]:
+            found.append((at, each.last))
     return found
 
 
-def paired(
-    trying: SeveralTrials, at: tuple[float, float], first: Reals, second: Reals
-) -> list[FollowedClosures]:
-    """The closures at two u, each of the first (M, n) with the nearest one of the second.
+def known_numbers(numbers: Reals, stated: Any) -> Reals:
+    """Numbers, where rounding leaves one open that before it; at first the next one."""
+    known = np.flatnonzero(numbers)
+    if not known.size:
+        return np.full(len(numbers), stated.number)
+    before = np.maximum(np.searchsorted(known, np.arange(len(numbers)), side="right") - 1, 0)
+    return numbers[known[before]]
 
-    None are given where they do not match one to one, with the same signs.
+
+def parted(at: Reals, numbers: Reals) -> list[Bracket]:
+    """The neighbours of some places between which the number changes."""
+    return [
+        Bracket(float(at[n]), int(numbers[n]), float(at[n + 1]), int(numbers[n + 1]))
+        for n in np.flatnonzero(np.diff(numbers))
+    ]
+
+
+def at_meetings(group: GroupOnWay, way: FollowedClosure, wide: Sequence[Bracket]) -> list[Bracket]:
+    """The brackets with all closures at both ends, where they lead on one to one; where two more
+    come or go in between, the place at which these meet.
     """
-    if len(first) != len(second):
+    if not wide:
         return []
-    (before, signs, _), (after, others, _) = trying.split(first), trying.split(second)
-    way = abs(after - before[:, None])
-    turning = np.array([one.turns for one in trying.unknowns])
-    way = np.where(turning, np.minimum(way % (2 * np.pi), -way % (2 * np.pi)), way).max(axis=2)
-    alike = (others == signs[:, None]).all(axis=2)
-    nearest = np.where(alike, way, np.inf).argmin(axis=1)
-    count = np.arange(len(first))
-    if sorted(nearest) != [*count] or not alike[count, nearest].all():
-        return []
-    pairs = zip(first, second[nearest], strict=True)
-    return [FollowedClosures(np.array(at), np.array(pair)) for pair in pairs]
+    found = list[Bracket]()
+    every = group.closures(np.array([(each.low, each.high) for each in wide]).ravel())
+    for n, each in enumerate(wide):
+        first, last = (every.of(2 * n + k) for k in (0, 1))
+        at = each.low, each.high
+        pairs, meeting = group.paired(at, first, last), group.met(at, first, last)
+        if meeting is not None:
+            beside = meeting + BESIDE * group.usual * np.array([-1, 1])
+            if (each.first, each.last) == tuple(group.numbers(way, beside)):
+                found.append(each._replace(low=meeting, high=meeting))
+                continue
+        found.append(each._replace(pairs=pairs))
+    return found
 
 
-def closed_on(
-    every: Sequence[FollowedClosures], trying: Trying, known: list[Reals], at: Reals
-) -> Closures | None:
-    """All closures at each u, numbered anew, from where each is on both sides.
+def narrowed(group: GroupOnWay, way: FollowedClosure, wide: Sequence[Bracket]) -> list[Bracket]:
+    """Each bracket cut into parts: those in which the number changes."""
+    found, rest = list[Bracket](), list[Bracket]()
+    for each in wide:
+        at = np.linspace(each.low, each.high, PARTS + 1)
+        numbers = None if each.pairs is None else group.numbers_led(each.pairs, way, at[1:-1])
+        if numbers is None:
+            rest.append(each)
+        else:
+            found += within(each, at, numbers)
+    if rest:
+        count = HALVES if group.trying.several else PARTS
+        grids = np.array([np.linspace(each.low, each.high, count + 1) for each in rest])
+        inside = group.numbers(way, grids[:, 1:-1].ravel()).reshape(len(rest), count - 1)
+        for each, at, numbers in zip(rest, grids, inside, strict=True):
+            found += within(each, at, numbers)
+    return found
 
-    None without any such, or where one is not sure.
-    """
-    if not every:
-        return None
-    assert isinstance(trying, SeveralTrials)
-    rows = np.concatenate([one.beside(trying, known, at) for one in every])
-    if np.isnan(rows).any():
-        return None
-    owner, touching = np.tile(np.arange(len(at)), len(every)), np.zeros(len(rows), dtype=bool)
-    tried, signs, _ = trying.split(rows)
-    return trying.ordered(known, len(at), owner, tried, signs, touching)
+
+def within(each: Bracket, at: Reals, numbers: Reals) -> list[Bracket]:
+    """The parts of a bracket in which the number changes, by the numbers at places within."""
+    every = known_numbers(np.array([each.first, *numbers, each.last]), None)
+    return [part._replace(pairs=each.pairs) for part in parted(at, every)]
+
+
+def too_many(course: Course) -> ClosureError:
+    """What to raise where a motion would have to be followed through more places than allowed."""
+    sweep = course.sweep
+    found = f"from {sweep.low:.10g} to {sweep.high:.10g} {sweep.unit} it has to be tried at more"
+    most = f"at most {MOST} positions of the driver"
+    return ClosureError(Problem("the cycle", found, most, "show less with --from and --to"))

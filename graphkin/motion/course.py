@@ -11,12 +11,21 @@ from msgspec import Struct
 from msgspec.structs import replace
 
 from graphkin.construction.compile import write
-from graphkin.construction.core.batch import run_batch, run_blocks
+from graphkin.construction.core.batch import (
+    Ready,
+    is_array,
+    made_ready,
+    run_batch,
+    run_blocks,
+    run_moving,
+)
+from graphkin.construction.core.kind import construction
 from graphkin.construction.core.program import Program, Target
 from graphkin.construction.core.run import StepFailed, Trace, evaluate
-from graphkin.construction.higher_class.closure_solver import ClosureSolver, closer_of
+from graphkin.construction.higher_class.closed_group import ClosedGroup
+from graphkin.construction.higher_class.closure_solver import closer_of, closing
+from graphkin.construction.higher_class.following import FollowedClosure, GroupOnWay
 from graphkin.construction.links.counted_turn import counted_link
-from graphkin.motion.closures_followed import FollowedClosures
 from graphkin.motion.sweep import Sweep, inputs
 from graphkin.motion.turns_counted import Turned
 from graphkin.numbers.arithmetic import FLOAT, batch_kind
@@ -41,15 +50,21 @@ class Course(Struct, frozen=True, dict=True):
     ``here`` is a u at which these closures hold, where the construction may look at the shape of
     the mechanism; without it they hold where the scene stands. ``turned`` tells how far links have
     turned that only their pins turn and whose wheels depend on it; without it they count near what
-    the scene says throughout. ``closures`` are those of a group that tries several links where they
-    were followed; elsewhere they are sought anew at every place.
+    the scene says throughout. ``closures`` are the ways of the groups of higher class, in the order
+    of construction, as far as they were followed; elsewhere they are sought anew at every place.
     """
 
     sweep: Sweep
     branches: Branches
     here: float | None = None
     turned: Turned | None = None
-    closures: FollowedClosures | None = None
+    closures: tuple[FollowedClosure, ...] = ()
+
+    def along(self, **ways: Any) -> Course:
+        """The same course with other ways followed: what is written of it stays."""
+        other = replace(self, **ways)
+        vars(other).update(vars(self))
+        return other
 
     @cached_property
     def scene(self) -> Scene:
@@ -115,18 +130,36 @@ class Course(Struct, frozen=True, dict=True):
             if what == "turned" and n in moving and counted_link(steps[n]) == of
         )
 
-    def counted(self, values: Mapping[str, Any], count: int) -> dict[str, Reals]:
-        """The angles (radians) of these links for values of the scene, (N,) each."""
-        wanted = [("turned", link) for link in self.counting]
+    def counted(
+        self,
+        values: Mapping[str, Any],
+        at: Reals,
+        links: Iterable[str] | None = None,
+        closed: Mapping[int, Any] | None = None,
+    ) -> dict[str, Reals]:
+        """The angles (radians) of some of these links, or all, for values of the scene, (N,) each.
+
+        ``closed`` are groups that are closed so, beside those that were followed.
+        """
+        some = self.counting if links is None else tuple(links)
+        wanted = [("turned", link) for link in some]
         keep = [self.program.targets[target] for target in wanted]
+        overrides = self.closing(values, at) | dict(closed or {})
         with np.errstate(all="ignore"):
-            trace = run_batch(self.program, self.program.needed(wanted), values, batch_kind(), keep)
-        return {link: spread(trace.value("turned", link), count) for link in self.counting}
+            trace = run_batch(
+                self.program,
+                self.program.needed(wanted),
+                values,
+                batch_kind(),
+                keep,
+                overrides=overrides,
+            )
+        return {link: spread(trace.value("turned", link), len(at)) for link in some}
 
     def angles(self, at: float) -> dict[str, float]:
         """The angles (degrees) of these links at one u."""
         here = np.array([at])
-        found = self.counted(self.values(here), 1)
+        found = self.counted(self.values(here), here)
         return {link: float(np.degrees(row[0])) for link, row in found.items()}
 
     @cached_property
@@ -134,11 +167,8 @@ class Course(Struct, frozen=True, dict=True):
         """How many steps closing groups costs at one position of the driver; 0 without any."""
         work = 0
         values = self.values(np.array([self.sweep.start]))
-        for n in self.early:
-            action = self.program.steps[n].action
-            if action is None or not isinstance(action.value, ClosureSolver):
-                continue
-            work += action.value.trying.work(self.known_of(n, values, 1))
+        for n in self.closers:
+            work += closing(self.program.steps[n]).trying.work(self.known_of(n, values, 1))
         return work
 
     @property
@@ -169,24 +199,84 @@ class Course(Struct, frozen=True, dict=True):
             found[-1] = np.where(np.isfinite(value), found[-1], np.nan)
         return found
 
-    def closing(self, values: Mapping[str, Any], at: Reals) -> dict[int, tuple[Any, ...]]:
-        """What closes the group whose closures were followed, by its step, for each u (N,)."""
-        if self.closures is None:
-            return {}
-        steps = self.program.steps
-        number = next(n for n in self.early if closer_of(steps[n]) is not None)
-        solver = closer_of(steps[number])
-        assert solver is not None
-        known = self.known_of(number, values, len(at))
-        with np.errstate(all="ignore"):
-            return {number: self.closures.closed(solver, known, at)}
+    @cached_property
+    def closers(self) -> tuple[int, ...]:
+        """The steps that close groups of higher class, in order."""
+        return tuple(n for n in self.early if closer_of(self.program.steps[n]) is not None)
 
-    def known_of(self, number: int, values: Mapping[str, Any], count: int) -> list[Reals]:
+    @cached_property
+    def closed_links(self) -> tuple[tuple[str, ...], ...]:
+        """The links of these groups, in the same order."""
+        kinds = [construction(self.program.steps[number]) for number in self.closers]
+        return tuple(kind.closes for kind in kinds if isinstance(kind, ClosedGroup))
+
+    @cached_property
+    def numbered(self) -> tuple[str, ...]:
+        """The links at which the closures of these groups are numbered, in the same order."""
+        stated = [name for name, each in self.branches.items() if isinstance(each, Closure)]
+        every = self.closed_links
+        return tuple(next(name for name in stated if name in links) for links in every)
+
+    @cached_property
+    def within_groups(self) -> frozenset[int]:
+        """The steps that construct the links of these groups once they are closed."""
+        found: set[int] = set()
+        for number, links in zip(self.closers, self.closed_links, strict=True):
+            every = [("axis", link) for link in links]
+            every += [("position", p) for name in links for p in self.scene.link(name).points]
+            last = max(self.program.targets.get(target, 0) for target in every)
+            steps = range(number + 1, last + 1)
+            found |= {n for n in steps if number not in self.program.steps[n].args}
+        return frozenset(found)
+
+    def group(self, k: int) -> GroupOnWay:
+        """A group of higher class on its way, those before it followed."""
+        step = self.closers[k]
+        trying = closing(self.program.steps[step]).trying
+        return GroupOnWay(trying, lambda at: self.known_at(step, at), self.sweep.usual)
+
+    def closing(
+        self, values: Mapping[str, Any], at: Reals, before: int | None = None
+    ) -> dict[int, tuple[Any, ...]]:
+        """What closes the groups that were followed, by their steps, for each u (N,); only those
+        ``before`` a step, if one is given."""
+        found: dict[int, tuple[Any, ...]] = {}
+        for k, way in enumerate(self.closures):
+            number = self.closers[k]
+            if number == before:
+                break
+            known = self.known_of(number, values, len(at), found)
+            stated = closing(self.program.steps[number]).number
+            with np.errstate(all="ignore"):
+                found[number] = way.closed(self.group(k), stated, at, known)
+        return found
+
+    @cached_property
+    def _readied(self) -> dict[Any, Ready]:
+        """What steps are drawn from, made ready for arrays of some values."""
+        return {}
+
+    def known_at(self, number: int, at: Reals) -> list[Reals]:
+        """What a step is drawn from at each u (N,), the groups before it as they were followed."""
+        values = self.values(at)
+        return self.known_of(number, values, len(at), self.closing(values, at, number))
+
+    def known_of(
+        self,
+        number: int,
+        values: Mapping[str, Any],
+        count: int,
+        closed: Mapping[int, Any] | None = None,
+    ) -> list[Reals]:
         """What a step is drawn from, for values of the scene: arrays (N,)."""
         args = self.program.steps[number].args
+        arrays = frozenset(name for name, value in values.items() if is_array(value))
+        key = number, arrays, frozenset(closed or ())
         with np.errstate(all="ignore"):
-            before = self.program.behind(args)
-            trace = run_batch(self.program, before, values, batch_kind(), args)
+            if key not in self._readied:
+                before = self.program.behind(args)
+                self._readied[key] = made_ready(self.program, before, values, args, key[-1])
+            trace = run_moving(self._readied[key], values, batch_kind(), overrides=closed)
         return [spread(trace.values[arg], count) for arg in args]
 
     def closes(self, at: Any) -> Flags:

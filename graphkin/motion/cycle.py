@@ -33,6 +33,8 @@ SHARE = 1e-3
 """The same in parts of a window that is narrower than a thousand times that."""
 LISTED = 6
 """Ranges told in a message."""
+NUMBERED = 4
+"""Rows of a cycle in which the independent route numbers closures."""
 FULL = 10_000_000
 """Values that a cycle holds: its rows times what is told of each."""
 
@@ -338,7 +340,8 @@ def placed(whole: Any, value: Any, rows: Any, count: int) -> Any:
 def witnessed(found: Cycle, *, numbered: bool = True) -> Witnessed:
     """Each piece held against the vector loops with its own closures.
 
-    Without ``numbered`` numbers of closures are not verified, which takes most of the time.
+    Without ``numbered`` numbers of closures are not verified, which takes most of the time. They
+    are in ``NUMBERED`` rows, and in at least one of each piece: on it the closure is followed.
     """
     from graphkin.loops.witness import examine
 
@@ -355,7 +358,7 @@ def witnessed(found: Cycle, *, numbered: bool = True) -> Witnessed:
                 course.scene,
                 rows_of(found.solution, rows),
                 course.values(found.at[rows]),
-                numbered=numbered,
+                numbered=max(NUMBERED // len(found.pieces), 1) if numbered else 0,
             )
         except GraphkinError as error:
             return Witnessed(difference, agrees, str(error))

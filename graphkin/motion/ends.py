@@ -16,7 +16,7 @@ from graphkin.motion.driving import GRID
 from graphkin.motion.refine import AROUND, TOUCH, last_closing, least_square, touching
 from graphkin.numbers.plane import Line
 
-End = Literal["dead", "change", "number", "window"]
+End = Literal["dead", "change", "number", "window", "flat"]
 SUSPECT = 0.3
 """Sine of a crossing below which a minimum is looked at more closely."""
 WIDE = 3
@@ -27,6 +27,12 @@ WITHIN = 4
 """Steps of the grid by which the parts of a long way overlap."""
 PAST = 2
 """Positions past the end of a window that are looked at."""
+BESIDE_FOLD = 1e-6
+"""How near to a group's end it is looked whether all closes, in parts of a step of the grid."""
+BESIDE_END = 4e-10
+"""How far beyond such an end it is looked what fails, in parts of the usual sweep."""
+SOUGHT = 16 * TOUCH
+"""As TOUCH, where groups of higher class are closed: their sines come from differences."""
 NARROW = 2
 """Positions of the grid in a row that do not close, and may be one change point."""
 
@@ -34,8 +40,9 @@ NARROW = 2
 class Event(Struct, frozen=True):
     """Where a piece ends: a dead point or a change point with the steps whose loci touch there.
 
-    At a ``number`` the closure goes on smoothly under another number. ``beyond`` is a u at which
-    nothing closes, for a dead point.
+    At a ``number`` the closure goes on smoothly under another number. What is ``flat`` lies within
+    a group whose closure is followed: it goes on there, and no piece ends. ``beyond`` is a u at
+    which nothing closes, for a dead point.
     """
 
     kind: End
@@ -82,7 +89,9 @@ def event_between(course: Course, start: float, stop: float) -> Event:
     last = len(grid) if end is None else end + 1
     for k in suspects(margins[:, :last], closed[:last]):
         event = looked_at(course, grid, k)
-        if event is not None and abs(event.at - start) > 0.01 * step:
+        if event is None or event.kind == "flat":
+            continue
+        if abs(event.at - start) > 0.01 * step:
             return event if abs(event.at - start) <= abs(stop - start) else Event("window", stop)
     if end is None or abs(grid[end] - start) >= abs(stop - start):
         return Event("window", stop)
@@ -114,7 +123,7 @@ def first_end(course: Course, grid: Reals, closed: np.ndarray) -> int | None:
 def is_touch(course: Course, grid: Reals, k: int) -> bool:
     """Whether a position of the grid that does not close is one where loci only touch."""
     event = looked_at(course, grid, k)
-    return event is not None and event.kind == "change"
+    return event is not None and event.kind in ("change", "flat")
 
 
 def suspects(margins: Reals, closed: np.ndarray) -> list[int]:
@@ -140,19 +149,24 @@ def looked_at(course: Course, grid: Reals, k: int) -> Event | None:
     """What happens near a position of the grid: a change point, a narrow gap, or nothing."""
     step = float(grid[1] - grid[0])
     centre = float(grid[k])
+    touch = SOUGHT if course.closures else TOUCH
     known: dict[int, tuple[float, float]] = {}
     for _ in range(2):
         samples = course.margins(centre + AROUND * step)[:-1]
         lows = {n: least_square(AROUND, row) for n, row in enumerate(samples)}
-        known = {n: low for n, low in lows.items() if low is not None and low[1] < TOUCH}
+        known = {n: low for n, low in lows.items() if low is not None and low[1] < touch}
         if not known:
             return None
         first = min(known, key=lambda n: known[n][1])
         centre += known[first][0] * step
-    if known[first][1] < -TOUCH:
+    if known[first][1] < -touch:
         return dead(course, centre - 2 * step, centre)
     at = centre + touch_of(course, centre, step, first)
     steps = tuple(course.crossings[n] for n in sorted(known))
+    if course.closures:
+        steps = tuple(n for n in steps if n not in course.within_groups)
+    if not steps:
+        return Event("flat", at)
     if runs_away(course, steps[0], at - step):
         return Event("dead", at, steps, at)
     return Event("change", at, steps)
@@ -174,12 +188,35 @@ def runs_away(course: Course, number: int, at: float) -> bool:
     return len(loci) == 2 and all(isinstance(locus, Line) for locus in loci)
 
 
+def just_before(at: float, inside: float) -> Reals:
+    """A place just before another, as seen from one inside."""
+    return np.array([at + (inside - at) * BESIDE_FOLD])
+
+
 def dead(course: Course, inside: float, outside: float) -> Event:
     """The dead point between a position that closes and one that does not."""
+    for each in course.closures:
+        end = each.end_between(min(inside, outside), max(inside, outside))
+        if end is None or not course.closes(just_before(end[0], inside))[0]:
+            continue
+        at, kind = end
+        way = 1.0 if outside > inside else -1.0
+        beyond = at + way * BESIDE_END * course.sweep.usual
+        steps = () if kind == "fold" else before_groups(course, beyond)
+        return Event("dead", at, steps, beyond)
     last = last_closing(course.closes, inside, outside)
     way = 1.0 if outside > inside else -1.0
     past = last + way * max(1e-9 * course.sweep.grid_step, 8 * float(np.spacing(abs(last))))
     last = last_closing(course.is_placed, last, past)
-    failing = np.flatnonzero(~np.isfinite(course.margins(np.array([past]))[:-1, 0]))
-    steps = (course.crossings[failing[0]],) if failing.size else ()
-    return Event("dead", last, steps, past)
+    return Event("dead", last, tuple(failing(course, past)[:1]), past)
+
+
+def failing(course: Course, at: float) -> list[int]:
+    """The crossings that cannot be found at a place, in order."""
+    lost = ~np.isfinite(course.margins(np.array([at]))[:-1, 0])
+    return [course.crossings[n] for n in np.flatnonzero(lost)]
+
+
+def before_groups(course: Course, at: float) -> tuple[int, ...]:
+    """The first crossing that fails at a place, of those before all groups of higher class."""
+    return tuple(n for n in failing(course, at)[:1] if n < course.closers[0])

@@ -13,7 +13,6 @@ from graphkin.construction.core.program import Program
 from graphkin.motion.course import Course
 from graphkin.motion.driving import TURN
 from graphkin.motion.ends import Event
-from graphkin.motion.numbered_closures import numbered
 from graphkin.motion.pieces import ALIKE, Path
 from graphkin.numbers.plane import Line
 
@@ -77,11 +76,12 @@ def named(course: Course, event: Event, inside: float) -> Singular:
 
 def flattest(course: Course, inside: float) -> tuple[str, str]:
     """What closes no further where a group of higher class is followed: its flattest crossing."""
-    group = numbered(course)
     sines = course.margins(np.array([inside]))[:, 0]  # the last, of no crossing, is 1
     if np.nanmin(sines, initial=1.0) < FLAT:
         return words(course, course.crossings[int(np.nanargmin(sines))], inside)
-    link = "" if group is None else f" of link {group.link}"
+    ways = zip(course.numbered, course.closures, strict=False)
+    ended = {name: abs(way.at[[0, -1]] - inside).min() for name, way in ways}
+    link = f" of link {min(ended, key=lambda name: ended[name])}" if ended else ""
     return f"the group{link}", f"two closures of the group{link} meet"
 
 

@@ -14,18 +14,12 @@ from msgspec import Struct
 from msgspec.structs import replace
 
 from graphkin.construction.core.program import Target
+from graphkin.construction.higher_class.following import FollowedClosure
 from graphkin.motion.change_points import beyond
+from graphkin.motion.closures_followed import carried, carried_about, numbers_between
 from graphkin.motion.course import Branches, Course, Reals
 from graphkin.motion.driving import GRID, TURN
 from graphkin.motion.ends import Event, next_event
-from graphkin.motion.numbered_closures import (
-    Numbered,
-    NumberedPlace,
-    changes,
-    nodes,
-    numbered,
-    same_place,
-)
 from graphkin.motion.refine import TOUCH
 from graphkin.motion.sweep import Sweep
 from graphkin.motion.turns_counted import Turned
@@ -39,6 +33,9 @@ BACK = 1e-6
 """Miss after a whole turn, in parts of the mechanism's size, with which it has come back."""
 MOST_PIECES = 400
 """Pieces into which change points may part a range."""
+FEWER = 360
+"""Positions of a sweep at which a group of higher class is sought that does not close where the
+scene is drawn."""
 MOST_TURNS = 24
 """Turns of the driver, forth and back, through which a motion that wheels carry on is followed."""
 MOST_WAYS = 200
@@ -95,12 +92,14 @@ def reachable_ranges(sweep: Sweep, branches: Branches | None = None) -> Path:
     same closures picked. Raises ClosureError where nothing closes at all.
     """
     course = Course(sweep, sweep.original.branches if branches is None else branches)
-    course = led(course, sweep.stands, sweep.start)
     ranges: list[Range] = []
     refuse_far(sweep)
-    if (group := numbered(course)) is not None and course.closes(np.array([sweep.start]))[0]:
-        return shown(sweep, numbered_path(group, sweep.start))
-    grid = sweep.low + (np.arange(GRID) + 0.5) * ((sweep.high - sweep.low) / GRID)
+    if course.closers and (start := beside_touch(course, sweep.stands)) is not None:
+        found, whole, returns = from_start(carried_about(course, start), start)
+        return shown(sweep, Path((in_numbers(found),), whole, returns))
+    course = led(course, sweep.stands, sweep.start)
+    count = FEWER if course.closers else GRID
+    grid = sweep.low + (np.arange(count) + 0.5) * ((sweep.high - sweep.low) / count)
     free = course.closes(grid)
     whole = returns = False
     start = beside_touch(course, sweep.start)
@@ -124,7 +123,7 @@ def reachable_ranges(sweep: Sweep, branches: Branches | None = None) -> Path:
                 "graphkin check shows what is wrong",
             )
         )
-    return shown(sweep, Path(tuple(ranges), whole, returns))
+    return shown(sweep, Path(tuple(map(in_numbers, ranges)), whole, returns))
 
 
 def shown(sweep: Sweep, path: Path) -> Path:
@@ -169,34 +168,19 @@ def refuse_far(sweep: Sweep) -> None:
         raise SceneError(Problem("--from, --to", found, most, hint))
 
 
-def numbered_path(group: Numbered, start: float) -> Path:
-    """The range of a group of higher class through one position, followed by its motion."""
-    sweep = group.course.sweep
-    far = (start + TURN, start - TURN) if sweep.whole else (sweep.high, sweep.low)
-    ahead, end = nodes(group, start, max(far[0], start))
-    high = Event("dead" if end.dead else "window", end.at, (), end.beyond if end.dead else None)
-    upward = cut(group, ahead, Event("window", start), high)
-    if sweep.whole and not end.dead:
-        returns = same_place(ahead[0], ahead[-1])
-        return Path((counted_from_nought(upward, start) if returns else upward,), True, returns)
-    behind, end = nodes(group, start, min(far[1], start))
-    low = Event("dead" if end.dead else "window", end.at, (), end.beyond if end.dead else None)
-    downward = tuple(reversed(cut(group, behind, Event("window", start), low)))
-    turned = tuple(replace(piece, low=piece.high, high=piece.low) for piece in downward)
-    return Path((joined_at(turned, upward),), False, False)
-
-
-def cut(group: Numbered, found: list[NumberedPlace], start: Event, end: Event) -> Range:
-    """The pieces of one number each, on the way from the first node to the last."""
-    marks = changes(group, found)
-    way = group.followed(found)
-    numbers = [found[0].number, *(number for _, _, number in marks)]
-    firsts = [start, *(Event("number", at) for _, at, _ in marks)]
-    lasts = [*(Event("number", at) for at, _, _ in marks), end]
-    return tuple(
-        Piece(first, last, group.with_number(number, first.at, last.at, way))
-        for number, first, last in zip(numbers, firsts, lasts, strict=True)
-    )
+def in_numbers(found: Range) -> Range:
+    """The pieces of a range, parted where the closure of a group has a new number."""
+    pieces = list[Piece]()
+    for piece in found:
+        if not piece.course.closures:
+            pieces.append(piece)
+            continue
+        parts = numbers_between(piece.course, piece.low.at, piece.high.at)
+        starts = [piece.low, *(Event("number", at) for at, _ in parts[1:])]
+        ends = [*starts[1:], piece.high]
+        courses = (course for _, course in parts)
+        pieces += [Piece(*each) for each in zip(starts, ends, courses, strict=True)]
+    return tuple(pieces)
 
 
 def beside_touch(course: Course, start: float) -> float | None:
@@ -266,12 +250,17 @@ def joined_at(before: Sequence[Piece], after: Sequence[Piece]) -> Range:
     """Pieces before and after one place, at which the last and the first are one."""
     end, start = before[-1].course.turned, after[0].course
     turned = start.turned if end is None else end.joined(start.turned)
-    closures = before[-1].course.closures
-    if closures is not None:
-        closures = closures.joined(start.closures)
-    course = replace(start, turned=turned, closures=closures)
+    course = start.along(turned=turned, closures=ways_joined(before[-1].course, start))
     joined = replace(after[0], low=before[-1].low, course=course)
     return (*before[:-1], joined, *after[1:])
+
+
+def ways_joined(before: Course, after: Course) -> tuple[FollowedClosure, ...]:
+    """The ways of groups of higher class on both sides of one place."""
+    every = range(len(after.closures))
+    turns = [[one.turns for one in after.group(k).trying.unknowns] for k in every]
+    ways = zip(before.closures, after.closures, turns, strict=True)
+    return tuple(first.joined(second, turning) for first, second, turning in ways)
 
 
 def wheels(course: Course) -> list[str]:
@@ -355,10 +344,8 @@ def turned_back(piece: Piece, turns: int, gone: dict[str, float]) -> Piece:
     turned = piece.course.turned
     if turned is not None:
         turned = turned.moved(-turns * TURN, {link: -turns * by for link, by in gone.items()})
-    closures = piece.course.closures
-    if closures is not None:
-        closures = closures.moved(-turns * TURN)
-    return Piece(low, high, replace(piece.course, turned=turned, closures=closures))
+    closures = tuple(way.moved(-turns * TURN) for way in piece.course.closures)
+    return Piece(low, high, piece.course.along(turned=turned, closures=closures))
 
 
 def marched(course: Course, start: float, stop: float) -> Range:
@@ -367,7 +354,7 @@ def marched(course: Course, start: float, stop: float) -> Range:
     pieces: list[Piece] = []
     here = Event("window", start)
     while len(pieces) < MOST_PIECES:
-        course = led(course, here.at, stop)
+        course = carried(course, here.at, stop)
         event = next_event(course, here.at, stop)
         low, high = (here, event) if forward else (event, here)
         pieces.append(Piece(low, high, course))

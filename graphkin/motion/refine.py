@@ -9,6 +9,8 @@ import numpy as np
 
 HALVINGS = 70
 """Halvings after which two doubles of a bracket of the grid are neighbours."""
+CUT = 16
+"""Parts into which the way to the last place that closes is cut at once."""
 AROUND = np.array([-4.5, -3.5, -2.5, -1.5, 1.5, 2.5, 3.5, 4.5])
 """Where, in steps, a square of a margin is sampled about a place that it may touch nought at."""
 TOUCH = 1e-12
@@ -18,15 +20,20 @@ Reals = np.ndarray[Any, np.dtype[Any]]
 
 
 def last_closing(closes: Callable[[Reals], Any], inside: float, outside: float) -> float:
-    """The last u that closes between one that closes and one that does not, by halving."""
+    """The last u that closes between one that closes and one that does not.
+
+    The way is cut into parts, all tried at once, until no double lies between.
+    """
     for _ in range(HALVINGS):
-        middle = (inside + outside) / 2
-        if middle in (inside, outside):
+        between = np.unique(np.linspace(inside, outside, CUT + 1)[1:-1])
+        between = between[(between != inside) & (between != outside)]
+        if not between.size:
             break
-        if closes(np.array([middle]))[0]:
-            inside = middle
-        else:
-            outside = middle
+        between = between if outside > inside else between[::-1]
+        failing = np.flatnonzero(~np.asarray(closes(between), dtype=bool))
+        first = int(failing[0]) if failing.size else len(between)
+        inside = float(between[first - 1]) if first else inside
+        outside = float(between[first]) if first < len(between) else outside
     return inside
 
 

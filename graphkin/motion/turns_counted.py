@@ -52,6 +52,15 @@ class Turned(Struct, frozen=True, eq=False):
         here = np.maximum(np.searchsorted(self.at, at, side="right") - 1, 0)
         return {name_of(link): row[here] for link, row in self.near.items()}
 
+    def beside(self, other: Turned | None) -> Turned:
+        """With the links of another that it does not have."""
+        more = {} if other is None else {k: n for k, n in other.near.items() if k not in self.near}
+        if other is None or not more:
+            return self
+        at = np.union1d(self.at, other.at)
+        near = {**self.values(at), **Turned(other.at, more).values(at)}
+        return Turned(at, {link: near[name_of(link)] for link in (*self.near, *more)})
+
     def joined(self, other: Turned | None) -> Turned:
         """With the places of another that follow on these."""
         if other is None:

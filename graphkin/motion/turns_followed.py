@@ -2,11 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping, Sequence
 from typing import Any
 
 import numpy as np
-from msgspec.structs import replace
 
 from graphkin.motion.course import Course
 from graphkin.motion.turns_counted import Turned, name_of
@@ -54,26 +53,35 @@ class Followed:
         return Turned(np.array(places), {m: np.array([row[m] for row in near]) for m in near[0]})
 
 
-def following(course: Course, start: float) -> Followed:
-    """The links of a course that count near a followed angle, from a place on as it says so far."""
+def following(course: Course, start: float, links: Iterable[str] | None = None) -> Followed:
+    """The links of a course that count near a followed angle, or some, from a place on as it says
+    so far."""
     known = course.values(np.array([start]))
-    near = {link: float(np.ravel(known[name_of(link)])[0]) for link in course.counting}
+    some = course.counting if links is None else links
+    near = {link: float(np.ravel(known[name_of(link)])[0]) for link in some}
     return Followed(start, near)
 
 
-def led(course: Course, start: float, stop: float, step: float = 0.0) -> Course:
-    """The course with the angles near which links count followed from one place to another.
+def led(
+    course: Course,
+    start: float,
+    stop: float,
+    step: float = 0.0,
+    links: Sequence[str] | None = None,
+) -> Course:
+    """The course with the angles near which links count, or some, followed from one place to
+    another.
 
     At the start they count as the course says so far. Where nothing closes they stay. Between two
     places of the grid, or of one of a larger ``step``, a link is taken to turn by less than a turn
     but for a largest step.
     """
-    if not course.counting or start == stop:
+    if not (course.counting if links is None else links) or start == stop:
         return course
     way = abs(stop - start)
     count = max(int(np.ceil(way / max(abs(course.sweep.grid_step), step))), 1)
     ahead = np.linspace(start, stop, count + 1).tolist()[::-1]
-    followed, passed = following(course, start), start
+    followed, passed = following(course, start, links), start
     last: dict[str, float] = {}
     size = FIRST
     while ahead:
@@ -90,20 +98,20 @@ def led(course: Course, start: float, stop: float, step: float = 0.0) -> Course:
             ahead += np.linspace(places[0], passed, PARTS + 1)[1:-1].tolist()
         else:
             last = last_of(angles, 1)
-    return replace(course, turned=followed.turned(stop))
+    return course.along(turned=followed.turned(stop).beside(course.turned))
 
 
 def led_both(course: Course, start: float, low: float, high: float, step: float = 0.0) -> Course:
     """The course with these angles followed from one place forth and back."""
     before, after = (led(course, start, end, step).turned for end in (low, high))
     turned = before.joined(after) if before is not None else after
-    return replace(course, turned=turned)
+    return course.along(turned=turned)
 
 
 def angles_near(course: Course, at: Reals, near: Mapping[str, float]) -> dict[str, Reals]:
     """The angles of links (degrees) at some places, each within half a turn of a given one."""
     values = course.values(at) | {name_of(link): angle for link, angle in near.items()}
-    rows = course.counted(values, len(at))
+    rows = course.counted(values, at, near)
     return {link: np.degrees(row) for link, row in rows.items()}
 
 

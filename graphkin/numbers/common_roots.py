@@ -213,13 +213,25 @@ def roots_beside(missed: Misses, start: Array) -> Array:
     """Where Newton's method comes to rest from starts (K, n); NaN where it does not."""
     share, left = start.copy(), np.arange(len(start))
     for _ in range(ROUNDS):
-        way = steps_of(missed, left, share[left], missed(left, share[left]))
+        way = steps_from(missed, left, share[left])
         share[left] += way
         left = left[~(abs(way) < STILL).all(axis=1) & np.isfinite(way).all(axis=1)]
         if not left.size:
             break
     share[left] = np.nan
     return share
+
+
+def steps_from(missed: Misses, row: Array, share: Array) -> Array:
+    """As steps_of, with the misfits and all their slopes run together."""
+    count, size = share.shape
+    away = np.concatenate([np.zeros((1, size)), STEP * np.eye(size)])[:, None]
+    places = (share + away).reshape(-1, size)
+    value = missed(np.tile(row, size + 1), places).reshape(size + 1, count, size)
+    if np.isnan(value[1:]).any():
+        return steps_of(missed, row, share, value[0])
+    slope = np.moveaxis(value[1:] - value[0], 0, -1) / STEP
+    return solutions(slope, -value[0])
 
 
 def apart(row: Array, share: Array, which: Array, way: Array) -> tuple[Array, Array]:

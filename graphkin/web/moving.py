@@ -100,7 +100,7 @@ def still(mechanism: Mechanism) -> str | None:
         return NO_RANGE
     size = reach_of(mechanism.scene)
     try:
-        return None if tracing.reached(tracing.closed(trace, size), size) else NO_RANGE
+        return None if tracing.reached(tracing.closed(trace, size)) else NO_RANGE
     except SceneError:
         return NO_END
 
@@ -113,7 +113,7 @@ def put_together(tracing: Tracing, sheets: Sequence[ScreenSheet]) -> Moving | No
     ]
     size = sheets[0].drawing.reach
     closed = tracing.closed(places[0].trace, size)
-    found = tracing.reached(closed, size)
+    found = tracing.reached(closed)
     if found is None:
         return None
     driven, (reach, course) = tracing.driven, found

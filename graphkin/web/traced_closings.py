@@ -1,29 +1,25 @@
 """Groups of class III and higher on a page that moves: what was cut is closed anew at every place.
 
-Near values that are known (branch_tracking) Newton's method finds them, in a page as here.
+Near values that are known (branch_tracking) the page's own script finds them.
 """
 
 from __future__ import annotations
 
-import math
-from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from typing import Any
 
 from msgspec import Struct
 from msgspec.structs import replace
 
 from graphkin.construction.core.batch import made_ready, run_moving
-from graphkin.construction.tape.emit import LOOP, value
 from graphkin.construction.tape.graph import Graph
 from graphkin.construction.tape.tape_outputs import TapeOutputs
 from graphkin.construction.tape.traced import TracedNumber
 from graphkin.construction.tape.tracer import traced_kind
-from graphkin.numbers.refined_roots import by_newton, by_secant, solved
+from graphkin.numbers.refined_roots import solved
 
 STEP = 1e-6
 """How far off the second value lies, in radians or parts of the tried length."""
-CLOSED = 1e-9
-"""Parts of the mechanism by which a closed group may miss."""
 State = tuple[float, ...]
 """What closes the groups: for each what it tries, in radians or metres, and its dyads' signs."""
 
@@ -32,7 +28,8 @@ class TracedClosing(Struct, frozen=True):
     """A step that closes a group: the inputs that hold what it tries and the signs of its dyads,
     these where the scene stands, and by how much it misses, one misfit for each link tried.
 
-    ``facing`` must be positive; ``sine`` is that of the crossing of the two loci.
+    ``facing`` must be positive; ``sine`` is that of the crossing of the two loci; ``links`` are
+    those of the group.
     """
 
     names: tuple[str, ...]
@@ -41,6 +38,7 @@ class TracedClosing(Struct, frozen=True):
     misfits: tuple[TracedNumber, ...]
     facing: TracedNumber
     sine: TracedNumber
+    links: tuple[str, ...] = ()
 
     @property
     def count(self) -> int:
@@ -93,6 +91,7 @@ def closing(
     closer: Any,
     known: Sequence[Any],
     drawn: Sequence[Any],
+    links: tuple[str, ...],
 ) -> TracedClosing:
     """What closes a group, traced on what is known."""
     trying, lift, state = closer.trying, tape.lifted, drawn_state(closer, drawn)
@@ -106,7 +105,7 @@ def closing(
         facing = facing.do("min", each)
     misfits = tuple(lift(here[one.misfit]) for one in unknowns)
     turns = tuple(one.turns for one in unknowns)
-    own = TracedClosing(names, turns, state, misfits, facing, lift(1.0))
+    own = TracedClosing(names, turns, state, misfits, facing, lift(1.0), links)
     return replace(own, sine=crossing_sine(own, tape, closer, known, tried, signs))
 
 
@@ -153,112 +152,3 @@ def result(
     needed = trying.program.behind(trying.results)
     ready = made_ready(trying.program, needed, trying.values, trying.results, frozenset(overrides))
     return run_moving(ready, trying.values, kind, overrides=overrides).values
-
-
-# --- one place -----------------------------------------------------------------------------------
-
-
-class Solver(Struct, frozen=True):
-    """What closes all groups, one after the other, near given values; ``size`` is the mechanism's.
-
-    ``misses`` give the misfit and what must be positive, of the driver's place, a state, and the
-    angles that ``near`` gives for the place.
-    """
-
-    closings: Sequence[TracedClosing]
-    misses: Sequence[Callable[..., tuple[float, ...]]]
-    near: Callable[[float], Mapping[str, Any]]
-    size: float
-
-    def __call__(self, at: float, near: State) -> State | None:
-        """The state in which the groups close; None where one does not."""
-        found = list(near)
-        for k, (place, each) in enumerate(self.placed()):
-            own = slice(place, place + each.count)
-            closed = closed_near(self.missed_all(k, at, found), found[own], each.sizes, self.size)
-            if closed is None:
-                return None
-            found[own] = closed
-        return tuple(found)
-
-    def placed(self) -> Iterator[tuple[int, TracedClosing]]:
-        """Each group with the place of what it tries."""
-        place = 0
-        for each in self.closings:
-            yield place, each
-            place += len(each.names)
-
-    def missed(self, k: int, at: float, state: list[float]) -> Callable[[float], Any]:
-        """The misfit of a group by the first that it tries."""
-        missed = self.missed_all(k, at, state)
-        return lambda value: missed([value])
-
-    def missed_all(
-        self, k: int, at: float, state: list[float]
-    ) -> Callable[[Sequence[float]], tuple[float, ...]]:
-        """The misfits of a group by all that it tries."""
-        place, each = [*self.placed()][k]
-        near = [float(angle) for angle in self.near(at).values()]
-
-        def missed(values: Sequence[float]) -> tuple[float, ...]:
-            here = [*state[:place], *values, *state[place + each.count :]]
-            return self.misses[k](at, *here, *near)
-
-        return missed
-
-
-def solver(
-    graph: Graph,
-    driver: str,
-    closings: Sequence[TracedClosing],
-    counting: Iterable[str],
-    near: Callable[[float], Mapping[str, Any]],
-    size: float,
-) -> Solver:
-    """What closes all groups of a graph; ``near`` gives the inputs ``counting`` at a place."""
-    names = [driver, *(name for each in closings for name in each.names), *counting]
-    misses = [function(graph, names, each.outputs) for each in closings]
-    return Solver(closings, misses, near, size)
-
-
-def closed_near(
-    miss: Callable[[Sequence[float]], tuple[float, ...]],
-    start: Sequence[float],
-    sizes: Sequence[float],
-    size: float,
-) -> list[float] | None:
-    """Where all misfits vanish near a start; None where they do not, or where one faces wrongly.
-
-    One is sought along the secant, as it takes least time, then by Newton's method as several are.
-    """
-    tries: list[Callable[[], list[float]]] = [lambda: by_newton(lambda x: miss(x)[:-1], start)]
-    if len(start) == 1:
-        step = STEP * sizes[0]
-        tries.insert(0, lambda: [by_secant(lambda x: miss([x])[0], start[0], step)])
-    for tried in tries:
-        try:
-            found = tried()
-            *left, facing = miss(found)
-        except (ValueError, ZeroDivisionError, OverflowError):
-            continue
-        if all(abs(each) < CLOSED * size for each in left) and facing > 0:
-            return found
-    return None
-
-
-def function(graph: Graph, names: Sequence[str], outputs: Sequence[int]) -> Callable[..., Any]:
-    """Some nodes as a function of single numbers, the inputs in the order of their names."""
-    places = {name: f"a{i}" for i, name in enumerate(names)}
-    lines = [f"def found({', '.join(places.values())}):"]
-    for number in graph.needed(outputs):
-        node = graph.nodes[number]
-        if node.op == "input":
-            lines.append(f"    v{number} = {places[node.name]}")
-        elif node.op != "number":
-            args = (value(graph, arg) for arg in node.args)
-            lines.append(f"    v{number} = {LOOP[node.op].format(*args)}")
-    lines.append(f"    return {', '.join(value(graph, output) for output in outputs)}")
-    known: dict[str, Any] = {**vars(math), "rint": round, "sin45": math.sin}
-    exec(compile("\n".join(lines), "<emitted for a closing>", "exec"), known)
-    emitted: Callable[..., Any] = known["found"]
-    return emitted

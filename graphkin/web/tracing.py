@@ -10,7 +10,9 @@ from typing import Any
 from msgspec import Struct, field
 
 from graphkin.construction.core.batch import made_ready, run_moving
+from graphkin.construction.core.kind import construction
 from graphkin.construction.core.run import Trace
+from graphkin.construction.higher_class.closed_group import ClosedGroup
 from graphkin.construction.higher_class.closure_solver import closer_of
 from graphkin.construction.higher_class.trial_rates import followed_rates
 from graphkin.construction.links.counted_turn import counted_link
@@ -19,20 +21,13 @@ from graphkin.construction.tape.tape_outputs import TapeOutputs
 from graphkin.construction.tape.traced import TracedNumber
 from graphkin.construction.tape.tracer import traced_kind
 from graphkin.mechanism import Mechanism
-from graphkin.motion.pieces import reachable_ranges, through
-from graphkin.motion.sweep import sweep_of
+from graphkin.motion.pieces import Path, reachable_ranges, through
+from graphkin.motion.sweep import Sweep, sweep_of
 from graphkin.motion.turns_counted import Turned, name_of
 from graphkin.scene.model import quantities_within
 from graphkin.web.branch_tracking import TrackedBranch, around
 from graphkin.web.page_driver import INPUT, PageDriver, Reach, reach_of, window
-from graphkin.web.traced_closings import (
-    TracedClosing,
-    closing,
-    drawn_state,
-    names_of,
-    solver,
-    tried,
-)
+from graphkin.web.traced_closings import TracedClosing, closing, drawn_state, names_of, tried
 
 SLACK = 1e-6
 """Parts of the mechanism by which a bar's length may be off where it still closes."""
@@ -120,10 +115,22 @@ class Tracing(Struct, frozen=True, dict=True):
     # --- links that only their pins turn ---------------------------------------------------------
 
     @cached_property
+    def sweep(self) -> Sweep:
+        """What the driver sweeps, as far as the page shows."""
+        if self.driven.what != "time":
+            return sweep_of(self.mechanism.scene)
+        low, high = window(self.driven)
+        return sweep_of(self.mechanism.scene, low=low, high=high)
+
+    @cached_property
+    def path(self) -> Path:
+        """The ranges of the driver, with what was followed on them."""
+        return reachable_ranges(self.sweep)
+
+    @cached_property
     def turned(self) -> Turned | None:
         """How far such links turn as the driver moves, which is in its unit."""
-        sweep = sweep_of(self.mechanism.scene)
-        turned = through(reachable_ranges(sweep).ranges[0])
+        turned = through(self.path.ranges[0])
         return None if turned is None else Turned(turned.at / self.driven.metres, turned.near)
 
     def trace_counted(self, drawn: Trace) -> dict[int, Any]:
@@ -175,7 +182,10 @@ class Tracing(Struct, frozen=True, dict=True):
             if any(each.names == names for each in self.closings):
                 continue
             known = [trace.values[arg] for arg in steps[number].args]
-            each = closing(names, self.tape, closer, known, drawn.values[number])
+            kind = construction(steps[number])
+            assert isinstance(kind, ClosedGroup)
+            state = drawn.values[number]
+            each = closing(names, self.tape, closer, known, state, kind.closes)
             self.closings.append(each)
             parts = (later for later in trace.values if number in steps[later].args)
             self.margins.update({n: each.sine for n in parts if steps[n].extra[0] < each.count})
@@ -214,16 +224,13 @@ class Tracing(Struct, frozen=True, dict=True):
         nodes = (value.node, value.imag.node)
         return any(self.graph.constant(node) is None for node in nodes)
 
-    def reached(self, closed: Sequence[int], size: float) -> tuple[Reach, TrackedBranch] | None:
+    def reached(self, closed: Sequence[int]) -> tuple[Reach, TrackedBranch] | None:
         """The range, and what closes groups on the way through it; None where nothing moves."""
         if not self.closings:
             outputs = [self.tape.outputs[i] for i in closed]
             reach = reach_of(self.driven, self.graph, outputs, self.fixed_inputs)
             return None if reach is None else (reach, TrackedBranch())
-        turning, start = self.driven.what == "turn", self.driven.start
-        names = tuple(self.fixed_inputs(start))
-        solve = solver(self.graph, INPUT, self.closings, names, self.fixed_inputs, size)
-        return around(solve, start, window(self.driven), turning=turning)
+        return around(self.path, self.driven, self.sweep.start, self.closings)
 
 
 def closing_steps(trace: Trace) -> Iterator[tuple[int, Any]]:

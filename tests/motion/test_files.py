@@ -16,9 +16,9 @@ from hypothesis import strategies as st
 
 from graphkin.cli.report.cycle_report import cycle_lines
 from graphkin.cli.report.cycle_table import cycle_table
+from graphkin.construction.higher_class.following import FollowedClosure
 from graphkin.construction.links.plates import hull
 from graphkin.mechanism import Mechanism, load
-from graphkin.motion.closures_followed import interpolated
 from graphkin.motion.curves.over_driver import pictures
 from graphkin.motion.curves.plane_paths import box_of, dotted, near_box
 from graphkin.motion.curves.sampled import sampled
@@ -235,7 +235,8 @@ def test_what_is_followed_runs_between_places_as_the_polynomial_through_the_near
     rows = [np.polynomial.Polynomial(rng.normal(size=min(4, len(at)))) for _ in range(3)]
     wanted = rng.uniform(at[0], at[-1], 5)
     after = np.clip(np.searchsorted(at, wanted), 1, len(at) - 1)
-    found = interpolated(at, np.array([row(at) for row in rows]).T, wanted, after)
+    tried = np.array([row(at) for row in rows]).T
+    found = FollowedClosure(at, tried, np.empty((len(at), 0))).between(wanted, after)
     expected = np.array([row(wanted) for row in rows]).T
     assert np.allclose(found, expected, atol=1e-6 * max(1.0, abs(expected).max()) * 100)
 

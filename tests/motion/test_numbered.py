@@ -10,7 +10,6 @@ from msgspec.structs import replace
 
 from graphkin.cli.report.piece_words import pieces_words
 from graphkin.mechanism import load
-from graphkin.motion.closures_followed import FollowedClosures
 from graphkin.motion.cycle import cycle
 from graphkin.motion.follower_limits import followers
 from graphkin.scene.model import Closure
@@ -66,16 +65,13 @@ def test_each_number_is_told_as_a_scene_writes_it(swept):
     assert len(lines) == len(swept.pieces)
 
 
-def test_pieces_of_one_number_are_told_as_one_and_what_lies_between_has_no_rows():
-    """Where the crank of the rapid return stands on the guide, two of its closures meet."""
+def test_the_motion_goes_on_where_two_closures_cross():
+    """Where the crank of the rapid return is on the guide, two of its closures cross."""
     found = cycle(load("examples/scenes/rapid-return.toml"), low=80, high=280, steps=20)
-    assert len(found.pieces) > 1
-    assert told(found) == [
-        'φ from 80.000° to 280.000°: 2 = "closure 2"',
-        "φ from 90.000° to 90.500°: no rows, two closures lie too close together",
-        "φ from 270.000° to 270.500°: no rows, two closures lie too close together",
-    ]
+    (piece,) = found.pieces
+    assert piece.branches["2"] == Closure(2)
     assert {90.0, 270.0} == set(found.left_out)
+    assert found.witnessed.agrees.all()
 
 
 def test_followed_closures_of_several_trials_are_those_that_a_search_finds():
@@ -83,20 +79,87 @@ def test_followed_closures_of_several_trials_are_those_that_a_search_finds():
     mechanism = load("examples/scenes/plates-coupled.toml")
     (piece,) = cycle(mechanism, low=0, high=30, steps=3).pieces
     course, at = piece.course, np.array([1.7, 11.3, 28.9])
-    assert course.closures is not None
+    assert course.closures
     targets = [target for target in course.program.targets if target[0] == "velocity"]
-    sought = replace(course, closures=None).columns(at, targets)
+    sought = replace(course, closures=()).columns(at, targets)
     for target, found in course.columns(at, targets).items():
         assert found == pytest.approx(sought[target], abs=1e-12), target
 
 
-def test_between_closures_that_are_not_alike_all_are_sought():
+def test_between_places_of_two_closures_nothing_is_told():
     mechanism = load("examples/scenes/plates-coupled.toml")
     (piece,) = cycle(mechanism, low=0, high=9, steps=3).pieces
     course = piece.course
-    ways, size = course.closures, len(course.closures.at)
-    turned = FollowedClosures(ways.at, ways.rows * np.where(np.arange(size) % 2, 1, -1)[:, None])
-    at, targets = np.array([4.5]), [("position", "P3")]
-    wrong = replace(course, closures=turned).columns(at, targets)
-    right = course.columns(at, targets)
-    assert wrong[targets[0]] == pytest.approx(right[targets[0]], abs=1e-12)
+    (way,) = course.closures
+    leaping = way.tried + np.where(np.arange(len(way.at)) % 2, 0.5, 0.0)[:, None]
+    wrong = replace(course, closures=(replace(way, tried=leaping),))
+    assert np.isnan(wrong.columns(np.array([4.5]), [("position", "P3")])["position", "P3"])
+
+
+def scene_of(name: str) -> str:
+    """A scene of two groups of class III, or of one of them alone."""
+    return f"tests/motion/scenes/{name}.toml"
+
+
+def leaps(found, per_unit: float) -> float:
+    """The largest way from row to row that no mean of the two velocities explains, in parts of the
+    largest way."""
+    worst = 0.0
+    for motion in found.solution.points.values():
+        way = np.diff(np.broadcast_to(motion.position, found.at.shape))
+        speed = np.broadcast_to(motion.velocity, found.at.shape)
+        led = (speed[1:] + speed[:-1]) / 2 * np.diff(found.at) * per_unit
+        worst = max(worst, float(np.abs(way - led).max() / max(np.abs(way).max(), 1e-12)))
+    return worst
+
+
+def alike(both, alone, points: str, rows=slice(None)) -> None:
+    """Hold the points of some names of one cycle to those of another."""
+    for name, motion in both.solution.points.items():
+        if name.startswith(points):
+            other = np.broadcast_to(alone.solution.points[name].position, alone.at.shape)[rows]
+            assert np.broadcast_to(motion.position, both.at.shape) == pytest.approx(
+                other, abs=1e-9
+            ), name
+
+
+def test_two_groups_on_one_crank_move_as_each_does_alone():
+    both = cycle(load(scene_of("two-triads-one-crank")), steps=90)
+    assert both.path.whole and both.path.returns
+    for name, points in (("two-triads-first", "A"), ("two-triads-second", "B")):
+        alike(both, cycle(load(scene_of(name)), steps=90), points)
+
+
+def test_two_groups_on_two_cranks_move_as_each_does_alone():
+    both = cycle(load(scene_of("two-triads-two-cranks")), low=0, high=1, steps=60)
+    first, second = np.degrees([2.0, 3.0])
+    one = cycle(load(scene_of("two-triads-first")), low=20, high=20 + first, steps=60)
+    other = cycle(load(scene_of("triad-of-one-crank")), low=20 - second, high=20, steps=60)
+    alike(both, one, "A")
+    alike(both, other, "B", slice(None, None, -1))
+
+
+@pytest.mark.parametrize("name", ["two-triads-one-crank", "triad-moves-triad"])
+def test_no_group_leaps_from_row_to_row(name):
+    found = cycle(load(scene_of(name)), steps=360)
+    assert found.path.whole and found.path.returns
+    assert leaps(found, np.radians(1) / 2.0) < 0.01
+
+
+def test_a_group_that_another_moves_is_numbered_with_it():
+    found = cycle(load(scene_of("triad-moves-triad")), low=95, high=160, steps=6)
+    numbers = [(piece.branches["a2"].number, piece.branches["b2"].number) for piece in found.pieces]
+    assert numbers == [(2, 4), (2, 6), (1, 6)]
+    assert found.witnessed.agrees.all()
+
+
+def test_a_followed_closure_is_led_to_where_it_meets_another():
+    """At a fold two closures are one: from both sides of it the sine of crossing goes to zero."""
+    (*_, last) = cycle(load("examples/scenes/stephenson-3-crank.toml")).pieces
+    end = last.high
+    before = end.at - np.array([1e-4, 1e-6, 1e-8])
+    sines = last.course.margins(before)[0]
+    assert end.kind == "dead"
+    # the sine goes as the root of the way that is left
+    assert sines[:-1] / sines[1:] == pytest.approx(10.0, rel=0.02)
+    assert np.isnan(last.course.margins(np.array([end.at + 1e-8]))[0, 0])

@@ -7,13 +7,12 @@ from collections import defaultdict
 from collections.abc import Iterator, Sequence
 from functools import cache
 from itertools import combinations
-from math import acos, degrees, hypot, isclose, sqrt
+from math import acos, degrees, hypot, isclose
 from typing import Any
 
 import numpy as np
 import pytest
 import shapely
-from msgspec import Struct, field
 from msgspec.structs import replace
 
 from graphkin.construction.core.drawn_scene import Drawing
@@ -29,20 +28,10 @@ from graphkin.motion.sweep import sweep_of
 from graphkin.numbers.plane import Ratio
 from graphkin.scene.model import FRAME
 from graphkin.text import words
-from graphkin.web.branch_tracking import (
-    around,
-    drawn,
-    extrapolated,
-    halved_between,
-    last_value,
-    returns,
-)
-from graphkin.web.branch_tracking import followed as tracked
 from graphkin.web.frames import place_in
 from graphkin.web.moving import Moving, moving, still
 from graphkin.web.page_driver import driven_by, window
 from graphkin.web.screen_sheets import ScreenSheet, screen_sheets
-from graphkin.web.traced_closings import TracedClosing
 from tests.chosen import EVERY, HALVES
 from tests.documents.sheet_tools import mechanism_named
 from tests.mechanisms import mechanism_of
@@ -339,85 +328,20 @@ def test_a_rocker_that_swings_about_nought_stands_within_its_range(angle, place)
     "name", ["stephenson-2-ternary", "stephenson-3-crank"][: 2 if EVERY else 1]
 )
 def test_a_group_of_class_iii_goes_as_far_as_its_cycle(name):
-    """The motion's own search for dead points, which counts closures anew at every place."""
     path = reachable_ranges(sweep_of(named(name).scene))
     reach = page_of(name)[1].reach
     assert isclose(reach.low, path.ranges[0][0].low.at, abs_tol=1e-4)
     assert isclose(reach.high, path.ranges[0][-1].high.at, abs_tol=1e-4)
 
 
-def test_a_misfit_is_halved_to_where_it_vanishes():
-    """However small it is, and whatever stands beside it."""
-    found = halved_between(lambda x: (1e-3 * (x * x - 2), 5.0), 0.0, 2.0)
-    assert found == pytest.approx(2**0.5, abs=1e-12)
-
-
-class Solved(Struct):
-    """A group that is tried by one angle, and closes at a multiple of the driver's place as far as
-    ``end``; what was asked is kept."""
-
-    end: float
-    ratio: float = 0.5
-    asked: list[float] = field(default_factory=list)
-    closings: tuple[TracedClosing, ...] = (
-        TracedClosing(("tried",), (True,), (0.5,), (), None, None),
-    )
-
-    def placed(self):
-        return [(0, self.closings[0])]
-
-    def __call__(self, at, near):
-        self.asked.append(at)
-        return (self.ratio * at,) if at <= self.end else None
-
-    def missed(self, k, at, state):
-        return lambda value: (value - self.ratio * at, 1.0)
-
-
-def test_the_way_of_a_group_is_halved_again_and_again_where_it_ends():
-    """From 1 by 360ths of what is asked; beyond the end half, a quarter … of that is tried."""
-    solve = Solved(2.3, 0.01)
-    way = tracked(solve, 1.0, 361.0)
-    assert way.at[:2] == (1.0, 2.0)
-    assert solve.asked[:8] == [1, 2, 3, 2.5, 2.25, 2.75, 2.5, 2.375]
-    assert 0 <= 2.3 - way.at[-1] < 2**-17
-    assert way.states == tuple((0.01 * each,) for each in way.at)
-    assert tracked(Solved(9.0), 1.0, 8.2).at[-1] == 8.2
-
-
-@pytest.mark.parametrize("start", [1.0, 17.04, -42.263])
-@pytest.mark.parametrize(("times", "returning"), [(1.0, True), (0.5, False)])
-def test_a_turn_is_whole_where_a_group_is_at_its_end_what_it_was(start, times, returning):
-    """Wherever the driver stands: 17.04 and 360 steps of one degree are not quite 377.04."""
-    solve = Solved(999.0, times * np.pi / 180)
-    low, high = start - 360, start + 360
-    reach, way = around(solve, start, (low, high), turning=True)
-    assert returns(solve, tracked(solve, start, high)) is returning
-    first = -360.0 if start < 0 else 0.0
-    assert (reach.low, reach.high) == ((first, first + 360) if returning else (low, high))
-    assert reach.whole is returning
-    assert [way.at[0], way.at[-1], len(way.at)] == (
-        [start, high, 361] if returning else [low, high, 721]
-    )
-    assert not around(solve, 1.0, (0.0, 361.0), turning=False)[0].whole
-    assert around(Solved(1.0), 1.0, (1.0, 2.0), turning=False) is None
-
-
-def test_the_last_value_that_can_be_tried_is_found_on_either_side():
-    """A dyad is drawn as far as a root is real; the sense leads to where it is."""
-    (each,) = Solved(1.0).closings
-    for sign in (1.0, -1.0):
-        missed = lambda x, s=sign: (sqrt(s * (x - 0.5)), 1.0)  # noqa: E731
-        assert drawn(missed, 0.5 + sign) and not drawn(missed, 0.5 - sign)
-        for off in (0.0, 5e-5, -5e-5, 3.9e-4):
-            last, sense = last_value(missed, 0.5 + off * sign, each)
-            assert (last, sense) == (pytest.approx(0.5, abs=1e-15), sign)
-        assert last_value(missed, 0.5 + 5e-4 * sign, each) is None
-
-
-def test_a_state_goes_on_as_before_but_for_signs():
-    assert extrapolated([1.0, 3.0], [(5.0, -1.0), (4.0, 1.0)], 7.0) == (2.0, 1.0)
-    assert extrapolated([1.0], [(5.0, -1.0)], 7.0) == (5.0, -1.0)
+def test_the_way_of_a_group_has_places_close_to_where_a_dyad_is_stretched():
+    """There the sign of the dyad changes, and a page knows the group on both sides."""
+    found = page_of("stephenson-2-ternary")[1]
+    at, states = found.data["course"]["at"], np.array(found.data["course"]["states"])
+    turned = np.flatnonzero((states[1:] == -states[:-1]).any(axis=1))
+    step = max(np.diff(at))
+    assert turned.size
+    assert all(at[k + 1] - at[k] < step / 100 for k in turned)
 
 
 def test_what_only_has_a_place_stands_still():

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from itertools import groupby, pairwise
+from itertools import groupby
 from typing import TYPE_CHECKING
 
 from graphkin.scene.model import Closure
@@ -56,25 +56,23 @@ def pieces_words(cycle: Cycle) -> tuple[str, list[str]]:
 
 
 def number_words(cycle: Cycle, pieces: Sequence[Piece]) -> Iterator[str]:
-    """The numbers that the closure of a group of higher class has along its one motion.
+    """The numbers that the closures of groups of higher class have along their one motion.
 
-    Pieces of one number that follow one another are told as one; too short ones are not told.
+    Pieces of the same numbers that follow one another are one line; too short ones have none.
     """
     yield "one motion through the whole range; to stand in it, write in [branches]"
-    for (name, number), run in groupby(pieces, numbered):
+    for numbers, run in groupby(pieces, numbered):
         part = list(run)
         low, high = part[0].low.at, part[-1].high.at
         if not is_short(cycle, low, high):
-            yield f'{span_words(cycle, low, high)}: {name} = "closure {number}"'
-    for before, after in pairwise(pieces):
-        low, high = before.high.at, after.low.at
-        if not is_short(cycle, low, high):
-            yield f"{span_words(cycle, low, high)}: no rows, two closures lie too close together"
+            stated = ", ".join(f'{name} = "closure {number}"' for name, number in numbers)
+            yield f"{span_words(cycle, low, high)}: {stated}"
 
 
-def numbered(piece: Piece) -> tuple[str, int]:
-    """The link whose closure is numbered on a piece, and its number."""
-    return next((k, b.number) for k, b in piece.branches.items() if isinstance(b, Closure))
+def numbered(piece: Piece) -> tuple[tuple[str, int], ...]:
+    """The links whose closures are numbered on a piece, and their numbers."""
+    found = piece.branches.items()
+    return tuple((name, b.number) for name, b in found if isinstance(b, Closure))
 
 
 def is_short(cycle: Cycle, low: float, high: float) -> bool:

@@ -19,7 +19,7 @@ from graphkin.construction.core.vocabulary import Action
 from graphkin.construction.higher_class.trial import MOST, Trial
 from graphkin.numbers.arithmetic import FLOAT, phase
 from graphkin.numbers.arrays import np
-from graphkin.numbers.common_roots import solutions
+from graphkin.numbers.common_roots import roots_beside, solutions
 from graphkin.numbers.kinds import ball_kind, in_doubles, kind_of
 from graphkin.numbers.roots import roots_and_touches, roots_beside_poles
 from graphkin.numbers.windows import Windows, fits_beside, narrowed
@@ -97,12 +97,16 @@ class Trying(Trial, frozen=True, dict=True):
         arrays = [np.atleast_1d(value) for value in known]
         size = max((len(array) for array in arrays), default=1)
         arrays = [np.broadcast_to(array, size) for array in arrays]
-        chunk = self.together(arrays, size)
-        parts = (
-            self.closures([array[start : start + chunk] for array in arrays])
+        return self.parts(np.array(self.every(arrays, size).sure(number)))
+
+    def every(self, known: Sequence[Any], size: int) -> Closures:
+        """Every closure of any number of elements, a part of them at a time."""
+        chunk = self.together(known, size)
+        parts = [
+            self.closures([array[start : start + chunk] for array in known])
             for start in range(0, size, chunk)
-        )
-        return self.parts(np.array([row for part in parts for row in part.sure(number)]))
+        ]
+        return joined(parts)
 
     def together(self, known: Sequence[Any], size: int) -> int:
         """How many elements are closed at once."""
@@ -117,6 +121,17 @@ class Trying(Trial, frozen=True, dict=True):
         """What is tried (…, n), signs (…, k) and sines of crossing (…) of closures in rows."""
         size = len(self.unknowns)
         return rows[..., :size], rows[..., size:-1], rows[..., -1]
+
+    def closed_beside(self, known: Sequence[Any], tried: Any, signs: Any) -> Any:
+        """Trial values at which all closes beside some (K, n), by Newton's method.
+
+        NaN where it does not come to rest.
+        """
+
+        def missed(row: Any, share: Any) -> Any:
+            return self.misfits([array[row] for array in known], share, signs[row])
+
+        return roots_beside(missed, tried)
 
     def closures_of(self, known: Sequence[Any]) -> Closures:
         """Every closure on known scalars, in the order of their numbers; the last ones are kept.
@@ -323,13 +338,19 @@ class Closures(Struct, frozen=True):
     """All closures of some elements: rows of element, trial value, signs and sine of crossing.
 
     ``whole`` has the rows of what may be closures too (``touching``): the misfit comes there so
-    near zero that rounding hides whether it crosses it.
+    near zero that rounding hides whether it crosses it. ``complete`` tells that there are proved
+    to be no others; a search on a grid proves nothing.
     """
 
     size: int
     table: Any
     whole: Any
     touching: Any
+    complete: bool = False
+
+    def of(self, owner: int) -> Any:
+        """The closures of one element in rows: trial values, signs, sine of crossing."""
+        return self.table[self.table[:, 0] == owner, 1:]
 
     @property
     def merging(self) -> Any:
@@ -370,6 +391,21 @@ class Closures(Struct, frozen=True):
         if before < number and self.merging[self.whole[:, 0] == 0].any():
             return MergingError(before + 1, number)
         return None
+
+
+def joined(parts: Sequence[Closures]) -> Closures:
+    """The closures of some elements after those of others."""
+    if len(parts) == 1:
+        return parts[0]
+    before = np.cumsum([0, *(part.size for part in parts)])
+    for start, part in zip(before, parts, strict=False):
+        part.table[:, 0] += start
+        part.whole[:, 0] += start
+    table, whole, touching = (
+        np.concatenate(column)
+        for column in zip(*((p.table, p.whole, p.touching) for p in parts), strict=True)
+    )
+    return Closures(int(before[-1]), table, whole, touching, all(p.complete for p in parts))
 
 
 def sign_table(count: int) -> list[tuple[int, ...]]:

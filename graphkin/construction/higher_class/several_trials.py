@@ -22,7 +22,6 @@ from graphkin.numbers.common_roots import (
     corners_of,
     joined,
     may_vanish,
-    roots_beside,
     steps_of,
 )
 
@@ -84,18 +83,6 @@ class SeveralTrials(Trying, frozen=True, dict=True):
         for _ in range(TRACING):
             share = share + steps_of(missed, every, share, missed(every, share))
         return np.column_stack([tried[:, :1], share])
-
-    def closed_beside(self, known: Sequence[Any], tried: Array, signs: Array) -> Array:
-        """Trial values at which all closes beside some (K, n), by Newton's method.
-
-        NaN where it does not come to rest.
-        """
-
-        def missed(row: Array, share: Array) -> Array:
-            found = self.found([array[row] for array in known], share, signs[row])
-            return np.stack([found[one.misfit] for one in self.unknowns], axis=1)
-
-        return roots_beside(missed, tried)
 
     def row_of(self, value: Sequence[Any]) -> Array:
         """A closure as numbers: trial values, signs, the sine of crossing."""

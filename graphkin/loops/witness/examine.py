@@ -64,7 +64,7 @@ class Closed(Struct, frozen=True, eq=False, dict=True):
         return Magnitudes.of(motion, self.solved.rounding, breadth(motion))
 
     @cached_property
-    def branches(self) -> dict[bool, dict[str, Flags]]:
+    def branches(self) -> dict[int, dict[str, Flags]]:
         """The branch conditions, with numbers of closures and without, as far as looked at."""
         return {}
 
@@ -89,7 +89,7 @@ class Concerned(Struct, frozen=True, eq=False, dict=True):
             self.closed[key] = Closed(found)
         return self.closed[key]
 
-    def branches(self, closed: Closed, *, numbered: bool) -> dict[str, Flags]:
+    def branches(self, closed: Closed, *, numbered: int) -> dict[str, Flags]:
         """The branch conditions of closed loops."""
         if numbered not in closed.branches:
             found = branch_conditions(self, closed.solved, numbered=numbered)
@@ -138,7 +138,7 @@ class Check(Struct, frozen=True, eq=False, dict=True):
             self.parts[within] = Concerned(scene_of(loops), loops)
         return self.parts[within]
 
-    def examine(self, solution: Solution, *, numbered: bool = True) -> Examined:
+    def examine(self, solution: Solution, *, numbered: int = NUMBERED) -> Examined:
         """Solve the loops from the solution's positions and compare all that the solution holds.
 
         Links and accelerations of which it says nothing are left alone.
@@ -162,7 +162,7 @@ class Check(Struct, frozen=True, eq=False, dict=True):
         WitnessError where the loops do not close or are singular, StructureError where drivers
         are missing.
         """
-        examined = self.examine(solution, numbered=numbered)
+        examined = self.examine(solution, numbered=NUMBERED if numbered else 0)
         difference, quantity, limit = examined.told(0)
         broken = tuple(name for name, holds in examined.branches.items() if not holds[0])
         report = examined.solved.report
@@ -181,12 +181,12 @@ class Check(Struct, frozen=True, eq=False, dict=True):
 
 
 def branch_conditions(
-    concerned: Concerned, solved: LoopSolution, *, numbered: bool = True
+    concerned: Concerned, solved: LoopSolution, *, numbered: int = NUMBERED
 ) -> dict[str, Flags]:
     """Whether each statement of [branches] holds: arrays of shape (N,).
 
-    Numbers of closures, and ways of groups other than dyads, are verified on at most ``NUMBERED``
-    settings of a batch, evenly spread; not at all without ``numbered``.
+    Numbers of closures, and ways of groups other than dyads, are verified on at most so many
+    settings of a batch, evenly spread, as are ``numbered``.
     """
     found: dict[str, Flags] = {}
     stated = concerned.scene.branches.items()
@@ -209,7 +209,7 @@ def branch_conditions(
             elif not numbered:
                 continue
             else:
-                holds = picked_rows(branch, solved, group, name)
+                holds = picked_rows(branch, solved, group, name, numbered)
             found[name] = found.get(name, True) & holds
     return found
 
@@ -232,13 +232,14 @@ def way_of_dyad(branch: Way, solved: LoopSolution, group: Group) -> Flags:
     return np.asarray(branch.way * (stands - other) > -ON_LINE * loops.size - 4 * error)
 
 
-def picked_rows(branch: Way | Closure, solved: LoopSolution, group: Group, name: str) -> Flags:
-    """Whether a group stands as stated, by looking for all its closures."""
+def picked_rows(
+    branch: Way | Closure, solved: LoopSolution, group: Group, name: str, most: int
+) -> Flags:
+    """Whether a group stands as stated, by looking for all its closures in ``most`` settings."""
     count = solved.loops.numbers.count
     holds = np.ones(count, dtype=np.bool_)
     settings = np.flatnonzero(solved.report.good)
-    spread = np.linspace(0, max(len(settings) - 1, 0), min(len(settings), NUMBERED))
-    for n in settings[np.unique(spread.astype(int))]:
+    for n in settings[evenly(len(settings), most)]:
         if isinstance(branch, Closure):
             row = solved.unknowns[n]
             numbers = closure_numbers(solved.loops, group, row, int(n))
@@ -246,6 +247,14 @@ def picked_rows(branch: Way | Closure, solved: LoopSolution, group: Group, name:
         else:
             holds[n] = farthest(branch, solved, group, name, int(n))
     return holds
+
+
+def evenly(count: int, most: int) -> list[int]:
+    """The numbers of at most so many of some things, evenly spread; the middle one of one."""
+    if most == 1:
+        return [count // 2] if count else []
+    spread = np.linspace(0, max(count - 1, 0), min(count, most))
+    return [*dict.fromkeys(spread.astype(int).tolist())]
 
 
 def farthest(branch: Way, solved: LoopSolution, group: Group, name: str, n: int) -> bool:
@@ -334,7 +343,7 @@ def examine(
     solution: Solution,
     values: Mapping[str, Any] | None,
     *,
-    numbered: bool = True,
+    numbered: int = NUMBERED,
 ) -> Examined:
     """Both routes side by side, by ``Check.examine``."""
     return Check(scene, values).examine(solution, numbered=numbered)
