@@ -300,6 +300,8 @@ def columns_at(
             name = step.name or (kind.found_link if kind else "")
             if n in piece.course.crossings and name:
                 margins.setdefault(name, np.full(len(at), np.nan))[rows] = margin
+    for target in targets or ():
+        columns.setdefault(target, np.full(len(at), np.nan))
     return Columns(which, columns, margins)
 
 
