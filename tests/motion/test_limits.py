@@ -15,6 +15,7 @@ from graphkin.motion.refine import crossings_of_nought
 from graphkin.motion.single_loop import class_of, loop_of
 from tests.bench.chain import scene as chain
 from tests.motion.linkages import cosine_rule, four_bar, slider_crank
+from tests.scene_files import FOLDER
 
 EXACT = 1e-9
 
@@ -136,3 +137,12 @@ def test_a_crossing_does_not_depend_on_the_brackets_beside_it(enough):
         crossings_of_nought(value, lows[k : k + 1], highs[k : k + 1], enough)[0] for k in range(3)
     ]
     assert together.tolist() == alone
+
+
+def test_a_block_turns_round_where_the_number_of_its_closure_changes():
+    """The arms of a scissor lift lie flat on one another there: the block is an arm away."""
+    found = cycle(load(FOLDER / "motion/scissor-lift-cylinder.toml"), steps=8)
+    block = next(each for each in followers(found) if each.name == "3")
+    (number,) = (piece.high.at for piece in found.pieces if piece.high.kind == "number")
+    assert block.high.value == pytest.approx(1, abs=1e-12)
+    assert block.high.at == pytest.approx(number, abs=1e-6)
