@@ -81,7 +81,7 @@ def motion(cycle: Cycle, words: Words, frames: int = FRAMES) -> FrameSequence:
         raise SceneError(stands(cycle))
     low, high = shown_range(cycle)
     places, order = (
-        ([cycle.sweep.start + TURN * i / frames for i in range(frames)], list(range(frames)))
+        (round_about(cycle, frames), list(range(frames)))
         if goes_round(cycle) and cycle.path.returns
         else end_to_end(cycle, low, high, frames)
     )
@@ -105,6 +105,12 @@ def stands(cycle: Cycle) -> Problem:
     return Problem("the animation", found, "a driver that moves", "graphkin check shows the range")
 
 
+def round_about(cycle: Cycle, frames: int) -> list[float]:
+    """The places of the driver's whole circle, from where the scene stands."""
+    way = cycle.path.period / frames
+    return [cycle.sweep.start + way * i for i in range(frames)]
+
+
 def goes_round(cycle: Cycle) -> bool:
     """Whether the driver turns fully."""
     return cycle.sweep.whole and cycle.path.whole
@@ -125,11 +131,11 @@ def end_to_end(cycle: Cycle, low: float, high: float, frames: int) -> tuple[list
 
 
 def place_in(cycle: Cycle, low: float, high: float) -> float:
-    """Where the scene stands, whole turns apart, within a range; the time for which it is drawn."""
+    """Where the scene stands, whole circles apart, within a range; the time at which it is drawn."""
     start = cycle.sweep.start
     if cycle.sweep.what == "time":
         return float(cycle.scene.values.get(TIME, start))
-    return next((start + turn for turn in cycle.sweep.turns if low <= start + turn <= high), start)
+    return cycle.path.found_at(start, low, high)
 
 
 def shown_range(cycle: Cycle) -> tuple[float, float]:
@@ -153,6 +159,8 @@ def shown_range(cycle: Cycle) -> tuple[float, float]:
         low = float(at[at > inner[0].max()].min(initial=middle))
     if pieces[-1].high.kind == "dead" and inner[1].size:
         high = float(at[at < inner[1].min()].max(initial=middle))
+    if not low < high:  # the scene stands where rates have grown
+        low, high = pieces[0].low.at, pieces[-1].high.at
     return clear_of_ends(cycle, low, high)
 
 
@@ -195,9 +203,9 @@ def made(
 
 
 def piece_at(cycle: Cycle, place: float) -> tuple[Piece | None, float]:
-    """The piece that holds a place, whole turns apart, and the place within it."""
+    """The piece that holds a place, whole circles apart, and the place within it."""
     for piece in cycle.path.ranges[0]:
-        for turn in cycle.sweep.turns:
+        for turn in cycle.path.shifts(place):
             if piece.low.at <= place + turn <= piece.high.at:
                 return piece, place + turn
     return None, place

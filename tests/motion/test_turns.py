@@ -15,7 +15,7 @@ from graphkin.mechanism import Mechanism, load
 from graphkin.motion.cycle import Cycle, cycle
 from graphkin.motion.driving import stated_motion
 from graphkin.motion.motion_curves import curves_of
-from graphkin.motion.period import strangers, turns_to_return
+from graphkin.motion.pieces import strangers
 from graphkin.scene.read_scene import read_scene, read_text
 from graphkin.structure.turn_counting import counted_near, counting, place_of_turns
 from graphkin.text.errors import GraphkinError
@@ -157,9 +157,10 @@ def test_the_arm_beyond_half_a_turn_is_followed_by_range_and_moving_page():
 def test_a_mechanism_comes_back_after_as_many_turns_as_its_wheels_need(name, links, turns):
     path = cycle(scene(name), steps=4).path
     assert path.whole
-    assert path.returns is (turns == 1)
+    assert path.returns
     assert strangers(path) == links
-    assert turns_to_return(path) == turns
+    assert path.turns == turns
+    assert path.spans == ((0, turns * 360),)
 
 
 WANKEL = """
