@@ -20,8 +20,10 @@ End = Literal["dead", "change", "number", "window"]
 SUSPECT = 0.3
 """Sine of a crossing below which a minimum is looked at more closely."""
 OPEN = 0.01
-"""Sine of a crossing that does not touch nought, whatever its samples about it foretell: where a cam's
-law changes its acceleration at once, so does the place of a centre of curvature."""
+"""Sine of a crossing that does not touch nought, whatever the samples about it foretell.
+
+Where a cam's law changes its acceleration at once, the place of a centre of curvature jumps.
+"""
 WIDE = 3
 """Steps of the grid between the samples from which a change point is found."""
 FEWEST = 64

@@ -56,7 +56,8 @@ def turns_between(first: Course, places: Reals, last: Course, turns: int) -> int
     after = last.columns(places + turns * TURN, targets)
     count = 1
     for target in targets:
-        ratio = after[target] / before[target]
+        with np.errstate(invalid="ignore"):
+            ratio = after[target] / before[target]
         known = ratio[np.isfinite(ratio)]
         if known.size:
             count = lcm(count, repeated(float(np.angle(known[0])) / (2 * pi)))

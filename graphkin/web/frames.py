@@ -20,7 +20,6 @@ from graphkin.construction.core.solution import Verdict
 from graphkin.documents.scaling import drawing, natural_seconds, targets_of
 from graphkin.drawing.scale import Scales
 from graphkin.mechanism import Mechanism
-from graphkin.motion.driving import TURN
 from graphkin.numbers.arrays import np
 from graphkin.scene.expression import TIME
 from graphkin.text import Words
@@ -28,6 +27,7 @@ from graphkin.text.errors import GraphkinError, Problem, SceneError
 
 if TYPE_CHECKING:
     from graphkin.motion.cycle import Cycle
+    from graphkin.motion.jumps import Jump
     from graphkin.motion.pieces import Piece
 
 FRAMES = 72
@@ -74,9 +74,13 @@ class FrameSequence(Struct, frozen=True):
 def motion(cycle: Cycle, words: Words, frames: int = FRAMES) -> FrameSequence:
     """The moments of a cycle, constructed one by one with the closures that hold there.
 
-    Raises SceneError where there is nothing to be moved.
+    Raises SceneError where there is nothing to be moved, and where something jumps.
     """
+    from graphkin.motion.jumps import jumps
+
     reached = cycle.ranges[0]
+    if found := jumps(cycle):
+        raise SceneError(leap(found[0], cycle.sweep.unit))
     if reached[1] - reached[0] < LITTLE * (cycle.sweep.high - cycle.sweep.low):
         raise SceneError(stands(cycle))
     low, high = shown_range(cycle)
@@ -96,6 +100,13 @@ def motion(cycle: Cycle, words: Words, frames: int = FRAMES) -> FrameSequence:
     start = some[shown[0]].alone
     moments = tuple(replace(m, alone=replace(m.alone, chosen=start)) for m in some)
     return FrameSequence(cycle, moments, shown, low, high, reached)
+
+
+def leap(jump: Jump, unit: str) -> Problem:
+    """The problem of a motion in which something jumps."""
+    what = f"link {jump.of}" if jump.turns else jump.of
+    found = f"{what} jumps between {jump.low:.6g} and {jump.high:.6g} {unit}"
+    return Problem("the animation", found, "a motion", "graphkin cycle says how far it jumps")
 
 
 def stands(cycle: Cycle) -> Problem:
@@ -131,7 +142,7 @@ def end_to_end(cycle: Cycle, low: float, high: float, frames: int) -> tuple[list
 
 
 def place_in(cycle: Cycle, low: float, high: float) -> float:
-    """Where the scene stands, whole circles apart, within a range; the time at which it is drawn."""
+    """Where the scene stands, circles apart, within a range; the time at which it is drawn."""
     start = cycle.sweep.start
     if cycle.sweep.what == "time":
         return float(cycle.scene.values.get(TIME, start))

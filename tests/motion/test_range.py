@@ -119,7 +119,9 @@ def test_limits_of_a_range_are_where_a_square_root_ends():
     assert near[0] / near[1] == pytest.approx(sqrt(100), rel=1e-3)
 
 
-@pytest.mark.parametrize(("base", "motion"), [(29, "harmonic"), (34, "harmonic"), (25, "parabolic")])
+@pytest.mark.parametrize(
+    ("base", "motion"), [(29, "harmonic"), (34, "harmonic"), (25, "parabolic")]
+)
 def test_a_cam_turns_fully_though_its_curvature_jumps_where_a_dwell_ends(base, motion):
     text = scene_text("motion/knife-cam-after-a-dwell", base=base, motion=motion)
     found = cycle(Mechanism(read_text(text, "cam")), steps=36)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Sequence
 from typing import TYPE_CHECKING
 
 from graphkin.cli.report.piece_words import at_words, length_words, pieces_words, short
@@ -15,6 +15,7 @@ if TYPE_CHECKING:
     from graphkin.motion.ends import Event
     from graphkin.motion.events import Singular
     from graphkin.motion.follower_limits import Dwell, Follower, Limit
+    from graphkin.motion.jumps import Jump
     from graphkin.motion.pieces import Path
     from graphkin.motion.single_loop import Loop
     from graphkin.motion.sweep import Sweep
@@ -30,8 +31,8 @@ SHOWN = 6
 """Places left out that are listed."""
 
 
-def cycle_lines(cycle: Cycle) -> Iterator[str]:
-    """The whole report of a cycle, line by line."""
+def cycle_lines(cycle: Cycle, found_jumps: Sequence[Jump] = ()) -> Iterator[str]:
+    """The whole report of a cycle, line by line, with the jumps that were found in it."""
     from graphkin.motion.follower_limits import followers
     from graphkin.motion.single_loop import loop_of
 
@@ -52,6 +53,7 @@ def cycle_lines(cycle: Cycle) -> Iterator[str]:
     loop = loop_of(cycle)
     yield from labelled("loop", loop_words(cycle, loop) if loop is not None else [])
     yield from labelled("rows", [rows_words(cycle)])
+    yield from labelled("motion", list(motion_words(cycle, found_jumps)))
     yield from labelled("witness", [witness_words(cycle)])
     yield from labelled("digits", list(digits_words(cycle)))
 
@@ -192,8 +194,8 @@ def follower_words(cycle: Cycle, found: Follower, steady: bool) -> list[str]:
 def dwell_words(cycle: Cycle, found: Follower, dwell: Dwell) -> str:
     """Where a follower rests."""
     ends = [at_words(cycle.sweep, end, name=False) for end in (dwell.start, dwell.end)]
-    letter = cycle.sweep.coordinate.letter
-    return f"it rests at {value_words(cycle, found, dwell.value)} for {letter} from {ends[0]} to {ends[1]}"
+    where = f"{cycle.sweep.coordinate.letter} from {' to '.join(ends)}"
+    return f"it rests at {value_words(cycle, found, dwell.value)} for {where}"
 
 
 def limit_words(cycle: Cycle, found: Follower, limit: Limit) -> str:
@@ -288,6 +290,27 @@ def rows_words(cycle: Cycle) -> str:
     places = [at_words(cycle.sweep, float(at), name=False) for at in left]
     which = listed(places) if len(left) <= SHOWN else f"{places[0]} … {places[-1]}"
     return f"{words}; {len(left)} positions left out, they do not close or are singular: {which}"
+
+
+def motion_words(cycle: Cycle, found: Sequence[Jump]) -> Iterator[str]:
+    """Whether every point goes from row to row as its velocities lead it, or where it jumps."""
+    if not found:
+        yield "from row to row every point goes as its velocity leads it"
+    for each in found[:SHOWN]:
+        yield jump_words(cycle, each)
+    if len(found) > SHOWN:
+        yield f"and {len(found) - SHOWN} more jumps"
+
+
+def jump_words(cycle: Cycle, found: Jump) -> str:
+    """Where something jumps, and how far."""
+    low, high = (at_words(cycle.sweep, at, name=False) for at in (found.low, found.high))
+    where = f"between {cycle.sweep.coordinate.letter} = {low} and {high}"
+    if found.turns:
+        ways = [f"{angle:.3f}°" for angle in (found.way, found.led)]
+        return f"{where} link {found.of} turns {ways[0]} at once where its rate gives {ways[1]}"
+    ways = [length_words(cycle.sweep, way) for way in (found.way, found.led)]
+    return f"{where} {found.of} jumps {ways[0]} where its velocity gives {ways[1]}"
 
 
 def witness_words(cycle: Cycle) -> str:
