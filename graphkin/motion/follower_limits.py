@@ -13,7 +13,8 @@ from graphkin.construction.core.quantities import OMEGA
 from graphkin.motion.course import Reals
 from graphkin.motion.cycle import Cycle, columns_at
 from graphkin.motion.driving import TURN
-from graphkin.motion.pieces import ALIKE, BACK, Range
+from graphkin.motion.period import BACK
+from graphkin.motion.pieces import ALIKE, Range
 from graphkin.motion.refine import crossings_of_nought
 from graphkin.scene.model import Link, Scene
 
@@ -197,7 +198,7 @@ def follower(
     dwells = tuple(Dwell(*rest, float(where[np.searchsorted(every, rest[0])])) for rest in rests)
     around = abs(float(where[-1] - where[0])) > TURN / 2
     full = line is not None and whole(cycle, number) and around
-    strokes = None, None
+    strokes: tuple[float | None, float | None] = None, None
     if again and not full and len(limits) == 2:
         left = [left_at(limit.at, dwells) for limit in (low, high)]
         strokes = (high.at - left[0]) % circle(cycle), (low.at - left[1]) % circle(cycle)

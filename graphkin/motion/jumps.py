@@ -42,7 +42,7 @@ class Jump(Struct, frozen=True):
     led: float
 
 
-class Motion(Struct, frozen=True, eq=False):
+class PlacesAndRates(Struct, frozen=True, eq=False):
     """Places with their first and second derivatives by u in SI: (K, N) at ``at`` (N,).
 
     A wheel is a point of the circle of radius 1. ``size`` (K, 1) is what each is large against.
@@ -54,13 +54,13 @@ class Motion(Struct, frozen=True, eq=False):
     bend: Any
     size: Any
 
-    def rows(self, kept: Any) -> Motion:
+    def rows(self, kept: Any) -> PlacesAndRates:
         """Some of the rows."""
         places = (each[:, kept] for each in (self.place, self.rate, self.bend))
-        return Motion(self.at[kept], *places, self.size)
+        return PlacesAndRates(self.at[kept], *places, self.size)
 
 
-class Followed:
+class CycleTracker:
     """What a cycle moves, and how it moves there.
 
     ``names`` are points and, as axes, the links of wheels that have one point only. Where links
@@ -84,7 +84,7 @@ class Followed:
                 self.targets.append(wanted)
         self.size = np.ones((len(self.names), 1))
 
-    def between(self, at: Reals) -> Motion:
+    def between(self, at: Reals) -> PlacesAndRates:
         """How they move at some places, those left out that have no motion."""
         cycle, wanted = self.cycle, [target for each in self.targets for target in each]
         columns = columns_at(cycle.sweep, cycle.path, at, wanted, geometric=True).columns
@@ -94,25 +94,25 @@ class Followed:
         bend[turns] = (1j * bend - rate**2)[turns] * place[turns]
         rate[turns] = 1j * rate[turns] * place[turns]
         known = np.isfinite(place + rate + bend).all(axis=0)
-        return Motion(at, place, rate, bend, self.size).rows(known)
+        return PlacesAndRates(at, place, rate, bend, self.size).rows(known)
 
-    def at_rows(self, rows: Any) -> Motion:
+    def at_rows(self, rows: Any) -> PlacesAndRates:
         """How they move at some rows of the cycle, by its own solution where that says all."""
         cycle, at = self.cycle, self.cycle.at[rows]
         driver, values = cycle.sweep.driver, cycle.scene.values
         speed = 1.0 if driver is None else float(driver.speed.si(values))
         push = 0.0 if driver is None else float(driver.acceleration.si(values))
         points = [cycle.solution.points.get(of) for _, of in self.names]
-        told = [[getattr(each, kind, None) for kind in KINDS] for each in points]
+        told: list[list[Any]] = [[getattr(each, kind, None) for kind in KINDS] for each in points]
         if not speed or any(value is None for each in told for value in each):
             return self.between(at)
         whole = cycle.at.shape
         every = np.array([[np.broadcast_to(v, whole)[rows] for v in each] for each in told])
         place, velocity, acceleration = np.moveaxis(every, 1, 0)
         rate = velocity / speed
-        return Motion(at, place, rate, (acceleration - rate * push) / speed**2, self.size)
+        return PlacesAndRates(at, place, rate, (acceleration - rate * push) / speed**2, self.size)
 
-    def sized(self, found: Motion) -> None:
+    def sized(self, found: PlacesAndRates) -> None:
         """Say how large the mechanism is, by where it stands in all rows."""
         points = np.array([what == "position" for what, _ in self.names])
         places = found.place[points]
@@ -121,7 +121,7 @@ class Followed:
 
 def jumps(cycle: Cycle) -> tuple[Jump, ...]:
     """The pairs of neighbouring rows between which something jumps, in the order of the rows."""
-    followed = Followed(cycle)
+    followed = CycleTracker(cycle)
     if not followed.names or len(cycle.at) < 2:
         return ()
     followed.sized(followed.at_rows(np.arange(len(cycle.at))))
@@ -142,20 +142,20 @@ def jumps(cycle: Cycle) -> tuple[Jump, ...]:
     return tuple(found)
 
 
-def closed_by(rows: Motion, period: float) -> Motion:
+def closed_by(rows: PlacesAndRates, period: float) -> PlacesAndRates:
     """The rows of a whole circle with the first once more, a circle on."""
     found = rows.rows(np.append(np.arange(len(rows.at)), 0))
     at = np.append(rows.at, rows.at[0] + period)
-    return Motion(at, found.place, found.rate, found.bend, rows.size)
+    return PlacesAndRates(at, found.place, found.rate, found.bend, rows.size)
 
 
-def leaps(followed: Followed, pair: Motion, rounds: int = ROUNDS) -> bool:
+def leaps(followed: CycleTracker, pair: PlacesAndRates, rounds: int = ROUNDS) -> bool:
     """Whether something jumps between two rows: however finely the way is cut, in a part of it.
 
     A way of which nothing is known is passed, but for the moment in which a closure may change.
     """
     sweep = followed.cycle.sweep
-    inner = followed.between(np.linspace(*pair.at, PARTS + 1)[1:-1])
+    inner = followed.between(np.linspace(pair.at[0], pair.at[1], PARTS + 1)[1:-1])
     if not len(inner.at):
         return bool(np.ptp(pair.at) < MOMENT * abs(sweep.grid_step))
     here = joined(pair.rows([0]), inner, pair.rows([1]))
@@ -165,17 +165,17 @@ def leaps(followed: Followed, pair: Motion, rounds: int = ROUNDS) -> bool:
     return any(leaps(followed, here.rows([k, k + 1]), rounds - 1) for k in over)
 
 
-def joined(*parts: Motion) -> Motion:
+def joined(*parts: PlacesAndRates) -> PlacesAndRates:
     """Rows one after the other."""
     at = np.concatenate([each.at for each in parts])
     place, rate, bend = (
         np.concatenate(each, axis=1)
         for each in zip(*((p.place, p.rate, p.bend) for p in parts), strict=True)
     )
-    return Motion(at, place, rate, bend, parts[0].size)
+    return PlacesAndRates(at, place, rate, bend, parts[0].size)
 
 
-def missing(rows: Motion, unit: float) -> tuple[Any, Any]:
+def missing(rows: PlacesAndRates, unit: float) -> tuple[Any, Any]:
     """By how much each goes otherwise from row to row than half the sum of its rates leads it, and
     how much that may be: (K, N - 1). ``unit`` is what one of u is in SI.
 
@@ -191,7 +191,7 @@ def missing(rows: Motion, unit: float) -> tuple[Any, Any]:
     return np.abs(np.diff(rows.place, axis=1) - led), bound
 
 
-def jump_at(pair: Motion, names: Sequence[tuple[str, str]], unit: float) -> Jump:
+def jump_at(pair: PlacesAndRates, names: Sequence[tuple[str, str]], unit: float) -> Jump:
     """What jumps farthest between two rows, in parts of its size."""
     missed, _ = missing(pair, unit)
     worst = int((missed / pair.size)[:, 0].argmax())

@@ -79,8 +79,8 @@ def motion(cycle: Cycle, words: Words, frames: int = FRAMES) -> FrameSequence:
     from graphkin.motion.jumps import jumps
 
     reached = cycle.ranges[0]
-    if found := jumps(cycle):
-        raise SceneError(leap(found[0], cycle.sweep.unit))
+    if leaps := jumps(cycle):
+        raise SceneError(leap(leaps[0], cycle.sweep.unit))
     if reached[1] - reached[0] < LITTLE * (cycle.sweep.high - cycle.sweep.low):
         raise SceneError(stands(cycle))
     low, high = shown_range(cycle)
