@@ -56,8 +56,8 @@ class PlacesAndRates(Struct, frozen=True, eq=False):
 
     def rows(self, kept: Any) -> PlacesAndRates:
         """Some of the rows."""
-        places = (each[:, kept] for each in (self.place, self.rate, self.bend))
-        return PlacesAndRates(self.at[kept], *places, self.size)
+        place, rate, bend = (each[:, kept] for each in (self.place, self.rate, self.bend))
+        return PlacesAndRates(self.at[kept], place, rate, bend, self.size)
 
 
 class CycleTracker:

@@ -20,6 +20,7 @@ from graphkin.construction.core.solution import Verdict
 from graphkin.documents.scaling import drawing, natural_seconds, targets_of
 from graphkin.drawing.scale import Scales
 from graphkin.mechanism import Mechanism
+from graphkin.motion.driving import TURN
 from graphkin.numbers.arrays import np
 from graphkin.scene.expression import TIME
 from graphkin.text import Words
@@ -32,6 +33,8 @@ if TYPE_CHECKING:
 
 FRAMES = 72
 """Pictures of a whole turn or of a time; a range has half as many."""
+MOST_TURNS = 4
+"""Turns of a driver's circle that are all shown; of more turns it is one."""
 GROWN = 3.0
 """Before a dead point the motion is shown while its rates are so many times their middle ones."""
 LEAST, LITTLE = 4, 1e-4
@@ -85,7 +88,7 @@ def motion(cycle: Cycle, words: Words, frames: int = FRAMES) -> FrameSequence:
         raise SceneError(stands(cycle))
     low, high = shown_range(cycle)
     places, order = (
-        (round_about(cycle, frames), list(range(frames)))
+        in_order(round_about(cycle, frames))
         if goes_round(cycle) and cycle.path.returns
         else end_to_end(cycle, low, high, frames)
     )
@@ -116,10 +119,18 @@ def stands(cycle: Cycle) -> Problem:
     return Problem("the animation", found, "a driver that moves", "graphkin check shows the range")
 
 
+def in_order(places: list[float]) -> tuple[list[float], list[int]]:
+    """Places and their numbers."""
+    return places, list(range(len(places)))
+
+
 def round_about(cycle: Cycle, frames: int) -> list[float]:
-    """The places of the driver's whole circle, from where the scene stands."""
-    way = cycle.path.period / frames
-    return [cycle.sweep.start + way * i for i in range(frames)]
+    """The places of the driver's whole circle, from where the scene stands, so many in each turn.
+
+    Of a circle of many turns it is the first turn.
+    """
+    turns = cycle.path.turns if cycle.path.turns <= MOST_TURNS else 1
+    return [cycle.sweep.start + TURN * i / frames for i in range(turns * frames)]
 
 
 def goes_round(cycle: Cycle) -> bool:
