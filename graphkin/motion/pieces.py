@@ -6,7 +6,7 @@ A cycle is followed from where the scene stands, forth and back, from one change
 from __future__ import annotations
 
 from collections.abc import Sequence
-from math import ceil, floor, isfinite, sqrt
+from math import ceil, floor, isfinite
 
 import numpy as np
 from msgspec import Struct
@@ -33,7 +33,6 @@ from graphkin.motion.period import (
     turns_back,
     wheels,
 )
-from graphkin.motion.refine import TOUCH
 from graphkin.motion.sweep import Sweep
 from graphkin.motion.turns_counted import Turned
 from graphkin.motion.turns_followed import led
@@ -41,6 +40,10 @@ from graphkin.text.errors import ClosureError, Problem, SceneError
 
 ALIKE = 1e-8
 """Degrees within which two places are one."""
+BESIDE = 1e-3
+"""Sine of a crossing below which a change point may lie within a step of the grid."""
+SAME = 1e-9
+"""Difference of two sines, in parts of them, that is rounding."""
 MOST_PIECES = 400
 """Pieces into which change points may part a range."""
 MOST_CLOSURES = 4
@@ -246,13 +249,17 @@ def cut(group: Numbered, found: list[NumberedPlace], start: Event, end: Event) -
 
 
 def beside_touch(course: Course, start: float) -> float | None:
-    """The start, or half a step past it where loci touch; None where nothing closes."""
-    past = start + course.sweep.grid_step / 2
-    here, ahead = course.margins(np.array([start, past])).T
-    if np.isfinite(here).all() and here.min() > sqrt(TOUCH):
+    """The start, or half a step beside it where loci all but touch; None where nothing closes.
+
+    It is the side on which the start lies: the closures of the scene hold there.
+    """
+    half = course.sweep.grid_step / 2
+    here, ahead, behind = course.margins(start + half * np.array([0, 1, -1])).T
+    if np.isfinite(here).all() and here.min() > BESIDE:
         return start
-    if np.isfinite(ahead).all():
-        return past
+    for side, sines, others in ((half, ahead, behind), (-half, behind, ahead)):
+        if np.isfinite(sines).all() and not sines.min() < (1 - SAME) * others.min():
+            return start + side
     return start if np.isfinite(here).all() else None
 
 

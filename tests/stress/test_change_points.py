@@ -117,7 +117,7 @@ def test_beside_the_pivot_of_its_slot_a_lever_is_right_or_refused():
     assert answered >= 12
 
 
-@pytest.mark.parametrize("at", ["60", "0", "1/10**9"])
+@pytest.mark.parametrize("at", ["60", "0", "1/10**9", "1/10**4", "-1/10**4"])
 def test_a_slot_passes_through_its_pivot_as_it_moves(at):
     """The lever turns on: the block comes to the other side of the pivot, another closure.
 
