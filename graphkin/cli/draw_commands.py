@@ -146,11 +146,12 @@ def cycle(
       graphkin cycle pump --set n=7 -o cycles --format gif,html
     """
     kinds = option_words("--format", formats, ("svg", "png", "gif", "html"))
-    from graphkin.cli.report.cycle_report import agrees, cycle_lines
+    from graphkin.cli.report.cycle_report import agrees, cycle_lines, jump_words
     from graphkin.cli.report.cycle_table import cycle_table
     from graphkin.motion.curves.curve_files import FORMATS as CURVES
     from graphkin.motion.curves.curve_files import picture_files
     from graphkin.motion.cycle import cycle as moved
+    from graphkin.motion.jumps import jumps
     from graphkin.motion.sweep import bounds_in_si
     from graphkin.web.animation import animation_files
     from graphkin.writers.files import file_stem, refuse_folder, write_all
@@ -163,9 +164,13 @@ def cycle(
     say("following the motion")
     found = moved(mechanism, driver=driver, steps=steps, low=first, high=last)
     say("checking every row")
-    lines = [*cycle_lines(found)]
+    leaps = jumps(found)
+    lines = [*cycle_lines(found, leaps)]
     say("")
     tell(lines)
+    if leaps:
+        complain(f"{jump_words(found, leaps[0])}: this is no motion, nothing is written")
+        leave(FAILED)
     files = {f"{stem}-cycle.csv": cycle_table(found).encode()}
     curves = [kind for kind in kinds if kind in CURVES]
     files |= picture_files(found, stem, curves) if curves else {}

@@ -132,7 +132,7 @@ def closing(scene: Scene, number: int = 1) -> ClosingRanges:
     """
     from graphkin.motion.course import Course
     from graphkin.motion.driving import GRID
-    from graphkin.motion.pieces import wheels
+    from graphkin.motion.period import wheels
     from graphkin.text.errors import GraphkinError
 
     course = Course(swept(scene, number), scene.branches)

@@ -360,6 +360,7 @@ def own_turns_of(
     """
     of, led, doubtful = turned.of, set[str](), False
     driven = {of[FRAME], *(of[d.link] for d in scene.drivers if d.kind == "turn")}
+    driven |= turned_from_frame(scene, turned)
     told, left = set(driven), list(slips)
 
     def unknown(slip: NoSlip) -> list[str]:
@@ -461,8 +462,25 @@ def turned_from(scene: Scene, turned: Turnings) -> list[Driver]:
     """
     drivers = [driver for driver in scene.drivers if driver.kind == "turn"]
     turning = [turned.of.get(driver.link, -1) for driver in drivers]
+    told = turned_from_frame(scene, turned)
     return [
         driver
         for n, (driver, k) in enumerate(zip(drivers, turning, strict=True))
-        if (k < 0 or k not in turning[:n]) and turned.of.get(driver.against) not in turning
+        if k not in told
+        and (k < 0 or k not in turning[:n])
+        and turned.of.get(driver.against) not in turning
     ]
+
+
+def turned_from_frame(scene: Scene, turned: Turnings) -> set[int]:
+    """The turnings of which drivers, one against the other, say all from the frame on."""
+    pairs = [
+        {turned.of.get(driver.link, -1), turned.of.get(driver.against, -1)}
+        for driver in scene.drivers
+        if driver.kind == "turn"
+    ]
+    found, more = set[int](), {turned.of[FRAME]}
+    while more:
+        found |= more
+        more = {k for pair in pairs if pair & found for k in pair} - found - {-1}
+    return found

@@ -169,6 +169,7 @@ def cycle(
     sweep = sweep_of(mechanism.scene, driver=driver, low=low, high=high)
     refuse_steps(mechanism, sweep, steps)
     path = reachable_ranges(sweep, branches)
+    refuse_steps(mechanism, sweep, steps, path.turns)
     wanted = None if targets is None else tuple(targets)
     found = cycle_at(mechanism, sweep, path, places(sweep, path, steps), targets=wanted)
     if not len(found.at):
@@ -176,9 +177,12 @@ def cycle(
     return found
 
 
-def refuse_steps(mechanism: Mechanism, sweep: Sweep, steps: int) -> None:
-    """Steps that there is no room for, or that doubles cannot tell apart; raises SceneError."""
-    most = FULL // max(len(mechanism.program.answers), 1)
+def refuse_steps(mechanism: Mechanism, sweep: Sweep, steps: int, turns: int = 1) -> None:
+    """Steps that there is no room for, or that doubles cannot tell apart; raises SceneError.
+
+    ``turns`` are those of the driver's circle.
+    """
+    most = FULL // max(len(mechanism.program.answers), 1) // max(turns, 1)
     if not 1 <= steps <= most:
         found = f"{steps} steps of {len(mechanism.program.answers)} quantities"
         raise SceneError(Problem("--steps", found, f"1 to {most} steps for this mechanism"))
@@ -211,30 +215,31 @@ def no_rows(sweep: Sweep, path: Path, steps: int) -> Problem:
 
 
 def places(sweep: Sweep, path: Path, steps: int) -> Reals:
-    """The places of the rows: a whole turn in equal steps from nought, a range between its ends.
+    """The places of the rows: the driver's circle in equal steps from nought, ``steps`` in each
+    turn; a range between its ends.
 
     A whole turn that does not come back has a row at its end, too.
     """
     if sweep.whole:
-        even = np.arange(steps) * (TURN / steps)
         if path.whole and not path.returns:
-            return path.ranges[0][0].low.at + np.append(even, TURN)
+            return path.ranges[0][0].low.at + np.arange(steps + 1) * (TURN / steps)
+        turns = max(path.turns, 1)
+        even = np.arange(steps * turns) * (TURN / steps)
         if path.whole:
             return even
         ends = np.floor(np.array(path.spans) / TURN)
-        turns = np.arange(ends.min(), ends.max() + 1) * TURN
-        every = np.concatenate([even + turn for turn in turns])
+        every = np.arange(ends.min() * steps, (ends.max() + 1) * steps) * (TURN / steps)
         parts = [every[(low <= every) & (every <= high)] for low, high in path.spans]
-        missing = even[~closing(even, np.concatenate(parts))]
+        missing = even[~closing(even, np.concatenate(parts), turns * TURN)]
         return np.concatenate([*parts, missing])
     if sweep.low < sweep.high and (sweep.what in ("turn", "time")):
         return np.linspace(sweep.low, sweep.high, steps + 1)
     return np.concatenate([np.linspace(low, high, steps + 1) for low, high in path.spans])
 
 
-def closing(even: Reals, found: Reals) -> Flags:
-    """Which positions of a turn are among those found, whole turns apart."""
-    have = np.round(found % TURN, 9) % TURN
+def closing(even: Reals, found: Reals, circle: float) -> Flags:
+    """Which positions of the driver's circle are among those found, whole circles apart."""
+    have = np.round(found % circle, 9) % circle
     return np.isin(np.round(even, 9), have)
 
 
@@ -284,7 +289,7 @@ def columns_at(
     """
     usual = BESIDE if sweep.what in ("turn", "time") else BESIDE / 1000
     usual = min(usual, SHARE * (sweep.high - sweep.low))
-    which, within = assigned(sweep, path, at, usual if near is None else near)
+    which, within = assigned(path, at, usual if near is None else near)
     columns: dict[Target, Any] = {}
     margins: dict[str, Reals] = {}
     for number, piece in enumerate(path.pieces, 1):
@@ -302,17 +307,19 @@ def columns_at(
             name = step.name or (kind.found_link if isinstance(kind, PlacesLink) else "")
             if n in piece.course.crossings and name:
                 margins.setdefault(name, np.full(len(at), np.nan))[rows] = margin
+    for target in targets or ():
+        columns.setdefault(target, np.full(len(at), np.nan))
     return Columns(which, columns, margins)
 
 
-def assigned(sweep: Sweep, path: Path, at: Reals, near: float) -> tuple[Any, Reals]:
+def assigned(path: Path, at: Reals, near: float) -> tuple[Any, Reals]:
     """The piece of each place, from 1 (0 where there is none), and the place within that piece.
 
-    A place in no piece is that of one some turn on, where a whole turn may not come back.
+    A place in no piece is that of one some circles of the driver on.
     """
     which = np.zeros(len(at), dtype=int)
     within = at.copy()
-    for turn, (number, piece) in product(sweep.turns, enumerate(path.pieces, 1)):
+    for turn, (number, piece) in product(path.shifts(at), enumerate(path.pieces, 1)):
         place = at + turn
         inside = (which == 0) & piece.holds(place)
         for end in (piece.low, piece.high):

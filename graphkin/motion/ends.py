@@ -19,6 +19,11 @@ from graphkin.numbers.plane import Line
 End = Literal["dead", "change", "number", "window", "flat"]
 SUSPECT = 0.3
 """Sine of a crossing below which a minimum is looked at more closely."""
+OPEN = 0.01
+"""Sine of a crossing that does not touch nought, whatever the samples about it foretell.
+
+Where a cam's law changes its acceleration at once, the place of a centre of curvature jumps.
+"""
 WIDE = 3
 """Steps of the grid between the samples from which a change point is found."""
 FEWEST = 64
@@ -159,6 +164,8 @@ def looked_at(course: Course, grid: Reals, k: int) -> Event | None:
             return None
         first = min(known, key=lambda n: known[n][1])
         centre += known[first][0] * step
+    if course.margins(np.array([centre]))[first, 0] > OPEN:
+        return None
     if known[first][1] < -touch:
         return dead(course, centre - 2 * step, centre)
     at = centre + touch_of(course, centre, step, first)

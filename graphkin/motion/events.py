@@ -11,7 +11,6 @@ from msgspec.structs import replace
 from graphkin.construction.core.crossings import Determined
 from graphkin.construction.core.program import Program
 from graphkin.motion.course import Course
-from graphkin.motion.driving import TURN
 from graphkin.motion.ends import Event
 from graphkin.motion.pieces import ALIKE, Path
 from graphkin.numbers.plane import Line
@@ -49,11 +48,11 @@ def singulars(path: Path) -> tuple[Singular, ...]:
 
 
 def once_round(path: Path, at: float) -> float:
-    """A place of a whole turn counted from 0 to 360 degrees."""
-    if not path.whole:
+    """A place of a driver that turns fully counted from 0 to the end of its circle."""
+    if not path.whole or not path.turns:
         return at
-    at %= TURN
-    return 0.0 if TURN - at < ALIKE else at
+    at %= path.period
+    return 0.0 if path.period - at < ALIKE else at
 
 
 def ends(low: Event, high: Event) -> list[tuple[Event, float]]:

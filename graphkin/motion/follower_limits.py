@@ -1,8 +1,9 @@
-"""How far the followers go: limits of rockers and blocks, swing, stroke and time ratio."""
+"""How far the followers go: limits of rockers and blocks, dwells, swing, stroke and time ratio."""
 
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
+from math import ceil
 
 import numpy as np
 from msgspec import Struct
@@ -12,36 +13,54 @@ from graphkin.construction.core.quantities import OMEGA
 from graphkin.motion.course import Reals
 from graphkin.motion.cycle import Cycle, columns_at
 from graphkin.motion.driving import TURN
-from graphkin.motion.pieces import ALIKE, BACK, Range
+from graphkin.motion.period import BACK
+from graphkin.motion.pieces import ALIKE, Range
 from graphkin.motion.refine import crossings_of_nought
 from graphkin.scene.model import Link, Scene
 
 FINE = 3600
-"""Places in each piece at which the sense of a follower is looked at."""
+"""Places in each piece, and in each turn of it, at which the sense of a follower is looked at."""
 FEWER = 360
 """The same for groups of higher class, each place of which is a search."""
 ENOUGH = 1e-9
 """To how much of u their limits are then found."""
 NOTHING = 1e-9
-"""Share of the largest speed below which a follower stands still."""
+"""Share of the largest speed below which a follower may be about to turn round."""
+REST = 1e-15
+"""Share of the largest speed below which a follower rests."""
+NEAR = 0.1
+"""Degrees about a dwell within which a limit is one that the follower comes to there."""
 APART = 1e-4
 """How far from a singular place (in degrees, or tenths of mm) a sense of motion is trusted."""
 
 
 class Limit(Struct, frozen=True):
-    """Where a follower turns round: u, and its angle (degrees) or coordinate (m) there."""
+    """Where a follower turns round: u, and its angle (degrees) or coordinate (m) there.
+
+    ``edge`` tells that it does not turn round there: the window ends, and it may go farther.
+    """
 
     at: float
+    value: float
+    edge: bool = False
+
+
+class Dwell(Struct, frozen=True):
+    """Where a follower rests while the driver moves on: from one u to another, and its place."""
+
+    start: float
+    end: float
     value: float
 
 
 class Follower(Struct, frozen=True):
     """How far a link swings or a block slides within one range of the driver.
 
-    ``low`` and ``high`` are its extreme places, at a limit or at the end of the range; ``line`` is
-    the line (from, to) whose angle is meant; ``full`` tells that a link turns all the way round.
-    ``rising`` is the angle (degrees, u growing) that the driver takes from the low to the high
-    limit, where there are just two in a whole turn.
+    ``low`` and ``high`` are its extreme places, at a limit, a dead point or the edge of a window;
+    ``line`` is the line (from, to) whose angle is meant; ``full`` tells that a link turns all the
+    way round. ``rising`` and ``falling`` are the angles (degrees, u growing) that the driver takes
+    from the low to the high limit and back, ``dwells`` apart, where there are just two limits in
+    the driver's circle.
     """
 
     name: str
@@ -51,14 +70,15 @@ class Follower(Struct, frozen=True):
     high: Limit
     full: bool
     rising: float | None
+    falling: float | None = None
+    dwells: tuple[Dwell, ...] = ()
 
     @property
     def time_ratio(self) -> float | None:
         """The slower over the faster stroke of a driver that turns evenly."""
-        if self.rising is None:
+        if self.rising is None or self.falling is None:
             return None
-        strokes = self.rising, TURN - self.rising
-        return max(strokes) / min(strokes)
+        return max(self.rising, self.falling) / min(self.rising, self.falling)
 
     @property
     def extent(self) -> float:
@@ -95,21 +115,29 @@ def followers(cycle: Cycle, number: int = 0) -> tuple[Follower, ...]:
     at = samples(pieces)
     again = coming_back(cycle, movers, number)
     enough = ENOUGH if any(piece.course.is_searched for piece in pieces) else 0.0
-    past = at[-1] + APART * np.arange(2, 4) if any(again) else at[:0]
-    turns = turning_places(cycle, movers, np.append(at, past), at[-1], again, enough)
+    rates = values(cycle, at, [mover.speed for mover in movers], moving=True)
+    turns = turning_places(cycle, movers, at, rates, again, enough)
+    rests = [resting(cycle, each, at, rates[each.speed], enough) for each in movers]
     for n, closed in enumerate(again):
         if closed:
             over = turns[n] >= ends(pieces)[1] - ALIKE
-            begun = np.maximum(turns[n] - TURN, pieces[0].low.at)
+            begun = np.maximum(turns[n] - circle(cycle), pieces[0].low.at)
             turns[n] = np.sort(np.where(over, begun, turns[n]))
-    every = np.unique(np.concatenate([ends(pieces), at, *turns]))
+    own = [np.unique([*turns[n], *np.ravel(rests[n])]) for n in range(len(movers))]
+    every = np.unique(np.concatenate([ends(pieces), at, *own]))
     columns = values(cycle, every, [target for mover in movers for target in mover.where])
     found = []
-    for mover, own, closed in zip(movers, turns, again, strict=True):
-        rows = np.searchsorted(every, np.unique(np.concatenate([ends(pieces), at, own])))
+    for n, mover in enumerate(movers):
+        rows = np.searchsorted(every, np.unique(np.concatenate([ends(pieces), at, own[n]])))
         where = mover.place({target: columns[target][rows] for target in mover.where})
-        found.append(follower(cycle, number, mover, every[rows], where, own, closed))
+        places = every[rows], where
+        found.append(follower(cycle, number, mover, places, turns[n], rests[n], again[n]))
     return tuple(each for each in found if each is not None)
+
+
+def circle(cycle: Cycle) -> float:
+    """After how many degrees of the driver all comes again."""
+    return cycle.path.period or TURN
 
 
 def movers_of(cycle: Cycle) -> Iterator[Mover]:
@@ -146,16 +174,17 @@ def follower(
     cycle: Cycle,
     number: int,
     mover: Mover,
-    every: Reals,
-    where: Reals,
+    places: tuple[Reals, Reals],
     turns: Reals,
+    rests: Sequence[tuple[float, float]],
     again: bool,
 ) -> Follower | None:
-    """How far one follower goes, by its places ``where`` at ``every`` u, the ``turns`` among them.
+    """How far one follower goes, by u and its ``places`` there, ``turns`` and ``rests`` among them.
 
-    ``again`` tells that it comes back after a whole turn. None for one that stands still.
+    ``again`` tells that it comes back after the driver's circle. None for one that stands still.
     """
     name, line = mover.name, mover.line
+    every, where = places
     known = np.isfinite(where)
     every, where = every[known], where[known]
     if not where.size or np.ptp(where) <= NOTHING * max(1.0, float(np.abs(where).max())):
@@ -163,31 +192,40 @@ def follower(
     if line is not None:
         turned = TURN * np.floor((where.min() + TURN / 2) / TURN)
         where = where - turned
-    low, high = (extreme(every, where, turns, sign) for sign in (-1, 1))
+    edges = () if again else edges_of(cycle.path.ranges[number])
+    low, high = (extreme(every, where, turns, edges, sign) for sign in (-1, 1))
     limits = tuple(Limit(float(u), float(where[np.searchsorted(every, u)])) for u in turns)
+    dwells = tuple(Dwell(*rest, float(where[np.searchsorted(every, rest[0])])) for rest in rests)
     around = abs(float(where[-1] - where[0])) > TURN / 2
     full = line is not None and whole(cycle, number) and around
-    return Follower(
-        name,
-        line,
-        limits,
-        low,
-        high,
-        full,
-        (high.at - low.at) % TURN if again and not full and len(limits) == 2 else None,
-    )
+    strokes: tuple[float | None, float | None] = None, None
+    if again and not full and len(limits) == 2:
+        left = [left_at(limit.at, dwells) for limit in (low, high)]
+        strokes = (high.at - left[0]) % circle(cycle), (low.at - left[1]) % circle(cycle)
+    return Follower(name, line, limits, low, high, full, *strokes, dwells)
 
 
-def extreme(at: Reals, where: Reals, turns: Reals, sign: int) -> Limit:
+def left_at(at: float, dwells: Sequence[Dwell]) -> float:
+    """Where a follower leaves a limit that it comes to at a place: the end of a dwell there."""
+    near = (each.end for each in dwells if each.start - NEAR <= at <= each.end + NEAR)
+    return next(near, at)
+
+
+def edges_of(pieces: Range) -> tuple[float, ...]:
+    """The ends of a range at which only the window ends, and not the motion."""
+    both = pieces[0].low, pieces[-1].high
+    return tuple(event.at for event in both if event.kind == "window")
+
+
+def extreme(at: Reals, where: Reals, turns: Reals, edges: Sequence[float], sign: int) -> Limit:
     """The highest (sign +1) or lowest place, at a limit where one is as far as any other place."""
     best = int((sign * where).argmax())
     slack = NOTHING * max(float(np.ptp(where)), NOTHING)
     for u in turns:
         k = int(np.searchsorted(at, u))
         if sign * where[k] >= sign * where[best] - slack:
-            best = k
-            break
-    return Limit(float(at[best]), float(where[best]))
+            return Limit(float(at[k]), float(where[k]))
+    return Limit(float(at[best]), float(where[best]), float(at[best]) in edges)
 
 
 def whole(cycle: Cycle, number: int) -> bool:
@@ -196,7 +234,7 @@ def whole(cycle: Cycle, number: int) -> bool:
 
 
 def coming_back(cycle: Cycle, movers: Sequence[Mover], number: int) -> list[bool]:
-    """Which followers stand and move after a whole turn as before; wheels may not."""
+    """Which followers stand and move after the driver's circle as before; wheels may not."""
     if cycle.path.returns or not whole(cycle, number):
         return [whole(cycle, number) for _ in movers]
     bounds = ends(cycle.path.ranges[number])
@@ -217,7 +255,8 @@ def samples(pieces: Range) -> Reals:
         low += 0.0 if piece.low.kind == "window" else APART
         high -= 0.0 if piece.high.kind == "window" else APART
         if low < high:
-            fine = FEWER if piece.course.is_searched else FINE
+            turns = max(ceil((high - low) / TURN), 1) if piece.course.sweep.what == "turn" else 1
+            fine = (FEWER if piece.course.is_searched else FINE) * turns
             parts.append(np.linspace(low, high, fine + 1))
     return np.concatenate(parts) if parts else np.array([pieces[0].low.at])
 
@@ -231,26 +270,24 @@ def turning_places(
     cycle: Cycle,
     movers: Sequence[Mover],
     at: Reals,
-    last: float,
+    rates: Mapping[Target, Reals],
     again: Sequence[bool],
     enough: float,
 ) -> list[Reals]:
-    """Where the speed of each follower changes its sense; after ``last`` only of those ``again``.
+    """Where the speed of each follower changes its sense, of those ``again`` round the circle.
 
-    The brackets of all followers are halved together.
+    ``rates`` are their speeds at the places. The brackets of all followers are halved together.
     """
     targets = [mover.speed for mover in movers]
-    rates = values(cycle, at, targets, moving=True)
-    inside = at <= last
     most, brackets = [], []
     for target, closed in zip(targets, again, strict=True):
-        rows = np.flatnonzero(inside | closed)
-        most.append(float(np.nanmax(np.abs(rates[target][rows]), initial=0.0)))
-        brackets.append(changing(at[rows], rates[target][rows], most[-1]))
+        most.append(float(np.nanmax(np.abs(rates[target]), initial=0.0)))
+        brackets.append(changing(at, rates[target], most[-1], circle(cycle) if closed else 0.0))
     owner = np.repeat(np.arange(len(movers)), [len(low) for low, _ in brackets])
 
     def speed(u: Reals) -> Reals:
-        every = values(cycle, u, targets, moving=True)
+        within = np.where(u > at[-1], np.maximum(u - circle(cycle), at[0]), u) if any(again) else u
+        every = values(cycle, within, targets, moving=True)
         return np.array([every[targets[n]][k] for k, n in enumerate(owner)])
 
     if not owner.size:
@@ -261,11 +298,51 @@ def turning_places(
     return [found[sure & (owner == n)] for n in range(len(movers))]
 
 
-def changing(at: Reals, rate: Reals, most: float) -> tuple[Reals, Reals]:
-    """The brackets (low, high) in which a speed of at ``most`` so much changes its sense."""
+def resting(
+    cycle: Cycle, mover: Mover, at: Reals, rate: Reals, enough: float
+) -> list[tuple[float, float]]:
+    """From where to where a follower of some speeds at places rests; the last may end in the next
+    circle of a driver that turns fully."""
+    most = float(np.nanmax(np.abs(rate), initial=0.0))
+    if most <= NOTHING:
+        return []
+
+    def moves(speed: Reals) -> Reals:
+        return np.where(np.abs(speed) > REST * most, 1.0, -1.0)
+
+    still = np.concatenate([[False], np.isfinite(rate) & (moves(rate) < 0), [False]])
+    first = np.flatnonzero(still[1:-1] & ~still[:-2])
+    last = np.flatnonzero(still[1:-1] & ~still[2:])
+    first, last = first[first < last], last[first < last]
+    inner = np.append(first[first > 0], last[last < len(at) - 1])
+    outer = np.append(first[first > 0] - 1, last[last < len(at) - 1] + 1)
+    place = at.copy()
+    if inner.size:
+        speed = mover.speed
+        place[inner] = crossings_of_nought(
+            lambda u: moves(values(cycle, u, [speed], moving=True)[speed]),
+            np.minimum(at[inner], at[outer]),
+            np.maximum(at[inner], at[outer]),
+            max(enough, ENOUGH),
+        )
+    rests = list(zip(place[first].tolist(), place[last].tolist(), strict=True))
+    if cycle.path.returns and len(rests) > 1 and first[0] == 0 and last[-1] == len(at) - 1:
+        (_, end), *rests, (start, _) = rests
+        rests.append((start, end + circle(cycle)))
+    return rests
+
+
+def changing(at: Reals, rate: Reals, most: float, after: float) -> tuple[Reals, Reals]:
+    """The brackets (low, high) in which a speed of at ``most`` so much changes its sense.
+
+    ``after`` is the circle after which it does so again, 0 without one.
+    """
     if most <= NOTHING:
         return at[:0], at[:0]
     moving = np.where(np.abs(rate) <= NOTHING * most, 0.0, rate)
     kept = np.flatnonzero(np.isfinite(moving) & (moving != 0))
-    turned = np.flatnonzero(np.sign(moving[kept[1:]]) != np.sign(moving[kept[:-1]]))
-    return at[kept[turned]], at[kept[turned + 1]]
+    places, signs = at[kept], np.sign(moving[kept])
+    if after and kept.size:
+        places, signs = np.append(places, places[0] + after), np.append(signs, signs[0])
+    turned = np.flatnonzero(signs[1:] != signs[:-1])
+    return places[turned], places[turned + 1]

@@ -104,32 +104,19 @@ def along(points: Any, far: float) -> list[complex]:
 
 
 def followed(whole: Cycle) -> Cycle:
-    """A whole turn, or the range in which the scene stands, its ends in finer steps.
+    """The driver's whole circle, or the range in which the scene stands, its ends in finer steps.
 
     Near a dead point a mechanism goes a long way while its driver hardly moves.
     """
     if whole.path.whole:
-        return whole if whole.path.returns else come_back(whole)
+        turns = max(whole.path.turns, 1)
+        if turns * STEPS <= MOST_STEPS:
+            return whole
+        rows = turns * (MOST_STEPS // turns)
+        return whole.along(np.linspace(0, whole.path.period, rows, endpoint=False))
     low, high = whole.ranges[0]
-    turns = np.linspace(0, np.pi, STEPS + 1)[1:-1]
-    return whole.along((low + high) / 2 - (high - low) / 2 * np.cos(turns))
-
-
-def come_back(whole: Cycle) -> Cycle:
-    """The turns after which all stands as before; the one turn where that takes too many."""
-    from graphkin.motion.cycle import cycle_at
-    from graphkin.motion.driving import TURN
-    from graphkin.motion.period import until_return
-    from graphkin.motion.pieces import Path
-
-    way = until_return(whole.path)
-    if way is None:
-        return whole
-    low, high = way[0].low.at, way[-1].high.at
-    turns = round((high - low) / TURN)
-    rows = turns * min(STEPS, MOST_STEPS // turns)
-    at = np.linspace(low, high, rows, endpoint=False)
-    return cycle_at(whole.mechanism, whole.sweep, Path((way,), True, True), at, whole.targets)
+    angles = np.linspace(0, np.pi, STEPS + 1)[1:-1]
+    return whole.along((low + high) / 2 - (high - low) / 2 * np.cos(angles))
 
 
 def centrodes_of(mechanism: Mechanism, whole: Cycle, link: str) -> Iterator[Curve]:

@@ -6,38 +6,45 @@ A cycle is followed from where the scene stands, forth and back, from one change
 from __future__ import annotations
 
 from collections.abc import Sequence
-from fractions import Fraction
-from math import floor, lcm, pi, sqrt
+from math import ceil, floor, isfinite
 
 import numpy as np
 from msgspec import Struct
 from msgspec.structs import replace
 
-from graphkin.construction.core.program import Target
 from graphkin.construction.higher_class.following import FollowedClosure
 from graphkin.motion.change_points import beyond
 from graphkin.motion.closures_followed import carried, carried_about, numbers_between
 from graphkin.motion.course import Branches, Course, Reals
 from graphkin.motion.driving import GRID, TURN
 from graphkin.motion.ends import Event, next_event
-from graphkin.motion.refine import TOUCH
+from graphkin.motion.period import (
+    BACK,
+    MOST_TURNS,
+    led_round,
+    misses,
+    turns_after,
+    turns_back,
+    wheels,
+)
 from graphkin.motion.sweep import Sweep
 from graphkin.motion.turns_counted import Turned
 from graphkin.motion.turns_followed import led
-from graphkin.numbers.arithmetic import phase
 from graphkin.text.errors import ClosureError, Problem, SceneError
 
 ALIKE = 1e-8
 """Degrees within which two places are one."""
-BACK = 1e-6
-"""Miss after a whole turn, in parts of the mechanism's size, with which it has come back."""
+BESIDE = 1e-3
+"""Sine of a crossing below which a change point may lie within a step of the grid."""
+SAME = 1e-9
+"""Difference of two sines, in parts of them, that is rounding."""
 MOST_PIECES = 400
 """Pieces into which change points may part a range."""
+MOST_CLOSURES = 4
+"""Periods of the wheels after which closures that change points swap may be those of the start."""
 FEWER = 360
 """Positions of a sweep at which a group of higher class is sought that does not close where the
 scene is drawn."""
-MOST_TURNS = 24
-"""Turns of the driver, forth and back, through which a motion that wheels carry on is followed."""
 MOST_WAYS = 200
 """How many turns, or ways of a slide, a motion is followed from where the scene stands."""
 
@@ -66,13 +73,15 @@ Range = tuple[Piece, ...]
 class Path(Struct, frozen=True):
     """The ranges of a sweep, the one in which the scene stands first.
 
-    ``whole`` tells that the first range goes all the way round; ``returns`` that the closures are
-    then those of the start again.
+    ``whole`` tells that the first range goes all the way round; ``returns`` that all then stands as
+    at the start. ``turns`` are the whole turns of the driver after which the same ranges come
+    again: its circle. It is 0 for a window, and where few turns do not bring the wheels back.
     """
 
     ranges: tuple[Range, ...]
     whole: bool
     returns: bool
+    turns: int = 0
 
     @property
     def pieces(self) -> tuple[Piece, ...]:
@@ -84,36 +93,47 @@ class Path(Struct, frozen=True):
         """Where each range begins and ends."""
         return tuple((found[0].low.at, found[-1].high.at) for found in self.ranges)
 
+    @property
+    def period(self) -> float:
+        """The driver's circle in degrees; 0 without one."""
+        return self.turns * TURN
+
+    def shifts(self, at: Reals | float) -> list[float]:
+        """By how much places may be moved round the circle onto the ranges, the least first."""
+        if not self.turns or not np.size(at):
+            return [0.0]
+        low, high = min(low for low, _ in self.spans), max(high for _, high in self.spans)
+        first = floor((low - float(np.max(at))) / self.period)
+        last = ceil((high - float(np.min(at))) / self.period)
+        return sorted((k * self.period for k in range(first, last + 1)), key=abs)
+
+    def found_at(self, at: float, low: float, high: float) -> float:
+        """A place moved round the circle to within two others; itself where none lies there."""
+        every = (at + shift for shift in self.shifts(at))
+        return next((place for place in every if low <= place <= high), at)
+
 
 def reachable_ranges(sweep: Sweep, branches: Branches | None = None) -> Path:
     """The reachable ranges of a sweep, from where the scene stands and with its closures.
 
     ``branches`` overrides them. Ranges that cannot be reached from there come after it, with the
-    same closures picked. Raises ClosureError where nothing closes at all.
+    same closures picked. A driver that turns is looked at round its whole circle: as many turns as
+    bring the wheels back. Raises ClosureError where nothing closes at all.
     """
     course = Course(sweep, sweep.original.branches if branches is None else branches)
-    ranges: list[Range] = []
     refuse_far(sweep)
+    near = led(course, sweep.stands, sweep.start)
+    turns = turns_back(near, sweep.start) if sweep.whole else 0
     if course.closers and (start := beside_touch(course, sweep.stands)) is not None:
-        found, whole, returns = from_start(carried_about(course, start), start)
-        return shown(sweep, Path((in_numbers(found),), whole, returns))
-    course = led(course, sweep.stands, sweep.start)
-    count = FEWER if course.closers else GRID
-    grid = sweep.low + (np.arange(count) + 0.5) * ((sweep.high - sweep.low) / count)
-    free = course.closes(grid)
-    whole = returns = False
+        return shown(sweep, from_start(carried_about(course, start), start, turns))
+    course = led_round(near, sweep.start, sweep.start + turns * TURN) if turns > 1 else near
     start = beside_touch(course, sweep.start)
+    first = Path((), False, False, turns)
     if start is not None:
-        found, whole, returns = from_start(course, start)
-        ranges.append(found)
-        free &= ~covered(sweep, found, grid)
-    while not whole and free.any():
-        found, _, _ = from_start(course, seed(grid, free))
-        ranges.append(found)
-        here = covered(sweep, found, grid)
-        if not (free & here).any():
-            break
-        free &= ~here
+        first = from_start(course, start, turns)
+        if first.whole:
+            return shown(sweep, first)
+    ranges = [*first.ranges, *others(course, first)]
     if not ranges:
         raise ClosureError(
             Problem(
@@ -123,11 +143,35 @@ def reachable_ranges(sweep: Sweep, branches: Branches | None = None) -> Path:
                 "graphkin check shows what is wrong",
             )
         )
-    return shown(sweep, Path(tuple(map(in_numbers, ranges)), whole, returns))
+    return shown(sweep, replace(first, ranges=tuple(ranges)))
+
+
+def others(course: Course, first: Path) -> list[Range]:
+    """The ranges that the motion does not lead to from where the scene stands, in order."""
+    sweep, turns = course.sweep, max(first.turns, 1)
+    count = FEWER if course.closers else GRID
+    step = (sweep.high - sweep.low) / count
+    grid = sweep.low + (np.arange(count * turns) + 0.5) * step
+    free = course.closes(grid)
+    for found in first.ranges:
+        free &= ~covered(first, found, grid)
+    ranges: list[Range] = []
+    while free.any():
+        path = from_start(course, seed(grid, free), first.turns)
+        ranges += path.ranges
+        here = covered(first, path.ranges[0], grid)
+        if path.whole or not (free & here).any():
+            break
+        free &= ~here
+    return sorted(ranges, key=lambda found: found[0].low.at) if first.turns else ranges
 
 
 def shown(sweep: Sweep, path: Path) -> Path:
-    """The part of a path that lies in the window; raises ClosureError where there is none."""
+    """The part of a path that lies in the window, its closures numbered.
+
+    Raises ClosureError where there is none.
+    """
+    path = replace(path, ranges=tuple(map(in_numbers, path.ranges)))
     if sweep.whole:
         return path
     ranges = tuple(found for found in (within(sweep, each) for each in path.ranges) if found)
@@ -184,13 +228,17 @@ def in_numbers(found: Range) -> Range:
 
 
 def beside_touch(course: Course, start: float) -> float | None:
-    """The start, or half a step past it where loci touch; None where nothing closes."""
-    past = start + course.sweep.grid_step / 2
-    here, ahead = course.margins(np.array([start, past])).T
-    if np.isfinite(here).all() and here.min() > sqrt(TOUCH):
+    """The start, or half a step beside it where loci all but touch; None where nothing closes.
+
+    It is the side on which the start lies: the closures of the scene hold there.
+    """
+    half = course.sweep.grid_step / 2
+    here, ahead, behind = course.margins(start + half * np.array([0, 1, -1])).T
+    if np.isfinite(here).all() and here.min() > BESIDE:
         return start
-    if np.isfinite(ahead).all():
-        return past
+    for side, sines, others in ((half, ahead, behind), (-half, behind, ahead)):
+        if np.isfinite(sines).all() and not sines.min() < (1 - SAME) * others.min():
+            return start + side
     return start if np.isfinite(here).all() else None
 
 
@@ -202,43 +250,78 @@ def seed(grid: Reals, free: np.ndarray) -> float:
     return float((grid[first] + grid[last]) / 2)
 
 
-def covered(sweep: Sweep, found: Range, grid: Reals) -> np.ndarray:
-    """Which positions of the grid a range passes, whole turns apart."""
+def covered(path: Path, found: Range, grid: Reals) -> np.ndarray:
+    """Which positions of the grid a range passes, round the driver's circle."""
     low, high, half = found[0].low.at, found[-1].high.at, float(grid[1] - grid[0])
-    whole = sweep.what == "turn" and sweep.whole
-    turns = [k * TURN for k in range(-2, 3)] if whole else [0.0]
     passed = np.zeros(len(grid), dtype=bool)
-    for turn in turns:
-        passed |= (low - half <= grid + turn) & (grid + turn <= high + half)
+    for shift in replace(path, ranges=(found,)).shifts(grid):
+        passed |= (low - half <= grid + shift) & (grid + shift <= high + half)
     return passed
 
 
-def from_start(course: Course, start: float) -> tuple[Range, bool, bool]:
-    """The range through one position: its pieces, whether it goes round, and then returns.
+def from_start(course: Course, start: float, turns: int) -> Path:
+    """The range through one position, after whose ``turns`` the wheels stand as before.
 
-    Round about is told from 0 to 360 degrees, or from the last whole turn before a position that
-    does not come back. Where wheels stand otherwise after a turn, a dead point may lie turns away.
+    What comes back is told from 0 degrees to the end of its circle; a motion that does not, for one
+    turn from the last whole one before the position. Where it is not known when wheels come back, a
+    dead point may lie many turns away.
     """
     sweep = course.sweep
     if not sweep.whole:
-        return both_ways(course, start, max(sweep.high, start), min(sweep.low, start)), False, False
-    far = MOST_TURNS * TURN if wheels(course) else TURN
-    ahead = marched(course, start, start + TURN)
-    if ahead[-1].high.kind == "window":
-        if dict(ahead[-1].branches) != dict(course.branches):
-            return ahead, True, False
-        if max(misses(ahead, start, start + TURN).values()) <= BACK:  # wheels need not be back
-            return counted_from_nought(ahead, start), True, True
-        far = TURN * (turns_back(ahead, start) or MOST_TURNS)
-    if ahead[-1].high.kind == marched(course, start, start + far)[-1].high.kind == "window":
-        last = TURN * floor(start / TURN)
-        found = both_ways(course, start, last + TURN, last)
-        goes_round = found[0].low.kind == found[-1].high.kind == "window"
-        return (found if goes_round else ahead), True, False
+        found = both_ways(course, start, max(sweep.high, start), min(sweep.low, start))
+        return Path((found,), False, False)
+    first = max(turns, 1)
+    far = (turns or MOST_TURNS) * TURN if wheels(course) else TURN
+    ahead = marched(course, start, start + first * TURN)
+    if goes_on(ahead):
+        for count in counts(ahead, course, start, first):
+            way = ahead if count == first else marched(course, start, start + count * TURN)
+            if comes_back(way, course, start, start + count * TURN):
+                return Path((counted_from_nought(way, start, count * TURN),), True, True, count)
+        if goes_on(marched(course, start, start + far)):
+            last = TURN * floor(start / TURN)
+            found = both_ways(course, start, last + TURN, last)
+            if found[0].low.kind != "window" or not goes_on(found):
+                found = marched(course, start, start + TURN)
+            return Path((found,), True, False)
     found = both_ways(course, start, start + far, start - far)
-    if found[0].low.at > TURN / 2 and not sweep.scene.near:  # easier to read as one about nought
-        return from_start(course, start - TURN)
-    return found, False, False
+    period = turns * TURN
+    gone = gone_in(course, course, sweep.start, period)
+    return Path((about_nought(found, period, gone),), False, False, turns)
+
+
+def goes_on(found: Range) -> bool:
+    """Whether no dead point ends a motion."""
+    return found[-1].high.kind == "window"
+
+
+def counts(ahead: Range, course: Course, start: float, turns: int) -> list[int]:
+    """After how many turns a motion may come back that has been followed through some."""
+    found = list[int]()
+    if dict(ahead[-1].branches) == dict(course.branches):
+        found = [turns * turns_after(ahead[0].course, start, ahead[-1].course, turns)]
+    if not found or course.closers:
+        found += [turns * count for count in range(2, MOST_CLOSURES + 1)]
+    return [count for count in found if 0 < count <= MOST_TURNS]
+
+
+def comes_back(found: Range, course: Course, start: float, stop: float) -> bool:
+    """Whether all stands at one place as at another before, where a motion leads so far."""
+    if not goes_on(found) or dict(found[-1].branches) != dict(course.branches):
+        return False
+    return max(misses(found[0].course, start, found[-1].course, stop).values()) <= BACK
+
+
+def about_nought(found: Range, period: float, gone: dict[str, float]) -> Range:
+    """A range between dead points, moved round the driver's circle: about 0 if it passes there,
+    else to where it begins nearest to 0."""
+    if not period:
+        return found
+    low, high = found[0].low.at, found[-1].high.at
+    turns = floor(high / period)
+    if turns * period <= low:  # it does not pass the beginning of the circle
+        turns = ceil(low / period - 0.5)
+    return tuple(turned_back(piece, turns, period, gone) for piece in found)
 
 
 def both_ways(course: Course, start: float, high: float, low: float) -> Range:
@@ -263,88 +346,46 @@ def ways_joined(before: Course, after: Course) -> tuple[FollowedClosure, ...]:
     return tuple(first.joined(second, turning) for first, second, turning in ways)
 
 
-def wheels(course: Course) -> list[str]:
-    """The links whose whole turns count."""
-    return [of for what, of in course.program.targets if what == "turned"]
-
-
-def turns_back(pieces: Range, start: float) -> int | None:
-    """After how many turns of the driver wheels would stand as before, by their angles after one.
-
-    None for more than are followed.
-    """
-    first, last = pieces[0].course, pieces[-1].course
-    count = lcm(*(gone(first, last, link, start) for link in wheels(first)))
-    return count if count <= MOST_TURNS else None
-
-
-def gone(first: Course, last: Course, link: str, start: float) -> int:
-    """The least number of turns of the driver after which a link would stand as before."""
-    axes = [
-        course.columns(np.array([at]), [("axis", link)])["axis", link][0]
-        for course, at in ((first, start), (last, start + TURN))
-    ]
-    share = phase(complex(axes[1] / axes[0])) / (2 * pi)
-    near = Fraction(share).limit_denominator(MOST_TURNS)
-    return near.denominator if abs(float(near) - share) < BACK else MOST_TURNS + 1
-
-
-def misses(pieces: Range, start: float, stop: float) -> dict[Target, float]:
-    """By how much points and links stand otherwise at the end of some pieces than at their start.
-
-    In parts of the mechanism's size, and as the size of the change of a unit axis.
-    """
-    first, last = pieces[0].course, pieces[-1].course
-    targets = [t for t in first.program.targets if t[0] in ("position", "axis")]
-    before = first.columns(np.array([start]), targets)
-    after = last.columns(np.array([stop]), targets)
-    places = np.array([before[t][0] for t in targets if t[0] == "position"])
-    size = float(np.abs(places - places.mean()).max())
-    units = {"position": size, "axis": 1.0}
-    return {t: float(abs(before[t][0] - after[t][0])) / units[t[0]] for t in targets}
-
-
-def counted_from_nought(pieces: Range, start: float) -> Range:
-    """The pieces of a whole turn that comes back, from 0 to 360 degrees instead of the start's."""
-    gone = gone_in(pieces, start)
-    turns = floor(start / TURN)
-    pieces = tuple(turned_back(piece, turns, gone) for piece in pieces)
+def counted_from_nought(pieces: Range, start: float, period: float) -> Range:
+    """The pieces of a circle that comes back, from 0 degrees to its end instead of the start's."""
+    gone = gone_in(pieces[0].course, pieces[-1].course, start, period)
+    turns = floor(start / period)
+    pieces = tuple(turned_back(piece, turns, period, gone) for piece in pieces)
     before: list[Piece] = []
     after: list[Piece] = []
     for piece in pieces:
         low, high = piece.low, piece.high
-        if low.at < TURN - ALIKE < TURN + ALIKE < high.at:
-            before.append(replace(piece, high=Event("window", TURN)))
-            back = turned_back(piece, 1, gone)
+        if low.at < period - ALIKE < period + ALIKE < high.at:
+            before.append(replace(piece, high=Event("window", period)))
+            back = turned_back(piece, 1, period, gone)
             after.append(replace(back, low=Event("window", 0.0)))
-        elif low.at < TURN - ALIKE:
+        elif low.at < period - ALIKE:
             before.append(piece)
         else:
-            after.append(turned_back(piece, 1, gone))
+            back = turned_back(piece, 1, period, gone)
+            after.append(replace(back, low=replace(back.low, at=max(back.low.at, 0.0))))
     return joined_at(after, before) if after else pieces
 
 
-def gone_in(pieces: Range, start: float) -> dict[str, float]:
-    """By how many degrees links go in a whole turn after which all stands as before."""
-    course = pieces[-1].course
-    if course.turned is None:
+def gone_in(first: Course, last: Course, start: float, period: float) -> dict[str, float]:
+    """By how many degrees links go in a circle of the driver after which all stands as before."""
+    if last.turned is None:
         return {}
-    ends = pieces[0].course.angles(start), course.angles(start + TURN)
-    return {link: TURN * round((ends[1][link] - angle) / TURN) for link, angle in ends[0].items()}
+    before, after = first.angles(start), last.angles(start + period)
+    way = {link: after[link] - angle for link, angle in before.items()}
+    return {link: TURN * round(each / TURN) if isfinite(each) else 0 for link, each in way.items()}
 
 
-def turned_back(piece: Piece, turns: int, gone: dict[str, float]) -> Piece:
-    """A piece some turns earlier, after each of which all stands as before."""
+def turned_back(piece: Piece, turns: int, period: float, gone: dict[str, float]) -> Piece:
+    """A piece some circles of the driver earlier, after each of which all stands as before."""
     if not turns:
         return piece
-    low, high = (
-        replace(event, at=max(event.at - turns * TURN, 0.0) if turns > 0 else event.at)
-        for event in (piece.low, piece.high)
-    )
+    by = turns * period
     turned = piece.course.turned
     if turned is not None:
-        turned = turned.moved(-turns * TURN, {link: -turns * by for link, by in gone.items()})
-    closures = tuple(way.moved(-turns * TURN) for way in piece.course.closures)
+        turned = turned.moved(-by, {link: -turns * way for link, way in gone.items()})
+    closures = tuple(way.moved(-by) for way in piece.course.closures)
+    low, high = (replace(event, at=event.at - by) for event in (piece.low, piece.high))
     return Piece(low, high, piece.course.along(turned=turned, closures=closures))
 
 
@@ -364,6 +405,16 @@ def marched(course: Course, start: float, stop: float) -> Range:
         here = event
     found = f"more than {MOST_PIECES} change points from {start:.6g} to {stop:.6g}"
     raise ClosureError(Problem("the cycle", found, "fewer", "show less with --from and --to"))
+
+
+def strangers(path: Path) -> tuple[str, ...]:
+    """The links that stand otherwise after a whole turn of the driver, in the order written."""
+    pieces = path.ranges[0]
+    first, start = pieces[0], pieces[0].low.at
+    last = next((p for p in pieces if p.low.at <= start + TURN <= p.high.at), pieces[-1])
+    missed = misses(first.course, start, last.course, start + TURN)
+    links = first.course.scene.links
+    return tuple(link for link in links if missed.get(("axis", link), 0.0) > BACK)
 
 
 def through(pieces: Sequence[Piece]) -> Turned | None:

@@ -13,6 +13,8 @@ CUT = 16
 """Parts into which the way to the last place that closes is cut at once."""
 AROUND = np.array([-4.5, -3.5, -2.5, -1.5, 1.5, 2.5, 3.5, 4.5])
 """Where, in steps, a square of a margin is sampled about a place that it may touch nought at."""
+BESIDE = (0.25, 0.75)
+"""Shares of a bracket at which it is cut where its middle tells nothing."""
 TOUCH = 1e-12
 """Square of a sine that counts as nought: less is rounding, or a gap too narrow to be passed."""
 
@@ -43,17 +45,27 @@ def crossings_of_nought(
     """Where a function changes its sign in each bracket, by halving, all brackets at once.
 
     ``value`` takes u (N,) and gives the function of bracket i at u[i]; brackets narrower than
-    ``enough`` are left.
+    ``enough`` are left. A bracket is cut beside a middle where the function is NaN; where it is NaN
+    on both sides, too, the bracket's lower end is returned, at which it is known.
     """
     at_low = value(low)
+    blind = np.zeros(len(low), dtype=bool)
     for _ in range(HALVINGS):
         middle = (low + high) / 2
-        wide = (middle != low) & (middle != high) & (high - low >= enough)
+        wide = (middle != low) & (middle != high) & (high - low >= enough) & ~blind
         if not wide.any():
             break
-        same = np.sign(value(middle)) == np.sign(at_low)
+        found = value(middle)
+        for share in BESIDE:
+            if not (unknown := wide & np.isnan(found)).any():
+                break
+            middle = np.where(unknown, low + share * (high - low), middle)
+            found = np.where(unknown, value(middle), found)
+        blind |= wide & np.isnan(found)
+        same = np.sign(found) == np.sign(at_low)
+        wide &= ~blind
         low, high = np.where(wide & same, middle, low), np.where(wide & ~same, middle, high)
-    return (low + high) / 2
+    return np.where(blind, low, (low + high) / 2)
 
 
 def least_square(offsets: Reals, margins: Reals) -> tuple[float, float] | None:

@@ -88,11 +88,6 @@ class Sweep(Struct, frozen=True, eq=False):
         return float(time.si(self.original.values))
 
     @property
-    def turns(self) -> tuple[float, ...]:
-        """By how much places may differ and be one: whole turns, where one closes on itself."""
-        return (0.0, TURN, -TURN) if self.whole else (0.0,)
-
-    @property
     def per_unit(self) -> float:
         """Radians, metres or seconds in one unit of u."""
         return pi / 180 if self.what == "turn" else 1.0

@@ -76,6 +76,6 @@ class Turned(Struct, frozen=True, eq=False):
         return Turned(np.append(low, self.at[here]), near)
 
     def moved(self, by: float, gone: Mapping[str, float]) -> Turned:
-        """The same motion at other places, where links have gone so much farther (degrees)."""
-        near = {link: row + gone[link] for link, row in self.near.items()}
+        """The same motion at other places, links having gone so much farther (degrees)."""
+        near = {link: row + gone.get(link, 0.0) for link, row in self.near.items()}
         return Turned(self.at + by, near)

@@ -17,7 +17,7 @@ from graphkin.motion.driving import (
 )
 from graphkin.numbers.arrays import np
 from graphkin.scene.expression import TIME
-from graphkin.scene.model import Driver, Link, Scene
+from graphkin.scene.model import FRAME, Driver, Link, Scene
 from graphkin.text.errors import Problem, SceneError
 
 DOUBLINGS = 60
@@ -54,12 +54,41 @@ def window(
         if what != "slide" and number is not None:
             way = wheel_turn(scene.links[scene.drivers[number - 1].link], scene) or ahead
             start, back, ahead = start - way / 2, 0.0, way
-        first = start - back if low is None else low
-        last = start + ahead if high is None else high
+        least, most = start - back, start + ahead
+        if start and number is not None and is_cylinder(scene, scene.drivers[number - 1]):
+            least, most = (max(least, 0.0), most) if start > 0 else (least, min(most, 0.0))
+        first = least if low is None else low
+        last = most if high is None else high
     if not first < last:
         found = f"{first:.10g} to {last:.10g} {COORDINATES[what].unit}"
         raise SceneError(Problem("--from, --to", found, "a window that grows"))
     return first, last, False
+
+
+def is_cylinder(scene: Scene, driver: Driver) -> bool:
+    """Whether a driver sets the length of a cylinder: a rod on one pin in a tube on another.
+
+    Nothing else holds either of them, and the guide passes the tube's pin, so that a length is
+    never negative.
+    """
+    if driver.kind != "slide" or driver.against == FRAME:
+        return False
+    rod, tube = scene.link(driver.link), scene.link(driver.against)
+    slides = [slide for slide in rod.slides if slide.on == tube.name]
+    pins = [
+        [
+            p
+            for p in each.points
+            if any(p in other.points for other in scene.every_link if other is not each)
+        ]
+        for each in (rod, tube)
+    ]
+    return (
+        len(rod.slides) == len(slides) == 1
+        and not tube.slides
+        and pins == [[rod.points[0]], [slides[0].through]]
+        and slides[0].offset.is_zero()
+    )
 
 
 def usual(scene: Scene, what: What, number: int | None, low: float, high: float) -> float:

@@ -154,7 +154,8 @@ class Stage(Struct, frozen=True, dict=True):
         else:
             name = angle_symbol(sweep.original, sweep.driver)
             if sweep.what == "turn":
-                angle = moment.at % TURN if goes_round(self.motion.cycle) else moment.at
+                circle = self.motion.cycle.path.period or TURN
+                angle = moment.at % circle if goes_round(self.motion.cycle) else moment.at
                 text = f"{name} = {words.fixed(angle, 1)}°"
             else:
                 unit = sweep.original.units["length"]

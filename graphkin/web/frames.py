@@ -28,10 +28,13 @@ from graphkin.text.errors import GraphkinError, Problem, SceneError
 
 if TYPE_CHECKING:
     from graphkin.motion.cycle import Cycle
+    from graphkin.motion.jumps import Jump
     from graphkin.motion.pieces import Piece
 
 FRAMES = 72
 """Pictures of a whole turn or of a time; a range has half as many."""
+MOST_TURNS = 4
+"""Turns of a driver's circle that are all shown; of more turns it is one."""
 GROWN = 3.0
 """Before a dead point the motion is shown while its rates are so many times their middle ones."""
 LEAST, LITTLE = 4, 1e-4
@@ -74,14 +77,18 @@ class FrameSequence(Struct, frozen=True):
 def motion(cycle: Cycle, words: Words, frames: int = FRAMES) -> FrameSequence:
     """The moments of a cycle, constructed one by one with the closures that hold there.
 
-    Raises SceneError where there is nothing to be moved.
+    Raises SceneError where there is nothing to be moved, and where something jumps.
     """
+    from graphkin.motion.jumps import jumps
+
     reached = cycle.ranges[0]
+    if leaps := jumps(cycle):
+        raise SceneError(leap(leaps[0], cycle.sweep.unit))
     if reached[1] - reached[0] < LITTLE * (cycle.sweep.high - cycle.sweep.low):
         raise SceneError(stands(cycle))
     low, high = shown_range(cycle)
     places, order = (
-        ([cycle.sweep.start + TURN * i / frames for i in range(frames)], list(range(frames)))
+        in_order(round_about(cycle, frames))
         if goes_round(cycle) and cycle.path.returns
         else end_to_end(cycle, low, high, frames)
     )
@@ -98,11 +105,32 @@ def motion(cycle: Cycle, words: Words, frames: int = FRAMES) -> FrameSequence:
     return FrameSequence(cycle, moments, shown, low, high, reached)
 
 
+def leap(jump: Jump, unit: str) -> Problem:
+    """The problem of a motion in which something jumps."""
+    what = f"link {jump.of}" if jump.turns else jump.of
+    found = f"{what} jumps between {jump.low:.6g} and {jump.high:.6g} {unit}"
+    return Problem("the animation", found, "a motion", "graphkin cycle says how far it jumps")
+
+
 def stands(cycle: Cycle) -> Problem:
     """The problem of a motion that has no room."""
     low, high = cycle.ranges[0]
     found = f"closes from {low:.6g} to {high:.6g} {cycle.sweep.unit}, too little to be moved"
     return Problem("the animation", found, "a driver that moves", "graphkin check shows the range")
+
+
+def in_order(places: list[float]) -> tuple[list[float], list[int]]:
+    """Places and their numbers."""
+    return places, list(range(len(places)))
+
+
+def round_about(cycle: Cycle, frames: int) -> list[float]:
+    """The places of the driver's whole circle, from where the scene stands, so many in each turn.
+
+    Of a circle of many turns it is the first turn.
+    """
+    turns = cycle.path.turns if cycle.path.turns <= MOST_TURNS else 1
+    return [cycle.sweep.start + TURN * i / frames for i in range(turns * frames)]
 
 
 def goes_round(cycle: Cycle) -> bool:
@@ -125,11 +153,11 @@ def end_to_end(cycle: Cycle, low: float, high: float, frames: int) -> tuple[list
 
 
 def place_in(cycle: Cycle, low: float, high: float) -> float:
-    """Where the scene stands, whole turns apart, within a range; the time for which it is drawn."""
+    """Where the scene stands, circles apart, within a range; the time at which it is drawn."""
     start = cycle.sweep.start
     if cycle.sweep.what == "time":
         return float(cycle.scene.values.get(TIME, start))
-    return next((start + turn for turn in cycle.sweep.turns if low <= start + turn <= high), start)
+    return cycle.path.found_at(start, low, high)
 
 
 def shown_range(cycle: Cycle) -> tuple[float, float]:
@@ -153,6 +181,8 @@ def shown_range(cycle: Cycle) -> tuple[float, float]:
         low = float(at[at > inner[0].max()].min(initial=middle))
     if pieces[-1].high.kind == "dead" and inner[1].size:
         high = float(at[at < inner[1].min()].max(initial=middle))
+    if not low < high:  # the scene stands where rates have grown
+        low, high = pieces[0].low.at, pieces[-1].high.at
     return clear_of_ends(cycle, low, high)
 
 
@@ -195,9 +225,9 @@ def made(
 
 
 def piece_at(cycle: Cycle, place: float) -> tuple[Piece | None, float]:
-    """The piece that holds a place, whole turns apart, and the place within it."""
+    """The piece that holds a place, whole circles apart, and the place within it."""
     for piece in cycle.path.ranges[0]:
-        for turn in cycle.sweep.turns:
+        for turn in cycle.path.shifts(place):
             if piece.low.at <= place + turn <= piece.high.at:
                 return piece, place + turn
     return None, place

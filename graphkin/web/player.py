@@ -263,7 +263,7 @@ def record(
         "vectors": [[*map(placed_label, names)] for names in named],
         "panes": [panes(sheet, s) for s, sheet in enumerate(sheets) if sheet.right],
         "senses": worded(sheets, words),
-        "notable": [*notable(motion, words, driven.metres, shift_of(motion, moved))],
+        "notable": [*notable(motion, moved, words)],
     }
 
 
@@ -273,22 +273,25 @@ def shift_of(motion: FrameSequence, moved: Moving) -> float:
     return moved.driven.start - place / moved.driven.metres
 
 
-def notable(
-    motion: FrameSequence, words: Words, metres: float, shift: float
-) -> Iterator[tuple[float, str]]:
+def notable(motion: FrameSequence, moved: Moving, words: Words) -> Iterator[tuple[float, str]]:
     """Where the driver stands in dead and change points, those at the ends included, and where in
     what is shown a follower turns back.
 
-    A driver that turns without end comes there once in each turn.
+    A driver that turns without end comes there once in each turn; where the wheels need several
+    turns, those of the turn that the page shows are told.
     """
     from graphkin.motion.follower_limits import followers
 
-    cycle, whole = motion.cycle, motion.cycle.path.whole
-    low, high = (-inf, inf) if whole else (motion.low, motion.high)
+    cycle, metres, shift = motion.cycle, moved.driven.metres, shift_of(motion, moved)
+    low, high = (-inf, inf) if cycle.path.whole else (motion.low, motion.high)
     told = [(each.at, words(f"animation.{each.kind}")) for each in cycle.singulars]
     for each in followers(cycle):
         back = words("animation.turns_back", name=each.name)
         told += [(limit.at, back) for limit in each.limits if low <= limit.at <= high]
+    if cycle.path.whole and cycle.path.turns > 1:
+        first, last = ((end - shift) * metres for end in (moved.reach.low, moved.reach.high))
+        every = [(cycle.path.found_at(at, first, last), said) for at, said in told]
+        told = [(at, said) for at, said in every if first <= at <= last]
     for at, said in sorted(told):
         yield round(at / metres + shift, 6), said
 

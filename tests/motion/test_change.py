@@ -71,10 +71,9 @@ def test_the_pins_of_a_cycloidal_drive_turn_its_output_steadily():
     gear trains); hole, pin and shaft come in line twice in a turn, and pins go on beside holes."""
     found = cycle(load(SCENES / "cycloidal-drive.toml"))
     changes = [each.at for each in found.singulars]
-    assert changes == pytest.approx(
-        [360 / 2.2, 720 / 2.2], abs=1e-6
-    )  # and at nought, the first row
-    assert found.at[-1] == 360
+    assert found.path.turns == 10
+    assert changes == pytest.approx(np.arange(22) * 360 / 2.2, abs=1e-6)
+    assert found.at[-1] == 3599
     points, angle = found.solution.points, np.radians(found.at)
     assert np.allclose(found.solution.links["output"].omega[1:], -150 * np.pi / 30)
     assert np.allclose(points["Q"].position[1:], 0.03 * np.exp(-0.1j * angle[1:]))

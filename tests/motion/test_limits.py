@@ -7,14 +7,16 @@ from math import asin, degrees, sqrt
 import numpy as np
 import pytest
 
-from graphkin.mechanism import load
+from graphkin.mechanism import Mechanism, load
 from graphkin.motion import follower_limits
 from graphkin.motion.cycle import cycle
 from graphkin.motion.follower_limits import followers, movers_of
 from graphkin.motion.refine import crossings_of_nought
 from graphkin.motion.single_loop import class_of, loop_of
+from graphkin.scene.read_scene import read_text
 from tests.bench.chain import scene as chain
 from tests.motion.linkages import cosine_rule, four_bar, slider_crank
+from tests.scene_files import FOLDER, scene_text
 
 EXACT = 1e-9
 
@@ -136,3 +138,35 @@ def test_a_crossing_does_not_depend_on_the_brackets_beside_it(enough):
         crossings_of_nought(value, lows[k : k + 1], highs[k : k + 1], enough)[0] for k in range(3)
     ]
     assert together.tolist() == alone
+
+
+def test_a_block_turns_round_where_the_number_of_its_closure_changes():
+    """The arms of a scissor lift lie flat on one another there: the block is an arm away."""
+    found = cycle(load(FOLDER / "motion/scissor-lift-cylinder.toml"), steps=8)
+    block = next(each for each in followers(found) if each.name == "3")
+    (number,) = (piece.high.at for piece in found.pieces if piece.high.kind == "number")
+    assert block.high.value == pytest.approx(1, abs=1e-12)
+    assert block.high.at == pytest.approx(number, abs=1e-6)
+
+
+@pytest.mark.parametrize("motion", ["harmonic", "cycloidal", "3-4-5", "parabolic"])
+def test_a_dwell_is_no_part_of_a_stroke(motion):
+    """It rests from 0 to 60 and from 180 to 240 degrees of a cam that turns clockwise."""
+    text = scene_text("motion/knife-cam-after-a-dwell", base=30, motion=motion)
+    (block,) = followers(cycle(Mechanism(read_text(text, "cam"))))
+    spans = [(each.start, each.end) for each in block.dwells]
+    assert spans == [pytest.approx(span, abs=1e-3) for span in ((120, 180), (300, 360))]
+    assert [each.value for each in block.dwells] == pytest.approx([0.055, 0.030], abs=1e-12)
+    assert block.rising == pytest.approx(120, abs=1e-3)
+    assert block.falling == pytest.approx(120, abs=1e-3)
+    assert block.time_ratio == pytest.approx(1, abs=1e-4)
+
+
+@pytest.mark.parametrize("sign", [1, -1])
+def test_the_length_of_a_cylinder_keeps_its_sign(sign):
+    text = (FOLDER / "motion/boom-on-a-cylinder.toml").read_text("utf-8")
+    text = text.replace("position = 600", f"position = {sign * 600}")
+    found = cycle(Mechanism(read_text(text, "boom")))
+    pin = np.hypot(0.3, 0.2)
+    ends = sorted([sign * (0.7 - pin), sign * (0.7 + pin)])
+    assert found.ranges == (pytest.approx(tuple(ends), abs=1e-9),)

@@ -7,10 +7,12 @@ from math import acos, degrees, sqrt
 import numpy as np
 import pytest
 
-from graphkin.mechanism import load
+from graphkin.mechanism import Mechanism, load
 from graphkin.motion.cycle import cycle
+from graphkin.scene.read_scene import read_text
 from graphkin.text.errors import ClosureError, SceneError
 from tests.motion.linkages import cosine_rule, five_bar, four_bar, slider_crank
+from tests.scene_files import scene_text
 
 EXACT = 6e-11
 """Degrees: 1e-12 of a radian."""
@@ -115,3 +117,13 @@ def test_limits_of_a_range_are_where_a_square_root_ends():
     ((_, high),) = found.ranges
     near = found.along([high - 1e-2, high - 1e-4]).margins["B"]
     assert near[0] / near[1] == pytest.approx(sqrt(100), rel=1e-3)
+
+
+@pytest.mark.parametrize(
+    ("base", "motion"), [(29, "harmonic"), (34, "harmonic"), (25, "parabolic")]
+)
+def test_a_cam_turns_fully_though_its_curvature_jumps_where_a_dwell_ends(base, motion):
+    text = scene_text("motion/knife-cam-after-a-dwell", base=base, motion=motion)
+    found = cycle(Mechanism(read_text(text, "cam")), steps=36)
+    assert found.path.whole
+    assert found.singulars == ()

@@ -51,3 +51,15 @@ def test_changes_of_sign_are_found_in_all_brackets_at_once_and_as_closely_as_ask
     assert np.abs(found - roots).max() <= 1e-15
     coarse = crossings_of_nought(lambda u: u - roots, low, high, enough=0.1)
     assert 1e-4 < np.abs(coarse - roots)[0] < 0.1
+
+
+def test_a_change_of_sign_is_found_beside_places_that_tell_nothing():
+    roots = np.array([0.5, 0.5 + 1e-9, 0.3])
+
+    def blind(u):
+        return np.where(np.abs(u - 0.5) < 1e-7, np.nan, u - roots)
+
+    found = crossings_of_nought(blind, np.zeros(3), np.ones(3))
+    assert np.abs(found - roots)[:2].max() < 1e-6
+    assert found[2] == pytest.approx(0.3, abs=1e-15)
+    assert np.isfinite(blind(found)).all()

@@ -14,8 +14,9 @@ from graphkin.diagnosis.ranges import closing
 from graphkin.mechanism import Mechanism, load
 from graphkin.motion.cycle import Cycle, cycle
 from graphkin.motion.driving import stated_motion
+from graphkin.motion.follower_limits import followers
 from graphkin.motion.motion_curves import curves_of
-from graphkin.motion.period import strangers, turns_to_return
+from graphkin.motion.pieces import strangers
 from graphkin.scene.read_scene import read_scene, read_text
 from graphkin.structure.turn_counting import counted_near, counting, place_of_turns
 from graphkin.text.errors import GraphkinError
@@ -23,6 +24,7 @@ from graphkin.web.page_driver import INPUT, driven_by
 from graphkin.web.tracing import Tracing
 from tests.chosen import CHOSEN, EVERY
 from tests.examples.scenes import FILES
+from tests.scene_files import scene_text
 
 OWN = {path.stem: path for path in sorted((Path(__file__).parent / "scenes").glob("*.toml"))}
 ROLLING = OWN | {name: path for name, path in FILES.items() if "rolls" in path.read_text("utf-8")}
@@ -157,9 +159,10 @@ def test_the_arm_beyond_half_a_turn_is_followed_by_range_and_moving_page():
 def test_a_mechanism_comes_back_after_as_many_turns_as_its_wheels_need(name, links, turns):
     path = cycle(scene(name), steps=4).path
     assert path.whole
-    assert path.returns is (turns == 1)
+    assert path.returns
     assert strangers(path) == links
-    assert turns_to_return(path) == turns
+    assert path.turns == turns
+    assert path.spans == ((0, turns * 360),)
 
 
 WANKEL = """
@@ -289,3 +292,50 @@ def test_a_geared_five_bar_moves_until_its_bars_are_in_line_though_that_be_turns
     degrees = np.arange(np.ceil(low), high)
     assert np.isin(degrees, np.round(found.at, 9)).all()
     assert found.witnessed.agrees.all()
+
+
+STOPS = [-100.744, 25.878, 43.065, 115.817, 189.551, 557.891]
+"""Where coupler and rod of the geared five-bar are in line, in a circle of two turns."""
+
+
+@pytest.mark.parametrize("angle", [90, -60, 300, 1000])
+def test_a_driver_has_the_same_ranges_and_dead_points_wherever_it_stands(angle):
+    """A and B are as far apart there as both bars together."""
+    text = scene_text("motion/geared-five-bar-that-stops", angle=angle)
+    found = cycle(Mechanism(read_text(text, Path("geared.toml"))))
+    assert found.path.turns == 2
+    assert sorted(found.ranges) == [
+        pytest.approx(pair, abs=1e-3) for pair in zip(STOPS[::2], STOPS[1::2], strict=True)
+    ]
+    assert [each.at for each in found.singulars] == pytest.approx(STOPS, abs=1e-3)
+    turned = np.radians(np.array([each.at for each in found.singulars]))
+    a = 0.06 * np.exp(1j * turned)
+    b = 0.1 + 0.055 * np.exp(1j * (np.radians(70) - 1.5 * (turned - np.pi / 2)))
+    assert np.minimum(abs(abs(b - a) - 0.175), abs(abs(b - a) - 0.015)).max() < 1e-9
+
+
+@pytest.mark.parametrize("angle", [50, 770, -300])
+def test_a_stroke_is_that_of_all_turns_after_which_all_stands_as_before(angle):
+    text = scene_text("motion/planet-back-after-four-turns", angle=angle)
+    found = cycle(Mechanism(read_text(text, Path("planet.toml"))))
+    block = next(each for each in followers(found) if each.name == "6")
+    assert len(found.at) == 4 * 360
+    places = found.solution.slides["6"].position
+    assert block.low.value == pytest.approx(places.min(), abs=1e-4)
+    assert block.extent == pytest.approx(0.258696, abs=1e-6)
+    assert not (block.low.edge or block.high.edge)
+    assert len(block.limits) == 8
+
+
+def test_what_never_comes_back_has_one_turn_and_no_extreme_at_its_edges():
+    text = scene_text("motion/planet-back-after-four-turns", angle=50)
+    text = text.replace("radius = 40 }", "radius = 39.123456 }").replace(
+        "O2-P = 110", "O2-P = 109.123456"
+    )
+    found = cycle(Mechanism(read_text(text, Path("planet.toml"))))
+    assert found.path.whole
+    assert not found.path.returns
+    assert found.path.turns == 0
+    (block,) = (each for each in followers(found, 0) if each.name == "6")
+    for end in (block.low, block.high):
+        assert end.edge == (end.at in (0.0, 360.0))

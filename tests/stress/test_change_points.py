@@ -117,15 +117,20 @@ def test_beside_the_pivot_of_its_slot_a_lever_is_right_or_refused():
     assert answered >= 12
 
 
-@pytest.mark.parametrize("at", ["60", "0", "1/10**9"])
+@pytest.mark.parametrize("at", ["60", "0", "1/10**9", "1/10**4", "-1/10**4"])
 def test_a_slot_passes_through_its_pivot_as_it_moves(at):
-    """The lever turns on: the block comes to the other side of the pivot, another closure."""
+    """The lever turns on: the block comes to the other side of the pivot, another closure.
+
+    The next time it comes back, so that the crank has a circle of two turns.
+    """
     found = cycle(replace(SLOT, at=at).mechanism())
-    (change,) = found.singulars
-    assert (change.kind, change.pin, change.lines) == ("change", "link 3", "A on P")
-    assert change.at == pytest.approx(0, abs=1e-9)
+    assert [(each.kind, each.pin, each.lines) for each in found.singulars] == [
+        ("change", "link 3", "A on P")
+    ] * 2
+    assert [each.at for each in found.singulars] == pytest.approx([0, 360], abs=1e-9)
     assert np.allclose(found.solution.links["3"].omega, 1, atol=1e-7)
-    assert not found.path.returns
+    assert found.path.returns
+    assert found.path.turns == 2
     assert found.witnessed.agrees.all()
 
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Sequence
 from typing import TYPE_CHECKING
 
 from graphkin.cli.report.piece_words import at_words, length_words, pieces_words, short
@@ -14,7 +14,8 @@ if TYPE_CHECKING:
     from graphkin.motion.cycle import Cycle
     from graphkin.motion.ends import Event
     from graphkin.motion.events import Singular
-    from graphkin.motion.follower_limits import Follower, Limit
+    from graphkin.motion.follower_limits import Dwell, Follower, Limit
+    from graphkin.motion.jumps import Jump
     from graphkin.motion.pieces import Path
     from graphkin.motion.single_loop import Loop
     from graphkin.motion.sweep import Sweep
@@ -30,8 +31,8 @@ SHOWN = 6
 """Places left out that are listed."""
 
 
-def cycle_lines(cycle: Cycle) -> Iterator[str]:
-    """The whole report of a cycle, line by line."""
+def cycle_lines(cycle: Cycle, found_jumps: Sequence[Jump] = ()) -> Iterator[str]:
+    """The whole report of a cycle, line by line, with the jumps that were found in it."""
     from graphkin.motion.follower_limits import followers
     from graphkin.motion.single_loop import loop_of
 
@@ -52,6 +53,7 @@ def cycle_lines(cycle: Cycle) -> Iterator[str]:
     loop = loop_of(cycle)
     yield from labelled("loop", loop_words(cycle, loop) if loop is not None else [])
     yield from labelled("rows", [rows_words(cycle)])
+    yield from labelled("motion", list(motion_words(cycle, found_jumps)))
     yield from labelled("witness", [witness_words(cycle)])
     yield from labelled("digits", list(digits_words(cycle)))
 
@@ -95,7 +97,7 @@ def range_words(cycle: Cycle) -> list[str]:
         if sweep.is_length:
             line += beyond_words(sweep, low, high)
         lines.append(line)
-    return lines
+    return lines + list(circle_words(cycle.path))
 
 
 def beyond_words(sweep: Sweep, low: Event, high: Event) -> str:
@@ -115,23 +117,31 @@ def beyond_words(sweep: Sweep, low: Event, high: Event) -> str:
 
 def return_words(path: Path) -> Iterator[str]:
     """How the mechanism stands after a turn of the driver, unless it stands as before."""
-    from graphkin.motion.period import strangers, turns_to_return
-    from graphkin.motion.pieces import MOST_TURNS
+    from graphkin.motion.period import MOST_TURNS
+    from graphkin.motion.pieces import strangers
 
-    if path.returns:
+    if path.turns == 1:
         return
-    others = strangers(path)
-    if dict(path.ranges[0][0].branches) != dict(path.ranges[0][-1].branches) or not others:
+    links = strangers(path)
+    if dict(path.ranges[0][0].branches) != dict(path.ranges[0][-1].branches) or not links:
         yield "after one turn the mechanism stands in another closure"
-        return
-    stand = "links {} stand" if len(others) > 1 else "link {} stands"
-    yield f"after one turn {stand.format(listed(others))} otherwise than before"
-    turns = turns_to_return(path)
-    yield (
-        f"after {turns} turns all stands as before"
-        if turns
-        else f"nor does all stand as before within {MOST_TURNS} turns"
-    )
+    else:
+        stand = "links {} stand" if len(links) > 1 else "link {} stands"
+        yield f"after one turn {stand.format(listed(links))} otherwise than before"
+    if path.turns:
+        yield f"after {path.turns} turns all stands as before"
+    elif links:
+        yield f"nor does all stand as before within {MOST_TURNS} turns: one turn is shown"
+
+
+def circle_words(path: Path) -> Iterator[str]:
+    """How often the ranges of a driver that stops come again."""
+    from graphkin.motion.period import MOST_TURNS
+
+    if path.turns > 1:
+        yield f"they come again after every {path.turns} turns of the driver, as the wheels do"
+    elif not path.turns and path.ranges[0][0].course.sweep.whole:
+        yield f"wheels do not stand as before within {MOST_TURNS} turns: further ranges may follow"
 
 
 def singular_words(cycle: Cycle, found: Singular) -> str:
@@ -162,26 +172,36 @@ def follower_words(cycle: Cycle, found: Follower, steady: bool) -> list[str]:
     verb = "goes" if found.line is None else "swings"
     if steady and found.line is not None and not found.limits:
         verb = "turns one way by"
-    words = f"{what}{line} {verb} {value_words(cycle, found, found.extent)}: "
+    edge = " within the window" if found.low.edge or found.high.edge else ""
+    words = f"{what}{line} {verb} {value_words(cycle, found, found.extent)}{edge}: "
     words += " to ".join(limit_words(cycle, found, end) for end in (found.low, found.high))
     lines = [words]
     ends = [end.at for end in (found.low, found.high)]
     others = [each for each in found.limits if min(abs(each.at - at) for at in ends) > SAME]
     if others:
-        also = listed(limit_words(cycle, found, each) for each in others)
+        also = listed([limit_words(cycle, found, each) for each in others], SHOWN)
         lines.append(f"  it turns round also at {also}")
-    if found.rising is not None:
-        backwards = cycle.sweep.runs_backwards
-        up = 360 - found.rising if backwards else found.rising
+    lines += [f"  {dwell_words(cycle, found, each)}" for each in found.dwells]
+    if found.rising is not None and found.falling is not None:
+        strokes = found.rising, found.falling
+        up, down = reversed(strokes) if cycle.sweep.runs_backwards else strokes
         high, low = (value_words(cycle, found, end.value) for end in (found.high, found.low))
-        strokes = f"{up:.1f}° of the driver to {high}, {360 - up:.1f}° to {low}"
-        lines.append(f"  time ratio of its two strokes {found.time_ratio:.4f}: {strokes}")
+        times = f"{up:.1f}° of the driver to {high}, {down:.1f}° to {low}"
+        lines.append(f"  time ratio of its two strokes {found.time_ratio:.4f}: {times}")
     return lines
+
+
+def dwell_words(cycle: Cycle, found: Follower, dwell: Dwell) -> str:
+    """Where a follower rests."""
+    ends = [at_words(cycle.sweep, end, name=False) for end in (dwell.start, dwell.end)]
+    where = f"{cycle.sweep.coordinate.letter} from {' to '.join(ends)}"
+    return f"it rests at {value_words(cycle, found, dwell.value)} for {where}"
 
 
 def limit_words(cycle: Cycle, found: Follower, limit: Limit) -> str:
     """One limit with the driver's place."""
-    return f"{value_words(cycle, found, limit.value)} (at {at_words(cycle.sweep, limit.at)})"
+    edge = ", an edge of the window" if limit.edge else ""
+    return f"{value_words(cycle, found, limit.value)} (at {at_words(cycle.sweep, limit.at)}{edge})"
 
 
 def value_words(cycle: Cycle, found: Follower, value: float) -> str:
@@ -262,13 +282,35 @@ def reach_words(sweep: Sweep, loop: Loop) -> str:
 
 def rows_words(cycle: Cycle) -> str:
     """How many rows there are, and which positions have none."""
-    words = f"{len(cycle.at)} rows"
+    turns = cycle.path.turns
+    words = f"{len(cycle.at)} rows" + f" through {turns} turns of the driver" * (turns > 1)
     left = cycle.left_out
     if not len(left):
         return words
     places = [at_words(cycle.sweep, float(at), name=False) for at in left]
     which = listed(places) if len(left) <= SHOWN else f"{places[0]} … {places[-1]}"
     return f"{words}; {len(left)} positions left out, they do not close or are singular: {which}"
+
+
+def motion_words(cycle: Cycle, found: Sequence[Jump]) -> Iterator[str]:
+    """Whether every point goes from row to row as its velocities lead it, or where it jumps."""
+    if not found:
+        yield "from row to row every point goes as its velocity leads it"
+    for each in found[:SHOWN]:
+        yield jump_words(cycle, each)
+    if len(found) > SHOWN:
+        yield f"and {len(found) - SHOWN} more jumps"
+
+
+def jump_words(cycle: Cycle, found: Jump) -> str:
+    """Where something jumps, and how far."""
+    low, high = (at_words(cycle.sweep, at, name=False) for at in (found.low, found.high))
+    where = f"between {cycle.sweep.coordinate.letter} = {low} and {high}"
+    if found.turns:
+        ways = [f"{angle:.3f}°" for angle in (found.way, found.led)]
+        return f"{where} link {found.of} turns {ways[0]} at once where its rate gives {ways[1]}"
+    ways = [length_words(cycle.sweep, way) for way in (found.way, found.led)]
+    return f"{where} {found.of} jumps {ways[0]} where its velocity gives {ways[1]}"
 
 
 def witness_words(cycle: Cycle) -> str:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Collection, Mapping
+from collections.abc import Callable, Mapping
 from functools import partial
 
 from msgspec import Struct
@@ -47,9 +47,9 @@ from graphkin.construction.rolling.contact_points import (
 )
 from graphkin.numbers.arithmetic import Point, Real, phase, turn_by
 from graphkin.scene.link_points import under
-from graphkin.scene.model import FRAME, Driver, Link, Scene, Wheel
+from graphkin.scene.model import FRAME, Driver, Link, Wheel
 from graphkin.scene.quantity import exact
-from graphkin.structure.groups import Geared, Train
+from graphkin.structure.groups import Geared, Train, other_of
 from graphkin.structure.joints import partner
 from graphkin.structure.pairs import Contact, Pin, Sliding
 from graphkin.structure.turn_counting import stated_rolling
@@ -84,6 +84,12 @@ def opposite(number: Real) -> Real:
 def turned_to(before: Real, angle: Real, here: Point, there: Point) -> Real:
     """The angle of a driven link, from that of one of its lines (here to there)."""
     return before + angle - phase(there - here)
+
+
+@action("turned-from")
+def turned_from(before: Real, angle: Real, here: Point, there: Point) -> Real:
+    """The angle of a link against which another is driven, from that of the other."""
+    return before - angle + phase(there - here)
 
 
 @action("rolled-on-wheel")
@@ -439,10 +445,9 @@ def angle_of(pen: Pen, link: str) -> int:
             return pen.given("nought")
         if pen.has("turned", link):
             return pen.the("turned", link)
-        driver = gives_angle(pen.scene, link)
-        if driver is not None and stands(pen, driver.against):
-            return pen.want("turned", link, driven_turn(pen, driver))
-        known = turned_with(pen.scene, link, pen.counted)
+        if (driver := driven_from(pen, link)) is not None:
+            return pen.want("turned", link, driven_turn(pen, driver, link))
+        known = turned_with(pen, link)
         if known is not None and stands(pen, known):
             axes = axis(pen, link), axis(pen, known)
             found = pen.draw(counted_near, *axes, angle_of(pen, known))
@@ -468,7 +473,7 @@ def refuse_idle_turns(pen: Pen) -> None:
         if link in counted:
             continue
         found = f"no wheel depends on how often link {link} went round"
-        if gives_angle(pen.scene, link) or turned_with(pen.scene, link) is not None:
+        if driven_from(pen, link) or turned_with(pen, link) is not None:
             found = f"a driver gives the angle of link {link}, whole turns included"
         elif pen.has("turned", link):
             found = f"link {link} rolls, which counts its whole turns"
@@ -478,20 +483,15 @@ def refuse_idle_turns(pen: Pen) -> None:
         raise StructureError(problems)
 
 
-def gives_angle(scene: Scene, link: str) -> Driver | None:
-    """The driver that gives the angle of a link, if one does."""
-    return next((d for d in scene.drivers if d.kind == "turn" and d.link == link), None)
-
-
-def turned_with(scene: Scene, link: str, counted: Collection[str] = ()) -> str | None:
+def turned_with(pen: Pen, link: str) -> str | None:
     """The next link towards a driven or a counted one along slides, with which a link turns."""
     towards, waiting = {link: link}, [link]
     while waiting:
         here = waiting.pop(0)
-        if here != link and (here in counted or gives_angle(scene, here)):
+        if here != link and (here in pen.counted or driven_from(pen, here)):
             return towards[here]
-        beside = slid_on(scene.link(here))
-        beside += [name for name, each in scene.links.items() if here in slid_on(each)]
+        beside = slid_on(pen.scene.link(here))
+        beside += [name for name, each in pen.scene.links.items() if here in slid_on(each)]
         for each in beside:
             if each not in (FRAME, *towards):
                 towards[each] = each if here == link else towards[here]
@@ -504,15 +504,25 @@ def slid_on(link: Link) -> list[str]:
     return [slide.on for slide in link.slides]
 
 
-def driven_turn(pen: Pen, driver: Driver) -> int:
-    """The angle of a driven link's x axis, whole turns counted."""
-    before = angle_of(pen, driver.against)
+def driven_from(pen: Pen, link: str) -> Driver | None:
+    """The driver that turns a link against one that stands before it, whichever it names first."""
+    order = [FRAME, *pen.bases]
+    here = order.index(link) if link in order else len(order)
+    before = set(order[:here])
+    turning = (driver for driver in pen.scene.drivers if driver.kind == "turn")
+    own = (driver for driver in turning if link in (driver.link, driver.against))
+    return next((driver for driver in own if other_of(driver, link) in before), None)
+
+
+def driven_turn(pen: Pen, driver: Driver, link: str) -> int:
+    """The angle of the x axis of a link that a driver turns, whole turns counted."""
+    before = angle_of(pen, other_of(driver, link))
     angle = pen.driven_angle(driver)
     if driver.of:
         ends = [local_place(pen, driver.link, point) for point in driver.of]
     else:
         ends = [pen.given("origin"), pen.given("ahead")]
-    return pen.draw(turned_to, before, angle, *ends)
+    return pen.draw(turned_to if link == driver.link else turned_from, before, angle, *ends)
 
 
 def roller(pen: Pen, group: Geared, own: Contact) -> None:

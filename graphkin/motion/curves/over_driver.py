@@ -253,9 +253,9 @@ def marked(found: Sampled) -> list[tuple[float, str, str]]:
     ]
     sweep = found.cycle.sweep
     if sweep.what != "time":
-        places = [sweep.start + turn for turn in sweep.turns]
-        inside = [at for at in places if found.at.min() <= at <= found.at.max()]
-        lines += [(at, "scene's position", FAINT) for at in inside[:1]]
+        low, high = found.at.min(), found.at.max()
+        at = found.cycle.path.found_at(sweep.start, low, high)
+        lines += [(at, "scene's position", FAINT)] if low <= at <= high else []
     return lines
 
 
