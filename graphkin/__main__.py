@@ -14,8 +14,8 @@ def main() -> None:
     """Run the command line and leave with its status."""
     gc.set_threshold(GARBAGE)
     os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")  # our matrices are small, its threads slow
-    from graphkin.cli.console import end
     from graphkin.cli.main import app
+    from graphkin.cli.options import end
 
     try:
         app(prog_name="graphkin")

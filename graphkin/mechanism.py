@@ -22,8 +22,7 @@ from graphkin.construction.core.solution import (
     without_touching,
 )
 from graphkin.construction.flat_rods import Laid, laid
-from graphkin.numbers.arithmetic import FLOAT, Kind
-from graphkin.numbers.arrays import np
+from graphkin.numbers.arithmetic import FLOAT, Kind, np
 from graphkin.scene import scene_files
 from graphkin.scene.link_names import in_language
 from graphkin.scene.link_points import ends_of
@@ -314,7 +313,7 @@ class Mechanism(Struct, frozen=True, dict=True):
             if kind == "float64":
                 trace = self.press.run(needed, values, keep, margins="least")
             else:
-                from graphkin.construction.core.batch import run_blocks
+                from graphkin.construction.core.run import run_blocks
                 from graphkin.numbers.kinds import array_kind
 
                 numbers = array_kind(kind)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from itertools import chain
 from time import perf_counter
 
@@ -10,20 +10,358 @@ import numpy as np
 from msgspec import Struct
 from msgspec.structs import replace
 
-from graphkin.accuracy.agreement import Agreement, agreement
-from graphkin.accuracy.compared_answers import Reference, answers_of, reference_of
-from graphkin.accuracy.compared_positions import approach, ground_of, places_around
+from graphkin.accuracy.comparison import (
+    Approach,
+    ComparedTargets,
+    Found,
+    Ground,
+    Reference,
+    answers_of,
+    approach,
+    ground_of,
+    places_around,
+    reference_of,
+    rows_of,
+)
 from graphkin.accuracy.effort import Effort
-from graphkin.accuracy.flattening import Flattening, flattened
-from graphkin.accuracy.methods import Method, MethodRow, own_methods
-from graphkin.accuracy.other_routes import other_methods
-from graphkin.accuracy.pencil_rows import pencil_rows, pencilled
-from graphkin.accuracy.scope import Scope, scopes
-from graphkin.construction.core.timing import Clock, Stopwatch
+from graphkin.accuracy.methods import (
+    Method,
+    MethodRow,
+    batch_work,
+    can_be_emitted,
+    columns_of,
+    found_singly,
+    in_floats,
+    other_methods,
+    own_methods,
+    radii_in,
+    start_before,
+    variants_of,
+)
+from graphkin.accuracy.pencil import Forecast, Pencil, forecast, original
+from graphkin.construction.core.program import Target
+from graphkin.construction.core.quantities import BY_TARGET, KINDS
+from graphkin.construction.core.timing import Clock, Stopwatch, Timing, Work, one_position
+from graphkin.construction.tape.batch_runner import Way
 from graphkin.drawing.scale import Scales
+from graphkin.loops.closing_groups import counted_in_order
+from graphkin.loops.equations import equations
+from graphkin.loops.newton import closed_from
 from graphkin.mechanism import Mechanism
 from graphkin.motion.course import Reals
+from graphkin.numbers.arithmetic import FLOAT
+from graphkin.numbers.kinds import ball_kind
 from graphkin.text.errors import GraphkinError
+
+DOUBLE = 53
+"""Bits of a ball that has as many as a double."""
+
+
+class Agreement(Struct, frozen=True):
+    """How doubles and balls of as many bits stand to the certified answers.
+
+    ``bound`` is the largest bound of a double's error over the largest of its quantity, ``single``
+    and ``batch`` the largest errors over their bounds. Of ``answers`` balls ``bounded`` have a
+    radius, the largest of which is ``tightness`` over its bound, and ``contained`` of these hold
+    the truth.
+    """
+
+    bound: float
+    single: float
+    batch: float
+    tightness: float
+    contained: int
+    bounded: int
+    answers: int
+
+
+def agreement(reference: Reference) -> Agreement:
+    """Hold doubles one by one, doubles in a batch and balls against the reference."""
+    places, targets = reference.places, reference.answers.every
+    count = len(places.at)
+    columns = batch_work(
+        places.course.program, targets, places.repeated(count), "float64", "steps"
+    )()
+    balls = found_singly(reference, ball_kind(DOUBLE))
+    bounds = bounds_of(reference)
+    single = in_parts(reference.missed(found_singly(reference, FLOAT)), bounds)
+    batch = in_parts(reference.missed(rows_of(columns, count)), bounds)
+    radii = in_parts(radii_in(balls, reference), bounds)
+    return Agreement(
+        float(in_parts(bounds, reference.scales).max()),
+        float(single.max()),
+        float(batch.max()),
+        float(radii[np.isfinite(radii)].max(initial=0.0)),
+        *contained(balls, reference),
+        len(targets) * count,
+    )
+
+
+def in_parts(errors: Reals, of: Reals) -> Reals:
+    """Errors in parts of other numbers; nothing of nothing, as of the velocities of what rests."""
+    with np.errstate(divide="ignore", invalid="ignore"):
+        return np.asarray(np.where(errors == 0, 0.0, errors / of))
+
+
+def bounds_of(reference: Reference) -> Reals:
+    """The largest bound of each quantity at each position, (P, 3), as the witness has it."""
+    places = reference.places
+    scene, values = places.course.scene, in_floats(places.repeated(len(places.at)))
+    start = start_before(reference, scene, values)
+    bounds = closed_from(counted_in_order(equations(scene, values)), start, singular=True).rounding
+    every = columns_of(bounds, reference)
+    rows = [np.stack([every[t] for t in some if t in every]) for some in reference.answers.targets]
+    return np.stack([row.max(axis=0) for row in rows], axis=1)
+
+
+def contained(balls: Sequence[Found], reference: Reference) -> tuple[int, int]:
+    """How many balls hold the balls of the reference whole, of how many that have a radius."""
+    pairs = [
+        (ball, sure[target])
+        for found, sure in zip(balls, reference.found, strict=True)
+        for target, ball in found.items()
+        if bool(ball.is_finite())
+    ]
+    return sum(bool(ball.contains(sure)) for ball, sure in pairs), len(pairs)
+
+
+# --- what is asked decides what it costs ----------------------------------------------------------
+
+
+SCOPES = dict(zip(KINDS, ("position", "+ velocity", "+ acceleration"), strict=True))
+"""What each derivative adds to those before it."""
+CENTRES = "+ centres, poles"
+"""What is added last: the places in links."""
+ASKED = "asked only"
+
+
+class Scope(Struct, frozen=True):
+    """What is wanted, how many steps that needs, and the time of a position in both ways."""
+
+    name: str
+    steps: int
+    single: Timing
+    batch: Timing
+
+
+def scopes(
+    mechanism: Mechanism, reference: Reference, effort: Effort, watch: Stopwatch
+) -> tuple[Scope, ...]:
+    """The cost of each scope, one position after the other and in a batch; of what is asked last.
+
+    A scope that adds nothing, in a mechanism without centres, is left out.
+    """
+    program = reference.places.course.program
+    wanted: list[Target] = []
+    known: dict[str, tuple[Target, ...]] = {}
+    for name in (*SCOPES.values(), CENTRES):
+        new = [target for target in program.answers if scope_of(target) == name]
+        wanted += new
+        if new:
+            known[name] = tuple(wanted)
+    known[ASKED] = tuple(target for target in mechanism.asked() if target in program.targets)
+    works = [work for some in known.values() for work in ways(some, reference, effort)]
+    times = watch.times(works)
+    pairs = zip(times[::2], times[1::2], strict=True)
+    return tuple(
+        Scope(name, len(program.needed(some)), *pair)
+        for (name, some), pair in zip(known.items(), pairs, strict=True)
+    )
+
+
+def scope_of(target: Target) -> str | None:
+    """The scope that adds a target; None for what is no quantity of a motion."""
+    quantity = BY_TARGET.get(target[0])
+    if quantity is None:
+        return None
+    in_link = quantity.whose == "links" and quantity.sort == "place"
+    return CENTRES if in_link else SCOPES[quantity.kind]
+
+
+def ways(
+    targets: Sequence[Target], reference: Reference, effort: Effort
+) -> Iterator[tuple[Work, int]]:
+    """What runs some targets one position after the other, and what runs them in a batch."""
+    places = reference.places
+    program = places.course.program
+    needed = program.needed(targets)
+
+    singly = [one_position(program, needed, values) for values in reference.exact_values]
+    yield lambda: [work() for work in singly], len(places.at)
+    count = variants_of(reference, effort)
+    way: Way = "numpy" if can_be_emitted(reference) else "steps"
+    yield batch_work(program, targets, places.repeated(count), "float64", way), count
+
+
+# --- errors while a crossing grows flat -----------------------------------------------------------
+
+
+LAW = (-1.0, -2.0, -3.0)
+"""The slopes of the three errors."""
+UNIT = {"float64": 2.0**-52, "float32": 2.0**-23}
+"""Relative distance of neighbouring numbers of each kind."""
+TAKES_HOLD = 0.2
+"""Sine of crossing from which the law is seen."""
+ABOVE = 10.0
+"""A slope is measured down to so many times the root of the unit, where nothing is left."""
+FALLEN = 0.1
+"""A crossing whose sine falls to less than so much of its largest grows flat."""
+LOST = 0.1
+"""An error from which it is no longer one of rounding, but an answer lost."""
+
+
+class Flattening(Struct, frozen=True, eq=False):
+    """Errors (G, 3) in groups of equal sines (G,), by kind of number; NaN where a kind fails.
+
+    ``reference`` are the positions. ``roots`` (G,) are the roots of the distances from the end, in
+    parts of the farthest: at a dead point a sine falls as they do.
+    """
+
+    approach: Approach
+    reference: Reference
+    sines: Reals
+    roots: Reals
+    errors: Mapping[str, Reals]
+
+    @property
+    def falls(self) -> bool:
+        """Whether the flattest crossing really grows flat at the end.
+
+        A group of higher class may reach its dead point without that.
+        """
+        return bool(self.sines.min() < FALLEN * self.sines.max())
+
+    @property
+    def measure(self) -> Reals:
+        """Against what errors are shown and slopes measured: the sine, or else the root (G,)."""
+        return self.sines if self.falls else self.roots
+
+    def slopes(self, kind: str) -> tuple[float | None, ...]:
+        """The slope of each error of a kind over the sine, in logarithms; None where unknown."""
+        least = ABOVE * UNIT[kind] ** 0.5
+        return tuple(slope(self.measure, self.errors[kind][:, n], least) for n in range(3))
+
+
+def flattened(approach: Approach, answers: ComparedTargets) -> Flattening:
+    """The errors of doubles and of single precision on the way to a dead point."""
+    reference = reference_of(approach.places, answers)
+    group = np.asarray(approach.group)[list(reference.kept)]
+    program, count = approach.places.course.program, len(reference.places.at)
+    values = reference.places.repeated(count)
+    errors = {}
+    for kind in UNIT:
+        columns = batch_work(program, answers.every, values, kind, "steps")()
+        missed = reference.missed(rows_of(columns, count))
+        errors[kind] = in_groups(missed / units_of(reference.sizes), group)
+    sines = in_groups(reference.sines[:, None], group, np.median)[:, 0]
+    roots = in_groups(roots_of(approach, reference)[:, None], group, np.median)[:, 0]
+    return Flattening(approach, reference, sines, roots, errors)
+
+
+def roots_of(approach: Approach, reference: Reference) -> Reals:
+    """The root of each position's distance from the end, in parts of the farthest; 1 without."""
+    if approach.goal is None:
+        return np.ones(len(reference.places.at))
+    far = np.abs(approach.places.at - approach.goal)
+    return np.asarray(np.sqrt(far[list(reference.kept)] / far.max()))
+
+
+def units_of(sizes: Reals) -> Reals:
+    """Largest distance L, largest speed v, and v²/L of each position, (P, 3)."""
+    length, speed = sizes[:, 0], sizes[:, 1]
+    units = np.stack([length, speed, speed**2 / np.where(length > 0, length, 1)], axis=1)
+    return np.where(units > 0, units, 1.0)
+
+
+def in_groups(rows: Reals, group: Reals, of: Callable[..., Reals] = np.max) -> Reals:
+    """One row for each group: the largest, or what else is made of its rows."""
+    return np.array([of(rows[group == each], axis=0) for each in np.unique(group)])
+
+
+def slope(sines: Reals, errors: Reals, least: float) -> float | None:
+    """The slope of errors over sines above the least, in logarithms; None for too few."""
+    sure = (sines > least) & (sines < TAKES_HOLD) & (errors > 0) & (errors < LOST)
+    if np.count_nonzero(sure) < 4 or np.ptp(np.log10(sines[sure])) < 1:
+        return None
+    return float(np.polyfit(np.log10(sines[sure]), np.log10(errors[sure]), 1)[0])
+
+
+# --- the pencil beside the numbers ----------------------------------------------------------------
+
+
+PENCILS = (0.5, 0.25, 0.1)
+"""Millimetres within which 95 of 100 marks lie."""
+FINE = 0.25
+"""The pencil that is shown where a crossing grows flat."""
+NEAREST = 1e-3
+"""The distance of the last of them, in parts of that of the first."""
+
+
+def pencil_rows(mechanism: Mechanism, reference: Reference, scales: Scales) -> Iterator[MethodRow]:
+    """Three pencils on the scene's own position, at the scales of its sheets."""
+    note = "95 of 100 drawings of the scene's own position are off by less; a person's hour"
+    for point in PENCILS:
+        name, key = f"pencil, {point:g} mm", f"{point:g} mm"
+        try:
+            exact = original(mechanism, scales, reference.answers.every)
+            worst = worst_of(forecast(exact, Pencil(point)), reference.answers)
+        except GraphkinError as error:
+            note = f"cannot be drawn: {error.problems[0]}"
+            yield MethodRow("pencil", name, key, (None, None, None), None, note=note)
+            continue
+        errors = worst / reference.scales
+        first, second, third = (float(each) for each in errors)
+        yield MethodRow("pencil", name, key, (first, second, third), None, note=note)
+
+
+def worst_of(found: Forecast, answers: ComparedTargets) -> Reals:
+    """The largest expected error of each quantity, in SI (3,); nought where nothing is drawn."""
+    known = found.index
+    return np.array(
+        [
+            max((known[target].error for target in some if target in known), default=0.0)
+            for some in answers.targets
+        ]
+    )
+
+
+def pencilled(
+    ground: Ground,
+    answers: ComparedTargets,
+    scales: Scales,
+    flattening: Flattening,
+    drawn: int,
+) -> tuple[Reals, Reals]:
+    """Measures (G,) and errors (G, 3) of a fine pencil at ``drawn`` places to a dead point.
+
+    A measure is what the flattening is shown against, or the driver's position over a range.
+
+    The plans are drawn as large as at the first position: as velocities grow so does kv. An error
+    is inf from where more than one in twenty drawings do not close.
+    """
+    way = approach(ground, drawn, 1, NEAREST)
+    reference = reference_of(way.places, answers)
+    units, course = units_of(reference.sizes), way.places.course
+    first = reference.sizes[0, 1]
+    measure = reference.sines if flattening.falls else roots_of(way, reference)
+    measure = reference.places.at if way.goal is None else measure
+    measures, errors = [], []
+    for row, at in enumerate(reference.places.at):
+        growth = float(reference.sizes[row, 1] / first) if first else 1.0
+        paper = replace(scales, seconds=scales.seconds / growth)
+        here = Mechanism(course.standing(float(at)))
+        try:
+            exact = original(here, paper, reference.answers.every)
+            worst = worst_of(forecast(exact, Pencil(FINE)), reference.answers)
+        except GraphkinError:
+            continue
+        measures.append(measure[row])
+        errors.append(worst / units[row])
+    return np.array(measures), np.array(errors).reshape(-1, 3)
+
+
+# --- the whole comparison of one scene: rows of methods, the way to a dead point, cost by scope ---
+
 
 Say = Callable[[str], None]
 

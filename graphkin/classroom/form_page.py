@@ -29,8 +29,7 @@ from graphkin.classroom.printing.answer_form import advice, why
 from graphkin.construction.core.quantities import BY_TARGET, RATES, SHEETS
 from graphkin.mechanism import Mechanism
 from graphkin.text import Words
-from graphkin.web.offline_page import part
-from graphkin.web.scripts import FORM, together
+from graphkin.web.offline_page import FORM, part, together
 from graphkin.web.step_page import Form
 from graphkin.writers.templates import from_template
 

@@ -7,11 +7,25 @@ from typing import TYPE_CHECKING
 
 import click
 
-from graphkin.cli.console import FAILED, READING, complain
-from graphkin.cli.folder_options import folder_option
-from graphkin.cli.options import force_option, lang_option, leave, tell
+from graphkin.cli.options import (
+    FAILED,
+    READING,
+    FolderType,
+    complain,
+    folder_option,
+    force_option,
+    jobs_option,
+    lang_option,
+    language_option,
+    leave,
+    output_option,
+    say,
+    tell,
+)
 
 if TYPE_CHECKING:
+    from graphkin.classroom.lab.fair_ranges import FairRanges
+    from graphkin.classroom.lab.lab_model import Lab
     from graphkin.classroom.roster.student import Student
     from graphkin.classroom.variants.assign import Assigned
 
@@ -76,8 +90,7 @@ def variants(name: str, roster: Path, folder: Path, lang: str | None, force: boo
     from graphkin.classroom.lab.read_lab import read_lab
     from graphkin.classroom.roster.read_roster import read_roster
     from graphkin.classroom.variants.assign import assigned, check_of
-    from graphkin.classroom.variants.class_files import write_class
-    from graphkin.classroom.variants.class_words import class_lines
+    from graphkin.classroom.variants.class_files import class_lines, write_class
 
     lab = read_lab(name)
     students = read_roster(roster, numbered=lab.rule.counts, check=check_of(lab), tell=complain)
@@ -129,3 +142,152 @@ def check_lab(name: str) -> None:
             are = "is" if unfair == 1 else "are"
             complain(f"{unfair} of {len(outcome.many)} variants {are} unfair")
         leave(FAILED)
+
+
+# --- the command ``quiz``: a lab as questions for Moodle ------------------------------------------
+
+
+SHOWN = 5
+"""Variants that are left out, of which it is told one by one."""
+
+
+@click.command("quiz")
+@click.argument("name", metavar="LAB")
+@output_option
+@language_option
+@click.option(
+    "--count",
+    metavar="N",
+    type=click.IntRange(1, 1000),
+    default=30,
+    show_default=True,
+    help="Variants at most.",
+)
+@jobs_option()
+@force_option
+@click.pass_context
+def quiz(
+    context: click.Context,
+    name: str,
+    folder: Path,
+    lang: str | None,
+    count: int,
+    jobs: int | None,
+    force: bool,
+) -> None:
+    """Write a lab as a bank of questions for Moodle.
+
+    LAB is the name of a shipped lab or a folder with scene.toml and lab.toml; or the folder of a
+    class, for its lab in its language.
+
+    Writes LAB-moodle.xml (question bank, import, Moodle XML): a category for each fair variant,
+    and in it one question with embedded answers: the task as pictures and as a PDF to be printed at
+    100 %, a gap for each field with the tolerance of that variant's own drawing, and what slips
+    would give, with their share (lab.toml) and a sentence. What follows from own wrong values only
+    graphkin grade can tell.
+
+    \b
+    Example:
+      graphkin quiz pump -o out --lang en
+    """
+    from graphkin.classroom.lab.read_lab import read_lab
+    from graphkin.classroom.printing.edition import read_edition
+    from graphkin.classroom.printing.print_work import PrintOrder
+    from graphkin.classroom.printing.workers import cores
+    from graphkin.classroom.quiz.moodle_quiz import bank, questions, variants_of
+    from graphkin.classroom.variants.manifest import MANIFEST
+    from graphkin.documents.sheet_documents import language_of
+    from graphkin.mechanism import Mechanism
+    from graphkin.scene.read_scene import read_text
+    from graphkin.text.errors import Problem, SceneError
+    from graphkin.writers.files import refuse_folder, write_all
+
+    whole = read_edition(Path(name)) if (Path(name) / MANIFEST).is_file() else None
+    lab = whole.lab if whole else read_lab(name)
+    lang = lang or (whole.language if whole else "")
+    refuse_folder(folder, [f"{lab.name}-moodle.xml"], force=force)
+    if not lab.rubric.points:
+        hint = "give points in [marks] of lab.toml"
+        raise SceneError(Problem(lab.name, "no field earns marks", "a field that does", hint))
+    fair, unfair = variants_of(lab, count)
+    for each in unfair[:SHOWN]:
+        told = ", ".join(f"{key} = {value}" for key, value in each.settings.items())
+        complain(f"{told} is left out: {'; '.join(map(str, each.faults))}")
+    if len(unfair) > SHOWN:
+        complain(f"and {len(unfair) - SHOWN} more unfair variants")
+    if not fair:
+        raise SceneError(Problem(lab.name, "no variant is fair", "one at least"))
+    scene = lab.scene.read_text(encoding="utf-8-sig")
+    words = language_of(Mechanism(read_text(scene, lab.name)), lang)
+    order = PrintOrder(lab, scene, words.language, "colour")
+    found = questions(order, fair, jobs or cores())
+    file = {f"{lab.name}-moodle.xml": bank(lab.name, found)}
+    written = write_all(folder, file, force)
+    say(f"{len(found)} questions, a category for each")
+    tell(map(str, written))
+
+
+# --- ``graphkin ranges``: where in the space of its parameters a lab is fair ----------------------
+
+
+@click.command()
+@click.argument("name", metavar="LAB")
+@click.option("-o", "--output", "folder", metavar="DIR", type=FolderType(path_type=Path))
+@force_option
+def ranges(name: str, folder: Path | None, force: bool) -> None:
+    """Find the ranges of a lab's parameters in which every variant is fair.
+
+    LAB is the name of a shipped lab or a folder with scene.toml and lab.toml; the space is what the
+    scene's parameters allow from min to max, the limits are those of [fair]. Tells what is fair by
+    the values of each parameter, which parameter decides, and proposes [variants] to be pasted; of
+    a formula to which numbers it is unfair, why, and the smallest change that mends it. With -o
+    pictures of the fair share, by parameter and by pairs.
+
+    \b
+    Example:
+      graphkin ranges crank-lab -o ranges
+    """
+    from graphkin.classroom.lab.fair_ranges import fair_ranges
+    from graphkin.classroom.lab.proposed_ranges import range_lines
+    from graphkin.classroom.lab.read_lab import read_lab
+    from graphkin.text.plain_table import labelled
+    from graphkin.writers.files import refuse_folder, write_all
+
+    lab = read_lab(name)
+    if folder is not None:
+        refuse_folder(folder)
+    found = fair_ranges(lab)
+    tell(range_lines(lab, found))
+    if not lab.rule.draws:
+        tell(labelled("formula", formula_lines(lab)))
+    tell(["", *proposed(lab, found)])
+    if folder is not None:
+        from graphkin.classroom.lab.fair_ranges_pictures import pictures
+
+        files = dict(pictures(found, lab.name, lab.name))
+        tell(["", *map(str, write_all(folder, files, force))])
+
+
+def formula_lines(lab: Lab) -> list[str]:
+    """To which numbers a formula is unfair, why, and what mends that."""
+    from graphkin.classroom.lab.proposed_ranges import formula_faults, mending_lines
+
+    found = formula_faults(lab)
+    return mending_lines(found.unfair, found.mending)
+
+
+def proposed(lab: Lab, found: FairRanges) -> list[str]:
+    """The ranges as text, and how many students they keep apart."""
+    from graphkin.classroom.lab.proposed_ranges import proposed_ranges, variants_lines
+
+    new = proposed_ranges(lab, found)
+    if new is None:
+        complain("no ranges were found in which all is fair")
+        return []
+    room = f"{new.kept} of {new.of} students"
+    if new.kept == new.of:
+        room = f"all {new.of} students of a class"
+    told = f"# {new.count} different data; at apart = {new.apart:g} they keep {room} apart"
+    again = "the others are drawn again"
+    coarse = [f"# a pencil draws {100 * new.exact:.0f} % of these exactly enough, {again}"]
+    return [told, *(coarse if new.exact < 1 else ()), *variants_lines(new.ranges, new.course)]

@@ -8,9 +8,9 @@ from typing import TYPE_CHECKING
 
 import click
 
-from graphkin.cli.console import FAILED, complain
-from graphkin.cli.folder_options import output_option
 from graphkin.cli.options import (
+    FAILED,
+    complain,
     force_option,
     formats_option,
     ink_option,
@@ -18,6 +18,7 @@ from graphkin.cli.options import (
     leave,
     mechanism_of,
     option_words,
+    output_option,
     pairs_of,
     scales_of,
     scene_argument,
@@ -146,8 +147,7 @@ def cycle(
       graphkin cycle pump --set n=7 -o cycles --format gif,html
     """
     kinds = option_words("--format", formats, ("svg", "png", "gif", "html"))
-    from graphkin.cli.report.cycle_report import agrees, cycle_lines, jump_words
-    from graphkin.cli.report.cycle_table import cycle_table
+    from graphkin.cli.report.cycle_report import agrees, cycle_lines, cycle_table, jump_words
     from graphkin.motion.curves.curve_files import FORMATS as CURVES
     from graphkin.motion.curves.curve_files import picture_files
     from graphkin.motion.cycle import cycle as moved
@@ -217,7 +217,7 @@ def accuracy(
     kinds = option_words("--format", formats, ("svg", "png"))
     from graphkin.accuracy.effort import QUICK, Effort
     from graphkin.accuracy.study import study
-    from graphkin.accuracy.study_files import picture_files
+    from graphkin.accuracy.study_pictures import picture_files
     from graphkin.cli.report.accuracy_report import accuracy_lines, accuracy_table
     from graphkin.cli.report.waits import waits_lines, waits_of
     from graphkin.writers.files import file_stem, refuse_folder, write_all

@@ -9,9 +9,15 @@ from typing import TYPE_CHECKING
 
 import click
 
-from graphkin.cli.console import FAILED, complain, say
-from graphkin.cli.folder_options import class_argument
-from graphkin.cli.options import formats_option, jobs_option, lang_option
+from graphkin.cli.options import (
+    FAILED,
+    class_argument,
+    complain,
+    formats_option,
+    jobs_option,
+    lang_option,
+    say,
+)
 
 if TYPE_CHECKING:
     from fractions import Fraction
@@ -161,12 +167,11 @@ def grade(  # noqa: PLR0915
         EMPTY,
         Deciding,
         read_decisions,
+        releases,
         settled,
     )
-    from graphkin.classroom.grading.gradebook import with_marks
-    from graphkin.classroom.grading.gradebook_xlsx import read_gradebook
+    from graphkin.classroom.grading.gradebook import read_gradebook, with_marks
     from graphkin.classroom.grading.grading_files import gradebook_name, points_by_id
-    from graphkin.classroom.grading.releases import releases
     from graphkin.classroom.grading.turn_scores import TURNS, read_turns, turns_table
     from graphkin.classroom.printing.edition import read_edition
     from graphkin.text import words as words_in
@@ -346,7 +351,7 @@ def tell_books(
     rows are of nobody in the class.
     """
     from graphkin.classroom.grading.answer_numbers import shown_cell
-    from graphkin.classroom.grading.marks_tables import number
+    from graphkin.classroom.grading.grading_files import number
 
     graded = found.graded
     held = [each.taker.student.id for each in graded if each.held]
@@ -376,8 +381,7 @@ def tell_books(
 
 def changes(files: dict[str, bytes], words: Words) -> None:
     """Tell how much a new marking changed, and the first of it."""
-    from graphkin.classroom.grading.grading_files import CHANGES
-    from graphkin.classroom.grading.marks_tables import change_lines
+    from graphkin.classroom.grading.grading_files import CHANGES, change_lines
 
     if CHANGES in files:
         for line in change_lines(files[CHANGES], words):
@@ -431,7 +435,7 @@ def notes(opened: Edition, given: Answers, refusals: Refusals, words: Words) -> 
 
 def earning(opened: Edition) -> set[str]:
     """The fields that earn points on somebody's form."""
-    from graphkin.classroom.lab.asking import asked_of
+    from graphkin.classroom.lab.items import asked_of
 
     form, points = opened.book.form, opened.book.lab.rubric.points
     every = (asked_of(form, points, taker.compute)[1] for taker in opened.takers)

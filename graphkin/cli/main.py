@@ -7,8 +7,18 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from graphkin import __version__
-from graphkin.cli.console import FAILED, CommandGroup, complain, say, told_at_once
-from graphkin.cli.options import leave, mechanism_of, scales_of, scene_argument, tell
+from graphkin.cli.options import (
+    FAILED,
+    CommandGroup,
+    complain,
+    leave,
+    mechanism_of,
+    say,
+    scales_of,
+    scene_argument,
+    tell,
+    told_at_once,
+)
 
 if TYPE_CHECKING:
     from collections.abc import Iterable
@@ -29,10 +39,10 @@ LATER = {
     "grade": "graphkin.cli.grade_command:grade",
     "read": "graphkin.cli.read_command:read",
     "desk": "graphkin.cli.read_command:desk",
-    "quiz": "graphkin.cli.quiz_command:quiz",
+    "quiz": "graphkin.cli.class_commands:quiz",
     "new": "graphkin.cli.class_commands:new",
     "variants": "graphkin.cli.class_commands:variants",
-    "ranges": "graphkin.cli.ranges_command:ranges",
+    "ranges": "graphkin.cli.class_commands:ranges",
     "studio": "graphkin.cli.studio_command:studio",
 }
 """The commands of other modules and where they stand."""

@@ -10,14 +10,17 @@ from typing import TYPE_CHECKING
 
 import click
 
-from graphkin.cli.console import FAILED, complain, say, say_aside
-from graphkin.cli.folder_options import class_argument
 from graphkin.cli.options import (
+    FAILED,
+    class_argument,
+    complain,
     formats_option,
     ink_option,
     jobs_option,
     lang_option,
     option_words,
+    say,
+    say_aside,
 )
 
 if TYPE_CHECKING:

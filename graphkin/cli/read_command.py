@@ -7,11 +7,9 @@ from typing import TYPE_CHECKING
 
 import click
 
-from graphkin.cli.console import FAILED
-from graphkin.cli.folder_options import folder_option
-from graphkin.cli.local_page import browser_option, port_option, refuse_without, show
-from graphkin.cli.options import jobs_option, lang_option, tell
+from graphkin.cli.options import FAILED, folder_option, jobs_option, lang_option, tell
 from graphkin.cli.print_command import progress
+from graphkin.cli.studio_command import browser_option, port_option, refuse_without, show
 from graphkin.text.errors import PageError, Problem
 
 if TYPE_CHECKING:

@@ -64,7 +64,7 @@ def write(scene: Scene, groups: tuple[Group, ...], *, fitted: bool = True) -> Pr
     write_turning(pen)
     write_plan(pen, standing, VELOCITIES)
     if scene.sheet.plan == "kutzbach":
-        from graphkin.construction.rolling.ladder import draw_ladder
+        from graphkin.construction.rolling.kutzbach import draw_ladder
 
         draw_ladder(pen)
     write_plan(pen, standing, ACCELERATIONS)

@@ -10,8 +10,8 @@ from graphkin.construction.core.plan_vector import plan_vector
 from graphkin.construction.core.quantities import OnPaper, in_mm
 from graphkin.construction.core.relation import value_of
 from graphkin.construction.core.segments import segment_of
-from graphkin.drawing.areas import Rect
 from graphkin.drawing.columns import SMALL, ColumnTable, Row, laid_out, on_sheets
+from graphkin.drawing.field import Rect
 from graphkin.drawing.marks import Mark, Text
 from graphkin.drawing.richtext import flowed
 from graphkin.drawing.symbol_markup import escape, symbol

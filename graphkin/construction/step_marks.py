@@ -6,10 +6,14 @@ from typing import Any
 
 from graphkin.construction.core.auxiliary_plan import auxiliary_plan
 from graphkin.construction.core.kind import construction, constructions
-from graphkin.construction.core.paper_canvas import PaperCanvas, draw_part, raise_points_aside
-from graphkin.construction.core.plan_marks import put_arrow
+from graphkin.construction.core.paper_canvas import (
+    PaperCanvas,
+    Plot,
+    draw_part,
+    put_arrow,
+    raise_points_aside,
+)
 from graphkin.construction.core.plan_vector import plan_vector
-from graphkin.construction.core.plot import Plot
 from graphkin.construction.core.program import Part, Plane, Step
 from graphkin.construction.core.segments import is_foot_drawn
 from graphkin.construction.higher_class.closed_group import ClosedGroup

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 from msgspec import Struct
 
-from graphkin.numbers.arrays import np
+from graphkin.numbers.arithmetic import np
 from graphkin.scene.model import Scene
 from graphkin.scene.quantity import LENGTHS
 from graphkin.structure.driver_count import driver_name

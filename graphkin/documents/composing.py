@@ -17,7 +17,7 @@ from math import log, sqrt
 from msgspec import Struct
 from msgspec.structs import replace
 
-from graphkin.drawing.areas import ABOVE, HEIGHT, LEAST_FIELD, MARGIN, WIDTH
+from graphkin.drawing.field import ABOVE, HEIGHT, LEAST_FIELD, MARGIN, WIDTH
 from graphkin.drawing.scale import Extent, Scales, digits, preferred, preferred_scales, ratio
 from graphkin.text.errors import PageError, Problem
 

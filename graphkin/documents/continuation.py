@@ -11,20 +11,20 @@ from graphkin.construction.core.drawn_scene import Drawing
 from graphkin.construction.core.given_data import given
 from graphkin.construction.core.layout import Layout, centre, lay_out, spans
 from graphkin.construction.result_tables import tables, tables_on_sheets
-from graphkin.documents.captions import HEADING, plan_enlarged
 from graphkin.documents.listing import in_columns, on_sheets
-from graphkin.documents.members import members
 from graphkin.documents.sheet import (
+    HEADING,
     Moved,
     asked_words,
     construction_head,
+    members,
     page_title,
+    plan_enlarged,
     right_board,
     title_block,
     title_line,
 )
-from graphkin.drawing.areas import A3_TITLE_BLOCK, ABOVE, AREA, BELOW, MARGIN, MARKED, Rect
-from graphkin.drawing.field import Field
+from graphkin.drawing.field import A3_TITLE_BLOCK, ABOVE, AREA, BELOW, MARGIN, MARKED, Field, Rect
 from graphkin.drawing.frame import sheet_frame
 from graphkin.drawing.marks import Mark, Page, Text, reach
 from graphkin.drawing.richtext import extent, flowed, narrow_words

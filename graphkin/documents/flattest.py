@@ -14,7 +14,7 @@ from graphkin.construction.core.kind import construction
 from graphkin.construction.core.program import Part
 from graphkin.construction.higher_class.closed_group import ClosedGroup
 from graphkin.documents.sentences import sentences
-from graphkin.drawing.areas import BELOW, TABLES
+from graphkin.drawing.field import BELOW, TABLES
 from graphkin.drawing.marks import Mark, Text
 from graphkin.drawing.richtext import extent
 from graphkin.drawing.symbol_markup import symbol, without_index

@@ -7,7 +7,7 @@ from itertools import product
 
 from graphkin.construction.core.drawn_scene import Drawing
 from graphkin.documents.sentences import sentences
-from graphkin.drawing.areas import MARKED, Rect
+from graphkin.drawing.field import MARKED, Rect
 from graphkin.drawing.marks import Mark, Text
 from graphkin.drawing.richtext import are_clear, flowed, words_of
 from graphkin.text.errors import PageError, Problem

@@ -7,7 +7,7 @@ from collections.abc import Iterator, Mapping
 from graphkin.construction.core.drawn_scene import Drawing
 from graphkin.construction.guides.rails import places_of
 from graphkin.construction.guides.slide_symbols import frame_guides
-from graphkin.construction.links.plates import corners_of, farthest, is_all_wheel
+from graphkin.construction.links.link_shapes import corners_of, farthest, is_all_wheel
 from graphkin.construction.links.wheel_symbols import TOUCHED, straight_tracks, touching_points
 from graphkin.drawing.field import Field
 from graphkin.drawing.marks import Mark, style_class

@@ -6,13 +6,11 @@ from typing import TYPE_CHECKING, get_args
 
 from graphkin.construction.core.drawn_scene import Drawing
 from graphkin.construction.core.layout import Layout, centre, poles_of, spans, with_poles
-from graphkin.documents.captions import HEADING
 from graphkin.documents.detail import with_detail
 from graphkin.documents.scaling import sheet_motion
-from graphkin.documents.sheet import left_board, right_board
+from graphkin.documents.sheet import HEADING, left_board, right_board
 from graphkin.documents.sheet_documents import drawings_of, hand_out, language_of, proved
-from graphkin.drawing.areas import ABOVE, Rect
-from graphkin.drawing.field import Field
+from graphkin.drawing.field import ABOVE, Field, Rect
 from graphkin.drawing.labels import FieldContent
 from graphkin.drawing.marks import Mark
 from graphkin.drawing.scale import Extent

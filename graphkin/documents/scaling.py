@@ -16,7 +16,7 @@ from graphkin.construction.core.solution import Curve, Solution, Verdict, gather
 from graphkin.documents.composing import Needs, Search, Stated, searched_scales
 from graphkin.drawing.scale import Extent, Scales, digits, extent_of, preferred
 from graphkin.mechanism import Mechanism
-from graphkin.numbers.arrays import np
+from graphkin.numbers.arithmetic import np
 from graphkin.scene.model import Sheet
 from graphkin.scene.quantity import Quantity
 from graphkin.text import Words, words

@@ -25,10 +25,8 @@ from graphkin.construction.links.mechanism_symbols import (
     draw_pins,
     draw_plates,
 )
-from graphkin.drawing.areas import SCHEME
-from graphkin.drawing.field import XY, Field
-from graphkin.drawing.label import Label, segment_of
-from graphkin.drawing.labels import FieldContent
+from graphkin.drawing.field import SCHEME, XY, Field
+from graphkin.drawing.labels import FieldContent, Label, segment_of
 from graphkin.drawing.marks import Mark, Text, reach, scaled
 from graphkin.numbers.arithmetic import FLOAT
 from graphkin.scene.model import Link

@@ -4,49 +4,364 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from enum import Enum
+from itertools import islice
 
 from msgspec import Struct
 from msgspec.structs import replace
 
 from graphkin.construction import step_marks
 from graphkin.construction.core.component import crowded_pins
-from graphkin.construction.core.curve_marks import draw_curves
 from graphkin.construction.core.drawn_scene import Drawing
+from graphkin.construction.core.given_data import Datum, data
 from graphkin.construction.core.kind import PlanPole, Sentence, construction
 from graphkin.construction.core.layout import Layout, lay_out, lowered, spare_height
-from graphkin.construction.core.naming import name_of_sheet
-from graphkin.construction.core.paper_canvas import PaperCanvas, draw_part
-from graphkin.construction.core.plot import Plot, above_foot
-from graphkin.construction.core.quantities import ASKED
+from graphkin.construction.core.naming import has_plan, length_scale, name_of_sheet, scale_of
+from graphkin.construction.core.paper_canvas import (
+    PaperCanvas,
+    Plot,
+    above_foot,
+    draw_curves,
+    draw_part,
+)
+from graphkin.construction.core.program import Plane
+from graphkin.construction.core.quantities import ASKED, PLANES, SHEETS
+from graphkin.construction.core.relation import beside_plan, figure
 from graphkin.construction.drivers import driver_symbols
+from graphkin.construction.drivers.driver_relations import driven_bars, plan_scales
 from graphkin.construction.guides.slide_symbols import covered
 from graphkin.construction.links import mechanism_symbols
 from graphkin.construction.links.link_numbers import settle_in_plates
 from graphkin.construction.result_tables import tables
-from graphkin.documents.captions import HEADING, headlines
-from graphkin.documents.data_heading import data_heading, height_beyond
-from graphkin.documents.detail import parted
+from graphkin.construction.velocity.turned_velocity import TurnedVelocity
+from graphkin.documents.detail import insets, parted
 from graphkin.documents.flattest import flattest_line
-from graphkin.documents.inset import insets
 from graphkin.documents.listing import first_part, listed
-from graphkin.documents.members import members
 from graphkin.documents.scheme import scheme
 from graphkin.documents.sentences import sentences
 from graphkin.documents.signs import mechanism_signs, plan_signs
-from graphkin.documents.task_scale import plan_at
-from graphkin.drawing.areas import A3_AREA, AREA, BELOW, SCHEME, TABLES
-from graphkin.drawing.bare_stretches import at_bare_stretches
+from graphkin.drawing.field import A3_AREA, AREA, BELOW, SCHEME, TABLES, Rect
 from graphkin.drawing.frame import CELLS, STUDENT, TitleBlock, check_bar, sheet_frame, wrapped
-from graphkin.drawing.label import Label, segment_of
-from graphkin.drawing.labels import FieldContent, FootNote
-from graphkin.drawing.marks import LineMark, Mark, Page, Text, reach, style_class
-from graphkin.drawing.richtext import extent, flowed, words_of
+from graphkin.drawing.labels import FieldContent, FootNote, Label, at_bare_stretches, segment_of
+from graphkin.drawing.marks import LineMark, Mark, Page, Text, box, reach, style_class
+from graphkin.drawing.richtext import are_clear, extent, flowed, words_of
 from graphkin.drawing.style import VECTORS
-from graphkin.drawing.symbol_markup import escape, symbol
+from graphkin.drawing.symbol_markup import bar, escape, symbol
 from graphkin.scene.link_points import lettered
+from graphkin.scene.model import Link
 from graphkin.scene.requests import LINKS_ASKED
-from graphkin.text.errors import PageError
+from graphkin.text import Words
+from graphkin.text.errors import PageError, Problem
 from graphkin.text.markup import names_in
+
+BLANK = ". . . . . . . . ."
+"""Room to write in what a task does not give away."""
+HEADING = "heading"
+"""The name of the lines of captions."""
+LOOKS = ((3.5, 1), (2.5, 1), (2.5, 2))
+"""Heights of captions in mm with the lines that they may have, the first that does for both."""
+LEAST = 1.8
+"""Height in mm of the letters where nothing else does."""
+CAPTION_LEADING = 1.4
+"""Distance of the lines of a caption, in heights of its letters."""
+FOOT = 2.2
+"""How far above its field the first line of a caption stands, in mm: clear of three lines of data;
+a second line of the lower letters ends above what begins 3 mm below the field's edge."""
+
+
+def headlines(drawing: Drawing, layout: Layout, view: str) -> tuple[list[Mark], list[Mark]]:
+    """The captions of both fields, of one height on both sheets of a mechanism.
+
+    A task leaves the scale factors to be computed. A field without a plan has none.
+    """
+    own = said_above(drawing, drawing.kind if has_plan(drawing) else "", view)
+    every = [*own, *(said for kind in others(drawing) for said in said_above(drawing, kind, view))]
+    rects = layout.mechanism.rect, layout.plan.rect
+    both = [(said, rects[i % 2]) for i, said in enumerate(every)]
+    height = next((h for h, most in LOOKS if all(len(lines(*x, h)) <= most for x in both)), LEAST)
+    above = [caption(said, rect, height) if said else [] for said, rect in both[:2]]
+    return above[0], above[1]
+
+
+def others(drawing: Drawing) -> list[str]:
+    """The kinds of the other sheets of a mechanism: one with accelerations has both."""
+    ask = drawing.scene.ask
+    later = any(getattr(ask, q) for q, some in ASKED.items() if some[0].kind == SHEETS[1])
+    return [kind for kind in SHEETS if later and kind != drawing.kind]
+
+
+def said_above(drawing: Drawing, kind: str, view: str) -> tuple[str, str]:
+    """What the captions of a mechanism say with a kind of plan beside it, or with none."""
+    words, scales, task = drawing.words, drawing.scales, view == "task"
+    beside = beside_plan(drawing, kind) if kind else ""
+    kL = f"{BLANK if task else length_scale(drawing)} m/mm" + (f"; {beside}" if beside else "")
+    mechanism = words("page.mechanism_heading", scale=words.decimal(scales.words), kL=kL)
+    if not kind:
+        return mechanism, ""
+    k = BLANK if task else figure(drawing, scale_of(drawing, PLANES[kind]) / 1000)
+    return mechanism, words(f"page.{kind}_heading", k=k)
+
+
+def plan_enlarged(drawing: Drawing, rect: Rect, times: float) -> list[Mark]:
+    """The caption of a plan that is drawn again, so many times as large, with auxiliary points."""
+    words, factor = drawing.words, scale_of(drawing, drawing.plane) / 1000
+    said = words(f"page.{drawing.kind}_heading", k=figure(drawing, factor / times))
+    larger = "" if times == 1 else words("page.as_large", m=figure(drawing, times))
+    return caption(f"{said}  {words('page.with_trials')}{larger}", rect, LOOKS[1][0])
+
+
+def lines(said: str, rect: Rect, height: float) -> list[str]:
+    """A field's caption, what stands in brackets in a second line if need be."""
+    room = rect[2] - rect[0] - 5
+    if extent(said, height)[0] <= room:
+        return [said]
+    parts = said.split("  ")
+    if max(extent(part, height)[0] for part in parts) <= room:
+        return parts
+    return flowed(words_of(" ".join(parts)), " ", room, height)
+
+
+def caption(said: str, rect: Rect, height: float) -> list[Mark]:
+    """A field's caption in letters of a height; the first lines of both stand level."""
+    first = rect[1] - FOOT
+    return [
+        Text(
+            rect[0] + 3, first + CAPTION_LEADING * height * i, line, "caption", height, name=HEADING
+        )
+        for i, line in enumerate(lines(said, rect, height))
+    ]
+
+
+def apart(marks: Sequence[Mark]) -> tuple[str, list[Mark]]:
+    """The markup of a field's caption, nothing where it has none, and the marks in the field."""
+    lines = [mark.markup for mark in marks if isinstance(mark, Text) and mark.name == HEADING]
+    return " ".join(lines), [mark for mark in marks if mark.name != HEADING]
+
+
+# --- the data at the head of a sheet --------------------------------------------------------------
+
+
+NAME = "data"
+"""The name of the marks of the data."""
+LETTERS, ROW, BASE, PAD = 2.5, 4.5, 3.1, 3.0
+"""Of the table in mm: letters, least rows, least depth of a baseline, room beside the letters."""
+CLEAR = 0.3
+"""How far signs of the table stay from its lines above and below, in mm."""
+ABOVE = 2.6
+"""How far the table begins above the first line's foot, in mm."""
+GAP = 5.0
+"""Distance of the words from the table in mm."""
+BESIDE = {1: (ROW, 2.75), 2: (ROW, 0.5), 3: (3.6, -0.2)}
+"""The distance in mm of so many lines beside the table, of which there are three at most, and how
+far below the first line's foot they begin: amid the table, level with its rows, or as high."""
+SPACED, CLOSE = 4.2, 3.85
+"""Distance of two lines of data without a table, and of more, in mm."""
+SMALL, NEAR = 2.0, (3.3, 2.8, 2.45)
+"""Height of letters in mm where drawings leave no room for larger ones, and distances of lines."""
+AIR = 1.0
+"""How much farther from data of more lines the captions stand, in mm: both may be of large letters
+then."""
+SHORTER = (0.0, *range(4, 49, 4))
+"""By how much lines are made shorter, in mm, until no signs touch."""
+
+LOWEST = AREA[1] - 7.2
+"""The foot of the lowest line in mm: below it stand the captions, of two lines where they must."""
+
+
+def data_heading(
+    drawing: Drawing, view: str, x: float, y: float, spare: Callable[[], float] = float
+) -> list[Mark]:
+    """The data from a point on, whose y is the foot of the first line.
+
+    ``spare`` is the height in mm that the drawings leave free below the captions, into which data
+    of many lines reach, and the captions with them. Raises PageError where they do not fit.
+    """
+    found = data(drawing, solved=view != "task", laws=True)
+    return in_table(found, x, y) or in_lines(drawing, found, x, y, spare)
+
+
+def in_table(found: Sequence[Datum], x: float, y: float) -> list[Mark]:
+    """A table of the values with the rest beside it; nothing where there is no room for it."""
+    valued = [datum for datum in found if datum.value]
+    said = [datum.remark for datum in found if datum.remark]
+    widths = [
+        PAD + max(extent(markup, LETTERS)[0] for markup in (datum.name, datum.value))
+        for datum in valued
+    ]
+    rows = [
+        row_for([getattr(datum, part) for datum in valued]) for part in ("name", "value") if valued
+    ]
+    if y - ABOVE + sum(height for height, _ in rows) > LOWEST:
+        return []
+    left = x + sum(widths) + GAP
+    room = AREA[2] - 3 - left
+    if not valued or room < max((extent(piece, LETTERS)[0] for piece in said), default=0.0):
+        return []
+    lines = flowed(said, "; ", room, LETTERS)
+    leading, low = BESIDE.get(len(lines), (0.0, 0.0))
+    if lines and not (leading and are_clear(lines, LETTERS, leading)):
+        return []
+    return [
+        *ruled(valued, widths, rows, x, y - ABOVE),
+        *(
+            Text(left, y + low + leading * i, line, "caption", LETTERS, name=NAME)
+            for i, line in enumerate(lines)
+        ),
+    ]
+
+
+def row_for(texts: Sequence[str]) -> tuple[float, float]:
+    """The height of a row of texts, and how deep their baseline is in it, in mm."""
+    _, tops, bottoms = zip(*(extent(text, LETTERS) for text in texts), strict=True)
+    base = max(BASE, CLEAR - min(tops))
+    return max(ROW, base + max(bottoms) + CLEAR), base
+
+
+def ruled(
+    valued: Sequence[Datum],
+    widths: Sequence[float],
+    rows: Sequence[tuple[float, float]],
+    x: float,
+    top: float,
+) -> Iterator[Mark]:
+    """The table: names over values, in rows of a height with their baselines."""
+    (upper, named), (lower, told) = rows
+    middle, low, right = top + upper, top + upper + lower, x + sum(widths)
+    yield box(x, top, right - x, upper, "shade")
+    for y in (top, middle, low):
+        yield LineMark(x, y, right, y, "panel")
+    yield LineMark(x, top, x, low, "panel")
+    for datum, width in zip(valued, widths, strict=True):
+        for y, markup in ((top + named, datum.name), (middle + told, datum.value)):
+            yield Text(x + width / 2, y, markup, "table", LETTERS, "middle", NAME)
+        x += width
+        yield LineMark(x, top, x, low, "panel")
+
+
+def in_lines(
+    drawing: Drawing, found: Sequence[Datum], x: float, y: float, spare: Callable[[], float]
+) -> list[Mark]:
+    """All data in three lines, which end where their signs are clear of each other.
+
+    Where they need more, these reach down as far as the drawings leave room; else they are of
+    smaller lettering. Long data end within a line only there. All stay clear of the fields'
+    captions, also where a title of two lines moves them down.
+    """
+    first, *pieces = (datum.said for datum in found)
+    pieces = [f"{drawing.words('page.data')}: {first}", *pieces]
+    width = AREA[2] - x - 3
+    parted = words_of("; ".join(pieces))
+    for i, (height, leading, room) in enumerate(looks(y, spare)):
+        for told, mark in ((pieces, "; "), (parted, " "))[: 1 + (i > 1)]:
+            lines = spread(told, mark, width, height, leading)
+            if len(lines) <= room and all(extent(line, height)[0] <= width for line in lines):
+                return [
+                    Text(x, y + row * leading, line, "caption", height, name=NAME)
+                    for row, line in enumerate(lines)
+                ]
+    raise PageError(
+        Problem(
+            "data",
+            f"does not fit: {len(lines)} lines of small lettering",
+            "fewer lines above the drawings",
+            "shorten names and notes, or split the scene",
+        )
+    )
+
+
+def spread(
+    told: Sequence[str], mark: str, width: float, height: float, leading: float
+) -> list[str]:
+    """Pieces in lines no longer than a width, and so long that their signs are clear if they can
+    be."""
+    every = (flowed(told, mark, width - less, height) for less in SHORTER)
+    first = next(every)
+    return next((lines for lines in (first, *every) if are_clear(lines, height, leading)), first)
+
+
+def looks(y: float, spare: Callable[[], float]) -> Iterator[tuple[float, float, int]]:
+    """How lines from a foot on may look: their letters, their distance in mm, how many there are.
+
+    First as they are wished, then down to the drawings, then of small lettering.
+    """
+    yield LETTERS, SPACED, 2
+    yield LETTERS, CLOSE, rows(LOWEST - y, CLOSE)
+    free = spare() - AIR
+    yield LETTERS, CLOSE, rows(LOWEST + free - y, CLOSE)
+    yield from ((SMALL, leading, rows(LOWEST - y, leading)) for leading in NEAR)
+    yield SMALL, NEAR[1], rows(LOWEST + free - y, NEAR[1])
+
+
+def height_beyond(marks: Sequence[Mark]) -> float:
+    """How much more height data take up than stands above the fields, in mm."""
+    low = max((mark.y for mark in marks if isinstance(mark, Text)), default=0.0)
+    return low - LOWEST + AIR if low > LOWEST else 0.0
+
+
+def rows(height: float, leading: float) -> int:
+    """How many lines stand between the feet of the first and of the lowest."""
+    return int(height / leading + 1e-9) + 1
+
+
+# --- what the links of a mechanism are, in a line: their points, blocks and wheels ----------------
+
+
+def members(drawing: Drawing) -> str:
+    """The links by their numbers and the points that they join, as a task tells them."""
+    words, scene = drawing.words, drawing.scene.bare
+    told = [f"{escape(name)} = {of_link(words, link)}" for name, link in scene.links.items()]
+    for centre, follower in scene.cam_centres.items():
+        cam = escape(scene.cams[follower].on)
+        told.append(words("page.member_centre", point=symbol(centre), g=cam))
+    return words("page.members", list=words("list_mark").join(told))
+
+
+def of_link(words: Words, link: Link) -> str:
+    """The points of a link in order; one with a single point is a block, or a wheel on it."""
+    points = "".join(symbol(point) for point in link.points)
+    if link.slides and len(link.points) < 2:
+        return words("page.member_block", points=points)
+    if link.wheels:
+        return words("page.member_wheel", points=points)
+    return points
+
+
+# --- the scale at which a task's plan is to be drawn: the rule that the crank gives, or a value ---
+
+
+def plan_at(drawing: Drawing) -> str:
+    """At which scale the plan of a task is to be drawn, as a sentence; nothing without a plan."""
+    if not has_plan(drawing):
+        return ""
+    return drawing.words("task.plan", rule=", ".join(rules(drawing)))
+
+
+def rules(drawing: Drawing) -> Iterator[str]:
+    """The scale of a plan: how the crank says it, with what is as long as what, or its value.
+
+    A plan without the velocity of a pin of the crank has nothing that is as long as the crank.
+    """
+    scales, first = drawing.scales, drawing.kind == "velocity"
+    kv, ka = plan_scales(drawing)
+    rule = kv if first else ka
+    m = figure(drawing, scales.of_bar(drawing.kind))
+    yield f"{rule.left} = {rule.symbols or f'{rule.result} {rule.unit}'}"
+    if first and scales.of_crank:
+        for p, q in islice(driven_bars(drawing, drawing.scene.drivers[0]), 1):
+            times = "" if m == "1" else f"{m}·"
+            yield f"{segment(drawing, q)} = {times}{bar(p, q)}/*k*_L"
+
+
+def segment(drawing: Drawing, pin: str) -> str:
+    """The velocity of the crank's pin in the plan, by the letters of its ends."""
+    for _, step, _ in drawing.steps(Plane.VELOCITIES):
+        kind = construction(step)
+        if isinstance(kind, TurnedVelocity) and kind.q == pin:
+            return symbol(drawing.pole) + symbol(step.name)
+    raise KeyError(pin)
+
+
+# --- an A3 sheet: mechanism and plan side by side, data above, construction and tables below ------
+
 
 TITLE = 182.0
 """Widest title that stays clear of the centring mark, in mm."""

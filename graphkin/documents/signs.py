@@ -20,8 +20,7 @@ from graphkin.construction.drivers.driver_symbols import pivot_of
 from graphkin.construction.guides.rails import places_of
 from graphkin.construction.links.link_numbers import SHARES, Body, body_of, within
 from graphkin.construction.result_tables import turning_links
-from graphkin.drawing.areas import Rect
-from graphkin.drawing.field import XY, Field
+from graphkin.drawing.field import XY, Field, Rect
 from graphkin.drawing.free_space import Space
 from graphkin.drawing.marks import LineMark, Mark, Text
 from graphkin.drawing.richtext import extent

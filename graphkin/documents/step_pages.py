@@ -8,30 +8,240 @@ from typing import NamedTuple
 
 from msgspec.structs import replace
 
+from graphkin.construction.centres.instant_centre import set_before
 from graphkin.construction.core.crossings import Crossing, flattest
 from graphkin.construction.core.drawn_scene import Drawing
-from graphkin.construction.core.kind import Sentence
+from graphkin.construction.core.kind import Sentence, construction
 from graphkin.construction.core.layout import lay_out, lowered
-from graphkin.documents.detail import parted
+from graphkin.construction.core.plan_vector import is_set_on, plan_vector
+from graphkin.construction.core.program import Part, Plane, Step
+from graphkin.construction.higher_class.closed_group import ClosedGroup
+from graphkin.construction.links.idle_links import IDLE
+from graphkin.documents.detail import insets, parted
 from graphkin.documents.flattest import crossings_on, group_closed, is_gap, names_of_crossing
-from graphkin.documents.inset import insets
 from graphkin.documents.listing import written
-from graphkin.documents.sentences import sentences
-from graphkin.documents.sheet import (
-    boards,
-    page_title,
-    panels,
-    sheet_heading,
-    title_block,
-)
+from graphkin.documents.mark_dependencies import Target, ground_of, rests_on
+from graphkin.documents.sentences import SET_ON, sentences
+from graphkin.documents.sheet import boards, page_title, panels, sheet_heading, title_block
 from graphkin.documents.signs import mechanism_signs, plan_signs
-from graphkin.documents.step_numbers import BEFORE, stages
-from graphkin.documents.step_visibility import appearing, marks_at_stage, when_told
-from graphkin.drawing.areas import A3_TITLE_BLOCK, BELOW, MARKED
+from graphkin.drawing.field import A3_TITLE_BLOCK, BELOW, MARKED, Field
 from graphkin.drawing.frame import sheet_frame
-from graphkin.drawing.marks import LineMark, Mark, Page, Text
-from graphkin.drawing.richtext import flowed, flowed_pieces, words_of
+from graphkin.drawing.labels import BETWEEN, NOTE
+from graphkin.drawing.marks import CircleMark, LineMark, Mark, Page, Text, style_class
+from graphkin.drawing.richtext import extent, flowed, flowed_pieces, words_of
 from graphkin.drawing.style import NOW
+from graphkin.drawing.symbol_markup import symbol
+from graphkin.scene.link_points import lettered
+
+AT_LAST = ("detail", "note")
+"""The names of marks that stand when all is drawn."""
+PINS = ("pin", "hinge", "label", "leader")
+"""The classes of a pin, and of its letter."""
+TOLD_BY = {"fixed-centrode": "moving-centrode"}
+"""The names of sentences that tell of a curve of another kind than their name."""
+BEFORE = -1
+"""The stage of what stands before the first sentence."""
+
+
+def stages(drawing: Drawing, said: Sequence[Sentence]) -> dict[int, int]:
+    """For each step that was run the number of the sentence, from 0, that draws it.
+
+    A sentence draws what its own points hang on and no sentence before has drawn. An arrow or any
+    other step that no sentence finds appears as soon as all that it is drawn from is there. What
+    is given, the points of the frame and the pole of the plan, stands before the first sentence.
+    """
+    program = drawing.trace.program
+    found: dict[int, int] = {}
+    if drawing.again:
+        found |= dict.fromkeys(
+            (n for n in drawing.trace.values if program.steps[n].part is Part.POSITION), BEFORE
+        )
+    for stage, sentence in enumerate(said):
+        own = (number for number in sentence.all_steps if number >= 0)
+        for number in program.behind(own, by_hand=True):
+            found.setdefault(number, stage)
+    early = set_before(drawing)
+    setting = next((at for at, one in enumerate(said) if one.name == SET_ON), len(said) - 1)
+    for number in drawing.trace.values:
+        step = program.steps[number]
+        if not step.args:
+            found[number] = BEFORE
+        elif number in early:
+            found.setdefault(number, found.get(early[number], setting))
+        elif is_set_on(step):
+            found[number] = setting
+        elif number not in found:
+            ends = (*step.args, *of_component(drawing, step))
+            found[number] = max((found.get(end, BEFORE) for end in ends), default=BEFORE)
+    return found
+
+
+def of_component(drawing: Drawing, step: Step) -> Iterator[int]:
+    """The images between which a tangential component is told: it is not there before them."""
+    vector = plan_vector(step)
+    if vector is not None and vector.sign == "τ":
+        ends = (vector.p, vector.q)
+        for (what, name), number in drawing.trace.program.targets.items():
+            if what == "acceleration" and lettered(name) in ends:
+                yield number
+
+
+def stage_of(
+    drawing: Drawing,
+    mark: Mark,
+    staged: dict[int, int],
+    said: Sequence[Sentence],
+    ground: Mapping[Mark, tuple[Target, ...]],
+) -> int:
+    """The sentence at which a mark of a field appears; BEFORE for what stands from the start.
+
+    A mark that belongs to no step appears with the last of what it rests on: one of the ``ground``
+    with the points about which it is drawn.
+    """
+    if mark.step is not None:
+        return staged.get(mark.step, BEFORE)
+    if mark.name in AT_LAST:
+        return len(said) - 1
+    told = stage_of_closing(drawing, mark, said)
+    if told is None:
+        told = stage_of_curve(drawing, mark, said)
+    if told is not None:
+        return told
+    targets = drawing.trace.program.targets
+    rests = ground[mark] if mark in ground else rests_on(drawing, mark)
+    numbers = (targets[target] for target in rests if target in targets)
+    idle = (stage for stage, one in enumerate(said) if one.name == IDLE and one.link == mark.name)
+    return max((*idle, *(settled(drawing, number, staged) for number in numbers)), default=BEFORE)
+
+
+def settled(drawing: Drawing, number: int, staged: dict[int, int]) -> int:
+    """The sentence by which a value stands; that of a number as soon as it can be reckoned."""
+    step = drawing.trace.program.steps[number]
+    closes = isinstance(step.of, ClosedGroup) and step.role == "closing"
+    if number in staged and (closes or step.plane is not Plane.NUMBERS):
+        return staged[number]
+    return max((settled(drawing, arg, staged) for arg in step.args), default=BEFORE)
+
+
+def stage_of_curve(drawing: Drawing, mark: Mark, said: Sequence[Sentence]) -> int | None:
+    """The sentence that tells of a curve, of several of its kind each its own; else None."""
+    for curve in drawing.curves:
+        if mark.name == curve.name:
+            if curve.kind == "locus":
+                return next(at for at, one in enumerate(said) if curve.of in traced(drawing, one))
+            alike = [other.of for other in drawing.curves if other.kind == curve.kind]
+            name = TOLD_BY.get(curve.kind, curve.kind)
+            stages = [stage for stage, sentence in enumerate(said) if sentence.name == name]
+            return stages[min(alike.index(curve.of), len(stages) - 1)]
+    return None
+
+
+def stage_of_closing(drawing: Drawing, mark: Mark, said: Sequence[Sentence]) -> int | None:
+    """The sentence that closes a group at a pin, for the pin's marks; None for all others."""
+    if style_class(mark) not in PINS or mark.name in drawing.scene.links:
+        return None
+    return next((at for at, one in enumerate(said) if mark.name in traced(drawing, one)), None)
+
+
+def traced(drawing: Drawing, said: Sentence) -> tuple[str, ...]:
+    """The points whose loci a sentence has drawn."""
+    kind = construction(drawing.trace.program.steps[said.step]) if said.step >= 0 else None
+    return kind.traced if isinstance(kind, ClosedGroup) else ()
+
+
+# --- what stands in the fields of a sheet at each sentence of the construction, and what is new ---
+
+
+def appearing(
+    drawing: Drawing,
+    field: Field,
+    marks: Sequence[Mark],
+    staged: dict[int, int],
+    said: Sequence[Sentence],
+) -> Iterator[tuple[int, Mark]]:
+    """The marks of a field, each with the sentence at which it appears."""
+    ground = ground_of(drawing, field)
+    for mark, beside in accompanied(marks):
+        yield stage_of(drawing, beside, staged, said, ground), mark
+
+
+def accompanied(marks: Sequence[Mark]) -> Iterator[tuple[Mark, Mark]]:
+    """The marks of a field, each with the one with which it appears: the frame around a link's name
+    with the name after it, all others with themselves.
+    """
+    for mark, after in zip(marks, (*marks[1:], *marks[-1:]), strict=True):
+        yield mark, after if style_class(mark) == "number" and not mark.name else mark
+
+
+def when_told(drawing: Drawing, staged: Mapping[int, int]) -> dict[str, int]:
+    """The sentence that finds each letter of the plan, each centre, each vector by its symbol."""
+    found: dict[str, int] = {}
+    for number, step in enumerate(drawing.trace.program.steps):
+        if number in staged:
+            vector = plan_vector(step)
+            name = symbol(vector.symbol if vector else step.name)
+            found.setdefault(name, staged[number])
+            if vector and vector.foot:
+                found.setdefault(vector.foot, staged[number])
+            if step.plane is drawing.plane or step.part in (Part.CENTRE, Part.POLE):
+                found[step.name] = staged[number]
+    return found
+
+
+def marks_at_stage(
+    timed: Sequence[tuple[int, Mark]], stage: int, telling: Mapping[str, int]
+) -> Iterator[Mark]:
+    """The marks that stand at a sentence; those that it draws are marked as new.
+
+    ``telling`` gives the sentence at which each letter and each vector is found.
+    """
+    subjects = {mark.step: mark.cx for _, mark in timed if isinstance(mark, CircleMark)}
+    subjects |= {
+        m.step: m.x1 for _, m in timed if isinstance(m, LineMark) and style_class(m) == "leader"
+    }
+    texts = [(at, mark) for at, mark in timed if isinstance(mark, Text)]
+    explained = {part.name for _, mark in texts if mark.name == NOTE for part in mark.letters}
+    keys = {mark.markup: at for at, mark in texts if mark.markup in explained - {""}}
+    for appears, mark in timed:
+        if isinstance(mark, Text) and len(mark.letters) > 1 and mark.step is not None:
+            stages = [telling[letter.name] for letter in mark.letters]
+            yield from shared(mark, stage, stages, subjects[mark.step])
+        elif isinstance(mark, Text) and mark.name == NOTE and stage < appears:
+            yield from noted(mark, stage, {**telling, **keys})
+        elif appears <= stage:
+            yield mark if appears < stage else replace(mark, cls=f"{mark.cls} {NOW}")
+
+
+def shared(mark: Text, stage: int, stages: Sequence[int], subject: float) -> Iterator[Mark]:
+    """Of the letters that share a label those that stand already, as near as all to their point.
+
+    ``stages`` are those at which the letters appear, ``subject`` is where their leader or their
+    point stands from left to right.
+    """
+    every = zip(mark.letters, stages, strict=True)
+    seen = [letter for letter, appears in every if appears <= stage]
+    if seen:
+        markup = seen[0].markup + "".join(letter.joined for letter in seen[1:])
+        whole, width = (extent(each, mark.height)[0] for each in (mark.markup, markup))
+        aside = min(max(subject - mark.x - width / 2, 0.0), whole - width)
+        cls = f"{mark.cls} {NOW}" if stage in stages else mark.cls
+        yield replace(mark, x=mark.x + aside, markup=markup, cls=cls)
+
+
+def noted(mark: Text, stage: int, telling: Mapping[str, int]) -> Iterator[Mark]:
+    """Of the notes in a line at the foot those of vectors and key numbers that stand already."""
+    parts = mark.letters
+    stands = [telling.get(part.name, stage + 1) <= stage for part in parts]
+    for i, part in enumerate(parts):
+        if stands[i]:
+            before = extent("".join(each.joined for each in parts[: i + 1]), mark.height)[0]
+            ended = part.markup + BETWEEN.rstrip() if any(stands[i + 1 :]) else part.markup
+            aside = before - extent(part.markup, mark.height)[0]
+            yield replace(mark, x=mark.x + aside, markup=ended)
+
+
+# --- step by step: pages on which a sheet grows, each with the sentence that says what to do ------
+
 
 LARGE, CLOSE, DONE = (3.5, 6.2), (2.5, 4.2), (2.5, 4.6)
 """Height and distance in mm of the lines of sentences to do, of those to do that have no room so

@@ -10,7 +10,7 @@ from typing import NamedTuple
 from msgspec import Struct
 from msgspec.structs import replace
 
-from graphkin.drawing.areas import Rect
+from graphkin.drawing.field import Rect
 from graphkin.drawing.marks import LineMark, Mark, Text, box
 from graphkin.drawing.richtext import extent
 from graphkin.text.errors import PageError, Problem

@@ -9,7 +9,7 @@ from math import floor
 
 from msgspec import Struct, field
 
-from graphkin.drawing.areas import A4_AREA, A4_FRAME, TITLE_HEIGHT, TITLE_WIDTH, Rect
+from graphkin.drawing.field import A4_AREA, A4_FRAME, TITLE_HEIGHT, TITLE_WIDTH, Rect
 from graphkin.drawing.marks import LineMark, Mark, Text, box
 from graphkin.drawing.richtext import extent, flowed, plain, words_of
 from graphkin.drawing.symbol_markup import escape

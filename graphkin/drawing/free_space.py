@@ -10,10 +10,8 @@ from typing import NamedTuple
 
 import numpy as np
 
-from graphkin.drawing.areas import Rect
-from graphkin.drawing.candidates import Blots
-from graphkin.drawing.chords import pieces_of
-from graphkin.drawing.field import XY
+from graphkin.drawing.clearance import Blots, pieces_of
+from graphkin.drawing.field import XY, Rect
 from graphkin.drawing.marks import Mark, Text, reach, style_class
 from graphkin.drawing.shapes import (
     Array,

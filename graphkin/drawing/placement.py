@@ -2,16 +2,258 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections import deque
+from collections.abc import Iterable, Mapping, Sequence
+from itertools import pairwise
+from math import inf
+from typing import NamedTuple
 
 import numpy as np
 from msgspec import Struct
 from numpy.typing import ArrayLike
 
-from graphkin.drawing.assignment import CLOSE, FEW, Assignment, CandidateSet, Level
-from graphkin.drawing.candidates import Subjects
-from graphkin.drawing.clearance import Clearance
-from graphkin.drawing.shapes import NOWHERE, Box
+from graphkin.drawing.clashes import NO_PLACES, Clashes, OpenPlaces
+from graphkin.drawing.clearance import Clearance, Subjects, tries
+from graphkin.drawing.shapes import NOWHERE, Box, Index, where
+
+NEAR = np.array([0.0, 0.6, 1.4, 2.8])  # mm beyond the gap, without a leader
+MOST = 12_000  # places that are offered on a page in all: memory grows with their square
+AT_ONCE = 64  # labels that look further at one go
+FAR = np.array([4.0, 7.0, 11.0, 17.0, 24.0, 33.0])  # mm beyond the gap, with a leader
+
+
+class Level(NamedTuple):
+    """How many candidates of a label are looked at, by distance, and how many are offered."""
+
+    seen: int
+    offered: int  # the cheapest ones, at one go
+
+
+NONE, FEW, CLOSE = Level(0, 0), Level(24, 4), Level(24, 10)
+
+
+class CandidateSet:
+    """The places offered to each label, cheapest first, and which of them rule each other out.
+
+    ``menus`` holds the numbers of each label's places; ``cost`` and ``label`` belong to places,
+    ``best`` is what the cheapest place of each label costs.
+    """
+
+    def __init__(self, page: Clearance, first: Level = CLOSE) -> None:
+        """Offer every label its nearest places."""
+        self.page = page
+        near = tries(page.subjects, NEAR)
+        self.hope = np.array([near.x[:, 0], near.y[:, 0]]).T
+        self.level = [NONE] * len(near.x)  # of the candidates with a leader
+        self.clashes, self.rest = Clashes(), NO_PLACES
+        every = np.arange(len(near.x))
+        seen, offered = (np.full(len(every), number) for number in first)
+        self._offer(page.near(page.open(every, near, 0 * every, seen)), offered)
+
+    def widen(self, levels: Mapping[int, Level]) -> bool:
+        """Offer labels that were at lower levels more places, with a leader; true if any were."""
+        behind = {i: level for i, level in sorted(levels.items()) if self.level[i] < level}
+        if not behind:
+            return False
+        most = np.zeros(len(self.level), dtype=np.intp)
+        most[[*behind]] = [level.offered for level in behind.values()]
+        wanted = most.take(self.rest.label) > 0
+        more = self.rest.take(where(wanted)).joined(self._led(behind))
+        self.rest = self.rest.take(where(~wanted))
+        for i, level in behind.items():
+            self.level[i] = level
+        self._offer(more, most)
+        return True
+
+    def _led(self, levels: Mapping[int, Level]) -> OpenPlaces:
+        """Return the places with a leader that some labels did not look at before."""
+        seeking = [i for i, level in levels.items() if self.level[i].seen < level.seen]
+        found = NO_PLACES
+        for start in range(0, len(seeking), AT_ONCE):
+            rows = np.array(seeking[start : start + AT_ONCE])
+            first, last = (np.array([a[i].seen for i in rows]) for a in (self.level, levels))
+            some = tries(self.page.subjects.take(rows), NEAR, FAR)
+            found = found.joined(self.page.led(self.page.open(rows, some, first, last)))
+        return found
+
+    def _offer(self, more: OpenPlaces, most: Index) -> None:
+        """Offer the cheapest of some places, at most so many for each label; the rest is kept.
+
+        Those of a label that cost the same keep their order.
+        """
+        order = np.lexsort((more.cost, more.label))
+        label = more.label.take(order)
+        rank = np.arange(len(order)) - np.searchsorted(label, label)
+        cheap = rank < most[label]
+        room = max(MOST - len(self.clashes.places.label), 0)
+        if np.count_nonzero(cheap) > room:
+            cheap &= rank < np.sort(rank[cheap])[room]
+        self.clashes.add(more.take(order.take(where(cheap))))
+        self.rest = self.rest.joined(more.take(order.take(where(~cheap))))
+        self.places = self.clashes.places
+        order = np.lexsort((self.places.cost, self.places.label))
+        bounds = np.searchsorted(self.places.label[order], np.arange(1, len(self.level)))
+        ranked = order.tolist()
+        self.menus = [ranked[a:b] for a, b in pairwise([0, *bounds.tolist(), len(order)])]
+        self.cost, self.label = self.places.cost.tolist(), self.places.label.tolist()
+        self.best = [self.cost[menu[0]] if menu else inf for menu in self.menus]
+
+    def rows(self) -> list[int]:
+        """Return for each place which others it rules out: bits of a number."""
+        return self.clashes.rows()
+
+
+PUSH = 4.0  # what it is reckoned to cost, in mm, to push a label aside
+GAIN = 0.01  # mm that a chase must save in all to be kept
+WEAR = 4.0  # mm that a place costs more each time that it is taken in a chase
+
+LEAST = 500.0  # the least fine of labels that must have a place
+URGENT = 2500.0  # the least fine, in mm, of labels that choose first
+
+Moves = tuple[tuple[int, int], ...]
+
+
+class Assignment:
+    """Which label has which place, what each pays, and the taken places as bits of a number."""
+
+    def __init__(self, offers: CandidateSet, fine: Sequence[float]) -> None:
+        """Begin with no label on the page; each pays a fine as long as it has no place."""
+        self.offers, self.fine = offers, fine
+        self.pick = [-1] * len(fine)
+        self.paid = [*fine]
+        self.taken = 0
+
+    def order(self) -> list[int]:
+        """Return the labels: the urgent ones, then those with few places, then by priority."""
+        count, fine = [len(menu) for menu in self.offers.menus], self.fine
+        first = [(fine[i] < URGENT, count[i] > 7, -fine[i], count[i], i) for i in range(len(fine))]
+        return [i for *_, i in sorted(first)]
+
+    def regretted(self, limit: float) -> list[int]:
+        """Return the labels that pay this much above their cheapest place, worst first."""
+        regret = [paid - best for paid, best in zip(self.paid, self.offers.best, strict=True)]
+        worst = sorted(range(len(regret)), key=lambda i: -regret[i])
+        return [i for i in worst if regret[i] > limit]
+
+    def unplaced(self) -> list[int]:
+        """Return the labels without a place."""
+        return [i for i, k in enumerate(self.pick) if k < 0]
+
+    def seeking(self) -> list[int]:
+        """Return the labels without a place that must have one."""
+        return [i for i in self.unplaced() if not self.is_given_up(i)]
+
+    def is_given_up(self, i: int) -> bool:
+        """Tell whether a label has no place and may stay so."""
+        return self.pick[i] < 0 and self.fine[i] < LEAST
+
+    def settle(self, which: Iterable[int]) -> None:
+        """Give each of the labels the cheapest place that is left, if there is one."""
+        rows = self.offers.rows()
+        for i in which:
+            self._lift(i)
+            left = (k for k in self.offers.menus[i] if not rows[k] & self.taken)
+            self._put(i, next(left, -1))
+
+    def shift(self, labels: Iterable[int]) -> None:
+        """Give labels a place for which others, each in turn for the next one, can make room."""
+        rows = self.offers.rows()
+        for i in labels:
+            moves = self._moves(i, rows)
+            for label, _ in moves:
+                self._lift(label)
+            for label, place in moves:
+                self._put(label, place)
+
+    def _moves(self, i: int, rows: Sequence[int]) -> Moves:
+        """Return the fewest labels that must move for one to have a place, and where each goes.
+
+        Each makes room for one other only; nothing where no such chain leads to a free place.
+        """
+        moved = {i}
+        queue: deque[tuple[int, int, Moves]] = deque([(i, self.taken, ())])
+        while queue:
+            label, taken, moves = queue.popleft()
+            for k in self.offers.menus[label]:
+                clash = rows[k] & taken
+                if not clash:
+                    return (*moves, (label, k))
+                other = self.offers.label[clash.bit_length() - 1]
+                if clash.bit_count() == 1 and other not in moved:
+                    moved.add(other)
+                    queue.append((other, taken ^ clash | 1 << k, (*moves, (label, k))))
+        return ()
+
+    def improve(self, labels: Iterable[int], steps: int) -> None:
+        """Let each of the labels push others aside and those others in turn, if it pays in all."""
+        rows = self.offers.rows()
+        for i in labels:
+            if not self.offers.menus[i]:
+                continue
+            saved = [*self.pick], [*self.paid], self.taken
+            before = sum(self.paid)
+            least = before - self.paid[i] + self.offers.best[i]  # others paying their best
+            worn, queue = {self.pick[i]: WEAR}, deque([i])
+            self._lift(i)
+            for _ in range(steps):
+                least += self._push(queue, rows, worn)
+                if not queue or least > before - GAIN:
+                    break
+            if sum(self.paid) > before - GAIN:
+                self.pick, self.paid, self.taken = saved
+
+    def _push(self, queue: deque[int], rows: Sequence[int], worn: dict[int, float]) -> float:
+        """Put the first label of a queue on the place with the best price.
+
+        Those that it pushes aside queue up. Return how much more all pay above their best.
+        """
+        i = queue.popleft()
+        offers, taken, best, chosen, pushed = self.offers, self.taken, inf, -1, 0
+        cost = offers.cost
+        for k in offers.menus[i]:
+            price = cost[k]
+            if price >= best:  # and so are those after it
+                break
+            if clash := rows[k] & taken:
+                price += PUSH * clash.bit_count()
+            if k in worn:
+                price += worn[k]
+            if price < best:
+                best, chosen, pushed = price, k, clash
+        more: float = cost[chosen] - offers.best[i]
+        self.taken ^= pushed
+        for j in self._on(pushed):
+            more += offers.best[j] - self.paid[j]
+            self.pick[j], self.paid[j] = -1, self.fine[j]
+            queue.append(j)
+        self._put(i, chosen)
+        worn[chosen] = worn.get(chosen, 0.0) + WEAR
+        return more
+
+    def _on(self, places: int) -> list[int]:
+        """Return the labels of some places, which are the bits of a number, in order."""
+        found = []
+        while places:
+            k = places.bit_length() - 1
+            places ^= 1 << k
+            found.append(self.offers.label[k])
+        return sorted(found)
+
+    def _put(self, i: int, k: int) -> None:
+        """Put a label on a place, if there is one."""
+        if k >= 0:
+            self.pick[i], self.paid[i] = k, self.offers.cost[k]
+            self.taken |= 1 << k
+
+    def _lift(self, i: int) -> None:
+        """Take a label off the page."""
+        if self.pick[i] >= 0:
+            self.taken ^= 1 << self.pick[i]
+        self.pick[i], self.paid[i] = -1, self.fine[i]
+
+
+# --- places for labels on a page ------------------------------------------------------------------
+
 
 Point = tuple[float, float]
 Segment = tuple[Point, Point]

@@ -7,27 +7,322 @@ held; sides, ways and numbers of closures leave one of them, or the scene says t
 from __future__ import annotations
 
 from collections.abc import Mapping
+from itertools import combinations
 from typing import Any
 
 import numpy as np
+from msgspec.structs import replace
 
-from graphkin.loops.branch_closures import (
-    ON_LINE,
-    closures,
-    facing,
-    places_of,
-    scattered,
-    turned_side,
-)
 from graphkin.loops.cam_laws import by_law
-from graphkin.loops.closing_groups import Group, Mask, counted_in_order, speaks_of, stages
+from graphkin.loops.closing_groups import (
+    Group,
+    Joint,
+    Mask,
+    counted_in_order,
+    moved_by,
+    speaks_of,
+    stages,
+)
 from graphkin.loops.equations import Equations, equations, part_of, undriven
 from graphkin.loops.loop_motion import Motion, Pose, pose_of, setting_of, spot, unknowns_of
-from graphkin.loops.newton import AT_REST, LoopSolution, closed_from, largest, newton, scaled
-from graphkin.loops.newton_start import Start
-from graphkin.loops.rigid_bodies import Reals
+from graphkin.loops.newton import (
+    AT_REST,
+    CLOSED,
+    LoopSolution,
+    Start,
+    as_meant,
+    closed_from,
+    counted_freely,
+    largest,
+    moving_step,
+    newton,
+    scaled,
+    settle,
+)
+from graphkin.loops.rigid_bodies import Complexes, Guide, Reals
+from graphkin.loops.rounding import PositionBounds
 from graphkin.scene.model import FRAME, Closure, Scene, Side, Way
 from graphkin.text.errors import GraphkinError, Problem, Sought, StructureError, WitnessError
+
+STARTS = {1: 12, 2: 48}
+"""Random starts from which the closures of a group of so many links are looked for."""
+MOST_STARTS = 256
+"""Random starts of one round for larger groups."""
+A_TURN, MOST_IN_ALL = 24, 8192
+"""Starts for each turn that a wheel may make on its track, each turn having its own closures."""
+ROUNDS, ENOUGH = 10, 2
+"""Most rounds, and how many in a row that bring nothing new end the search."""
+SHORT = 14
+"""Iterations after which most starts have closed, if they ever do."""
+LAST, NEARBY = 40, 1e-3
+"""Most steps from where the loops nearly close to where they do, and the longest of them."""
+SAME = 1e-6
+"""Distance, in radians or the sizes of slides, below which rounding may make two closures one."""
+LEVEL, EITHER = 1e-9, 8
+"""Least such distance, and how many bounds of an error lie between two ways to one closure."""
+ON_LINE = 1e-9
+"""Sine within which a pin on the line between two others is on either side."""
+
+
+def other_closure(loops: Equations, motion: Motion, dyad: Group) -> tuple[Reals, Reals]:
+    """Slide coordinate (m) of a dyad with one slide as it stands, and in its other closure."""
+    (slide,) = dyad.slides
+    guide = loops.guides[slide.slide]
+    heading = motion.heading[:, motion.index[guide.on]] * guide.along
+    way = span(motion, dyad, slide, guide.block)
+    stands = motion.slide(slide.slide).position
+    return stands, stands - 2 * (way * heading.conj()).real
+
+
+def span(motion: Motion, dyad: Group, slide: Joint, block: str) -> Complexes:
+    """From the pin on the guide's side of the slide to the pin on the block's side."""
+    (inner,) = dyad.inner
+    left, right = sorted(dyad.outer, key=lambda joint: dyad.links[0] not in joint.links)
+    if slide is inner:
+        near, far = (left, right) if dyad.links[0] == block else (right, left)
+    else:
+        holder = dyad.links[0] if slide is left else dyad.links[1]
+        swinging = right if slide is left else left
+        near, far = (inner, swinging) if holder == block else (swinging, inner)
+    return motion.point(near.pin).place - motion.point(far.pin).place
+
+
+def turned_side(motion: Motion, first: str, second: str, pin: str) -> Reals:
+    """Sine-like measure of the side of a pin: positive to the left of the way first → second."""
+    start, end, place = (motion.place(name) for name in (first, second, pin))
+    line, arm = end - start, place - start
+    return np.asarray((line.conj() * arm).imag / (abs(line) * abs(arm)))
+
+
+def led_both(loops: Equations, name: str) -> tuple[str, Guide, str, str] | None:
+    """The link that two pins guide, of which a scene says under a name which way round it lies.
+
+    With it the guide of the first written of its two blocks, and the pins of both. None where no
+    two blocks slide along it in one direction, pinned apart. The name of a block on it means it
+    only where it is itself a block on the other.
+    """
+    guides = [guide for guide in loops.guides if guide.turns_alike]
+    rails = [guide.on for guide in guides if guide.block == name]
+    rail = rails[0] if rails else name
+    slides = [g for g in guides if rail in (g.block, g.on) and other_of(g, rail) != FRAME]
+    slides.sort(key=lambda g: loops.links.index(other_of(g, rail)))
+    for one, other in combinations(slides, 2):
+        if bool(rails) != (rail in (one.block, other.block)):
+            continue
+        if np.all(abs(np.imag(np.conj(way_on(one, rail)) * way_on(other, rail))) < LEVEL):
+            pins = [pin_of(loops, other_of(g, rail), rail) for g in (one, other)]
+            if None not in pins and pins[0] != pins[1]:
+                return rail, one, str(pins[0]), str(pins[1])
+    return None
+
+
+def other_of(guide: Guide, link: str) -> str:
+    """The other of the two links of a guide."""
+    return guide.on if guide.block == link else guide.block
+
+
+def way_on(guide: Guide, link: str) -> Complexes:
+    """The direction of a guide in the axes of one of its links."""
+    return np.asarray(guide.along if guide.on == link else 1 + 0j)
+
+
+def pin_of(loops: Equations, block: str, rail: str) -> str | None:
+    """The first point that a block shares with a link other than that along which it slides."""
+    others = [body for name, body in loops.bodies.items() if name not in (block, rail)]
+    return next((p for p in loops.bodies[block] if any(p in body for body in others)), None)
+
+
+def facing(loops: Equations, motion: Motion, name: str) -> Reals | None:
+    """How far (m) the pin of the later written block is ahead of the other along the link that both
+    guide; None for a name that is of no such link."""
+    found = led_both(loops, name)
+    if found is None:
+        return None
+    rail, guide, start, end = found
+    heading = motion.heading[:, motion.index[rail]] * way_on(guide, rail)
+    way = motion.point(end).place - motion.point(start).place
+    return np.asarray((way * heading.conj()).real)
+
+
+def facing_alike(part: Equations, stands: Reals, rows: Reals, group: Group) -> Mask:
+    """Which closures of a group have the links that two pins guide the way round they ``stand``."""
+    alike = np.ones(len(rows), dtype=np.bool_)
+    now, others = places_of(part, stands), places_of(part, rows)
+    for link in group.links:
+        ahead, every = (facing(part, motion, link) for motion in (now, others))
+        if ahead is not None and every is not None:
+            alike &= ahead * every > 0
+    return alike
+
+
+def places_of(part: Equations, found: Reals) -> Motion:
+    """Where points stand in each closure; nothing moves."""
+    many = replace(part, home=np.repeat(part.home, len(found)))
+    still = np.zeros_like(found)
+    return Motion.of(many, found, still, still)
+
+
+def closure_numbers(loops: Equations, group: Group, row: Reals, setting: int) -> range:
+    """Which closure of a group the unknowns ``row`` (K + m,) of a setting may be; empty if none.
+
+    One number, 1, 2, …, unless rounding hides whether others, before it, are one closure, two or
+    none. The links known before are held in place, and those that come after left out.
+    """
+    values = setting_of(loops, setting)
+    part = part_of(loops, group.known | set(group.links), values)
+    stands, moving = unknowns_of(part, pose_of(loops, row, setting)), moved_by(part, group)
+    every = closures(part, stands, group)
+    if not len(every):
+        return range(0)
+    settle(part, stands, np.ones_like(moving), ~moving, moving)
+    away = np.abs(wrapped(part, every - stands)).max(axis=1)
+    nearest = int(np.argmin(away))
+    if not away[nearest] < SAME:
+        return range(0)
+    hidden = int(
+        (~PositionBounds.of(part, every[: nearest + 1]).regular[:, moving]).any(axis=1).sum()
+    )
+    return range(nearest + 1 - hidden, nearest + 2 + hidden)
+
+
+def closures(part: Equations, stands: Reals, group: Group) -> Reals:
+    """All ways in which a group closes, one scene: (closures, K + m), in order.
+
+    They are looked for by Newton's method from many starts with all but the group held as it
+    ``stands`` (1, K + m), and ordered by the angle, from 0 to 360°, of the group's first-written
+    link, ties by the next, wheels that only follow last. Where wheels count turns, an angle that
+    only pins tell is counted within half a turn of its start.
+    """
+    moving = moved_by(part, group)
+    size, turned = len(group.links), turns_of_wheels(part, moving)
+    starts = max(STARTS.get(size, MOST_STARTS), min(int(A_TURN * turned), MOST_IN_ALL))
+    distinct: list[Reals] = []
+    idle = 0
+    for number in range(ROUNDS if size > 2 or turned else 1):
+        thrown = scattered(part, stands, moving, starts, number)
+        before = len(distinct)
+        rows = closed_of(part, thrown, moving)
+        slack = slack_of(part, rows)
+        new = np.ones(len(rows), dtype=np.bool_)
+        for other in distinct:
+            new &= apart(part, rows, other, slack)
+        while new.any():
+            n = int(np.argmax(new))
+            distinct.append(rows[n])
+            new &= apart(part, rows, rows[n], slack)
+        idle = idle + 1 if len(distinct) == before else 0
+        if idle == ENOUGH or (number + 1 >= ENOUGH and not distinct):
+            break
+    links = [link for link in part.links if link in group.links]
+    links.sort(key=group.only_follows)
+    distinct.sort(key=lambda row: [angle_of(part, link, row) for link in links])
+    return np.array(distinct).reshape(-1, part.unknown_count)
+
+
+def slack_of(part: Equations, rows: Reals) -> Reals:
+    """How far apart two ways to one closed position may end, in the sizes of unknowns: (N,)."""
+    with np.errstate(all="ignore"):
+        off = largest(PositionBounds.of(part, rows).off / part.columns)
+    return np.asarray(np.clip(EITHER * off, LEVEL, SAME))
+
+
+def apart(part: Equations, rows: Reals, other: Reals, slack: Reals) -> Mask:
+    """Which of some closed positions are not the other one: (N,)."""
+    return np.asarray(largest(wrapped(part, rows - other)) > slack)
+
+
+def closed_of(part: Equations, thrown: Reals, moving: Mask) -> Reals:
+    """The closed positions to which Newton's method leads; stragglers alone go on to its end.
+
+    Beside a dead point the loops nearly close long before they do: only where steps have come down
+    to rounding has anything closed.
+    """
+    with np.errstate(all="ignore"):
+        found, _ = newton(part, thrown, moving, SHORT)
+        near = largest(scaled(part, found)[0]) < CLOSED
+        late, _ = newton(part, found[~near], moving)
+        found = np.concatenate([found[near], late])
+        found = found[largest(scaled(part, found)[0]) < CLOSED]
+        found = counted_freely(part, settled_of(part, found, moving), moving)
+        return found[as_meant(part, found, moving)]
+
+
+def settled_of(part: Equations, found: Reals, moving: Mask) -> Reals:
+    """Nearly closed positions led on until rounding moves them; without those that never come."""
+    slack = slack_of(part, found)
+    for _ in range(LAST):
+        residual, jacobian = scaled(part, found)
+        step = np.zeros_like(found)
+        step[:, moving] = moving_step(residual, jacobian, moving)
+        moves = EITHER * largest(step) > slack
+        if not moves.any():
+            break
+        shortened = step * np.minimum(1, NEARBY / np.maximum(largest(step), NEARBY))[:, None]
+        found = np.where(moves[:, None], found - shortened * part.columns, found)
+        slack[moves] = slack_of(part, found[moves])
+    return found[~moves] if len(found) else found
+
+
+def scattered(loops: Equations, stands: Reals, moving: Mask, count: int, seed: int = 0) -> Reals:
+    """The position as it stands, and many with the group's unknowns thrown anywhere.
+
+    The equations that are linear in them hold at once: steps of Newton's method keep them.
+    """
+    thrown = np.random.default_rng(seed).uniform(-1, 1, (count, stands.shape[1]))
+    thrown[:, : loops.turning_count] *= np.pi
+    for k, start in loops.slips.counted.items():
+        thrown[:, k - 1] += start
+    thrown[:, loops.turning_count :] *= 2 * reach(loops)
+    thrown = np.concatenate([stands, np.where(moving, thrown, stands)])
+    settle(loops, thrown, np.ones_like(moving), ~moving, moving)
+    return led(loops, thrown, moving)
+
+
+def tracks(loops: Equations, moving: Mask) -> list[int]:
+    """The straight tracks along which a group's wheels move."""
+    guides = zip(loops.guides, moving[loops.turning_count :], strict=True)
+    return [j for j, (guide, moves) in enumerate(guides) if moves and not guide.turns_alike]
+
+
+def turns_of_wheels(loops: Equations, moving: Mask) -> float:
+    """How often the wheels of a group turn, the smallest of them, as far as they may have come."""
+    radii = [abs(float(loops.guides[j].offset)) for j in tracks(loops, moving)]
+    return 4 * reach(loops) / (2 * np.pi * min(radii)) if radii else 0.0
+
+
+def led(loops: Equations, unknowns: Reals, moving: Mask) -> Reals:
+    """Unknowns moved as little as the linear equations ask, by least squares."""
+    scale = np.where(moving, loops.columns[0], 0.0)
+    step = np.linalg.pinv(loops.linear_rows[0] * scale) @ loops.linear(unknowns).T
+    return np.asarray(unknowns - step.T * scale)
+
+
+def reach(loops: Equations) -> float:
+    """How far (m) a block may stand from the zero of its guide, as a rough size."""
+    far = [abs(complex(guide.through)) + abs(float(guide.offset)) for guide in loops.guides]
+    driven = np.where(loops.drives.turns, 0, np.abs(loops.drives.aim))
+    ends = np.abs(loops.owners[1]).max(initial=0)
+    return float(max([*far, driven.max(initial=0), ends, loops.size[0]]))
+
+
+def wrapped(loops: Equations, change: Reals) -> Reals:
+    """A change of unknowns in their sizes, angles within half a turn where no wheel counts them."""
+    turns = change[:, : loops.turning_count]
+    angles = np.angle(np.exp(1j * turns))
+    for k in loops.slips.counted:
+        angles[:, k - 1] = turns[:, k - 1]
+    return np.concatenate([angles, change[:, loops.turning_count :]], axis=1) / loops.columns
+
+
+def angle_of(loops: Equations, link: str, unknowns: Reals) -> float:
+    """Angle of a link's x axis, from 0 to 2π, rounded so that equal angles tie."""
+    angles = np.concatenate([[0.0], unknowns])
+    turned = np.angle(np.exp(1j * angles[loops.turned.of[link]]) * loops.turned.lean[link])
+    return round(float(turned % (2 * np.pi)), 6) % round(2 * np.pi, 6)
+
+
+# --- A mechanism assembled from nothing -----------------------------------------------------------
+
 
 TRIES = 64
 """Random starts from which some closed position is looked for."""

@@ -8,7 +8,7 @@ import numpy as np
 
 from graphkin.loops.assemble import anywhere, completed_start
 from graphkin.loops.equations import Equations, equations
-from graphkin.loops.newton_start import start_values
+from graphkin.loops.newton import start_values
 from graphkin.loops.rigid_bodies import Reals
 from graphkin.numbers.arithmetic import Point
 from graphkin.scene.model import Scene

@@ -11,21 +11,23 @@ from msgspec import Struct
 from msgspec.structs import replace
 
 from graphkin.construction.compile import write
-from graphkin.construction.core.batch import (
+from graphkin.construction.core.kind import construction
+from graphkin.construction.core.program import Program, Target
+from graphkin.construction.core.run import (
     Ready,
+    StepFailed,
+    Trace,
+    evaluate,
     is_array,
     made_ready,
     run_batch,
     run_blocks,
     run_moving,
 )
-from graphkin.construction.core.kind import construction
-from graphkin.construction.core.program import Program, Target
-from graphkin.construction.core.run import StepFailed, Trace, evaluate
 from graphkin.construction.higher_class.closed_group import ClosedGroup
 from graphkin.construction.higher_class.closure_solver import closer_of, closing
 from graphkin.construction.higher_class.following import FollowedClosure, GroupOnWay
-from graphkin.construction.links.counted_turn import counted_link
+from graphkin.construction.links.rolled_turn import counted_link
 from graphkin.motion.sweep import Sweep, inputs
 from graphkin.motion.turns_counted import Turned
 from graphkin.numbers.arithmetic import FLOAT, batch_kind

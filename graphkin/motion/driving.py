@@ -5,8 +5,7 @@ from __future__ import annotations
 from math import degrees
 from typing import Any, Literal, NamedTuple, get_args
 
-from graphkin.numbers.arithmetic import batch_kind
-from graphkin.numbers.arrays import np
+from graphkin.numbers.arithmetic import batch_kind, np
 from graphkin.scene.expression import TIME
 from graphkin.scene.model import At, Driver, DriverKind, Scene, lengths_of
 from graphkin.scene.quantity import Quantity

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 from graphkin.construction.core.kind import construction
 from graphkin.construction.core.solution import Curve
 from graphkin.mechanism import Mechanism
-from graphkin.numbers.arrays import np
+from graphkin.numbers.arithmetic import np
 
 if TYPE_CHECKING:
     from graphkin.motion.cycle import Cycle

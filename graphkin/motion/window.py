@@ -15,7 +15,7 @@ from graphkin.motion.driving import (
     reach_of,
     stated_motion,
 )
-from graphkin.numbers.arrays import np
+from graphkin.numbers.arithmetic import np
 from graphkin.scene.expression import TIME
 from graphkin.scene.model import FRAME, Driver, Link, Scene
 from graphkin.text.errors import Problem, SceneError

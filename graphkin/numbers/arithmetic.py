@@ -13,11 +13,33 @@ import math
 from collections.abc import Callable
 from contextlib import AbstractContextManager, nullcontext
 from fractions import Fraction
-from typing import Any
+from types import ModuleType
+from typing import TYPE_CHECKING, Any
 
 from msgspec import Struct, field
 
-from graphkin.numbers.arrays import np
+__all__ = ["np"]
+
+if TYPE_CHECKING:
+    import numpy as np
+else:
+
+    class LateNumpy(ModuleType):
+        """Stands for numpy, and keeps what has been taken from it."""
+
+        def __getattr__(self, name: str) -> Any:
+            """Load numpy, and take one thing from it."""
+            import numpy
+
+            value = getattr(numpy, name)
+            setattr(self, name, value)
+            return value
+
+    np = LateNumpy("numpy")
+
+
+# --- number kinds ---------------------------------------------------------------------------------
+
 
 Real = Any
 """A real number of some kind: float, or an array of floats."""

@@ -11,8 +11,7 @@ from fractions import Fraction
 from functools import partial
 from typing import Any
 
-from graphkin.numbers.arithmetic import FLOAT, Kind, batch_kind, is_ball, is_decimal, sqrt
-from graphkin.numbers.arrays import np
+from graphkin.numbers.arithmetic import FLOAT, Kind, batch_kind, is_ball, is_decimal, np, sqrt
 
 PI_REST = 1.2246467991473532e-16
 """What pi is more than its double, to 33 digits in all together."""

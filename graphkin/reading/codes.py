@@ -9,7 +9,7 @@ import cv2
 import numpy as np
 from msgspec import Struct
 
-from graphkin.classroom.printing.qr_code import QUIET, SIDE, corners_of_a3, modules
+from graphkin.classroom.printing.personal import QUIET, SIDE, corners_of_a3, modules
 
 AGREES, BEFORE = 0.85, 0.08
 """The share of its modules by which a square that cannot be read is one of some, and by how much

@@ -17,7 +17,7 @@ from graphkin.reading.point_reading import VERDICTS
 from graphkin.reading.read_sheet import SHOWN, SheetRecord
 from graphkin.reading.settled_points import LONGEST, PointDecision, SettledPoints, settled_points
 from graphkin.studio.local_pages import JSON, answer, answering, new_application
-from graphkin.studio.page_requests import PageRequestError
+from graphkin.studio.session import PageRequestError
 from graphkin.text import Words
 from graphkin.text.markup import as_text
 from graphkin.writers.templates import from_template

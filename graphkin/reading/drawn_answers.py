@@ -16,7 +16,7 @@ from graphkin.classroom.grading.probes import Probe, probes
 from graphkin.classroom.lab.lab_model import Item
 from graphkin.classroom.printing.edition import Edition
 from graphkin.classroom.printing.print_work import PrintOrder
-from graphkin.classroom.roster.csv_text import csv_text
+from graphkin.classroom.roster.spreadsheets import csv_text
 from graphkin.classroom.roster.taker import Taker
 from graphkin.reading.kept_readings import records_in
 from graphkin.reading.lettered_points import LetteredSheet

@@ -9,7 +9,7 @@ import cv2
 import numpy as np
 from msgspec import Struct
 
-from graphkin.drawing.areas import AREA
+from graphkin.drawing.field import AREA
 from graphkin.drawing.marks import LineMark, Mark, Page, Polyline, Text, reach
 from graphkin.drawing.style import style_of
 from graphkin.reading.paper_map import PaperMap

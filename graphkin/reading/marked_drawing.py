@@ -19,7 +19,7 @@ from graphkin.classroom.printing.edition import Edition
 from graphkin.classroom.printing.file_names import stems
 from graphkin.classroom.roster.taker import Taker
 from graphkin.construction.core.quantities import MOTION
-from graphkin.drawing.glyphs import font_file
+from graphkin.drawing.richtext import font_file
 from graphkin.reading.kept_readings import PICTURE, records_in
 from graphkin.reading.point_reading import PointReading
 from graphkin.reading.read_sheet import SheetRecord

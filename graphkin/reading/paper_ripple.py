@@ -12,7 +12,7 @@ from typing import Any
 import numpy as np
 from msgspec import Struct
 
-from graphkin.drawing.areas import AREA
+from graphkin.drawing.field import AREA
 
 LENGTH = 17.0
 """Over so many mm ripples are alike: their waves are 45 mm long and longer."""

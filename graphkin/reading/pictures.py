@@ -19,7 +19,7 @@ from typing import Any
 from msgspec import Struct
 from msgspec.structs import replace
 
-from graphkin.numbers.arrays import np
+from graphkin.numbers.arithmetic import np
 from graphkin.scene.file_limits import file_bytes
 from graphkin.text.errors import FileError, Problem
 from graphkin.writers.files import file_part

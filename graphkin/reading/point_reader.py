@@ -17,9 +17,7 @@ from graphkin.accuracy.pencil.pencil import Pencil
 from graphkin.construction.core.program import Plane
 from graphkin.numbers.plane import Line
 from graphkin.reading.drawn_ink import DrawnInk
-from graphkin.reading.expected_place import ExpectedPlace, expected
 from graphkin.reading.lettered_points import SHORT, LetteredSheet
-from graphkin.reading.line_crossings import LinesCrossing, are_crossing
 from graphkin.reading.point_reading import PointReading, ReadVerdict, pair
 from graphkin.reading.point_search import (
     AGREED,
@@ -31,7 +29,11 @@ from graphkin.reading.point_search import (
     JOINS,
     SAME,
     SURE,
+    ExpectedPlace,
+    LinesCrossing,
     PointSearch,
+    are_crossing,
+    expected,
 )
 
 OUTSIDE, APART = 6.5, 3.0

@@ -12,25 +12,166 @@ from itertools import combinations
 from typing import Any
 
 import numpy as np
+from msgspec import Struct
 
 from graphkin.accuracy.pencil.pencil import Pencil
 from graphkin.accuracy.pencil.redrawing import step_drawn
-from graphkin.drawing.areas import AREA
+from graphkin.drawing.field import AREA
 from graphkin.numbers.plane import Line
-from graphkin.reading.drawn_ink import COVERED, PITCH, DrawnInk, InkLine
-from graphkin.reading.expected_place import ExpectedPlace, expected
+from graphkin.reading.drawn_ink import COVERED, PAPER, PITCH, DrawnInk, InkLine
 from graphkin.reading.lettered_points import AHEAD, LONGEST, SHORT, Leading, LetteredSheet
-from graphkin.reading.line_crossings import (
-    CROSSING,
-    PASSES,
-    LinesCrossing,
-    along_way,
-    are_crossing,
-    distinct,
-    met,
-    sine,
-    through,
-)
+
+CROSSING = 0.12
+"""Least sine of the angle at which lines cross that give a point."""
+PASSES = 0.45
+"""A line passes through a point that lies so many mm beside it at most."""
+
+
+class LinesCrossing(Struct, frozen=True):
+    """A place where lines cross: its covariance, and how many lines and how well they are there.
+
+    ``ends`` tells that a single line ends there.
+    """
+
+    place: complex
+    error: Any
+    count: int
+    cover: float
+    ends: bool = False
+
+
+def met(one: InkLine, other: InkLine) -> complex | None:
+    """Where two lines meet; None where they cross too flatly."""
+    if abs(sine(one.way, other.way)) < CROSSING:
+        return None
+    along = ((other.start - one.start) * other.way.conjugate()).imag / (
+        (one.way * other.way.conjugate()).imag
+    )
+    return one.start + along * one.way
+
+
+def sine(one: complex, other: complex) -> float:
+    """The sine of the angle between two ways."""
+    return (one.conjugate() * other).imag / abs(one) / abs(other)
+
+
+def are_crossing(ends: Sequence[complex], place: complex) -> bool:
+    """Whether some of the ways from some ends to a place cross there."""
+    ways = [end - place for end in ends]
+    return any(abs(sine(*both)) > CROSSING for both in combinations(ways, 2))
+
+
+def along_way(way: complex, along: float, across: float) -> Any:
+    """The covariance of a place that is known so well along a direction, and so well across it."""
+    turned = np.array([[way.real, -way.imag], [way.imag, way.real]])
+    return turned @ np.diag([along**2, across**2 + PAPER**2 / 2]) @ turned.T
+
+
+def distinct(lines: list[list[InkLine]], place: complex) -> list[list[InkLine]]:
+    """The lines of what leads to a point, those that were found twice only once."""
+    kept: list[list[InkLine]] = []
+    seen: list[InkLine] = []
+    for some in lines:
+        fresh = [line for line in some if not any(is_same(line, other, place) for other in seen)]
+        seen += fresh
+        if fresh:
+            kept.append(fresh)
+    return kept
+
+
+def is_same(one: InkLine, other: InkLine, place: complex) -> bool:
+    """Whether two lines are the same stroke about a place."""
+    turn = abs(np.angle(one.way / other.way))
+    flat = min(turn, np.pi - turn) < np.radians(1.2)
+    return bool(flat and abs(abs(one.off(place)) - abs(other.off(place))) < 0.3)
+
+
+def through(
+    place: complex, lines: Sequence[Sequence[InkLine]], within: float = PASSES
+) -> LinesCrossing | None:
+    """The place nearest to all lines that pass through about a place, one of each."""
+    chosen = []
+    for some in lines:
+        near = [line for line in some if abs(line.off(place)) < within and line.cover >= 0.5]
+        if near:
+            chosen.append(max(near, key=lambda line: line.cover - abs(line.off(place))))
+    if len(chosen) < 2:
+        return None
+    normals = np.array([[-line.way.imag, line.way.real] for line in chosen])
+    offs = np.array([line.off(place) for line in chosen])
+    trust = 1 / np.array([line.error for line in chosen]) ** 2
+    normal_matrix = (normals * trust[:, None]).T @ normals
+    if np.linalg.eigvalsh(normal_matrix)[0] < trust.min() * CROSSING**2 / 2:
+        return None
+    shift = np.linalg.solve(normal_matrix, -(normals * trust[:, None]).T @ offs)
+    error = np.linalg.inv(normal_matrix) + np.eye(2) * PAPER**2 / 2
+    cover = float(np.mean(sorted((line.cover for line in chosen), reverse=True)[:2]))
+    return LinesCrossing(place + complex(*shift), error, len(chosen), cover)
+
+
+# --- where a point is expected, as the cloud of its drawings tells --------------------------------
+
+
+CLOSE, ROOM, WIDEST = 0.7, 0.3, 10.0
+"""Least half width of the window for a point, what is added to its cloud's, and the most, in mm."""
+
+
+class ExpectedPlace(Struct, frozen=True):
+    """Where a point is expected: the middle of a cloud (complex mm), and its covariance."""
+
+    middle: complex
+    spread: Any
+
+    @property
+    def reach(self) -> float:
+        """Half the width of the window in which it is looked for."""
+        wide = 3 * float(np.sqrt(max(np.linalg.eigvalsh(self.spread)[-1], 0.0)))
+        return min(max(wide, CLOSE) + ROOM, WIDEST)
+
+    @property
+    def radius(self) -> float:
+        """Within so many mm of the middle 95 of 100 drawings have it."""
+        return 2.4477 * float(np.sqrt(np.trace(self.spread) / 2))
+
+    def away(self, place: complex, error: Any) -> float:
+        """The squared distance of a place in deviations of both."""
+        off = np.array([(place - self.middle).real, (place - self.middle).imag])
+        return float(off @ np.linalg.solve(self.spread + error, off))
+
+    def weighed(self, found: LinesCrossing) -> complex:
+        """A place that fits, drawn to what is expected as far as its lines leave it open."""
+        off = np.array([(found.place - self.middle).real, (found.place - self.middle).imag])
+        share = np.linalg.solve(self.spread + found.error, off)
+        return self.middle + complex(*(self.spread @ share))
+
+    def narrowed(self, cloud: Any, found: LinesCrossing, errors: Any) -> Any:
+        """A cloud that fits, each of its places drawn to what was found as ``weighed`` does; the
+        standard errors (count, 2) are what the lines leave open.
+        """
+        lines = np.linalg.cholesky(found.error) @ errors.T
+        seen = np.array([[found.place.real], [found.place.imag]]) + lines
+        off = seen - np.stack([cloud.real, cloud.imag])
+        shift = self.spread @ np.linalg.solve(self.spread + found.error, off)
+        return cloud + shift[0] + 1j * shift[1]
+
+
+def expected(cloud: Any) -> ExpectedPlace:
+    """What a cloud expects."""
+    cloud = np.atleast_1d(np.asarray(cloud, dtype=complex))
+    cloud = cloud[np.isfinite(cloud)]
+    if not len(cloud):
+        return ExpectedPlace(complex("nan"), np.eye(2))
+    middle = complex(np.median(cloud.real), np.median(cloud.imag))
+    off = cloud - middle
+    near = off[abs(off) <= np.percentile(abs(off), 98)]
+    if len(near) < 8:
+        return ExpectedPlace(middle, np.eye(2) * PAPER**2)
+    spread = np.cov(np.stack([near.real, near.imag])) * 1.08 + np.eye(2) * PAPER**2
+    return ExpectedPlace(middle, spread)
+
+
+# --- places of points looked for in a drawing -----------------------------------------------------
+
 
 DRAWINGS, SEED = 300, 23
 """Drawings in a cloud, and the seed of their errors."""

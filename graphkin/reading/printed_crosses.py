@@ -7,7 +7,7 @@ from typing import Any
 import cv2
 import numpy as np
 
-from graphkin.classroom.printing.register_crosses import ARM
+from graphkin.classroom.printing.personal import ARM
 from graphkin.reading.paper_map import PaperMap
 from graphkin.reading.paper_ripple import CROSSED, Offsets
 

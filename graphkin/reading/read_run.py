@@ -18,7 +18,7 @@ from graphkin.classroom.printing.edition import Edition
 from graphkin.classroom.printing.journal import key_of
 from graphkin.classroom.printing.print_work import PrintOrder
 from graphkin.classroom.printing.workers import chunks, engine, results
-from graphkin.classroom.roster.csv_text import safe
+from graphkin.classroom.roster.spreadsheets import safe
 from graphkin.reading.drawn_answers import ANSWERS, answers_table, drawn_items
 from graphkin.reading.kept_readings import PICTURE, READING, kept
 from graphkin.reading.pictures import Photograph, hash_of_picture

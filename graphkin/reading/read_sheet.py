@@ -12,11 +12,11 @@ from msgspec.structs import replace
 from graphkin.accuracy.pencil.pencil import Pencil
 from graphkin.classroom.grading.probes import probes
 from graphkin.classroom.lab.lab_model import Item
+from graphkin.classroom.printing.personal import without_crosses
 from graphkin.classroom.printing.print_work import FORM, PrintOrder, Sheets
-from graphkin.classroom.printing.register_crosses import without_crosses
 from graphkin.classroom.roster.taker import Taker
 from graphkin.drawing.marks import Page
-from graphkin.numbers.arrays import np
+from graphkin.numbers.arithmetic import np
 from graphkin.reading.lettered_points import LetteredSheet
 from graphkin.reading.paper_map import PaperMap
 from graphkin.reading.pictures import Photograph, Unreadable, grey_of

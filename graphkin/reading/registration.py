@@ -16,7 +16,7 @@ import numpy as np
 from msgspec import Struct
 from msgspec.structs import replace
 
-from graphkin.classroom.printing.register_crosses import crosses_of
+from graphkin.classroom.printing.personal import crosses_of
 from graphkin.drawing.marks import LineMark, Page, Polyline, style_class
 from graphkin.drawing.style import style_of
 from graphkin.reading.paper_map import (

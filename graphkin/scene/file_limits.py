@@ -5,13 +5,16 @@ from __future__ import annotations
 import re
 import tomllib
 from codecs import BOM_UTF16_BE, BOM_UTF16_LE
+from collections.abc import Iterable, Iterator
+from contextlib import suppress
 from errno import EFBIG, EINVAL
 from stat import S_ISDIR, S_ISREG
 from typing import Any
 
 from graphkin.scene.expression import unit_hint
-from graphkin.scene.findings import Findings, visible
+from graphkin.scene.findings import Findings, shown_key, visible
 from graphkin.scene.measures import FloatText
+from graphkin.scene.toml_spans import Again, Path, walked
 from graphkin.text import paths
 from graphkin.text.errors import Hint, InLine, Mend, Problem, SceneError
 
@@ -85,8 +88,6 @@ def tables_of(text: str, findings: Findings | None = None) -> dict[str, object]:
     try:
         return parsed(text)
     except SceneError:
-        from graphkin.scene.written_twice import read_once, written_twice
-
         problems, renamed, again = written_twice(text)
         if not problems:
             raise
@@ -272,3 +273,70 @@ def general(found: str, before: str, rest: str) -> str:
     if "character '" in found and LAST not in found:
         return UNSEEN
     return next((said for begins, said in ADVICE if found.startswith(begins)), "")
+
+
+# --- keys and tables that a TOML text has twice ---------------------------------------------------
+
+
+SPARE = "\ue000"
+"""Begins the name that a key gets instead of one which is taken: a sign of no alphabet."""
+
+
+def written_twice(text: str) -> tuple[list[Problem], str, list[Again]]:
+    """What stands twice in a text, the text with other names for it, and where it was."""
+    again = walked(text).again
+    problems = [problem_of(text, each) for each in again]
+    for number, each in reversed([*enumerate(again)]):
+        text = f'{text[: each.key.start]}"{SPARE}{number}"{text[each.key.end :]}'
+    return problems, text, again
+
+
+def problem_of(text: str, each: Again) -> Problem:
+    """The problem of a key or a table, at its second place."""
+    first, at = (text.count("\n", 0, start) + 1 for start in (each.first.start, each.key.start))
+    place = InLine(at, each.key.start - text.rfind("\n", 0, each.key.start))
+    found = f"{dotted(each.path)} is written twice, first in line {first}"
+    if each.heading:
+        said = "one heading of a table", "write all of it under the first"
+    else:
+        said = (
+            "one value of a key",
+            "take out one of the two, unless a heading is missing between them",
+        )
+    return Problem(str(place), found, *said, about=(place,))
+
+
+def dotted(path: Path) -> str:
+    """A path as messages write it: ``drivers[0].speed``."""
+    keys = (f"[{key}]" if isinstance(key, int) else f".{shown_key(key)}" for key in path)
+    return "".join(keys).removeprefix(".")
+
+
+def read_once(tables: dict[str, Any], again: Iterable[Again]) -> dict[str, Any]:
+    """The tables of a text with other names: a key has its first value, a table all its keys."""
+    for number, each in enumerate(again):
+        own = tables.pop(f"{SPARE}{number}", None)
+        if isinstance(own, dict) and isinstance(whole := inside(tables, each.path), dict):
+            whole |= own | whole
+    for table in within(tables):
+        for key in [key for key in table if key.startswith(SPARE)]:
+            del table[key]
+    return tables
+
+
+def inside(value: Any, path: Path) -> Any:
+    """What stands at a path; None where nothing does."""
+    with suppress(LookupError, TypeError):
+        for key in path:
+            value = value[key]
+        return value
+    return None
+
+
+def within(value: Any) -> Iterator[dict[str, Any]]:
+    """A table and all tables within it."""
+    if isinstance(value, dict):
+        yield value
+    for each in value.values() if isinstance(value, dict) else value:
+        if isinstance(each, dict | list):
+            yield from within(each)

@@ -10,17 +10,24 @@ from typing import Any
 
 from msgspec import Struct
 
-from graphkin.numbers.arithmetic import FLOAT, Kind, Point, Real
-from graphkin.numbers.arrays import np
-from graphkin.scene.evaluate import (
+from graphkin.numbers.arithmetic import FLOAT, Kind, Point, Real, np
+from graphkin.scene.expression import (
     BOUNDLESS,
+    HEAVIEST,
+    TIME,
     UNIT,
     EvaluationError,
+    Minus,
+    Number,
+    Pair,
+    Tree,
     differentiated,
     evaluate,
+    names,
+    parse,
+    size,
     with_error,
 )
-from graphkin.scene.expression import HEAVIEST, TIME, Minus, Number, Pair, Tree, names, parse, size
 from graphkin.scene.findings import shown
 from graphkin.text.errors import Problem, SceneError
 

@@ -10,9 +10,19 @@ from msgspec import Struct
 from graphkin.scene.findings import natural
 from graphkin.scene.link_points import under
 from graphkin.scene.model import Driver, joined_words
-from graphkin.structure.one_link import Crank, Driven, Tie, TriedLink, other_of
 from graphkin.structure.pairs import Contact, Joint, Pin, PinLine, Sliding
-from graphkin.structure.wheel_groups import CoupledTrain, Geared, PinnedWheel, Spun, Train
+from graphkin.structure.wheel_groups import (
+    CoupledTrain,
+    Crank,
+    Driven,
+    Geared,
+    PinnedWheel,
+    Spun,
+    Tie,
+    Train,
+    TriedLink,
+    other_of,
+)
 from graphkin.text.plain_table import listed
 
 Joined = tuple[str, str]

@@ -6,9 +6,9 @@ from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
-from graphkin.drawing.glyphs import FILES
-from graphkin.drawing.glyphs import FOLDER as FONTS
-from graphkin.studio.page_requests import PageRequestError
+from graphkin.drawing.richtext import FILES
+from graphkin.drawing.richtext import FOLDER as FONTS
+from graphkin.studio.session import PageRequestError
 
 KINDS = {".css": "text/css", ".js": "text/javascript", ".svg": "image/svg+xml"}
 KINDS[".woff2"] = "font/woff2"

@@ -2,29 +2,252 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Mapping
+from bisect import bisect_left
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from fractions import Fraction
 from functools import lru_cache
+from math import ceil, floor, log10
 from typing import Any
 
 from msgspec import Struct, field, to_builtins
 
+from graphkin.classroom.lab.rules import exact_text
+from graphkin.construction.core.given_data import unit_of
 from graphkin.construction.core.solution import FAIR, Verdict
 from graphkin.documents.scaling import sheet_motion
 from graphkin.documents.sheet_documents import drawings_of, language_of, lost
 from graphkin.loops.witness import sure_of
 from graphkin.mechanism import Mechanism
-from graphkin.scene.model import DRIVEN, JOINED, KEYWORDS, Scene
+from graphkin.scene.expression import TIME
+from graphkin.scene.model import DRIVEN, JOINED, KEYWORDS, Parameter, Scene
+from graphkin.scene.parameters import plain
+from graphkin.scene.quantity import Quantity
 from graphkin.scene.read_scene import known_keys, read_text
-from graphkin.scene.toml_spans import Span, spans
-from graphkin.studio.mends import units
+from graphkin.scene.toml_spans import Path, Span, parts, spans
+from graphkin.studio.mends import Edit, mends_of, units
 from graphkin.studio.panels import Memory, panels, style
-from graphkin.studio.problem_places import MarkedProblem, marked
 from graphkin.studio.result_panel import margins, results, verdict_words
-from graphkin.studio.sliders import sliders
 from graphkin.text import Words, words
-from graphkin.text.errors import GraphkinError, Problem, Setting, Sought
+from graphkin.text.errors import GraphkinError, InLine, Problem, Setting, Sought
 from graphkin.text.markup import as_text
 from graphkin.text.problems import spoken
+
+MOST = 1000
+"""Places of a slider at most; where a scene allows more, a slider stands at some of them."""
+FINE = 200
+"""Places, about, of a slider to which the scene gives no step."""
+HALF = Fraction(1, 2)
+"""How far a slider without a bound goes either way, in parts of its value."""
+
+
+class ParameterSlider(Struct, frozen=True):
+    """A parameter: its value as set, the values at which its slider stands, and which is nearest.
+
+    ``low`` and ``high`` are its bounds as the scene states them, empty where it states none.
+    """
+
+    name: str
+    value: str
+    unit: str
+    stops: tuple[str, ...]
+    index: int
+    low: str
+    high: str
+
+
+def sliders(scene: Scene) -> Iterator[ParameterSlider]:
+    """A slider for each parameter, in the order of the scene."""
+    for name, parameter in scene.parameters.items():
+        if name != TIME:
+            yield slider(scene, parameter)
+
+
+def slider(scene: Scene, parameter: Parameter) -> ParameterSlider:
+    """The slider of one parameter, as it is set."""
+    value = Fraction(str(scene.values[parameter.name]))
+    low, high = ends(parameter, value)
+    step = plain(parameter.step) if parameter.step else None
+    places, names = stops(plain(parameter.minimum or parameter.value), low, high, step)
+    return ParameterSlider(
+        parameter.name,
+        exact_text(value),
+        unit_of(scene, parameter.name),
+        names,
+        nearest(places, value),
+        bound(parameter.minimum),
+        bound(parameter.maximum),
+    )
+
+
+def bound(quantity: Quantity | None) -> str:
+    """A bound as it is shown."""
+    return "" if quantity is None else exact_text(plain(quantity))
+
+
+def nearest(places: Sequence[Fraction], value: Fraction) -> int:
+    """The index of the place nearest to a value; the lower of two equally near."""
+    after = bisect_left(places, value)
+    beside = [i for i in (after - 1, after) if 0 <= i < len(places)]
+    return min(beside, key=lambda i: abs(places[i] - value))
+
+
+def ends(parameter: Parameter, value: Fraction) -> tuple[Fraction, Fraction]:
+    """How far a slider goes: to the bounds, or where there are none, about its own value."""
+    own = plain(parameter.value)
+    least = plain(parameter.minimum) if parameter.minimum else None
+    most = plain(parameter.maximum) if parameter.maximum else None
+    span = abs(own) * HALF or Fraction(1)
+    low = least if least is not None else min(own - span, value)
+    high = most if most is not None else max(own + span, value)
+    return low, high
+
+
+@lru_cache(maxsize=256)
+def stops(
+    start: Fraction, low: Fraction, high: Fraction, step: Fraction | None
+) -> tuple[Sequence[Fraction], tuple[str, ...]]:
+    """The values at which a slider stands, and how they are written: the same while it moves.
+
+    They lie on the steps from ``start``; without steps on round values, both ends included.
+    """
+    stride, begin = (fine(high - low), Fraction(0)) if step is None else (step, start)
+    first, last = ceil((low - begin) / stride), floor((high - begin) / stride)
+    each = max(1, ceil(Fraction(last - first, MOST)))
+    found = [begin + stride * k for k in range(first, last + 1, each)]
+    places = sorted({low, *found, high}) if step is None else found or [start]
+    return places, tuple(map(exact_text, places))
+
+
+def fine(span: Fraction) -> Fraction:
+    """A round step, 1, 2 or 5 at some power of ten, that cuts a span into about so many."""
+    if not span:
+        return Fraction(1)
+    power = Fraction(10) ** floor(log10(span / FINE))
+    return next(step for m in (1, 2, 5, 10) if (step := m * power) * FINE >= span)
+
+
+# --- from the place that a problem names to the line and the key of the text that it is about -----
+
+
+SOLID = ("frame", "links")
+"""The tables whose keys hold points."""
+VERSION = ("graphkin",)
+DRIVERS = ("drivers",)
+
+
+class MarkedProblem(Struct, frozen=True):
+    """A problem with where it stands: its line from 1, 0 where it has none, and what to select.
+
+    ``start`` and ``end`` count as a browser does, a sign beyond the basic plane as two. ``column``,
+    from 1, is where the text fails to be TOML. ``mends`` are changes of which each would mend it.
+    """
+
+    problem: Problem
+    line: int = 0
+    start: int = 0
+    end: int = 0
+    column: int = 0
+    mends: tuple[Edit, ...] = ()
+
+
+def marked(problems: Iterable[Problem], text: str) -> list[MarkedProblem]:
+    """Each problem with its place in the text, in the order of the text."""
+    wrong = list(problems)
+    found = spans(text) if wrong else {}
+    marks = [mark_of(problem, text, span_of(problem, text, found)) for problem in wrong]
+    return sorted(marks, key=lambda mark: (mark.line == 0, mark.start))
+
+
+def mark_of(problem: Problem, text: str, span: Span | None) -> MarkedProblem:
+    """A problem at a span, cut to its first line."""
+    mends = tuple(mends_of(problem, text, span))
+    if span is None:
+        return MarkedProblem(problem, mends=mends)
+    start, end = span
+    stop = text.find("\n", start)
+    end = min(end, len(text) if stop < 0 else stop)
+    line = text.count("\n", 0, start) + 1
+    told = line_of(problem)
+    column = told.column if told else 0
+    return MarkedProblem(problem, line, units(text[:start]), units(text[:end]), column, mends)
+
+
+def span_of(problem: Problem, text: str, found: Mapping[Path, Span]) -> Span | None:
+    """What of the text a problem is about; the nearest heading where its key is not written."""
+    if told := line_of(problem):
+        return span_of_line(text, told)
+    if not problem.place:
+        return found.get(VERSION, Span(0, 0))
+    for path in paths(problem, found):
+        for length in range(len(path), 0, -1):
+            span = found.get(path[:length]) or found.get((*path[: length - 1], f"{path[-1]}s"))
+            span = span or pinned(path[:length], found)
+            if span is not None:
+                return span
+    return None
+
+
+def line_of(problem: Problem) -> InLine | None:
+    """The line that a problem is about, if it is about one."""
+    return next((each for each in problem.about if isinstance(each, InLine)), None)
+
+
+def paths(problem: Problem, found: Mapping[Path, Span]) -> Iterator[Path]:
+    """The paths that a problem may mean, the likeliest first.
+
+    A pin that is missing is a point that one link alone has; of lengths that make no triangle the
+    longest is meant; what cannot be found by drawing is settled by a branch, else by a length
+    there, else by where the drivers stand.
+    """
+    for about in problem.about:
+        match about:
+            case Setting(name=name):
+                yield "parameters", name
+            case Sought(names=names):
+                tried = [(table, name) for name in names for table in ("branches", "links")]
+                yield from (path for path in tried if path in found)
+                yield from (path for name in names for path in holding(name, found))
+                yield DRIVERS
+            case tuple() if about in found or pinned(about, found):
+                yield about
+    path = tuple(parts(problem.place))
+    yield path
+    if path[0] == "branches":
+        yield from holding(str(path[-1]), found)
+
+
+def pinned(path: Path, found: Mapping[Path, Span]) -> Span | None:
+    """The first key of a link, or of the frame, that holds a point: ``B`` stands in ``A-B``."""
+    if len(path) < 2 or path[0] not in SOLID:
+        return None
+    table = path[:-1]
+    keys = (key for key in found if key[:-1] == table and path[-1] in str(key[-1]).split("-"))
+    return next((found[key] for key in keys), None)
+
+
+def holding(point: str, found: Mapping[Path, Span]) -> Iterator[Path]:
+    """The keys of links that hold a point and another: the lengths that place it."""
+    for path in found:
+        names = str(path[-1]).split("-")
+        if path[0] == "links" and len(path) == 3 and len(names) > 1 and point in names:
+            yield path
+
+
+def span_of_line(text: str, told: InLine) -> Span:
+    """A line without the blanks around it, from the sign at which it fails to be TOML."""
+    lines = text.split("\n")
+    number, column = min(told.line, len(lines)), told.column - 1
+    start = sum(len(line) + 1 for line in lines[: number - 1])
+    line = lines[number - 1]
+    first, last = len(line) - len(line.lstrip()), len(line.rstrip())
+    heading = line.lstrip().startswith("[")
+    if first < column < last and line[column] != "#" and not heading:
+        first = column
+    return Span(start + first, start + last)
+
+
+# --- what is seen of a scene's text at once -------------------------------------------------------
+
 
 LINES = "\n"
 EVERY = f"""

@@ -6,19 +6,59 @@ import json
 import logging
 import socket
 from collections.abc import Callable, Mapping
+from functools import lru_cache
 from pathlib import Path
 from typing import Any
 from urllib.parse import urlencode
 
 from msgspec import Struct
 
+from graphkin import __version__
 from graphkin.studio.guard import FRAMED, Guard, new_token
 from graphkin.studio.local_pages import JSON, answer, answering, new_application
-from graphkin.studio.page_requests import MOST_BYTES, PageRequest
-from graphkin.studio.session import OPENED, Session
-from graphkin.studio.studio_page import page
-from graphkin.text import LANGUAGES
+from graphkin.studio.look import spoken_in
+from graphkin.studio.session import MOST_BYTES, OPENED, Opened, PageRequest, Session
+from graphkin.text import LANGUAGES, Words
 from graphkin.text.errors import GraphkinError, PageError, Problem
+from graphkin.writers.templates import from_template
+
+SPOKEN = "studio."
+"""How the keys of the studio's sentences begin: those that stand in the page or are said later."""
+PLANS = ("sheet.velocity", "sheet.acceleration")
+
+
+def page(opened: Opened, words: Words) -> str:
+    """The whole page, to begin with a text; the words of all languages go with it."""
+    spoken = {language: spoken_in(language) for language in LANGUAGES}
+    said = {language: said_in(language) for language in LANGUAGES}
+    start = {"language": words.language, "words": said}
+    page = from_template(
+        "studio/web/page.html",
+        said=said[words.language],
+        spoken=spoken,
+        language=words.language,
+        version=__version__,
+        name=opened.name,
+        mark=opened.mark,
+        text=opened.text.removeprefix("\ufeff"),
+        rules=opened.rules.removeprefix("\ufeff"),
+        rules_mark=opened.rules_mark,
+        gone=opened.gone,
+        start=json.dumps(start, ensure_ascii=False),
+    )
+    return f"{page}\n"
+
+
+@lru_cache(maxsize=8)
+def said_in(language: str) -> dict[str, str]:
+    """The sentences of the page in one language."""
+    words = spoken_in(language)
+    own = (key for key in words.sentences if key.startswith(SPOKEN))
+    return {key: words.open(key) for key in (*own, *PLANS)}
+
+
+# --- the addresses of the studio and its server ---------------------------------------------------
+
 
 HERE = Path(__file__).parent / "web"
 WORK = (

@@ -2,9 +2,14 @@
 
 from __future__ import annotations
 
+import json
+import os
 from collections import OrderedDict
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
+from difflib import unified_diff
+from fractions import Fraction
+from hashlib import sha256
 from pathlib import Path
 from threading import Condition, Lock
 from typing import Any
@@ -12,17 +17,25 @@ from typing import Any
 from msgspec import Struct, to_builtins
 
 from graphkin.classroom.lab.new_lab import START, rules_for
-from graphkin.classroom.page_documents import hand_out_page
+from graphkin.classroom.lab.rules import exact_text
+from graphkin.classroom.sheet_files import hand_out_page, sheet_files
 from graphkin.construction.core.quantities import SHEETS
 from graphkin.mechanism import Mechanism
 from graphkin.scene import scene_files
-from graphkin.scene.file_limits import tables_of
+from graphkin.scene.expression import TIME
+from graphkin.scene.file_limits import LARGEST, decoded, read_bytes, tables_of, whole_file
+from graphkin.scene.findings import Findings
+from graphkin.scene.model import Scene
+from graphkin.scene.parameters import of_setting, plain, rational
+from graphkin.scene.quantity import shortest
 from graphkin.scene.read_scene import read_text
+from graphkin.scene.toml_spans import values
 from graphkin.structure.driver_count import driver_name
 from graphkin.studio.building import KINDS, Act, built
 from graphkin.studio.folder import (
     ENDING,
     MOST,
+    SCENE,
     Folder,
     example_text,
     examples,
@@ -33,27 +46,340 @@ from graphkin.studio.folder import (
     with_ending,
 )
 from graphkin.studio.guard import new_token
-from graphkin.studio.lab_panel import lab_advice, lab_report
-from graphkin.studio.lab_work import LabProblems, LabTexts, beside, proposal_of, trial_of
-from graphkin.studio.look import Sight, look, spoken_in, told_in
-from graphkin.studio.page_requests import PageRequest, PageRequestError
-from graphkin.studio.panels import Memory, StaleError
-from graphkin.studio.saving import (
-    FORMATS,
-    VIEWS,
-    OwnRules,
-    Saved,
-    WantedSheets,
-    mark_of_file,
-    save_files,
-    save_scene,
-    sheets_of,
+from graphkin.studio.lab_panel import (
+    LabProblems,
+    LabTexts,
+    beside,
+    lab_advice,
+    lab_report,
+    proposal_of,
+    trial_of,
 )
-from graphkin.studio.scene_edits import edits
+from graphkin.studio.look import Sight, look, spoken_in, told_in
+from graphkin.studio.mends import Edit, units
+from graphkin.studio.panels import Memory, StaleError
 from graphkin.studio.sketch import sketch
 from graphkin.text import LANGUAGES, Words, words
 from graphkin.text.errors import GraphkinError, SceneError
 from graphkin.text.markup import as_text
+from graphkin.writers.files import file_stem, write_all
+
+VIEWS = ("key", "task", "steps", "overlay")
+PAGE = "html"
+FORMATS = ("svg", "pdf", PAGE, "dxf", "pmks")
+MOST_LINES = 12
+"""Lines that are shown of what saving would change in a file that is in the way."""
+
+
+class Saved(Struct, frozen=True):
+    """What became of it: the names of the files written, or of those that are in the way.
+
+    ``mark`` identifies the content of the scene that was written, ``rules_mark`` that of its
+    lab.toml; ``changes`` are the lines in which texts that are in the way differ from those to be
+    saved, as `difflib` writes them.
+    """
+
+    files: tuple[str, ...] = ()
+    exist: tuple[str, ...] = ()
+    mark: str = ""
+    rules_mark: str = ""
+    changes: tuple[str, ...] = ()
+
+
+class OwnRules(Struct, frozen=True):
+    """The text of a lab.toml, and what identifies the content that the page last read or saved."""
+
+    text: str
+    mark: str = ""
+
+
+def save_scene(
+    folder: Folder,
+    name: str,
+    text: str,
+    mark: str,
+    *,
+    replace: bool,
+    rules: OwnRules | None = None,
+) -> Saved:
+    """Write the text of a scene, and its lab.toml with it, both or neither; not over files that are
+    there, unless told to.
+
+    ``mark`` identifies the content that the page last read or saved under this name: a file that
+    still holds it is replaced without asking. Raises SceneError for a name that leads elsewhere,
+    or of a scene that can have no lab.toml, PageError where nothing can be written.
+    """
+    texts = {folder.path(name): (text, mark)}
+    if rules:
+        texts[folder.lab_path(name)] = (rules.text, rules.mark)
+    exist = [
+        path
+        for path, (_, own) in texts.items()
+        if os.path.lexists(path) and (mark_of_file(path) or None) != own
+    ]
+    if exist and not replace:
+        lines = [line for path in exist for line in changes(path, texts[path][0])]
+        return Saved(exist=tuple(map(folder.name_as_written, exist)), changes=tuple(lines))
+    data = {path.name: written.encode("utf-8") for path, (written, _) in texts.items()}
+    write_all(folder.path(name).parent, data, force=True)
+    own = [*map(mark_of, data.values()), ""]
+    files = tuple(map(folder.name_as_written, texts))
+    return Saved(files, mark=own[0], rules_mark=own[1])
+
+
+def changes(path: Path, text: str) -> tuple[str, ...]:
+    """The lines that saving a text would take from a file (-) and put into it (+), the first ones.
+
+    None for a file that cannot be read.
+    """
+    try:
+        before = decoded(read_bytes(path))
+    except SceneError:
+        return ()
+    lines = list(unified_diff(before.splitlines(), text.splitlines(), lineterm="", n=0))[2:]
+    return (*lines[:MOST_LINES], *(("…",) if len(lines) > MOST_LINES else ()))
+
+
+def mark_of(data: bytes) -> str:
+    """What tells one content of a file from another."""
+    return sha256(data).hexdigest()
+
+
+def mark_of_file(path: Path) -> str:
+    """The same of a file; nothing of one that cannot be read."""
+    try:
+        return mark_of(whole_file(path))
+    except OSError:
+        return ""
+
+
+class WantedSheets(Struct, frozen=True):
+    """Which sheets are wanted: of which text under which name, in which language and form."""
+
+    text: str
+    name: str
+    settings: Mapping[str, str]
+    language: str
+    view: str
+    formats: Sequence[str]
+
+
+def sheets_of(folder: Folder, wanted: WantedSheets) -> dict[str, bytes]:
+    """The files of a scene's sheets by name, as ``graphkin sheet`` writes and names them where the
+    value of every parameter is set.
+
+    Raises as the reading of a scene and hand_out do.
+    """
+    name, settings, view, formats = wanted.name, wanted.settings, wanted.view, wanted.formats
+    text, language = wanted.text, wanted.language
+    mechanism = Mechanism(read_text(text, stem_of(name), None, settings))
+    stem = file_stem(mechanism.scene.name, values_of(mechanism.scene))
+    lab = lab_of(folder, name, text) if PAGE in formats else name
+    return sheet_files(mechanism, lab, stem, view, language, formats)[0]
+
+
+def values_of(scene: Scene) -> dict[str, str]:
+    """The value of each parameter, as it is set from outside."""
+    return {
+        name: exact_text(Fraction(str(value)))
+        for name, value in scene.values.items()
+        if name != TIME
+    }
+
+
+def lab_of(folder: Folder, name: str, text: str) -> str:
+    """The lab whose form belongs to a scene: that of its own folder, or a shipped one unchanged.
+
+    The name of the scene's file, which is no lab, where there is none.
+    """
+    if name.rpartition("/")[2] == SCENE:
+        return str(folder.path(name).parent)
+    lab = stem_of(name)
+    return lab if lab in scene_files.names() and text == shipped_text(lab) else name
+
+
+def save_files(folder: Folder, files: Mapping[str, bytes], *, replace: bool) -> Saved:
+    """Write files into the folder, all or none; not over others, unless told to."""
+    exist = tuple(name for name in files if os.path.lexists(folder.root / name))
+    if exist and not replace:
+        return Saved(exist=exist)
+    write_all(folder.root, files, force=True)
+    return Saved(files=tuple(files))
+
+
+# --- the values of sliders put into the text of a scene, where it states its parameters -----------
+
+
+LONGEST = 100
+"""Signs of a value that is written."""
+
+
+def edits(text: str, settings: Mapping[str, str]) -> list[Edit]:
+    """What is to be changed so that the parameters have these values; the last place first.
+
+    A value that the text states already changes nothing. Raises SceneError for what is no number.
+    """
+    known = values(text)
+    found = []
+    for name, value in settings.items():
+        path = ("parameters", name)
+        span = known.get((*path, "value")) or known.get(path)
+        if span is None:
+            continue
+        before, after = text[slice(*span)], literal(name, value)
+        if not same(before, after):
+            start, end = (units(text[:at]) for at in span)
+            found.append(Edit(start, end, after, name, before))
+    return sorted(found, key=lambda edit: -edit.start)
+
+
+def literal(name: str, value: str) -> str:
+    """A value as TOML: a number where a decimal says it whole, else a fraction in quotes.
+
+    Raises SceneError for what is no rational number.
+    """
+    findings = Findings()
+    number = number_of(value, findings)
+    if number is None:
+        raise SceneError(of_setting(name, findings.problems))
+    decimal = shortest(number)
+    if Fraction(decimal) == number and "e" not in decimal:
+        return decimal
+    return f'"{number.numerator}/{number.denominator}"'
+
+
+def same(before: str, after: str) -> bool:
+    """Whether two values as TOML are one number."""
+    one, other = (number_of(value.strip("\"'"), Findings()) for value in (before, after))
+    return one is not None and one == other
+
+
+def number_of(value: str, findings: Findings) -> Fraction | None:
+    """The exact number of a text; None, with a problem noted, where it is none."""
+    read = rational("", value[:LONGEST], findings)
+    return None if read is None else plain(read)
+
+
+# --- what the page asks for, as it comes in: every field of the kind and size that it must have ---
+
+
+MOST_BYTES = 4 * LARGEST
+"""Bytes of a request at most: a scene of the largest size, every sign of it written as an escape
+but the rarest."""
+MOST_SETTINGS, LONGEST_SETTING = 200, 100
+MOST_PLACES, FARTHEST = 500, 1e9
+"""Points whose places are told, and how far off one may be."""
+SHORT = 300
+"""Signs of names and marks."""
+
+
+class PageRequestError(Exception):
+    """A request that the page does not make."""
+
+
+class PageRequest:
+    """The fields of a request by name; reading one that is not so raises PageRequestError."""
+
+    def __init__(self, data: bytes) -> None:
+        try:
+            fields = json.loads(data.decode("utf-8"))
+        except (ValueError, RecursionError):
+            raise PageRequestError("no JSON") from None
+        if not isinstance(fields, dict):
+            raise PageRequestError("no object")
+        self.fields: dict[str, Any] = fields
+
+    def text(self, key: str, most: int = SHORT) -> str:
+        """A text; nothing where it is not given."""
+        found = self.fields.get(key, "")
+        if not isinstance(found, str) or len(found) > most:
+            raise PageRequestError(key)
+        try:
+            found.encode("utf-8")
+        except UnicodeEncodeError:
+            raise PageRequestError(key) from None
+        return found
+
+    def scene(self) -> str:
+        """The text of a scene; one too large is for the reader of scenes to refuse."""
+        return self.long_text("text")
+
+    def long_text(self, key: str) -> str:
+        """A text as long as a scene may be."""
+        return self.text(key, MOST_BYTES)
+
+    def flag(self, key: str) -> bool:
+        """Whether something is so; not where it is not given."""
+        found = self.fields.get(key, False)
+        if not isinstance(found, bool):
+            raise PageRequestError(key)
+        return found
+
+    def number(self, key: str) -> int:
+        """A whole number; 0 where it is not given."""
+        found = self.fields.get(key, 0)
+        if not isinstance(found, int) or isinstance(found, bool) or not 0 <= found < 2**53:
+            raise PageRequestError(key)
+        return found
+
+    def choice(self, key: str, known: tuple[str, ...]) -> str:
+        """One of some words; the first where it is not given."""
+        found = self.fields.get(key, known[0])
+        if found not in known:
+            raise PageRequestError(key)
+        return str(found)
+
+    def choices(self, key: str, known: tuple[str, ...]) -> tuple[str, ...]:
+        """Some of some words, in their order; at least one."""
+        found = self.fields.get(key)
+        if not isinstance(found, list) or not found or any(word not in known for word in found):
+            raise PageRequestError(key)
+        return tuple(word for word in known if word in found)
+
+    def place(self, key: str) -> complex:
+        """A place in the field; its origin where it is not given."""
+        return place_of(key, self.fields.get(key, [0, 0]))
+
+    def places(self) -> dict[str, complex]:
+        """Where points stand, by their names."""
+        found = self.fields.get("places", {})
+        if not isinstance(found, dict) or len(found) > MOST_PLACES:
+            raise PageRequestError("places")
+        return {name: place_of("places", at) for name, at in found.items() if len(name) <= SHORT}
+
+    def names(self, key: str) -> tuple[str, ...]:
+        """At most two names."""
+        found = self.fields.get(key, [])
+        if not isinstance(found, list) or len(found) > 2:
+            raise PageRequestError(key)
+        if not all(isinstance(name, str) and 0 < len(name) <= SHORT for name in found):
+            raise PageRequestError(key)
+        return tuple(found)
+
+    def settings(self) -> dict[str, str]:
+        """The values of sliders, as texts."""
+        found = self.fields.get("settings", {})
+        if not isinstance(found, dict) or len(found) > MOST_SETTINGS:
+            raise PageRequestError("settings")
+        for value in found.values():
+            if not isinstance(value, str) or not 0 < len(value) <= LONGEST_SETTING:
+                raise PageRequestError("settings")
+        return dict(found)
+
+
+def place_of(key: str, found: Any) -> complex:
+    """A place as the page tells it. Raises PageRequestError for what is none."""
+    if not isinstance(found, list) or len(found) != 2:
+        raise PageRequestError(key)
+    for value in found:
+        number = isinstance(value, int | float) and not isinstance(value, bool)
+        if not number or not abs(value) <= FARTHEST:
+            raise PageRequestError(key)
+    return complex(*found)
+
+
+# --- what the studio knows while it runs, and what it does for its page: one thing at a time ------
+
 
 OPENED = ("lab", "example", "like", "empty", "scene")
 """What an address may ask to open, by its key."""

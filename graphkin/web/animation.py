@@ -2,13 +2,18 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+import io
+from typing import TYPE_CHECKING, Any
 
 from graphkin.documents.sheet_documents import language_of
+from graphkin.text import Words
+from graphkin.web.animation_pictures import PICTURE, Stage, stage
+from graphkin.web.frames import FrameSequence
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
+    from graphkin.drawing.marks import Mark
     from graphkin.motion.cycle import Cycle
 
 
@@ -26,11 +31,78 @@ def animation_files(
     words = language_of(cycle.mechanism, language)
     found, files = motion(cycle, words), dict[str, bytes]()
     if "gif" in formats:
-        from graphkin.web.gif import gif
-
         files[f"{stem}-motion.gif"] = gif(found, words)
     if "html" in formats:
         from graphkin.web.player import player_page
 
         files[f"{stem}-motion.html"] = player_page(found, words).encode("utf-8")
     return files
+
+
+# --- an animation as a GIF file -------------------------------------------------------------------
+
+
+DOTS = 4.0
+"""Dots for each millimetre."""
+PAUSE = 50
+"""Milliseconds for which a picture is shown."""
+COLOURS = 64
+TASTED = 6
+"""Pictures from which the colours are chosen."""
+
+
+def gif(motion: FrameSequence, words: Words) -> bytes:
+    """The GIF file of a motion, which begins again when it ends."""
+    few = in_few_colours(drawn(stage(motion, words)))
+    first, *rest = (few[number] for number in motion.order)
+    out = io.BytesIO()
+    first.save(
+        out, format="GIF", save_all=True, append_images=rest, duration=PAUSE, loop=0, optimize=False
+    )
+    return out.getvalue()
+
+
+def drawn(set_up: Stage) -> list[Any]:
+    """The pictures of all moments, in all their colours; what stands still is painted once."""
+    from PIL import Image
+
+    under = painted(set_up.still)
+    ground = Image.alpha_composite(Image.new("RGBA", under.size, "white"), under)
+    return [
+        Image.alpha_composite(ground, painted(set_up.moving(moment))).convert("RGB")
+        for moment in set_up.motion.moments
+    ]
+
+
+def painted(marks: Sequence[Mark]) -> Any:
+    """Marks as a picture (Pillow), clear where nothing is drawn."""
+    from matplotlib.backends.backend_agg import FigureCanvasAgg
+    from matplotlib.figure import Figure
+    from PIL import Image
+
+    from graphkin.writers.axes import put_marks
+
+    width, height = PICTURE
+    figure = Figure(figsize=(width / 25.4, height / 25.4), dpi=DOTS * 25.4, facecolor="none")
+    canvas: Any = FigureCanvasAgg(figure)
+    axes = figure.add_axes((0, 0, 1, 1))
+    put_marks(axes, marks, (0.0, 0.0))
+    axes.set_axis_off()
+    axes.set_xlim(0, width)
+    axes.set_ylim(-height, 0)
+    dots, size = canvas.print_to_buffer()
+    return Image.frombytes("RGBA", size, bytes(dots))
+
+
+def in_few_colours(pictures: Sequence[Any]) -> list[Any]:
+    """Pictures in one set of colours, chosen from some of them."""
+    from PIL import Image
+
+    step = max(len(pictures) // TASTED, 1)
+    some = pictures[::step][:TASTED]
+    width, height = some[0].size
+    tasted = Image.new("RGB", (width, height * len(some)))
+    for i, one in enumerate(some):
+        tasted.paste(one, (0, i * height))
+    colours = tasted.quantize(COLOURS, method=Image.Quantize.MEDIANCUT)
+    return [one.quantize(palette=colours, dither=Image.Dither.NONE) for one in pictures]

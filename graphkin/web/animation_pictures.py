@@ -2,41 +2,379 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Sequence
 from functools import cached_property
+from math import ceil
 
 from msgspec import Struct
 from msgspec.structs import replace
 
 from graphkin.construction.core.drawn_scene import METRES, Drawing
+from graphkin.construction.core.layout import Layout
+from graphkin.construction.core.link_poses import Touch
 from graphkin.construction.core.naming import angle_symbol
+from graphkin.construction.core.paper_canvas import Plot
+from graphkin.construction.core.program import Step
 from graphkin.construction.core.quantities import MOTION
-from graphkin.documents.sheet import title_of
-from graphkin.drawing.areas import Rect
-from graphkin.drawing.field import Field
-from graphkin.drawing.marks import LineMark, Mark, Polyline, Text
-from graphkin.drawing.richtext import extent
-from graphkin.drawing.scale import extent_of, preferred
-from graphkin.drawing.symbol_markup import escape
-from graphkin.motion.driving import TURN
-from graphkin.numbers.arrays import np
-from graphkin.text import Words
-from graphkin.web.fixed_parts import standing
-from graphkin.web.frame_marks import cut, driver_marks, mechanism_seen, plan_box, plan_seen
-from graphkin.web.frames import Frame, FrameSequence, goes_round
-from graphkin.web.moving_labels import FAR, LETTER, Rule, lettering, rules_over
-from graphkin.web.panes import (
-    CAPTION,
-    HEAD,
-    PICTURE,
-    WAYS,
-    arrangements,
-    leaves,
-    mechanism_pane,
-    plan_pane,
-    posed,
-    worth,
+from graphkin.construction.drivers.driver_symbols import draw_drivers
+from graphkin.construction.guides.rails import REACH, Rail, rails_of
+from graphkin.construction.guides.slide_symbols import STROKE, draw_frame_guides, merged, within
+from graphkin.construction.links.mechanism_symbols import (
+    draw_bars,
+    draw_ground,
+    draw_pins,
+    draw_plates,
 )
+from graphkin.construction.links.wheel_symbols import track, track_ends
+from graphkin.construction.step_marks import draw_plan_steps
+from graphkin.documents.sheet import title_of
+from graphkin.drawing.field import Field, Rect, clipped
+from graphkin.drawing.labels import FieldContent
+from graphkin.drawing.marks import CircleMark, LineMark, Mark, Polyline, Text, reach, style_class
+from graphkin.drawing.richtext import extent
+from graphkin.drawing.scale import Extent, extent_of, preferred
+from graphkin.drawing.style import VECTORS
+from graphkin.drawing.symbol_markup import escape, symbol
+from graphkin.drawing.symbols import across, hatched, rails, slot, slot_ground
+from graphkin.motion.driving import TURN
+from graphkin.numbers.arithmetic import np
+from graphkin.numbers.plane import Vector, dot
+from graphkin.scene.model import FRAME
+from graphkin.text import Words
+from graphkin.web.frames import Frame, FrameSequence, goes_round
+from graphkin.web.moving_labels import (
+    FAR,
+    LETTER,
+    FrameView,
+    PointLetter,
+    Rule,
+    lettering,
+    rules_over,
+)
+
+PICTURE = (240.0, 140.0)
+"""Width and height of a picture in mm."""
+HEAD = 11.0
+"""Room for the title above the panes, in mm."""
+AREA: Rect = (3.0, HEAD, PICTURE[0] - 3, PICTURE[1] - 3)
+"""The part of a picture for all panes."""
+CAPTION = 5.0
+"""Room for the caption of a pane, in mm, more than there is around its drawing."""
+ROOM = 13.0
+"""Room around a mechanism within its pane, for letters and ground, in mm."""
+AIR = 8.0
+"""Room around a plan, for its letters, in mm."""
+SHARES = (0.4, 0.5, 0.6, 0.7)
+"""Parts of a picture that the mechanism may take."""
+HELD = (1.0, 0.95, 0.9, 0.85, 0.8, 0.75)
+"""Parts of a motion over which a plan stays in its pane: the largest at which it is large enough.
+
+Below three quarters it would be gone too often.
+"""
+ENOUGH = 0.5
+"""A plan is large enough when its middle size over the motion is this part of its room."""
+
+
+def arrangements(plans: int) -> Iterator[list[Rect]]:
+    """Ways to part a picture, the mechanism first, in the order of WAYS for each of its shares."""
+    if not plans:
+        yield [AREA]
+        return
+    for share in SHARES:
+        for way in WAYS:
+            yield way(share, plans)
+
+
+def beside_plans(share: float, plans: int) -> list[Rect]:
+    """The mechanism beside its plans, which stand one above the other."""
+    left, top, right, bottom = AREA
+    x, down = left + share * (right - left), (bottom - top) / plans
+    return [
+        (left, top, x, bottom),
+        *((x, top + i * down, right, top + (i + 1) * down) for i in range(plans)),
+    ]
+
+
+def above_plans(share: float, plans: int) -> list[Rect]:
+    """The mechanism above its plans, which stand side by side."""
+    left, top, right, bottom = AREA
+    y, across = top + share * (bottom - top), (right - left) / plans
+    return [
+        (left, top, right, y),
+        *((left + i * across, y, left + (i + 1) * across, bottom) for i in range(plans)),
+    ]
+
+
+def in_a_row(share: float, plans: int) -> list[Rect]:
+    """The mechanism and its plans side by side."""
+    left, top, right, bottom = AREA
+    x = left + share * (right - left)
+    across = (right - x) / plans
+    return [
+        (left, top, x, bottom),
+        *((x + i * across, top, x + (i + 1) * across, bottom) for i in range(plans)),
+    ]
+
+
+WAYS = (beside_plans, above_plans, in_a_row)
+
+
+def worth(rects: Sequence[Rect], box: Extent, plans: Sequence[Sequence[Extent]]) -> float:
+    """How large all drawings are together; the mechanism counts twice."""
+    own, *others = rects
+    found = scale_in(room_in(own, ROOM), [box]) ** 2
+    for rect, boxes in zip(others, plans, strict=True):
+        found *= scale_in(room_in(rect, AIR), boxes)
+    return found
+
+
+def room_in(rect: Rect, around: float) -> Rect:
+    """The part of a pane for a drawing, below its caption."""
+    left, top, right, bottom = rect
+    return left + around, top + around + CAPTION, right - around, bottom - around
+
+
+def scale_in(room: Rect, boxes: Sequence[Extent]) -> float:
+    """Millimetres for each unit of a drawing, one for all the boxes that it takes up in turn."""
+    width, height = room[2] - room[0], room[3] - room[1]
+    sizes = sorted(max(box.width / width, box.height / height) for box in boxes)
+    usual, size = sizes[len(sizes) // 2], sizes[-1]
+    for part in HELD:
+        size = sizes[ceil(part * len(sizes)) - 1] or size
+        if usual >= ENOUGH * size:
+            break
+    return 1 / size if size > 0 else 1.0
+
+
+def mechanism_pane(rect: Rect, box: Extent) -> Field:
+    """The field of a mechanism, in the middle of its room below the caption."""
+    room = room_in(rect, ROOM)
+    return Field(rect, scale_in(room, [box]), box.middle, middle_of(room))
+
+
+def posed(rect: Rect, boxes: Sequence[Extent]) -> Field:
+    """The field of a plan with its pole where the plan needs to be moved least: at its middle."""
+    room = room_in(rect, AIR)
+    sides = [sorted(each) for each in zip(*(b.sides for b in boxes), strict=True)]
+    half = len(boxes) // 2
+    usual = extent_of([complex(sides[i][half], sides[i + 1][half]) for i in (0, 2)])
+    field = Field(rect, scale_in(room, boxes), usual.middle, middle_of(room))
+    return field if field.holds(0j, AIR) else replace(field, middle=0j)
+
+
+def middle_of(room: Rect) -> tuple[float, float]:
+    """The middle of a rectangle."""
+    return (room[0] + room[2]) / 2, (room[1] + room[3]) / 2
+
+
+def plan_pane(field: Field, box: Extent) -> Field:
+    """The field of a plan at one moment: its pole moved aside where the plan has no room else."""
+    left, top, right, bottom = room_in(field.rect, AIR)
+    (x, y), (low, high) = field(0j), field(complex(box.left, box.top))
+    far, deep = field(complex(box.right, box.bottom))
+    across, down = aside(low, far, x, left, right), aside(high, deep, y, top, bottom)
+    return replace(field, at=(field.at[0] + across, field.at[1] + down))
+
+
+def aside(low: float, high: float, pole: float, start: float, end: float) -> float:
+    """How far a plan from low to high is moved into the room from start to end, one way.
+
+    A larger one leaves the room on both sides of its pole, as much as it lies there.
+    """
+    if high - low <= end - start:
+        return max(start - low, 0.0) + min(end - high, 0.0)
+    return start + (pole - low) / (high - low) * (end - start) - pole
+
+
+def leaves(field: Field, box: Extent) -> bool:
+    """Whether a drawing is not all in its pane."""
+    corners = complex(box.left, box.bottom), complex(box.right, box.top)
+    return not all(field.holds(corner) for corner in corners)
+
+
+# --- what of the frame stands still in an animation -----------------------------------------------
+
+
+STILL = ("guide", "ground", "slot")
+"""The classes of what is drawn once for a whole motion."""
+
+
+def travelling(drawing: Drawing, field: Field) -> set[Mark]:
+    """The marks of the frame that a sheet draws about a block or a wheel."""
+    board = FieldContent(field.rect)
+    draw_frame_guides(board, drawing, field)
+    for touch in lines_of(drawing):
+        board.marks += within(track(drawing, field, touch), field.rect)
+    return {mark for mark in board.marks if mark.cls in STILL}
+
+
+def standing(drawings: Sequence[Drawing], field: Field) -> Iterator[Mark]:
+    """The guides, slots and tracks of the frame, as long as a whole motion needs them."""
+    for rail, others in alike(drawings):
+        yield from guide(rail, others, field)
+    for place, touch in enumerate(lines_of(drawings[0])):
+        yield from line(drawings, place, touch, field)
+
+
+def alike(drawings: Sequence[Drawing]) -> Iterator[tuple[Rail, list[Rail]]]:
+    """Each line of the frame on which blocks and pins slide, with itself at all moments."""
+    every = [[rail for rail in rails_of(each) if rail.owner == FRAME] for each in drawings]
+    for place, rail in enumerate(every[0]):
+        yield rail, [found[place] for found in every if len(found) == len(every[0])]
+
+
+def guide(rail: Rail, others: Sequence[Rail], field: Field) -> Iterator[Mark]:
+    """One guide with its slots, from where its blocks and pins begin to where they end."""
+    at, way = field(rail.zero), field.way(rail.along)
+
+    def span(places: list[complex], beyond: float) -> tuple[float, float]:
+        along = [rail.along_of(place) * field.mm for place in places]
+        return min(along) - beyond, max(along) + beyond
+
+    parts = [
+        span([other.at(other.marks[i]) for other in others], REACH) for i in range(len(rail.marks))
+    ]
+    for low, high in merged(parts):
+        yield from within(rails(at, way, low, high), field.rect)
+    for i, (_, name) in enumerate(rail.slots):
+        low, high = span([other.at(other.slots[i][0]) for other in others], STROKE)
+        yield from within(slot_ground(at, way, low, high), field.rect)
+        yield slot(at, way, low, high, name)
+
+
+def lines_of(drawing: Drawing) -> list[Touch]:
+    """Where wheels without teeth touch straight tracks of the frame."""
+    touches = drawing.standing.touches
+    return [t for t in touches if t.zero is not None and t.on == FRAME and not t.disc.module]
+
+
+def line(drawings: Sequence[Drawing], place: int, touch: Touch, field: Field) -> Iterator[Mark]:
+    """One track, from where its wheel begins to where it ends."""
+    ends: list[float] = []
+    for drawing in drawings:
+        here = lines_of(drawing)[place]
+        moved = float(dot(here.at - touch.at, touch.along)) * field.mm
+        ends += [moved + end for end in track_ends(drawing, field, here)]
+    at, way = field(touch.at), field.way(touch.along)
+    start, end = across(at, way, min(ends), 0), across(at, way, max(ends), 0)
+    both = (start, end) if touch.side > 0 else (end, start)
+    yield from within(hatched(*both), field.rect)
+
+
+# --- the marks of one moment of a motion ----------------------------------------------------------
+
+
+SHOWN = (*VECTORS, "relative-acceleration", "arrowhead", "point", "pole")
+"""The first class of the marks of a plan that are shown, without what constructs them."""
+MOST = 4
+"""Points by which the letter of another may be led, at most."""
+
+
+def mechanism_seen(drawing: Drawing, field: Field) -> FrameView:
+    """Bars, plates, pins and ground, and the points with their letters."""
+    board, away_with = FieldContent(field.rect), travelling(drawing, field)
+    draw_plates(board, drawing, field)
+    draw_ground(board, drawing, field)
+    draw_bars(board, drawing, field)
+    draw_pins(board, drawing, field)
+    marks = [mark for mark in board.marks if mark not in away_with]
+    places = {name: field(place) for name, place in drawing.positions.items()}
+    letters = {name: PointLetter(symbol(name)) for name in places}
+    return FrameView(letters, places, marks, {name: linked(drawing, name) for name in places})
+
+
+def driver_marks(drawing: Drawing, field: Field) -> list[Mark]:
+    """The angle or the way of each driver and its sense, without the number of one position."""
+    if drawing.kind != "velocity":
+        return []
+    board = FieldContent(field.rect)
+    draw_drivers(board, drawing, field)
+    return list(board.marks)
+
+
+def linked(drawing: Drawing, name: str) -> tuple[str, ...]:
+    """The points of the links of a point that moves, except itself."""
+    scene = drawing.scene
+    if name in scene.fixed_points:
+        return ()
+    links = [link for link in scene.links.values() if name in link.points]
+    others = dict.fromkeys(other for link in links for other in link.points if other != name)
+    return tuple(other for other in others if other in drawing.positions)[:MOST]
+
+
+def plan_seen(drawing: Drawing, field: Field) -> FrameView:
+    """The vectors and points of a plan, without what constructs them, and its letters."""
+    board = FieldContent(field.rect)
+    draw_plan_steps(Plot(board, field, drawing, Layout(field, field, Free())))
+    marks = [mark for mark in board.marks if is_shown(drawing, mark)]
+    parts = {mark.step: mark.part for mark in board.marks if isinstance(mark, CircleMark)}
+    letters, places = dict[str, PointLetter](), {}
+    for number, step, value in drawing.steps(drawing.plane):
+        if is_point(step) and isinstance(value, complex):
+            own = number, parts.get(number, 0)
+            letters[step.name] = PointLetter(symbol(step.name), drawing.kind, *own)
+            places[step.name] = field(value)
+    return FrameView(
+        letters, places, marks, {name: joined(drawing, name, letters) for name in letters}
+    )
+
+
+def joined(drawing: Drawing, name: str, letters: dict[str, PointLetter]) -> tuple[str, ...]:
+    """The points of a plan that a vector joins with one of them, the pole first."""
+    steps = drawing.trace.program.steps
+    ends = [(steps[tail].name, steps[tip].name) for tail, tip in drawing.joins]
+    found = {a if b == name else b for a, b in ends if name in (a, b)} & letters.keys()
+    return tuple(sorted(found - {name}, key=lambda each: (each != drawing.pole, each))[:MOST])
+
+
+class Free(dict[int, tuple[float, float]]):
+    """Spans of construction lines that are not shown."""
+
+    def __missing__(self, number: int) -> tuple[float, float]:
+        return 0.0, 0.0
+
+
+def is_point(step: Step) -> bool:
+    """Whether a step gives a point of the plan itself, not of one that is drawn aside."""
+    return bool(step.name) and step.aside is None
+
+
+def is_shown(drawing: Drawing, mark: Mark) -> bool:
+    """Whether a mark of a plan is a vector or a point of the plan itself."""
+    steps = drawing.trace.program.steps
+    aside = mark.step is not None and steps[mark.step].aside is not None
+    return style_class(mark) in SHOWN and not aside
+
+
+def plan_box(drawing: Drawing) -> Extent:
+    """The box of a plan in its own unit, its pole with it."""
+    points = [0j]
+    for _, step, value in drawing.steps(drawing.plane):
+        if isinstance(value, Vector) and step.arrow:
+            points += [value.tail, value.tip]
+        elif is_point(step) and isinstance(value, complex):
+            points.append(value)
+    return extent_of(points)
+
+
+def cut(marks: Sequence[Mark], rect: Rect) -> Iterator[Mark]:
+    """What of the marks of a plan lies in its pane: lines up to its edge, all else if within."""
+    left, top, right, bottom = rect
+    for mark in marks:
+        if isinstance(mark, LineMark):
+            if part := clipped((mark.x1, mark.y1), (mark.x2, mark.y2), rect):
+                (x1, y1), (x2, y2) = part
+                yield replace(mark, x1=x1, y1=y1, x2=x2, y2=y2)
+            continue
+        low, high = reach(mark)[:2], reach(mark)[2:]
+        if isinstance(mark, Polyline):
+            low = high = mark.points[0]
+        if left <= low[0] and top <= low[1] and high[0] <= right and high[1] <= bottom:
+            yield mark
+
+
+# --- the pictures of an animation as marks: mechanism and plans at scales fixed for all of it -----
+
 
 BAR = 30.0
 """Longest bar of a scale, in mm."""

@@ -10,11 +10,9 @@ from graphkin.construction.core.drawn_scene import Drawing
 from graphkin.construction.core.naming import length_scale
 from graphkin.construction.core.quantities import names_asked
 from graphkin.construction.result_tables import slide_rows, slide_sense, turning_rows, vector_rows
-from graphkin.documents.members import members
-from graphkin.documents.sheet import asked_words
-from graphkin.documents.task_scale import plan_at
+from graphkin.documents.sheet import asked_words, members, plan_at
 from graphkin.scene.link_points import lettered
-from graphkin.writers.html_markup import marked_up
+from graphkin.writers.templates import marked_up
 
 SLIDES = {"velocity": "slide", "acceleration": "slide acceleration"}
 """What is asked of a block on each sheet."""

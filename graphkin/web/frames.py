@@ -21,7 +21,7 @@ from graphkin.documents.scaling import drawing, natural_seconds, targets_of
 from graphkin.drawing.scale import Scales
 from graphkin.mechanism import Mechanism
 from graphkin.motion.driving import TURN
-from graphkin.numbers.arrays import np
+from graphkin.numbers.arithmetic import np
 from graphkin.scene.expression import TIME
 from graphkin.text import Words
 from graphkin.text.errors import GraphkinError, Problem, SceneError

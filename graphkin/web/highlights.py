@@ -17,7 +17,7 @@ from graphkin.drawing.symbol_markup import symbol
 from graphkin.web.facts import SLIDES
 from graphkin.web.protocol import PageProtocol
 from graphkin.web.screen_sheets import ScreenSheet
-from graphkin.writers.html_markup import marked_up
+from graphkin.writers.templates import marked_up
 
 BODIES = tuple(set(BODY) - {"number", "label", "leader"})
 """The classes of bars and plates."""

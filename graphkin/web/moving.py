@@ -19,25 +19,22 @@ from graphkin.construction.core.given_data import data
 from graphkin.construction.core.plan_vector import plan_vector
 from graphkin.construction.core.quantities import unit_words
 from graphkin.construction.tape.javascript import MATH, script_source
-from graphkin.construction.tape.traced import UntraceableError
-from graphkin.construction.tape.tracer import traced_kind
-from graphkin.drawing.areas import Rect
+from graphkin.construction.tape.traced import UntraceableError, traced_kind
+from graphkin.drawing.field import Rect
 from graphkin.drawing.marks import CircleMark, Text, style_class
 from graphkin.mechanism import Mechanism
 from graphkin.motion.driving import TURN, reach_of
 from graphkin.numbers.plane import Vector
 from graphkin.text import Words
 from graphkin.text.errors import GraphkinError, SceneError
-from graphkin.web.branch_tracking import TrackedBranch
-from graphkin.web.field_binder import FieldBinder, Record
-from graphkin.web.field_extents import box_of, half
-from graphkin.web.figures import figures
+from graphkin.web.field_binder import FieldBinder, Record, box_of, half
 from graphkin.web.follow import MarkBindings
 from graphkin.web.moving_sheet import MovingSheet
-from graphkin.web.page_driver import PageDriver, Reach, driven_by
-from graphkin.web.scripts import MOVING, joined
+from graphkin.web.offline_page import MOVING, joined
+from graphkin.web.page_driver import PageDriver, Reach, driven_by, figures
+from graphkin.web.traced_closings import TrackedBranch
 from graphkin.web.tracing import Tracing
-from graphkin.writers.html_markup import marked_up
+from graphkin.writers.templates import marked_up
 
 if TYPE_CHECKING:
     from graphkin.web.screen_sheets import ScreenSheet

@@ -14,9 +14,8 @@ from graphkin.construction.core.component import TriangleComponent
 from graphkin.construction.core.drawn_scene import Drawing
 from graphkin.construction.core.kind import construction
 from graphkin.construction.core.layout import BEYOND, SWEEP, Layout
-from graphkin.construction.core.paper_canvas import BEYOND_TIPS, STRAIGHT
+from graphkin.construction.core.paper_canvas import BEYOND_TIPS, STRAIGHT, above_foot
 from graphkin.construction.core.paper_canvas import FAR as ENDLESS
-from graphkin.construction.core.plot import above_foot
 from graphkin.construction.core.program import Plane, Step
 from graphkin.construction.core.segments import NEAR as SHORTEST
 from graphkin.construction.core.segments import TINY

@@ -18,10 +18,10 @@ from msgspec import Struct
 from graphkin.drawing.field import XY
 from graphkin.drawing.marks import Arc, CircleMark, LineMark, Mark, Polyline, Text, style_class
 from graphkin.drawing.richtext import extent
-from graphkin.numbers.arrays import np
+from graphkin.numbers.arithmetic import np
 
 if TYPE_CHECKING:
-    from graphkin.drawing.areas import Rect
+    from graphkin.drawing.field import Rect
 
 LETTER = 3.5
 """Height of letters, in mm."""

@@ -14,8 +14,7 @@ from graphkin.construction.core.layout import BEYOND, FAR, SWEEP, joined_points
 from graphkin.construction.core.program import Part
 from graphkin.construction.core.run import Trace
 from graphkin.construction.tape.tape_outputs import TapeOutputs
-from graphkin.numbers.arithmetic import larger, pick, smaller
-from graphkin.numbers.arrays import np
+from graphkin.numbers.arithmetic import larger, np, pick, smaller
 from graphkin.numbers.plane import Circle, Ratio, dot
 from graphkin.web.body_pose import BodyPose, unit
 

@@ -5,13 +5,22 @@ from __future__ import annotations
 import json
 import re
 from base64 import b64encode
-from collections.abc import Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from functools import lru_cache
 from hashlib import sha256
 from html import escape
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from msgspec.structs import replace
+
+from graphkin.construction.registry import PALETTE
+from graphkin.drawing.field import Rect
+from graphkin.drawing.marks import Mark, Text
+from graphkin.drawing.richtext import font_face
+from graphkin.drawing.style import BRIEF, DRAWN, Ink, in_variables
+from graphkin.web.protocol import Timed
+from graphkin.writers.svg import LETTERING, element, number, parted_text, rules
 from graphkin.writers.templates import from_template
 
 if TYPE_CHECKING:
@@ -71,3 +80,156 @@ def data_block(name: str, value: Any) -> str:
 def part(name: str) -> str:
     """A file of those that a browser reads: a script or a style sheet."""
     return (WEB / name).read_text(encoding="utf-8")
+
+
+# --- the scripts of pages: short files that share their names, put together in a fixed order ------
+
+
+STEP_PAGE = (
+    "page.js",
+    "numbers.js",
+    "sheets.js",
+    "bars.js",
+    "zoom.js",
+    "view.js",
+    "lettering.js",
+    "halos.js",
+    "highlights.js",
+    "carried.js",
+    "writing.js",
+    "tracing.js",
+    "sentences.js",
+    "values.js",
+    "stepping.js",
+    "travel.js",
+    "driver.js",
+    "figures.js",
+    "grab.js",
+    "beginning.js",
+    "room.js",
+    "address.js",
+    "playing.js",
+    "palette.js",
+    "turn_state.js",
+    "picking.js",
+    "checking.js",
+    "your_turn.js",
+    "aiming.js",
+    "keys.js",
+)
+"""The script of a step page: at once, a file uses only what stands before it."""
+PLAYER = ("numbers.js", "curves.js", "player.js")
+"""The script of a cycle's page."""
+MOVING = ("closing.js", "moving.js")
+"""What lays out the marks that follow the driver."""
+FORM = ("form.js",)
+"""The script of a form for answers."""
+WRITTEN_IN = {
+    "$STROKES": json.dumps(",".join(f".{look}" for look in (*DRAWN, "link", "outline"))),
+    "$ACTIONS": json.dumps(
+        {
+            key: [each.shape, each.plane, each.lies_with]
+            for key, each in PALETTE.items()
+            if (each.shape, each.plane, each.lies_with) != ("point", None, 0)
+        },
+        separators=(",", ":"),
+    ),
+    "...$DRAW,": "\n".join(
+        f"{key}: {''.join(map(str.strip, each.script.splitlines(keepends=False)))},"
+        for key, each in PALETTE.items()
+    ),
+}
+"""What files leave to the kinds of lines and to the actions of the palette."""
+REMARK = re.compile(r"(?<=[;,{}\])])\s+// [^\"'`]*$")
+"""A remark at the end of a line, in which no text can stand."""
+TEXT = re.compile("[\"'`/\\\\]")
+"""What a line with a text, a pattern or a division holds."""
+SIGN = re.compile(r" *([=<>?:,;{}()\[\]&|*]+) *")
+"""Signs that need no blanks; two signs + or - must not meet."""
+REMARKS = ("//", "/**")
+"""How lines begin that only a reader of the files needs."""
+
+
+def together(names: tuple[str, ...]) -> str:
+    """Some files as one script, whose names nothing else on the page sees."""
+    return "\n".join(("(() => {", '"use strict";', tight(joined(names)), "})();"))
+
+
+def tight(script: str) -> str:
+    """A script without blanks around signs, on the lines that hold no text and no division."""
+    lines = script.split("\n")
+    return "\n".join(line if TEXT.search(line) else SIGN.sub(r"\1", line) for line in lines)
+
+
+@lru_cache(maxsize=4)
+def joined(names: tuple[str, ...]) -> str:
+    """Some files one after the other, without remarks."""
+    lines = (REMARK.sub("", line.strip()) for name in names for line in part(name).splitlines())
+    script = "\n".join(line for line in lines if line and not line.startswith(REMARKS))
+    for place, what in WRITTEN_IN.items():
+        script = script.replace(place, what)
+    return script
+
+
+# --- A field of a sheet as a picture of its own in a page, in inks that follow light and dark -----
+
+
+WIDTH = re.compile(r"stroke-width:([\d.]+)")
+THINNEST = 0.24
+"""Lines no thinner than this, in mm, on a screen whose dots are coarser than paper's grain."""
+BAR = 20
+"""Millimetres of paper that the bar of a field's scale is long, until a script finds others."""
+
+
+def field_picture(marks: Sequence[tuple[str, Timed]], rect: Rect, named_by: str) -> str:
+    """The marks of a field, each under its id, as SVG whose units are millimetres of the page.
+
+    ``named_by`` is the id of the words that tell what the picture is.
+    """
+    left, top, right, bottom = rect
+    box = " ".join(map(number, (left, top, right - left, bottom - top)))
+    drawn = "\n".join(placed(name, timed) for name, timed in marks)
+    return f'<svg viewBox="{box}" role="img" aria-labelledby="{named_by}">\n{drawn}\n</svg>'
+
+
+def bar_rules(fields: str, rects: Sequence[Rect]) -> Iterator[str]:
+    """What of each of some fields side by side its bar is to know: how wide and high it is."""
+    for place, (left, top, right, bottom) in enumerate(rects, 1):
+        box = f"--bar:{BAR};--wide:{number(right - left)};--high:{number(bottom - top)}"
+        yield f"{fields}>:nth-child({place}){{{box}}}"
+
+
+def placed(name: str, timed: Timed) -> str:
+    """A mark with its id, the sentence that draws it, and the step that it shows, written once.
+
+    One without an id belongs to a picture within the picture.
+    """
+    own = f' id="{name}"' if name else " data-aside"
+    of = f' data-of="{timed.step}"' if timed.step is not None else ""
+    plain = replace(timed, mark=replace(timed.mark, step=None))
+    written = drawn_mark(plain).replace(" ", f'{own} data-at="{timed.at}"{of} ', 1)
+    return f'<g class="lettering">{written}</g>' if isinstance(timed.mark, Text) else written
+
+
+def drawn_mark(timed: Timed) -> str:
+    """A mark; of a label that several letters share each appears with its own sentence."""
+    if not timed.letters or not isinstance(timed.mark, Text):
+        return element(timed.mark)
+    parts = zip(timed.mark.letters, timed.letters, strict=True)
+    return parted_text(timed.mark, [(letter.joined, f'data-from="{at}"') for letter, at in parts])
+
+
+def ink_sheet(marks: Iterable[Mark], ink: Ink) -> str:
+    """The style sheet of some marks, with their faces; no shaft changes while a vector moves."""
+    marks = [replace(mark, cls=mark.cls.removesuffix(f" {BRIEF}")) for mark in marks]
+    return "\n".join(
+        (font_face(False), font_face(True), LETTERING, *map(themed, rules(marks, ink)))
+    )
+
+
+def themed(rule: str) -> str:
+    """A rule of the sheets in inks that follow light and dark, its lines as strong as told."""
+    return WIDTH.sub(
+        lambda found: f"stroke-width:calc({max(float(found[1]), THINNEST):g}px*var(--w))",
+        in_variables(rule),
+    )

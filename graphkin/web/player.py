@@ -23,19 +23,23 @@ from graphkin.drawing.symbol_markup import symbol
 from graphkin.mechanism import Mechanism
 from graphkin.text import Words
 from graphkin.text.errors import Problem, SceneError
-from graphkin.web.animation_pictures import MECHANISM, Stage, scale_bar, stage
+from graphkin.web.animation_pictures import (
+    AIR,
+    MECHANISM,
+    Stage,
+    driver_marks,
+    room_in,
+    scale_bar,
+    stage,
+)
 from graphkin.web.facts import asked_rows, blocks_asked, senses
-from graphkin.web.field_pictures import ink_sheet
-from graphkin.web.field_pictures import placed as drawn
-from graphkin.web.frame_marks import driver_marks
 from graphkin.web.frames import FrameSequence, made, place_in
 from graphkin.web.moving import Moving, moving
 from graphkin.web.moving_labels import ASIDE, GAP, LEFT, LETTER
-from graphkin.web.offline_page import data_block, offline_page, part
-from graphkin.web.panes import AIR, room_in
+from graphkin.web.offline_page import PLAYER, data_block, ink_sheet, offline_page, part, together
+from graphkin.web.offline_page import placed as drawn
 from graphkin.web.protocol import Timed
 from graphkin.web.screen_sheets import ScreenSheet
-from graphkin.web.scripts import PLAYER, together
 from graphkin.writers.svg import number
 from graphkin.writers.templates import from_template
 

@@ -8,8 +8,7 @@ from msgspec import Struct
 
 from graphkin.construction.core.drawn_scene import Drawing
 from graphkin.construction.core.layout import Layout, lay_out
-from graphkin.documents.detail import parted
-from graphkin.documents.inset import insets
+from graphkin.documents.detail import insets, parted
 from graphkin.documents.scaling import sheet_motion
 from graphkin.documents.sheet import left_board, right_board
 from graphkin.documents.sheet_documents import drawings_of, language_of, proved

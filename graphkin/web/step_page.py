@@ -5,39 +5,154 @@ from __future__ import annotations
 import gc
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
-from math import degrees
+from math import degrees, floor, log10
 from typing import TYPE_CHECKING
 
 from msgspec import Struct
 
 from graphkin.construction.core.given_data import Datum, data, given
 from graphkin.construction.core.naming import name_of_sheet, scale_of
-from graphkin.construction.core.program import Part
+from graphkin.construction.core.plan_vector import PlanVector, plan_vector
+from graphkin.construction.core.program import Part, Step
 from graphkin.construction.result_tables import unread
-from graphkin.documents.captions import HEADING, apart
-from graphkin.documents.sheet import asked_words, title_of
-from graphkin.drawing.areas import Rect
-from graphkin.drawing.style import Ink
+from graphkin.documents.sheet import HEADING, apart, asked_words, title_of
+from graphkin.drawing.field import Rect
+from graphkin.drawing.style import BY_SIGN, Ink
+from graphkin.drawing.symbol_markup import symbol
 from graphkin.mechanism import Mechanism
+from graphkin.motion.driving import TURN
+from graphkin.text import Words
 from graphkin.web import facts
-from graphkin.web.field_pictures import BAR, bar_rules, field_picture, ink_sheet
 from graphkin.web.highlights import ghosts, rates, rows_found, triangles
-from graphkin.web.legend import meanings
-from graphkin.web.offline_page import data_block, offline_page, part
-from graphkin.web.palette_moves import your_turn
+from graphkin.web.moving import moving, still
+from graphkin.web.offline_page import (
+    BAR,
+    STEP_PAGE,
+    bar_rules,
+    data_block,
+    field_picture,
+    ink_sheet,
+    offline_page,
+    part,
+    together,
+)
+from graphkin.web.page_driver import PageDriver, Reach, window
 from graphkin.web.protocol import PageProtocol, ProtocolSentence, Timed, telling
 from graphkin.web.reasons import NO_STEP
 from graphkin.web.screen_sheets import ScreenSheet, screen_sheets
-from graphkin.web.scripts import STEP_PAGE, together
-from graphkin.web.slider import slider
-from graphkin.web.your_turn import NOBODY, TurnOwner, palette
+from graphkin.web.your_turn import NOBODY, TurnOwner, palette, your_turn
 from graphkin.web.your_turn import record as turn_record
-from graphkin.writers.html_markup import marked_up
 from graphkin.writers.svg import number
-from graphkin.writers.templates import from_template
+from graphkin.writers.templates import from_template, marked_up
 
 if TYPE_CHECKING:
     from markupsafe import Markup
+
+Arrow = tuple[Step, PlanVector]
+PLANS = {
+    "velocity": ("*k*_v", "*ω*", "legend.omega"),
+    "acceleration": ("*k*_a", "*ε*", "legend.epsilon"),
+}
+"""The scale of each plan, and what a link's turning is called on its sheet."""
+FOUND = {Part.CENTRE: ("*I*", "legend.centre"), Part.POLE: ("*J*", "legend.pole")}
+"""The letters of what is found on the mechanism."""
+
+
+def meanings(words: Words, sheets: Sequence[ScreenSheet]) -> Iterator[tuple[str, str]]:
+    """Each symbol and what it means, as markup."""
+    yield "*k*_L", words("legend.kL")
+    for sheet in sheets:
+        drawing = sheet.drawing
+        scale, rate, turning = PLANS[drawing.kind]
+        unit = words(f"table.{drawing.kind}")
+        yield scale, words("legend.scale", plan=words(f"sheet.{drawing.kind}"), unit=unit)
+        yield symbol(drawing.pole), words("legend.at_rest")
+        steps = [step for _, step, _ in drawing.steps(drawing.plane)]
+        arrows = [(step, vector) for step in steps if (vector := plan_vector(step))]
+        yield from images(words, arrows, sheet)
+        yield from components(words, arrows)
+        yield rate, words(turning)
+        parts = {drawing.trace.program.steps[number].part for number in drawing.trace.values}
+        own = parts & {Part.CENTRE if drawing.kind == "velocity" else Part.POLE}
+        yield from ((term, words(key)) for part, (term, key) in FOUND.items() if part in own)
+
+
+def images(words: Words, arrows: Sequence[Arrow], sheet: ScreenSheet) -> Iterator[tuple[str, str]]:
+    """The segments that are the vector of a point, and of one point relative to another."""
+    steps = sheet.drawing.trace.program.steps
+    whole = [(step, vector) for step, vector in arrows if not vector.sign]
+    for key, has_pivot in (("legend.image", False), ("legend.relative", True)):
+        for step, found in [each for each in whole if bool(each[1].p) is has_pivot][:1]:
+            names = {"q": found.q, "p": found.p, "symbol": found.symbol}
+            fields = {key: symbol(name or "o") for key, name in names.items()}
+            yield "".join(symbol(steps[arg].name) for arg in step.args), words(key, **fields)
+
+
+def components(words: Words, arrows: Sequence[Arrow]) -> Iterator[tuple[str, str]]:
+    """The components of accelerations by their signs, in the order in which they are drawn."""
+    kinds = dict.fromkeys(vector.sign for _, vector in arrows if vector.sign)
+    yield from (
+        (symbol(f"a^{kind}"), words(BY_SIGN[kind].legend)) for kind in kinds if kind in BY_SIGN
+    )
+
+
+# --- the driver's slider of a step page, and why a page has none ----------------------------------
+
+
+SLACK = 0.5
+"""Degrees that a whole turn may lack about a change point."""
+
+
+class Slider(Struct, frozen=True):
+    """The script that moves a mechanism and its plans by ``name``, markup of the driver's symbol.
+
+    ``datum`` is that symbol as the data have it, ``unit`` that of its place, ``ends`` the least
+    and the greatest, ``stops`` those of them beyond which nothing closes, ``digits`` the decimals
+    that tell it. Without a script, ``why`` is the key of the sentence why they stand still.
+    """
+
+    source: str = ""
+    name: str = ""
+    datum: str = ""
+    unit: str = ""
+    ends: tuple[float, float] = (0.0, 0.0)
+    stops: tuple[float, ...] = ()
+    digits: int = 1
+    why: str = ""
+
+    def place(self, words: Words, at: float | None) -> str:
+        """A place of the driver in words, or its unit alone."""
+        unit = words("unit.deg") if self.unit == "deg" else f" {self.unit}"
+        return unit if at is None else words.fixed(at, self.digits) + unit
+
+    def limits(self, words: Words) -> str:
+        """The places beyond which it does not go; empty where it turns freely."""
+        return " / ".join(self.place(words, at) for at in self.stops)
+
+
+def slider(mechanism: Mechanism, sheets: Sequence[ScreenSheet]) -> Slider:
+    """What moves a mechanism, or why nothing does."""
+    found = moving(mechanism, sheets)
+    if found is None:
+        return Slider(why=still(mechanism) or "")
+    driven, reach = found.driven, found.reach
+    ends = (reach.low, reach.high)
+    stops, digits = stopped(driven, reach), max(1, -floor(log10(reach.step)))
+    return Slider(found.source, driven.name, driven.datum, driven.unit, ends, stops, digits)
+
+
+def stopped(driven: PageDriver, reach: Reach) -> tuple[float, ...]:
+    """The ends of a range beyond which nothing closes, not those of what is looked at.
+
+    A range of a whole turn ends where it begins, in a change point: beyond it goes on.
+    """
+    if driven.unit == "deg" and reach.high - reach.low > TURN - SLACK:
+        return ()
+    pairs = zip((reach.low, reach.high), window(driven), strict=True)
+    return () if reach.whole else tuple(end for end, edge in pairs if abs(end - edge) > 1e-9)
+
+
+# --- the step page: a scene's sheets in one offline file that draws itself sentence by sentence ---
 
 
 STOP_NAMES = {

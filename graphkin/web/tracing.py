@@ -9,25 +9,30 @@ from typing import Any
 
 from msgspec import Struct, field
 
-from graphkin.construction.core.batch import made_ready, run_moving
 from graphkin.construction.core.kind import construction
-from graphkin.construction.core.run import Trace
+from graphkin.construction.core.run import Trace, made_ready, run_moving
 from graphkin.construction.higher_class.closed_group import ClosedGroup
 from graphkin.construction.higher_class.closure_solver import closer_of
 from graphkin.construction.higher_class.trial_rates import followed_rates
-from graphkin.construction.links.counted_turn import counted_link
+from graphkin.construction.links.rolled_turn import counted_link
 from graphkin.construction.tape.graph import Graph
 from graphkin.construction.tape.tape_outputs import TapeOutputs
-from graphkin.construction.tape.traced import TracedNumber
-from graphkin.construction.tape.tracer import traced_kind
+from graphkin.construction.tape.traced import TracedNumber, traced_kind
 from graphkin.mechanism import Mechanism
 from graphkin.motion.pieces import Path, reachable_ranges, through
 from graphkin.motion.sweep import Sweep, sweep_of
 from graphkin.motion.turns_counted import Turned, name_of
 from graphkin.scene.model import quantities_within
-from graphkin.web.branch_tracking import TrackedBranch, around
 from graphkin.web.page_driver import INPUT, PageDriver, Reach, reach_of, window
-from graphkin.web.traced_closings import TracedClosing, closing, drawn_state, names_of, tried
+from graphkin.web.traced_closings import (
+    TracedClosing,
+    TrackedBranch,
+    around,
+    closing,
+    drawn_state,
+    names_of,
+    tried,
+)
 
 SLACK = 1e-6
 """Parts of the mechanism by which a bar's length may be off where it still closes."""

@@ -2,18 +2,559 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
+from itertools import combinations
 from typing import Any
 
 from msgspec import Struct
 
+from graphkin.construction.centres.centre import VelocityNormal
+from graphkin.construction.core.component import Component, LaidOff, TriangleComponent
+from graphkin.construction.core.drawn_scene import NOISE, Drawing
+from graphkin.construction.core.kind import Construction, construction
+from graphkin.construction.core.naming import rate_symbol, sense, vector_of
+from graphkin.construction.core.palette import Move
+from graphkin.construction.core.plan_vector import plan_vector
+from graphkin.construction.core.program import Part, Plane, Step
+from graphkin.construction.core.quantities import OMEGA
+from graphkin.construction.core.segments import letter_at
+from graphkin.construction.core.vocabulary import (
+    Action,
+    in_proportion,
+    lay_back,
+    lay_off,
+    similar_point,
+)
+from graphkin.construction.drivers.driven_slide import DrivenSlide
+from graphkin.construction.higher_class.divided_point import DividedPoint
 from graphkin.construction.registry import PALETTE, SAID_FIRST
+from graphkin.construction.velocity.relative_motion import AboutPivot, AlongGuide
+from graphkin.construction.velocity.turned_velocity import LaidOffByRate, TurnedVelocity
+from graphkin.construction.velocity.turning_of_link import TurningOfLink
 from graphkin.drawing.field import Field
-from graphkin.numbers.plane import Circle, Line, Ratio, Vector
+from graphkin.drawing.symbol_markup import symbol, tag_words
+from graphkin.numbers.plane import Circle, Line, Ratio, Vector, cross
 from graphkin.text import Words
-from graphkin.web.palette_moves import PLANES, PaletteMove, Pick, YourTurn
+from graphkin.web.protocol import PageProtocol
 from graphkin.web.screen_sheets import ScreenSheet
-from graphkin.writers.html_markup import marked_up
+from graphkin.writers.templates import marked_up
+
+PLANES = (Plane.MECHANISM, Plane.VELOCITIES, Plane.ACCELERATIONS, Plane.NUMBERS)
+"""The drawings by the numbers under which the page knows them."""
+LAID_OFF: tuple[Action, ...] = (lay_off, lay_back)
+"""What lays off a component of an acceleration from a point of a plan."""
+
+
+Way = tuple[str, tuple[str, ...]]
+"""An action of the palette, and what it starts from, by the names of the picks."""
+
+
+class Pick(Struct, frozen=True):
+    """Something that a move can start from: a point, a line, a bar, a vector, a length, a rate.
+
+    ``needs`` are the steps of the moves without which it is not there, ``on`` the two steps between
+    whose points it lies where it is pointed at, ``value`` what it is where no move gives it, ``by``
+    the point that is picked for one too near to it to be drawn.
+    """
+
+    kind: str
+    name: str
+    plane: Plane
+    needs: tuple[int, ...]
+    value: Any = None
+    on: tuple[int, ...] = ()
+    by: str = ""
+
+
+class PaletteMove(Struct, frozen=True):
+    """An action of the palette that gives a recorded ``step`` from its ``inputs``, by their names.
+
+    ``about`` is what a wrong choice is told of, ``at`` the sentence that draws it, ``needs`` are
+    the moves before it; a ``goal`` is drawn for its own sake, other moves only for a goal.
+    ``turns`` are the rate by which a velocity is laid off square to its bar, and its sense.
+    """
+
+    step: int
+    action: str
+    inputs: tuple[str, ...]
+    name: str
+    about: str
+    at: int
+    needs: tuple[int, ...]
+    goal: bool
+    turns: tuple[str, ...] = ()
+
+
+class YourTurn(Struct, frozen=True):
+    """All moves of some sheets, all that can be picked, and the moves behind what comes along.
+
+    ``places`` are the steps of the points of the mechanism that have an image of a plan, ``shares``
+    the steps by which the lines of auxiliary plans are divided, with the moves that each needs;
+    ``alike`` tells whether a link has a third point, whose image is similar to it.
+    """
+
+    moves: Mapping[int, PaletteMove]
+    picks: Mapping[str, Pick]
+    along: Mapping[int, tuple[int, ...]]
+    places: Mapping[int, tuple[int, ...]]
+    shares: Mapping[int, tuple[int, ...]]
+    values: Mapping[int, Any]
+    planes: Mapping[int, Plane]
+    alike: bool
+
+
+class MoveFinder:
+    """Finds the moves of the recorded program of some sheets, in its order."""
+
+    def __init__(self, sheets: Sequence[ScreenSheet], told: PageProtocol) -> None:
+        self.drawings = [sheet.drawing for sheet in sheets]
+        self.told = told
+        self.steps = self.drawings[0].trace.program.steps
+        self.values: dict[int, Any] = {}
+        for drawing in self.drawings:
+            self.values |= drawing.trace.values
+        self.moves: dict[int, PaletteMove] = {}
+        self.picks: dict[str, Pick] = {}
+        self.same: dict[int, int] = {}
+        self.parts: dict[int, int] = {}
+        self.known: dict[tuple[Any, ...], int] = {}
+        self.rates: dict[tuple[Any, ...], int] = {}
+        self.places = self.places_of_images()
+        self.arrows = {
+            (step.args[0], step.args[1]): number
+            for number, step in enumerate(self.steps)
+            if step.arrow and number in told.at and isinstance(self.values[number], Vector)
+            if step.plane in PLANES[1:3] and len(step.args) == 2
+        }
+
+    def found(self) -> YourTurn:
+        """Every move, and what can be picked beside what moves start from."""
+        for number in sorted(self.values):
+            self.move(number)
+        self.more_picks()
+        along = {
+            number: self.needs([number]) for number in self.told.at if number not in self.moves
+        }
+        divided = [n for n, move in self.moves.items() if move.action == "divide"]
+        shares = {share: self.needs([share]) for share in map(self.share, divided)}
+        planes = {number: self.steps[number].plane for number in self.values}
+        planes |= {self.share(number): self.steps[number].plane for number in divided}
+        alike = any(
+            self.steps[n].action is similar_point and self.steps[n].plane in PLANES[1:3]
+            for n in self.moves
+        )
+        return YourTurn(
+            self.moves, self.picks, along, self.places, shares, self.values, planes, alike
+        )
+
+    # --- what hangs on what ----------------------------------------------------------------------
+
+    def needs(self, numbers: Iterable[int]) -> tuple[int, ...]:
+        """The moves that are nearest behind some steps, themselves if they are moves."""
+        found, seen, waiting = set[int](), set[int](), [*numbers]
+        while waiting:
+            number = waiting.pop()
+            number = self.same.get(number, number)
+            if number in seen or number not in self.values:
+                continue
+            seen.add(number)
+            kind = construction(self.steps[number])
+            if number in self.moves or number in self.parts:
+                found.add(self.parts.get(number, number))
+            elif isinstance(kind, Component) and kind.vector in self.moves:
+                found.add(kind.vector)
+            else:
+                waiting += self.steps[number].args
+        return tuple(sorted(found))
+
+    def drawing(self, number: int) -> Drawing:
+        """The sheet in whose plan a step lies, or the first that draws it."""
+        ran = [each for each in self.drawings if number in each.trace.values]
+        own = (each for each in ran if each.plane is self.steps[number].plane)
+        return next(own, ran[0])
+
+    def places_of_images(self) -> dict[int, tuple[int, ...]]:
+        """For each image the places of its points; those of auxiliary plans by their letter."""
+        targets = self.drawings[0].trace.program.targets
+        found: dict[int, list[int]] = {}
+        for (quantity, of), number in targets.items():
+            place = targets.get(("position", of))
+            if quantity in ("velocity", "acceleration") and place in self.values:
+                found.setdefault(number, []).append(place)
+        named = {(self.steps[n].plane, self.steps[n].name): places for n, places in found.items()}
+        for number in self.values:
+            step = self.steps[number]
+            if step.aside is not None and (places := named.get((step.plane, step.letter))):
+                found[number] = places
+            elif step.action is similar_point and step.plane in PLANES[1:3]:
+                ratio = self.steps[step.args[2]]
+                if ratio.action is in_proportion and self.steps[ratio.args[0]].name:
+                    for image, place in zip(step.args, ratio.args, strict=False):
+                        if image in self.values and place not in found.setdefault(image, []):
+                            found[image].append(place)
+                    found.setdefault(number, [ratio.args[2]])
+        return {number: tuple(places) for number, places in found.items()}
+
+    # --- moves -----------------------------------------------------------------------------------
+
+    def move(self, number: int) -> None:
+        """Note the move that gives a step, if one does; a step that is alike is the first one."""
+        step = self.steps[number]
+        key = self.drawn_alike(number)
+        alike = self.known.get(key, number)
+        way = None if alike in self.moves else self.way(number)
+        if way is None:
+            if step.args:  # what is given is like nothing else
+                self.known[key] = alike
+                if alike != number:
+                    self.same[number] = alike
+            return
+        self.known[key] = number
+        action, inputs = way
+        name, about = self.words_of(number, action, inputs)
+        picks = [self.picks[name] for name in inputs]
+        needs = {need for pick in picks for need in pick.needs}
+        if action == "divide":
+            needs |= {*self.needs([self.share(number)])}
+        goal = bool(step.name) and step.plane is not Plane.NUMBERS
+        at = self.sentence(number)
+        self.moves[number] = PaletteMove(
+            number, action, inputs, name, about, at, tuple(sorted(needs)), goal, self.turns(number)
+        )
+        if step.plane is not Plane.NUMBERS and action != "transfer":
+            self.point_or_line(number, name)
+
+    def share(self, number: int) -> int:
+        """The step that measures in what ratio a point divides the line that leads to it."""
+        kind = construction(self.steps[number])
+        assert isinstance(kind, DividedPoint)
+        by_hand = self.steps[kind.share].by_hand
+        return by_hand if by_hand in self.values and by_hand is not None else kind.share
+
+    def drawn_alike(self, number: int) -> tuple[Any, ...]:
+        """What two steps have in common that are drawn alike: the same once more."""
+        step = self.steps[number]
+        args = tuple(self.same.get(arg, arg) for arg in step.args)
+        drawn = id(step.action), args, step.extra, step.part, step.plane, step.arrow
+        return *drawn, self.values[number]
+
+    def way(self, number: int) -> Way | None:
+        """The action that gives a step, and its inputs; None where it comes along."""
+        step, kind = self.steps[number], construction(self.steps[number])
+        if isinstance(kind, Component) and kind.vector == number:
+            if kind.palette is None or not kind.is_drawn(self.drawing(number)):
+                return None
+            return self.all_of(kind.palette.key, *kind.picked_from(self))
+        if isinstance(kind, TriangleComponent) or not self.is_drawn(number):
+            return None
+        by_hand = step.by_hand in self.values and step.by_hand is not None
+        drawn = self.steps[step.by_hand] if by_hand and step.by_hand is not None else step
+        move = step.action.move if step.action is not None else None
+        if move is not None and move.at_once:
+            if not by_hand or self.place(number) is None:
+                return None
+            self.parts |= dict.fromkeys(drawn.args, number)
+            return self.by_move(move, number, step)
+        if isinstance(kind, LaidOffByRate) and not step.arrow:
+            return self.by_move(kind.move, number, step)
+        move = drawn.action.move if drawn.action is not None else None
+        return self.by_move(move, number, drawn) if move is not None else None
+
+    def by_move(self, move: Move, number: int, drawn: Step) -> Way | None:
+        """A move with its inputs; None where it is none in this drawing, or leads to no place."""
+        if move.in_plan and self.steps[number].plane not in PLANES[1:3]:
+            return None
+        if move.action.shape == "point" and self.place(number) is None:
+            return None
+        return self.all_of(move.action.key, *move.inputs(self, number, drawn.args))
+
+    def all_of(self, action: str, *inputs: str | None) -> Way | None:
+        """An action with its inputs; None where one of them cannot be picked."""
+        found = tuple(name for name in inputs if name is not None)
+        return (action, found) if len(found) == len(inputs) else None
+
+    def is_drawn(self, number: int) -> bool:
+        """Whether a step is drawn by a sentence, by itself or as the end of a vector."""
+        return bool(self.told.at.get(number) or [*self.drawn_around(number)])
+
+    def sentence(self, number: int) -> int:
+        """The sentence that draws a step: its own, or the first that draws what goes with it."""
+        return self.told.at.get(number, 0) or min(self.drawn_around(number))
+
+    def drawn_around(self, number: int) -> Iterator[int]:
+        """The sentences that draw the triangle of a component, or a vector that is laid off."""
+        kind, drawing = construction(self.steps[number]), self.drawing(number)
+        around: Collection[int] = ()
+        if isinstance(kind, TriangleComponent):
+            around = [step for _, step in kind.given()]
+        elif number in drawing.feet:
+            around = [drawing.feet[number]]
+        elif isinstance(kind, LaidOffByRate):
+            users = drawing.children.get(number, ())
+            around = [user for user in users if not self.steps[user].arrow]
+        yield from (at for step in around if (at := self.told.at.get(step, 0)))
+
+    # --- what can be picked ----------------------------------------------------------------------
+
+    def point_or_line(self, number: int, name: str = "") -> str | None:
+        """A point, line or arc by its step; None for one that nobody sees."""
+        number = self.same.get(number, number)
+        key = str(number)
+        if key in self.picks:
+            return key
+        step, value, by = self.steps[number], self.values.get(number), ""
+        kind = construction(step)
+        if isinstance(value, Line | Circle):
+            seen = number in self.told.at or step.plane in (Plane.MECHANISM, Plane.NUMBERS)
+            name = name or self.name_of_line(number)
+            what = self.kind_of_line(number)
+            given = isinstance(value, Line) and what == "guide"
+            if given and (other := self.guide_alike(name, value)):
+                if value == self.picks[other].value:
+                    return other
+                by = other
+        else:
+            ends = isinstance(kind, LaidOff | LaidOffByRate) and not step.name
+            if ends and number not in self.moves:
+                by = self.point_or_line(step.args[0]) or ""
+                if not self.drawing(number).settled(abs(value - self.values[step.args[0]])):
+                    return by
+            seen = number in self.told.at or bool(by) or number in self.moves
+            seen = seen and self.place(number) is not None
+            name = name or self.letter(number)
+            what = "point" if step.plane is Plane.MECHANISM else "image"
+            what = "centre" if isinstance(value, Ratio) else what
+        if not seen or not name:
+            return None
+        plane = Plane.MECHANISM if step.plane is Plane.NUMBERS else step.plane
+        own = None if number in self.moves else value
+        needs = (number,) if number in self.moves else self.needs([number])
+        self.picks[key] = Pick(what, name, plane, needs, own, by=by)
+        return key
+
+    def guide_alike(self, name: str, line: Any) -> str | None:
+        """A line of the same name that can be picked already, where it is the same.
+
+        It may have another zero or the other sense: where that matters, both are tried.
+        """
+        for key, pick in self.picks.items():
+            same = (pick.kind, pick.name, pick.by) == ("guide", name, "")
+            if same and isinstance(pick.value, Line):
+                apart = cross(pick.value.along, line.point - pick.value.point)
+                turned = cross(pick.value.along, line.along)
+                sizes = abs(pick.value.along), abs(line.along), self.drawings[0].reach
+                near = abs(apart) <= NOISE * sizes[0] * sizes[2]
+                if near and abs(turned) <= NOISE * sizes[0] * sizes[1]:
+                    return key
+        return None
+
+    def kind_of_line(self, number: int) -> str:
+        """An arc, a line that is given or stands on the mechanism, or one that is drawn to find."""
+        step = self.steps[number]
+        if isinstance(self.values[number], Circle):
+            return "circle"
+        given = step.plane is Plane.NUMBERS or step.part is Part.POSITION
+        return "guide" if given else "locus"
+
+    def noted(self, key: str, *pick: Any) -> str:
+        """The key under which something can be picked, from now on if it could not before."""
+        self.picks.setdefault(key, Pick(*pick))
+        return key
+
+    def bar(self, p: int, q: int) -> str | None:
+        """The bar between two points of the mechanism."""
+        p, q = sorted(self.same.get(end, end) for end in (p, q))
+        ends = self.point_or_line(p), self.point_or_line(q)
+        if p == q or ends[0] is None or ends[1] is None:
+            return None
+        key, name = f"{p}-{q}", self.picks[ends[0]].name + self.picks[ends[1]].name
+        return self.noted(key, "bar", name, Plane.MECHANISM, self.needs([p, q]), None, (p, q))
+
+    def arrow(self, tail: int, tip: int, name: str = "") -> str | None:
+        """The vector between two points of a plan; as its arrow leads where it is given no name."""
+        if not name and (tip, tail) in self.arrows:
+            tail, tip = tip, tail
+        ends = self.point_or_line(tail), self.point_or_line(tip)
+        if ends[0] is None or ends[1] is None:
+            return None
+        number = self.arrows.get((tail, tip))
+        vector = plan_vector(self.steps[number]) if number is not None else None
+        if vector:
+            name = symbol(vector.symbol)
+        elif not name:
+            letters = self.picks[ends[0]].name + self.picks[ends[1]].name
+            name = vector_of(self.drawing(tip), tail, tip, letters)
+        key, plane = f"{ends[0]}>{ends[1]}", self.steps[tip].plane
+        on = int(ends[0]), int(ends[1])
+        return self.noted(key, "arrow", name, plane, self.needs(on), None, on)
+
+    def length(self, number: int, length: int) -> str:
+        """A length that is laid off at a step."""
+        kind, key = construction(self.steps[number]), f"l{length}"
+        role = self.steps[number].role
+        laid = kind.laid_length(role) if kind is not None else None
+        drawing = self.drawing(number)
+        if laid is not None:
+            name = symbol(laid.first) + symbol(laid.last) + "/2" * laid.half
+        else:
+            name = drawing.words("turn.length", name=self.letter(number))
+        needs = self.needs([length])
+        return self.noted(key, "length", name, Plane.NUMBERS, needs, self.values[length])
+
+    def place_of(self, image: int) -> str | None:
+        """The point of the mechanism whose image a step is, the first if it is that of several."""
+        places = self.places.get(image)
+        return self.point_or_line(places[0]) if places else None
+
+    def shown_vector(self, number: int) -> str | None:
+        """The vector of a plan that a step sets on the mechanism."""
+        vector = plan_vector(self.steps[number])
+        _, tail, tip, *_ = self.steps[number].args
+        return self.arrow(tail, tip, symbol(vector.symbol) if vector else "")
+
+    def vector(self, number: int) -> str | None:
+        """A vector that is known before it is laid off; None for one without length."""
+        step = self.steps[number]
+        start, *others = step.args
+        kind, drawing = construction(step), self.drawing(number)
+        value = self.values[number] - self.values[start]
+        if not drawing.settled(abs(value)):
+            return None
+        likewise = (step.action, tuple(others), step.extra)
+        key, on = f"v{self.rates.setdefault(likewise, number)}", tuple(others[:2])
+        if step.action in LAID_OFF:
+            key, value = f"v{self.same.get(others[0], others[0])}", self.values[others[0]]
+            component = construction(self.steps[others[0]])
+            name = component.symbol if isinstance(component, Component) else ""
+            ends = component.shown_between() if isinstance(component, Component) else ()
+            on = tuple(end for end in ends if end in self.values and end is not None)
+        elif isinstance(kind, LaidOffByRate):
+            name = kind.fields(drawing, step.role)["vector"]
+            on = () if isinstance(kind, DrivenSlide) else on
+        else:
+            return None
+        if step.aside is not None and isinstance(kind, LaidOffByRate):
+            name += f" ({tag_words(step.aside.tag)})"
+        return self.noted(key, "vector", name, step.plane, self.needs(others), value, on)
+
+    def rate(self, number: int) -> str | None:
+        """The angular velocity of a link."""
+        kind, name = construction(self.steps[number]), rate_symbol(self.drawing(number), number)
+        on = kind.places if isinstance(kind, TurningOfLink) else ()
+        own = name, Plane.NUMBERS, self.needs([number]), self.values[number], on
+        return self.noted(f"r{number}", "rate", *own)
+
+    def more_picks(self) -> None:
+        """What no move starts from: other points, bars and vectors, for a choice to be one."""
+        targets = self.drawings[0].trace.program.targets
+        for number in self.told.at:
+            step = self.steps[number]
+            drawn = step.plane in PLANES[:3] and step.part is not Part.NORMAL and not step.arrow
+            if step.name and drawn and number not in self.same:
+                self.point_or_line(number)
+        for link in self.drawings[0].scene.links.values():
+            ends = (targets.get(("position", point)) for point in link.points)
+            placed = [end for end in ends if end in self.values and end is not None]
+            for p, q in combinations(placed, 2):
+                self.bar(p, q)
+        for tail, tip in self.arrows:
+            self.arrow(tail, tip)
+        slots = (slot for move in self.moves.values() for slot in PALETTE[move.action].slots)
+        if any("rate" in kinds for _, kinds in slots):
+            for (quantity, _), number in targets.items():
+                if quantity == OMEGA and number in self.values:
+                    self.rate(number)
+
+    # --- names -----------------------------------------------------------------------------------
+
+    def place(self, number: int) -> complex | None:
+        """Where a point lies, if it is one and not at infinity."""
+        value = self.values.get(number)
+        if isinstance(value, Ratio):
+            return self.drawing(number).place(value)
+        return value if isinstance(value, complex) else None
+
+    def letter(self, number: int) -> str:
+        """The letter of a point, or what it is the end of."""
+        step = self.steps[number]
+        if step.name:
+            return symbol(step.name)
+        kind, drawing, vector = construction(step), self.drawing(number), ""
+        if isinstance(kind, LaidOff):
+            if number in drawing.feet and (letter := letter_at(drawing, number)):
+                if kind.is_short(drawing):
+                    return f"{symbol(letter)} + {kind.component.symbol}"
+                return symbol(letter)
+            vector = kind.component.symbol
+        elif isinstance(kind, LaidOffByRate):
+            vector = kind.fields(drawing, step.role)["vector"]
+        if not vector:
+            return ""
+        tag = f" ({tag_words(step.aside.tag)})" if step.aside else ""
+        return drawing.words("turn.end_of", vector=vector) + tag
+
+    def name_of_line(self, number: int) -> str:
+        """A line that no move draws: a guide, the line of a crank, a side of the mechanism."""
+        kind, drawing = construction(self.steps[number]), self.drawing(number)
+        if kind is not None and (name := kind.path_name(drawing)):
+            return name
+        points = kind.points if kind is not None else ()
+        name = "".join(map(symbol, points))
+        return drawing.words("turn.line", name=name or self.letters_behind(number))
+
+    def letters_behind(self, number: int) -> str:
+        """The letters of the points from which a line is drawn."""
+        args = [arg for arg in self.steps[number].args if self.steps[arg].name]
+        args = [arg for arg in args if self.steps[arg].plane is Plane.MECHANISM]
+        return "".join(symbol(self.steps[arg].name) for arg in args)
+
+    def turns(self, number: int) -> tuple[str, ...]:
+        """The rate by which a velocity is laid off square to its bar, and the sense of it."""
+        kind, drawing = construction(self.steps[number]), self.drawing(number)
+        if not isinstance(kind, TurnedVelocity):
+            return ()
+        way = sense(drawing.words, drawing.trace.values[kind.omega])
+        return (rate_symbol(drawing, kind.omega), way) if way else ()
+
+    def words_of(self, number: int, action: str, inputs: Sequence[str]) -> tuple[str, str]:
+        """What a move gives, and what it is about in a line that tells why a choice is wrong."""
+        names = [self.picks[name].name for name in inputs]
+        kind, drawing = construction(self.steps[number]), self.drawing(number)
+        if isinstance(kind, Component) and kind.vector == number:
+            return kind.symbol, kind.symbol
+        if action in ("perpendicular", "parallel"):
+            sign = "⊥" if action == "perpendicular" else "∥"
+            return f"{sign} {names[1]} ({names[0]})", self.vector_on(number, kind, names[0])
+        if action == "compass":
+            return (drawing.words("turn.say.arc", p=names[0], bar=names[1]),) * 2
+        if action == "join":
+            return ("".join(names),) * 2
+        if action == "transfer":
+            return names[0], names[0]
+        name = self.letter(number)
+        return name, names[1] if action == "lay_off" else name
+
+    def vector_on(self, number: int, kind: Construction | None, start: str) -> str:
+        """The vector that lies on a line which is drawn to find its end."""
+        drawing = self.drawing(number)
+        if isinstance(kind, VelocityNormal):
+            return drawing.words("turn.to_centre", p=start)
+        vector = ""
+        if isinstance(kind, AboutPivot):
+            sign = "^τ" if drawing.kind == "acceleration" else ""
+            vector = symbol(f"{drawing.vector.letter}_{kind.index}{sign}")
+        elif isinstance(kind, AlongGuide):
+            vector = kind.vector_along(drawing, number)
+        return vector or drawing.words("turn.this_line")
+
+
+def your_turn(sheets: Sequence[ScreenSheet], told: PageProtocol) -> YourTurn:
+    """The moves of some sheets of one mechanism, in the order of its program."""
+    return MoveFinder(sheets, told).found()
+
+
+# --- your turn ------------------------------------------------------------------------------------
+
 
 SAID = (
     "turn.say.saved",

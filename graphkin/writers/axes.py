@@ -13,7 +13,6 @@ from matplotlib.textpath import TextPath
 from matplotlib.transforms import Affine2D, ScaledTranslation, Transform
 
 from graphkin.drawing.field import Field
-from graphkin.drawing.glyphs import font_file
 from graphkin.drawing.marks import (
     Arc,
     CircleMark,
@@ -24,7 +23,7 @@ from graphkin.drawing.marks import (
     reach,
     style_class,
 )
-from graphkin.drawing.richtext import runs
+from graphkin.drawing.richtext import font_file, runs
 from graphkin.drawing.style import Ink, Style, style_of
 
 if TYPE_CHECKING:

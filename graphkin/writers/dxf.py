@@ -8,9 +8,8 @@ from io import StringIO
 from math import isclose, radians
 from typing import Any
 
-from graphkin.drawing.glyphs import advance, capital
 from graphkin.drawing.marks import Arc, CircleMark, LineMark, Mark, Page, Polyline, Text
-from graphkin.drawing.richtext import runs
+from graphkin.drawing.richtext import advance, capital, runs
 from graphkin.drawing.style import Ink, Style, style_of
 from graphkin.text.errors import PageError, Problem
 

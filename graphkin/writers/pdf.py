@@ -12,9 +12,8 @@ from reportlab.pdfbase import pdfmetrics
 from reportlab.pdfbase.ttfonts import TTFont
 from reportlab.pdfgen.canvas import Canvas
 
-from graphkin.drawing.glyphs import FILES, font_file
 from graphkin.drawing.marks import Arc, CircleMark, LineMark, Mark, Page, Point, Polyline, Text
-from graphkin.drawing.richtext import TextRun, spaced_runs
+from graphkin.drawing.richtext import FILES, TextRun, font_file, spaced_runs
 from graphkin.drawing.style import Ink, Style, style_of
 
 MM = 72 / 25.4  # points to the millimetre

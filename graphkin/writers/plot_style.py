@@ -8,7 +8,7 @@ from contextlib import contextmanager
 from typing import TYPE_CHECKING, Any
 from warnings import catch_warnings, filterwarnings
 
-from graphkin.numbers.arrays import np
+from graphkin.numbers.arithmetic import np
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes

@@ -8,9 +8,8 @@ from html import escape
 
 from svgwrite import Drawing
 
-from graphkin.drawing.glyphs import FAMILY, font_face
 from graphkin.drawing.marks import Arc, CircleMark, LineMark, Mark, Page, Point, Polyline, Text
-from graphkin.drawing.richtext import TextRun, extent, spaced_runs
+from graphkin.drawing.richtext import FAMILY, TextRun, extent, font_face, spaced_runs
 from graphkin.drawing.style import Ink, Style, style_of
 
 FONTS = f'"{FAMILY}","DejaVu Sans",sans-serif'

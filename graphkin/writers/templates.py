@@ -7,11 +7,29 @@ from html import escape
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from graphkin.writers.html_markup import marked_up
+from graphkin.drawing.richtext import TextPiece, pieces
 
 if TYPE_CHECKING:
     from jinja2 import Environment
     from markupsafe import Markup
+
+
+@lru_cache(maxsize=1024)
+def marked_up(markup: str) -> str:
+    """A markup of the sheets in that of a page; the symbols of a page come again and again."""
+    return "".join(map(tagged, pieces(markup)))
+
+
+def tagged(piece: TextPiece) -> str:
+    """A piece of text in the tags of its face and its level."""
+    text = escape(piece.text)
+    text = f"<i>{text}</i>" if piece.italic else text
+    tag = {-1: "sub", 1: "sup"}.get(piece.level)
+    return f"<{tag}>{text}</{tag}>" if tag else text
+
+
+# --- markup for a browser from templates, which lie beside the modules that fill them -------------
+
 
 HOUSE = Path(__file__).resolve().parents[1]
 

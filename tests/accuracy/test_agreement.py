@@ -7,10 +7,15 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from graphkin.accuracy.agreement import agreement, contained
-from graphkin.accuracy.compared_answers import answers_of, reference_of, sizeable
-from graphkin.accuracy.compared_positions import ground_of, places_around
+from graphkin.accuracy.comparison import (
+    answers_of,
+    ground_of,
+    places_around,
+    reference_of,
+    sizeable,
+)
 from graphkin.accuracy.methods import found_singly
+from graphkin.accuracy.study import agreement, contained
 from graphkin.mechanism import load
 from graphkin.numbers.kinds import ball_kind, decimal_kind
 from tests.chosen import FOLDER, HALVES

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from graphkin.accuracy.pencil import Pencil
-from graphkin.accuracy.pencil.pencil_marks import PencilMark, mark_of, marked
+from graphkin.accuracy.pencil.pencil import PencilMark, mark_of, marked
 from graphkin.accuracy.pencil.redrawing import redrawn
 from graphkin.construction.core.program import Plane
 from graphkin.numbers.plane import Circle, Line, Ratio

@@ -13,13 +13,11 @@ import pytest
 from matplotlib import rc_context
 from matplotlib.figure import Figure
 
-from graphkin.accuracy.compared_positions import approach, ground_of, places_around
-from graphkin.accuracy.cost_by_scope import panel
+from graphkin.accuracy.comparison import approach, ground_of, places_around
 from graphkin.accuracy.effort import QUICK
-from graphkin.accuracy.flattening import LAW
-from graphkin.accuracy.methods import BITS, DIGITS
-from graphkin.accuracy.other_routes import STEPS, TOLERANCES, plain
-from graphkin.accuracy.study import Study, study
+from graphkin.accuracy.methods import BITS, DIGITS, STEPS, TOLERANCES, plain
+from graphkin.accuracy.study import LAW, Study, study
+from graphkin.accuracy.study_pictures import panel
 from graphkin.cli.report.accuracy_report import HEADS, accuracy_table
 from graphkin.construction.core.timing import Timing
 from graphkin.documents.sheet_documents import scales
@@ -135,8 +133,8 @@ def test_towards_a_dead_point_errors_grow_as_one_two_three(name):
 
 
 def test_a_group_of_class_three_dies_by_the_same_law():
-    from graphkin.accuracy.compared_answers import answers_of
-    from graphkin.accuracy.flattening import flattened
+    from graphkin.accuracy.comparison import answers_of
+    from graphkin.accuracy.study import flattened
 
     ground = ground_of(load(str(SCENES / "rod-and-wheel.toml")).scene)
     flat = flattened(

@@ -16,9 +16,8 @@ from statistics import median
 import numpy as np
 from msgspec.structs import replace
 
-from graphkin.construction.core.batch import run_blocks
 from graphkin.construction.core.drawn_scene import Drawing
-from graphkin.construction.core.run import Trace
+from graphkin.construction.core.run import Trace, run_blocks
 from graphkin.construction.core.solution import gathered
 from graphkin.documents.scaling import sheet_motion
 from graphkin.documents.sheet import sheet

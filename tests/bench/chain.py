@@ -19,7 +19,7 @@ from typing import Any
 import numpy as np
 
 from graphkin.construction.compile import write
-from graphkin.construction.core.batch import run_blocks
+from graphkin.construction.core.run import run_blocks
 from graphkin.construction.core.solution import gathered
 from graphkin.construction.tape.batch_runner import BatchRunner
 from graphkin.mechanism import Mechanism

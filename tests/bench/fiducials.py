@@ -18,7 +18,7 @@ import cv2
 import numpy as np
 
 from graphkin.classroom.printing.edition import read_edition
-from graphkin.classroom.printing.register_crosses import without_crosses
+from graphkin.classroom.printing.personal import without_crosses
 from graphkin.drawing.marks import Page
 from graphkin.reading.codes import codes_in
 from graphkin.reading.read_run import read_order

@@ -22,7 +22,7 @@ from statistics import median
 from graphkin.construction.core.layout import lay_out
 from graphkin.documents.sheet import sheet
 from graphkin.documents.sheet_documents import drawings_of, proved
-from graphkin.drawing.areas import Rect
+from graphkin.drawing.field import Rect
 from graphkin.drawing.marks import CircleMark, Mark, Text, reach
 from graphkin.drawing.style import VECTORS
 from graphkin.mechanism import load

@@ -10,7 +10,7 @@ from typing import Any
 
 from playwright.sync_api import sync_playwright
 
-from graphkin.classroom.page_documents import hand_out_page
+from graphkin.classroom.sheet_files import hand_out_page
 from graphkin.mechanism import load
 from graphkin.studio.server import serve
 from tests.browser.opening import ARGS

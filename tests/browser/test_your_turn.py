@@ -10,10 +10,10 @@ import pytest
 
 from graphkin.mechanism import load
 from graphkin.text import LANGUAGES, words
-from graphkin.web.palette_moves import your_turn
 from graphkin.web.protocol import telling
 from graphkin.web.screen_sheets import screen_sheets
 from graphkin.web.step_page import step_page
+from graphkin.web.your_turn import your_turn
 from tests.browser.opening import PAINTED, Opened, barred
 from tests.browser.test_page import DESKTOP, PHONE
 from tests.browser.turning_hand import TurningHand

@@ -8,8 +8,8 @@ from typing import Any
 from graphkin.construction.core.program import Plane
 from graphkin.construction.registry import PALETTE
 from graphkin.numbers.plane import Circle, Line, Ratio
-from graphkin.web.palette_moves import PLANES, PaletteMove, YourTurn
 from graphkin.web.screen_sheets import ScreenSheet
+from graphkin.web.your_turn import PLANES, PaletteMove, YourTurn
 
 UNSEEN = ("length", "rate", "vector")
 """Kinds that are drawn nowhere: they are taken from a list, as is what stands on another sheet."""

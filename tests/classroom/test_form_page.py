@@ -20,7 +20,7 @@ from graphkin.classroom.roster.student_signs import signs
 from graphkin.mechanism import load
 from graphkin.text import LANGUAGES, words
 from graphkin.web import step_page as pages
-from graphkin.web.slider import Slider
+from graphkin.web.step_page import Slider
 from tests.classroom.grading.students import LABS
 from tests.running import Run
 

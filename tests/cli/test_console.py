@@ -10,7 +10,7 @@ from pathlib import Path
 
 import pytest
 
-from graphkin.cli.console import BROKEN_PIPE
+from graphkin.cli.options import BROKEN_PIPE
 from tests.running import ROOT, Run, command
 
 

@@ -15,7 +15,7 @@ from graphkin.reading.read_run import put
 from graphkin.reading.read_sheet import SheetRead, SheetRecord
 from graphkin.scene.scene_files import UNFINISHED
 from graphkin.studio.folder import Folder
-from graphkin.studio.saving import OwnRules, save_files, save_scene
+from graphkin.studio.session import OwnRules, save_files, save_scene
 from graphkin.writers.commit import FORWARD, held, settle
 from tests.running import Tree, planted, ran, states, tree
 

@@ -13,7 +13,7 @@ import pytest
 from msgspec.structs import replace
 
 from graphkin.accuracy.certified import Certifier
-from graphkin.cli.report.cycle_table import cycle_table
+from graphkin.cli.report.cycle_report import cycle_table
 from graphkin.construction.cams import cam_centre
 from graphkin.construction.core.cam_profiles import CamProfile, profiles_of
 from graphkin.mechanism import Mechanism, load

@@ -9,9 +9,9 @@ from math import hypot
 import pytest
 from shapely import LineString, Point
 
-from graphkin.construction.core.curve_marks import UNSEEN, clipped_path, middle_of, ring
 from graphkin.construction.core.drawn_scene import Drawing
 from graphkin.construction.core.layout import lay_out
+from graphkin.construction.core.paper_canvas import UNSEEN, clipped_path, middle_of, ring
 from graphkin.construction.core.solution import Curve
 from graphkin.documents.sentences import sentences
 from graphkin.documents.sheet import sheet

@@ -20,7 +20,7 @@ import pytest
 import graphkin.construction
 from graphkin.accuracy.pencil.forecast import forecast
 from graphkin.accuracy.pencil.original import original
-from graphkin.accuracy.pencil.pencil_marks import Pencil
+from graphkin.accuracy.pencil.pencil import Pencil
 from graphkin.cli.report.crossing_words import place_words
 from graphkin.cli.report.pencil_report import pencil_lines, step_words
 from graphkin.construction.core.drawn_scene import Drawing
@@ -35,12 +35,11 @@ from graphkin.documents.sheet_documents import drawings_of, proved
 from graphkin.mechanism import Mechanism, load
 from graphkin.numbers.kinds import ball_kind
 from graphkin.text import words
-from graphkin.web.page_sentences import parted_sentences
-from graphkin.web.palette_moves import your_turn
-from graphkin.web.protocol import telling
+from graphkin.web.protocol import parted_sentences, telling
 from graphkin.web.reasons import of_sentence, reasons
 from graphkin.web.screen_sheets import screen_sheets
 from graphkin.web.your_turn import record as turn_record
+from graphkin.web.your_turn import your_turn
 from tests.chosen import CHOSEN, EVERY, FOLDER
 from tests.documents.test_words import RARE, rare
 

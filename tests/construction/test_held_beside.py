@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from graphkin.construction.core.layout import GROUND, POLES, SPARE, held_beside, room_below
-from graphkin.drawing.areas import ABOVE, AREA, HEIGHT, LEAST_FIELD, MARGIN
+from graphkin.drawing.field import ABOVE, AREA, HEIGHT, LEAST_FIELD, MARGIN
 from graphkin.drawing.scale import Extent
 
 DRAWN = np.random.default_rng(19)

@@ -12,7 +12,7 @@ import pytest
 
 from graphkin.construction.core.kind import constructions
 from graphkin.construction.core.vocabulary import action
-from graphkin.construction.rolling import kutzbach, ladder
+from graphkin.construction.rolling import kutzbach
 from graphkin.construction.rolling.kutzbach import LadderPoint, LadderRay, SpeedPole, SpeedRead
 from graphkin.mechanism import Mechanism, load
 from graphkin.numbers.kinds import ball_kind
@@ -196,7 +196,7 @@ def test_a_wrong_speed_is_seen(monkeypatch):
     """The law above is none that any drawing passes."""
     wrong = kutzbach.tip_over.value
     monkeypatch.setattr(
-        ladder, "tip_over", action("ladder-tip")(lambda *known: wrong(*known[:-1], -known[-1]))
+        kutzbach, "tip_over", action("ladder-tip")(lambda *known: wrong(*known[:-1], -known[-1]))
     )
     mechanism = example.__wrapped__("gears-ring")
     omega = mechanism.solve().links["2"].omega

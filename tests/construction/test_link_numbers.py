@@ -17,8 +17,7 @@ from graphkin.construction.links.dyad_by_arcs import arcs_reach
 from graphkin.construction.links.gear_symbols import Mesh, teeth_at
 from graphkin.construction.links.link_numbers import Body, label_beside, settle_in_plates, within
 from graphkin.drawing.field import Field
-from graphkin.drawing.label import Label
-from graphkin.drawing.labels import FieldContent
+from graphkin.drawing.labels import FieldContent, Label
 from graphkin.drawing.marks import Polyline, reach
 from graphkin.numbers.plane import Circle
 

@@ -6,8 +6,8 @@ from pathlib import Path
 
 import pytest
 
-from graphkin.construction.core.given_data import given
-from graphkin.construction.core.parameter_words import (
+from graphkin.construction.core.given_data import (
+    given,
     law,
     other_parameters,
     parameter,

@@ -9,9 +9,8 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from graphkin.construction.core.batch import made_ready, run_batch
 from graphkin.construction.core.program import Part
-from graphkin.construction.core.run import StepFailed, run
+from graphkin.construction.core.run import StepFailed, made_ready, run, run_batch
 from graphkin.numbers.arithmetic import FLOAT, batch_kind, least
 from graphkin.numbers.plane import Ratio
 from graphkin.text.errors import ClosureError

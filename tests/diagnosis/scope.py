@@ -11,7 +11,7 @@ import pytest
 from msgspec.structs import replace
 
 from graphkin import load
-from graphkin.construction.core import batch, run
+from graphkin.construction.core import run
 from graphkin.construction.core.pen import is_input
 from graphkin.construction.core.program import Step
 from graphkin.mechanism import Mechanism
@@ -87,7 +87,7 @@ def counted(patch: pytest.MonkeyPatch) -> Iterator[list[Step]]:
     The trials inside the one step that closes a group of higher class are not among them.
     """
     ran: list[Step] = []
-    alone, together = run.evaluate, batch.made_ready
+    alone, together = run.evaluate, run.made_ready
 
     def evaluated(step, *args, **options):
         ran.append(step)
@@ -100,5 +100,5 @@ def counted(patch: pytest.MonkeyPatch) -> Iterator[list[Step]]:
 
     with patch.context() as within:
         within.setattr(run, "evaluate", evaluated)
-        within.setattr(batch, "made_ready", readied)
+        within.setattr(run, "made_ready", readied)
         yield ran

@@ -17,7 +17,7 @@ from graphkin.construction.core.layout import Layout, lay_out
 from graphkin.documents.calculation import calculation
 from graphkin.documents.sheet import sheet
 from graphkin.documents.sheet_documents import drawings_of, proved
-from graphkin.drawing.areas import A3_AREA
+from graphkin.drawing.field import A3_AREA
 from graphkin.drawing.marks import Arc, CircleMark, LineMark, Mark, Page, Polyline, Text, reach
 from graphkin.drawing.style import style_of
 from graphkin.mechanism import Mechanism, load

@@ -5,9 +5,8 @@ from itertools import cycle
 import pytest
 
 from graphkin.construction.core.layout import lay_out, lowered
-from graphkin.documents.data_heading import NAME, data, data_heading
-from graphkin.documents.sheet import Moved, title_line, writing
-from graphkin.drawing.areas import A3_AREA, ABOVE, AREA
+from graphkin.documents.sheet import NAME, Moved, data, data_heading, title_line, writing
+from graphkin.drawing.field import A3_AREA, ABOVE, AREA
 from graphkin.drawing.marks import LineMark, Text, reach
 from tests.chosen import HALVES
 from tests.documents.full_scenes import NAMED, drawings_from

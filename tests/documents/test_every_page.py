@@ -11,9 +11,8 @@ import pytest
 import shapely
 
 from graphkin.construction.core.layout import Layout, lay_out
-from graphkin.documents.overlay import overlay
 from graphkin.documents.sheet import sheet
-from graphkin.documents.sheet_documents import by_itself
+from graphkin.documents.sheet_documents import by_itself, overlay
 from graphkin.drawing.marks import Page, Text, reach
 from graphkin.scene.scene_files import names
 from graphkin.text import LANGUAGES

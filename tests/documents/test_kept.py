@@ -4,14 +4,14 @@ from __future__ import annotations
 
 import pytest
 
-from graphkin.drawing import chords, richtext
+from graphkin.drawing import clearance, richtext
 from graphkin.drawing.marks import Arc, CircleMark, LineMark, Page, Polyline, Text
 from graphkin.writers import pdf, svg
 from graphkin.writers.pdf import write_pdf
 from graphkin.writers.svg import write_svg
 
 KEPT = (
-    chords.arc_chords,
+    clearance.arc_chords,
     pdf.lettering,
     pdf.outline,
     svg.class_attributes,

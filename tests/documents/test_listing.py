@@ -9,7 +9,7 @@ import pytest
 from graphkin.documents import listing
 from graphkin.documents.listing import listed
 from graphkin.documents.sheet import sheet_heading
-from graphkin.drawing.areas import BELOW, TABLES
+from graphkin.drawing.field import BELOW, TABLES
 from graphkin.drawing.richtext import are_clear, extent
 from tests.documents.sheet_tools import drawings
 

@@ -6,11 +6,10 @@ import numpy as np
 import pytest
 
 from graphkin.construction.core.layout import lay_out, refuse_wide
-from graphkin.documents.captions import HEADING, caption, headlines
-from graphkin.documents.data_heading import NAME as DATA
-from graphkin.documents.overlay import overlay
-from graphkin.documents.sheet import sheet, sheet_heading, title_line
-from graphkin.drawing.areas import WIDTH
+from graphkin.documents.sheet import HEADING, caption, headlines, sheet, sheet_heading, title_line
+from graphkin.documents.sheet import NAME as DATA
+from graphkin.documents.sheet_documents import overlay
+from graphkin.drawing.field import WIDTH
 from graphkin.drawing.marks import Text, reach
 from graphkin.drawing.richtext import are_clear
 from graphkin.text import LANGUAGES

@@ -11,7 +11,7 @@ from matplotlib.textpath import TextPath
 from graphkin import load
 from graphkin.documents.scaling import sheet_motion
 from graphkin.documents.sheet_documents import drawings_of, language_of, proved
-from graphkin.drawing.glyphs import size_for
+from graphkin.drawing.richtext import size_for
 from graphkin.drawing.style import BLUE, STYLES
 from graphkin.text.errors import PageError, SceneError
 from graphkin.writers.axes import face

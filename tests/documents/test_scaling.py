@@ -7,7 +7,7 @@ from graphkin.construction.core.given_data import given
 from graphkin.construction.core.layout import lay_out
 from graphkin.documents.scaling import drafts_of, scales, sheet_targets
 from graphkin.documents.sheet_documents import drawings_of, hand_out, proved
-from graphkin.drawing.areas import ABOVE, HEIGHT, MARGIN, WIDTH
+from graphkin.drawing.field import ABOVE, HEIGHT, MARGIN, WIDTH
 from graphkin.drawing.marks import Text
 from graphkin.drawing.richtext import plain
 from graphkin.drawing.scale import extent_of

@@ -18,17 +18,14 @@ from graphkin.construction.core.layout import lay_out
 from graphkin.construction.core.plan_vector import plan_vector
 from graphkin.construction.core.segments import TINY as SHORTEST
 from graphkin.construction.result_tables import turning_links, vectors
-from graphkin.documents.captions import HEADING
-from graphkin.documents.data_heading import NAME as DATA
-from graphkin.documents.detail import parted
-from graphkin.documents.inset import far_places, inset
+from graphkin.documents.detail import far_places, inset, parted
 from graphkin.documents.sentences import sentences
-from graphkin.documents.sheet import boards
+from graphkin.documents.sheet import HEADING, boards
+from graphkin.documents.sheet import NAME as DATA
 from graphkin.documents.signs import mechanism_signs, round_below, sign_of
-from graphkin.drawing.areas import AREA
+from graphkin.drawing.field import AREA
 from graphkin.drawing.free_space import Space
-from graphkin.drawing.label import SMALL
-from graphkin.drawing.labels import FieldContent
+from graphkin.drawing.labels import SMALL, FieldContent
 from graphkin.drawing.marks import Arc, CircleMark, LineMark, Mark, Polyline, Text, reach
 from graphkin.drawing.richtext import CLEAR, plain, runs, signs
 from graphkin.drawing.style import OWN_LINES, style_of

@@ -16,7 +16,7 @@ from graphkin.documents.relations import relations
 from graphkin.documents.scheme import elsewhere, full_size, scheme
 from graphkin.documents.sheet import asked_words, sheet
 from graphkin.documents.sheet_documents import drawings_of, proved
-from graphkin.drawing.areas import SCHEME, TABLES
+from graphkin.drawing.field import SCHEME, TABLES
 from graphkin.drawing.marks import Arc, LineMark, Text, reach
 from graphkin.drawing.richtext import plain
 from graphkin.drawing.symbol_markup import symbol

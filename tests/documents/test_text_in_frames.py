@@ -18,7 +18,7 @@ from pypdfium2 import raw
 
 from graphkin.documents.calculation import calculation
 from graphkin.documents.sheet_documents import CALCULATED, drawn_sheets
-from graphkin.drawing.areas import A3_AREA, A4_FRAME, A4_SIZE
+from graphkin.drawing.field import A3_AREA, A4_FRAME, A4_SIZE
 from graphkin.drawing.marks import LineMark, Mark, Page, Polyline, Text
 from graphkin.text import LANGUAGES, words
 from graphkin.writers.pdf import write_pdf

@@ -15,9 +15,8 @@ from graphkin.construction.guides.slide_symbols import frame_guides
 from graphkin.construction.links.wheel_symbols import straight_tracks
 from graphkin.documents.sentences import sentences
 from graphkin.documents.sheet_documents import drawings_of, drawn_sheets, hand_out
-from graphkin.documents.step_pages import spans, to_do, told
-from graphkin.documents.step_visibility import noted
-from graphkin.drawing.areas import A3_AREA, A3_TITLE_BLOCK, AREA, BELOW, MARKED
+from graphkin.documents.step_pages import noted, spans, to_do, told
+from graphkin.drawing.field import A3_AREA, A3_TITLE_BLOCK, AREA, BELOW, MARKED
 from graphkin.drawing.marks import CircleMark, Mark, SharedLetter, Text, reach
 from graphkin.drawing.richtext import signs
 from graphkin.drawing.style import NOW, TINTS, style_of

@@ -6,7 +6,7 @@ import re
 
 import pytest
 
-from graphkin.construction.core.given_pairs import wheels
+from graphkin.construction.core.given_data import wheels
 from graphkin.construction.core.kind import constructions
 from graphkin.construction.core.layout import lay_out
 from graphkin.construction.rolling.contact_points import ContactOfWheels

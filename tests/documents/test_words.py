@@ -12,10 +12,10 @@ from string import Formatter
 import pytest
 
 import graphkin
-from graphkin.classroom.grading.feedback_rows import SLIPS
+from graphkin.classroom.grading.feedback import SLIPS
 from graphkin.classroom.lab.fairness import WORDS as LIMITS
 from graphkin.construction.core.drawn_scene import Drawing
-from graphkin.construction.core.parameter_words import variant
+from graphkin.construction.core.given_data import variant
 from graphkin.construction.core.quantities import OnPaper, in_mm
 from graphkin.construction.registry import PALETTE
 from graphkin.documents.calculation import calculation

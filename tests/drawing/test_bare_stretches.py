@@ -2,8 +2,7 @@
 
 import pytest
 
-from graphkin.drawing.bare_stretches import at_bare_stretches
-from graphkin.drawing.label import Label
+from graphkin.drawing.labels import Label, at_bare_stretches
 from graphkin.drawing.marks import CircleMark, LineMark
 from graphkin.drawing.symbol_markup import symbol
 from tests.documents.sheet_tools import drawn

@@ -14,8 +14,7 @@ from graphkin.documents.scaling import scales
 from graphkin.documents.sentences import sentences
 from graphkin.documents.sheet import boards, sheet
 from graphkin.documents.sheet_documents import drawings_of, proved
-from graphkin.drawing.label import Label, segment_of
-from graphkin.drawing.labels import FieldContent, FootNote, NoteLine, in_turn
+from graphkin.drawing.labels import FieldContent, FootNote, Label, NoteLine, in_turn, segment_of
 from graphkin.drawing.marks import LineMark, Page, Text, reach
 from graphkin.drawing.richtext import plain
 from graphkin.text import words

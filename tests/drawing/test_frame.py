@@ -1,6 +1,6 @@
 import pytest
 
-from graphkin.drawing.areas import A4_AREA
+from graphkin.drawing.field import A4_AREA
 from graphkin.drawing.frame import TitleBlock, page_frame, sheet_frame
 from graphkin.drawing.marks import Text, reach
 from graphkin.drawing.richtext import plain

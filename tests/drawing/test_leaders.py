@@ -7,8 +7,7 @@ from math import dist
 import pytest
 from shapely import Point, box
 
-from graphkin.drawing.label import Label
-from graphkin.drawing.leaders import with_leaders
+from graphkin.drawing.labels import Label, with_leaders
 from graphkin.drawing.marks import LineMark
 from graphkin.drawing.placement import Spot
 

@@ -4,7 +4,7 @@ import random
 import pytest
 import shapely
 
-from graphkin.drawing.label import NUMBER, Label
+from graphkin.drawing.labels import NUMBER, Label
 from graphkin.drawing.marks import (
     Arc,
     CircleMark,

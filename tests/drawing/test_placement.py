@@ -13,9 +13,9 @@ from hypothesis import strategies as st
 from msgspec.structs import replace
 from shapely import LineString, MultiLineString, Point, box
 
-from graphkin.drawing import assignment, clashes
-from graphkin.drawing.candidates import Blots, Subjects, distance_cost, tries
+from graphkin.drawing import clashes, placement
 from graphkin.drawing.clashes import PAD
+from graphkin.drawing.clearance import Blots, Subjects, distance_cost, tries
 from graphkin.drawing.placement import CLEAR, Segment, Spot, Wish, place
 from graphkin.drawing.shapes import LOOSE, merged, segments, separation
 
@@ -258,14 +258,14 @@ def crowd(count: int) -> list[Wish]:
 def test_places_compared_a_few_at_a_time_rule_out_the_same(monkeypatch):
     at_one_go = place(crowd(30), [[10, 31, 60, 31]], NONE, FIELD)
     monkeypatch.setattr(clashes, "AT_ONCE", 7)
-    monkeypatch.setattr(assignment, "AT_ONCE", 3)
+    monkeypatch.setattr(placement, "AT_ONCE", 3)
     assert place(crowd(30), [[10, 31, 60, 31]], NONE, FIELD) == at_one_go
 
 
 def test_no_more_places_are_offered_than_a_page_may_have(monkeypatch):
     """What is placed is clear all the same; with all places more labels find one."""
     found = place(crowd(60), NONE, NONE, FIELD)
-    monkeypatch.setattr(assignment, "MOST", 300)
+    monkeypatch.setattr(placement, "MOST", 300)
     offered: list[int] = []
     add = clashes.Clashes.add
 

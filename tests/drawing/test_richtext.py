@@ -6,8 +6,16 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 import graphkin.text
-from graphkin.drawing.glyphs import advance, capital, measures
-from graphkin.drawing.richtext import extent, flowed, runs, spaced_runs, words_of
+from graphkin.drawing.richtext import (
+    advance,
+    capital,
+    extent,
+    flowed,
+    measures,
+    runs,
+    spaced_runs,
+    words_of,
+)
 from graphkin.text.errors import PageError
 
 

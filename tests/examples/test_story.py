@@ -8,7 +8,7 @@ from pathlib import Path
 import pytest
 from click.testing import CliRunner
 
-from graphkin.classroom.grading.marks_tables import read_marks
+from graphkin.classroom.grading.grading_files import read_marks
 from graphkin.cli.main import app
 from tests.examples.document import FENCE, README
 

@@ -3,7 +3,7 @@
 import pytest
 
 from graphkin.diagnosis.closures import choices
-from graphkin.loops.branch_closures import closures
+from graphkin.loops.assemble import closures
 from graphkin.loops.closing_groups import groups
 from graphkin.loops.equations import equations
 from graphkin.loops.loop_motion import pose_of, setting_of, unknowns_of

@@ -10,8 +10,7 @@ import pytest
 from msgspec.structs import replace
 
 from graphkin.accuracy.certified import Certifier
-from graphkin.loops.assemble import assembled
-from graphkin.loops.branch_closures import closures, moved_by, settled_of
+from graphkin.loops.assemble import assembled, closures, moved_by, settled_of
 from graphkin.loops.closing_groups import groups
 from graphkin.loops.equations import equations
 from graphkin.loops.newton import gap, newton, scaled

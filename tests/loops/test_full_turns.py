@@ -10,7 +10,7 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 
-from graphkin.loops.newton_start import counted_freely
+from graphkin.loops.newton import counted_freely
 from graphkin.mechanism import Mechanism, load
 from graphkin.scene.read_scene import read_text
 from graphkin.text.errors import ClosureError

@@ -14,14 +14,12 @@ import shapely
 from hypothesis import given
 from hypothesis import strategies as st
 
-from graphkin.cli.report.cycle_report import cycle_lines
-from graphkin.cli.report.cycle_table import cycle_table
+from graphkin.cli.report.cycle_report import cycle_lines, cycle_table
 from graphkin.construction.higher_class.following import FollowedClosure
-from graphkin.construction.links.plates import hull
+from graphkin.construction.links.link_shapes import hull
 from graphkin.mechanism import Mechanism, load
-from graphkin.motion.curves.over_driver import pictures
+from graphkin.motion.curves.over_driver import pictures, sampled
 from graphkin.motion.curves.plane_paths import box_of, dotted, near_box
-from graphkin.motion.curves.sampled import sampled
 from graphkin.motion.cycle import cycle
 from graphkin.scene.read_scene import read_text
 from graphkin.writers.plot_style import look, span_of

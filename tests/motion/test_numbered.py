@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 from msgspec.structs import replace
 
-from graphkin.cli.report.piece_words import pieces_words
+from graphkin.cli.report.cycle_report import pieces_words
 from graphkin.mechanism import load
 from graphkin.motion.cycle import cycle
 from graphkin.motion.follower_limits import followers

@@ -8,8 +8,7 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 
-from graphkin.cli.report.cycle_report import cycle_lines
-from graphkin.cli.report.cycle_table import cycle_table
+from graphkin.cli.report.cycle_report import cycle_lines, cycle_table
 from graphkin.mechanism import Mechanism, load
 from graphkin.motion import ends
 from graphkin.motion.course import Course

@@ -15,9 +15,8 @@ import numpy as np
 from msgspec import Struct
 from msgspec.structs import replace
 
-from graphkin.construction.core.batch import run_batch
 from graphkin.construction.core.program import Given, Program
-from graphkin.construction.core.run import StepFailed, as_of, run
+from graphkin.construction.core.run import StepFailed, as_of, run, run_batch
 from graphkin.construction.tape.batch_runner import BatchRunner
 from graphkin.numbers.arithmetic import Kind, at, is_ball
 from graphkin.numbers.kinds import array_kind, decimal_kind

@@ -10,8 +10,8 @@ import pytest
 from graphkin.construction.core.run import StepFailed, run
 from graphkin.construction.higher_class.closure_solver import ClosureSolver
 from graphkin.numbers.arithmetic import is_ball, phase, turn_by
+from graphkin.numbers.common_roots import proved
 from graphkin.numbers.kinds import ball_kind, decimal_kind
-from graphkin.numbers.refined_roots import proved
 from tests.chosen import EVERY
 from tests.numbers import number_kinds as nk
 from tests.numbers.test_every_group import NAMES, of_higher_class, work

@@ -3,15 +3,18 @@
 import numpy as np
 import pytest
 
-from graphkin.numbers.common_roots import Cells, common_roots, roots_beside, solutions
-from graphkin.numbers.kinds import ball_kind, decimal_kind, in_doubles
-from graphkin.numbers.refined_roots import (
+from graphkin.numbers.common_roots import (
+    Cells,
     by_newton,
     by_newton_arrays,
+    common_roots,
     determinant,
     proved_together,
+    roots_beside,
+    solutions,
     solved,
 )
+from graphkin.numbers.kinds import ball_kind, decimal_kind, in_doubles
 
 SIDE = 0.25
 """Side of a cell."""

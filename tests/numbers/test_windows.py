@@ -3,8 +3,7 @@
 import numpy as np
 import pytest
 
-from graphkin.numbers.roots import roots
-from graphkin.numbers.windows import Windows, fits_beside, narrowed
+from graphkin.numbers.roots import Windows, fits_beside, narrowed, roots
 
 GRID = np.linspace(0, 10, 101)[None, :]
 

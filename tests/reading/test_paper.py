@@ -10,19 +10,9 @@ import numpy as np
 import pytest
 from msgspec.structs import replace
 
-from graphkin.classroom.printing.qr_code import square
-from graphkin.classroom.printing.register_crosses import PITCH, places
+from graphkin.classroom.printing.personal import PITCH, places, square
 from graphkin.drawing.marks import LineMark, Page
 from graphkin.reading.drawn_ink import InkLine
-from graphkin.reading.line_crossings import (
-    along_way,
-    are_crossing,
-    distinct,
-    is_same,
-    met,
-    sine,
-    through,
-)
 from graphkin.reading.paper_map import (
     BENDS,
     COUNT,
@@ -35,7 +25,20 @@ from graphkin.reading.paper_map import (
     prior,
 )
 from graphkin.reading.paper_ripple import CROSSED, LEAST, Offsets, ripple_of
-from graphkin.reading.point_search import AREA, BREAK, in_fields, is_parted, unbroken
+from graphkin.reading.point_search import (
+    AREA,
+    BREAK,
+    along_way,
+    are_crossing,
+    distinct,
+    in_fields,
+    is_parted,
+    is_same,
+    met,
+    sine,
+    through,
+    unbroken,
+)
 from graphkin.reading.printed_crosses import crosses_off
 from graphkin.reading.registration import (
     MeasuredLines,

@@ -25,21 +25,19 @@ from pypdf import PdfWriter
 from graphkin.accuracy.pencil.pencil import Pencil
 from graphkin.classroom.grading.probes import Probe, probes
 from graphkin.classroom.printing.edition import read_edition
-from graphkin.classroom.printing.qr_code import modules
+from graphkin.classroom.printing.personal import modules
 from graphkin.classroom.roster.taker import Taker
 from graphkin.cli.main import app
 from graphkin.construction.core.program import Plane
-from graphkin.drawing.areas import AREA
+from graphkin.drawing.field import AREA
 from graphkin.reading import read_run, registration
 from graphkin.reading.codes import code_among, codes_in
 from graphkin.reading.desk_app import DeskSession, desk_application, desk_page
 from graphkin.reading.drawn_answers import drawn_items, is_followed
 from graphkin.reading.drawn_ink import DENSITY as INK
 from graphkin.reading.drawn_ink import DrawnInk, fitted, offsets, refined
-from graphkin.reading.expected_place import ExpectedPlace, expected
 from graphkin.reading.kept_readings import READING, kept, records_in
 from graphkin.reading.lettered_points import LetteredSheet
-from graphkin.reading.line_crossings import LinesCrossing, along_way
 from graphkin.reading.marked_drawing import (
     GREEN,
     MarkedSheet,
@@ -50,7 +48,14 @@ from graphkin.reading.marked_drawing import (
 from graphkin.reading.pictures import Unreadable, grey_of, photographs
 from graphkin.reading.point_reader import PointReader
 from graphkin.reading.point_reading import PointReading
-from graphkin.reading.point_search import DRAWINGS, PointSearch
+from graphkin.reading.point_search import (
+    DRAWINGS,
+    ExpectedPlace,
+    LinesCrossing,
+    PointSearch,
+    along_way,
+    expected,
+)
 from graphkin.reading.read_run import ReadOutcome, read_order
 from graphkin.reading.read_sheet import Grid, SheetRecord, code_of_halves, known_code
 from graphkin.reading.settled_points import (
@@ -60,7 +65,7 @@ from graphkin.reading.settled_points import (
     settled_points,
 )
 from graphkin.studio.guard import Guard
-from graphkin.studio.page_requests import PageRequestError
+from graphkin.studio.session import PageRequestError
 from graphkin.text import words
 from tests.bench.reading import lab_of
 from tests.chosen import EVERY

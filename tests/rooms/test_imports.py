@@ -133,7 +133,11 @@ def test_who_renders_a_service_is_there():
         ("scene", "def f():\n    import graphkin.motion.sweep", "motion.sweep"),
         ("scene", "from graphkin import mechanism", "mechanism"),
         ("scene", "from ..motion import sweep", "motion.sweep"),
-        ("loops", "if TYPE_CHECKING:\n    from graphkin.web.gif import gif", "web.gif.gif"),
+        (
+            "loops",
+            "if TYPE_CHECKING:\n    from graphkin.web.animation import gif",
+            "web.animation.gif",
+        ),
     ],
 )
 def test_no_way_of_importing_passes_unseen(tmp_path, room, statement, found):

@@ -10,8 +10,7 @@ import numpy as np
 import pytest
 
 from graphkin.numbers.arithmetic import Kind, batch_kind
-from graphkin.scene.evaluate import EvaluationError, rational_ratio
-from graphkin.scene.expression import UnreadableError
+from graphkin.scene.expression import EvaluationError, UnreadableError, rational_ratio
 from graphkin.scene.measures import quantity
 from graphkin.scene.quantity import Quantity, exact, expression
 from graphkin.text.errors import SceneError

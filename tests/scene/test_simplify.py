@@ -7,8 +7,17 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from graphkin.numbers.kinds import FLOAT
-from graphkin.scene.evaluate import EvaluationError, differentiated, evaluate
-from graphkin.scene.expression import Call, Minus, Name, Number, Pair, parse
+from graphkin.scene.expression import (
+    Call,
+    EvaluationError,
+    Minus,
+    Name,
+    Number,
+    Pair,
+    differentiated,
+    evaluate,
+    parse,
+)
 from graphkin.scene.simplify import simplified, text_of
 
 NUMBERS = st.fractions(-20, 20, max_denominator=12).map(Number)

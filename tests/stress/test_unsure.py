@@ -10,8 +10,7 @@ import re
 import numpy as np
 import pytest
 
-from graphkin.cli.report.cycle_report import cycle_lines
-from graphkin.cli.report.cycle_table import cycle_table
+from graphkin.cli.report.cycle_report import cycle_lines, cycle_table
 from graphkin.loops import witness
 from graphkin.mechanism import Mechanism, load
 from graphkin.motion.cycle import cycle

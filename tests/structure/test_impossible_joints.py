@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pytest
 
-from graphkin.structure.impossible_joints import impossible
+from graphkin.structure.driver_count import impossible
 from tests.mechanisms import scene_of
 
 BLOCK = """

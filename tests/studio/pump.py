@@ -12,10 +12,9 @@ from typing import Any
 from graphkin.scene import scene_files
 from graphkin.studio.folder import Folder
 from graphkin.studio.look import Sight, look
-from graphkin.studio.page_requests import PageRequest
 from graphkin.studio.panels import Memory
 from graphkin.studio.server import Served
-from graphkin.studio.session import Session
+from graphkin.studio.session import PageRequest, Session
 
 PUMP = (scene_files.shelf() / "pump" / "scene.toml").read_text(encoding="utf-8")
 

@@ -17,7 +17,7 @@ from urllib.request import url2pathname
 import pytest
 from click.testing import CliRunner
 
-from graphkin.cli import local_page, studio_command
+from graphkin.cli import studio_command
 from graphkin.cli.main import app
 from graphkin.studio.redirect import Redirect
 from graphkin.studio.server import Served, serve
@@ -94,7 +94,9 @@ def test_without_its_libraries_it_says_what_to_install(tmp_path, monkeypatch):
 
 
 def test_without_its_packages_it_says_what_to_install(monkeypatch):
-    monkeypatch.setattr(local_page, "find_spec", lambda name: None if name == "bottle" else name)
+    monkeypatch.setattr(
+        studio_command, "find_spec", lambda name: None if name == "bottle" else name
+    )
     result = CliRunner().invoke(studio_command.studio, ["--no-browser"])
     assert result.exit_code == 2
     assert "the studio needs bottle: pip install '.[studio]'" in result.output

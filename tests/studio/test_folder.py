@@ -11,8 +11,7 @@ import pytest
 from graphkin.scene.read_scene import read_text
 from graphkin.studio import session as desk
 from graphkin.studio.folder import Folder
-from graphkin.studio.saving import WantedSheets, lab_of, save_files, save_scene, sheets_of
-from graphkin.studio.session import Session
+from graphkin.studio.session import Session, WantedSheets, lab_of, save_files, save_scene, sheets_of
 from graphkin.text.errors import PageError, SceneError
 from tests.studio.pump import PUMP, desk_in, ordered
 

@@ -11,8 +11,7 @@ import tomlkit
 from graphkin.construction.core.quantities import WHOSE
 from graphkin.scene.model import Ask
 from graphkin.scene.read_scene import read_text
-from graphkin.studio.building import Act, built
-from graphkin.studio.names_in_text import named_anew, renamed, says
+from graphkin.studio.building import Act, built, named_anew, renamed, says
 from graphkin.studio.sketch import sketch
 from graphkin.text.errors import SceneError
 from tests.chosen import FOLDER

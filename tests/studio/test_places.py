@@ -14,7 +14,7 @@ from graphkin.scene import scene_files
 from graphkin.scene.read_scene import read_text
 from graphkin.scene.toml_spans import Path as Keys
 from graphkin.scene.toml_spans import spans
-from graphkin.studio.problem_places import MarkedProblem, line_of, marked
+from graphkin.studio.look import MarkedProblem, line_of, marked
 from graphkin.text.errors import GraphkinError, Problem, SceneError, Sought
 from tests.chosen import CHOSEN, FOLDER
 from tests.scene.conftest import DATA

@@ -13,7 +13,7 @@ from graphkin.documents.sheet_documents import drawings_of
 from graphkin.drawing.labels import FieldContent
 from graphkin.drawing.marks import Mark, Text, reach
 from graphkin.mechanism import Mechanism, load
-from graphkin.studio.follow_labels import FollowLabels, keyed, middle_of, riding, seats_of
+from graphkin.studio.panels import FollowLabels, keyed, middle_of, riding, seats_of
 from graphkin.text import words
 
 FIELDS = [(kind, draw) for kind in (0, 1) for draw in (left_board, right_board)]

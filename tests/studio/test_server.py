@@ -20,8 +20,8 @@ from graphkin.motion.cycle import cycle
 from graphkin.scene import scene_files
 from graphkin.scene.read_scene import read_text
 from graphkin.studio.guard import HEADERS
-from graphkin.studio.page_requests import MOST_BYTES
 from graphkin.studio.server import HOME, WORK, Served, serve
+from graphkin.studio.session import MOST_BYTES
 from tests.studio.pump import LONG, PUMP, desk_in, ordered, running
 
 JSON = {"Content-Type": "application/json"}

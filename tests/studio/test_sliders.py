@@ -9,8 +9,8 @@ import pytest
 
 from graphkin.scene import scene_files
 from graphkin.scene.read_scene import read_text
-from graphkin.studio.scene_edits import Edit, edits
-from graphkin.studio.sliders import MOST, ParameterSlider, sliders
+from graphkin.studio.look import MOST, ParameterSlider, sliders
+from graphkin.studio.session import Edit, edits
 from graphkin.text.errors import SceneError
 
 PUMP = Path(scene_files.find("pump")).read_text(encoding="utf-8")

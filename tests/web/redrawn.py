@@ -26,7 +26,7 @@ from graphkin.mechanism import Mechanism
 from graphkin.motion.course import Course
 from graphkin.motion.sweep import names, sweep_of
 from graphkin.numbers.arithmetic import FLOAT
-from graphkin.web.field_extents import room_of
+from graphkin.web.field_binder import room_of
 from graphkin.web.page_driver import PageDriver
 from graphkin.web.screen_sheets import ScreenSheet
 

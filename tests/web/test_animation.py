@@ -20,34 +20,34 @@ from graphkin.mechanism import load
 from graphkin.motion.cycle import cycle
 from graphkin.text import words
 from graphkin.web import frames
+from graphkin.web.animation import PAUSE, gif
 from graphkin.web.animation_pictures import (
-    BAR,
-    EDGE,
-    SMALL,
-    STEEPEST,
-    Stage,
-    paths_of,
-    scale_bar,
-    stage,
-)
-from graphkin.web.fixed_parts import STILL
-from graphkin.web.frame_marks import cut, mechanism_seen, plan_box
-from graphkin.web.frames import GROWN, FrameSequence, motion
-from graphkin.web.gif import PAUSE, gif
-from graphkin.web.moving_labels import COVERED, GAP, LETTER, crossed, obstacles, price
-from graphkin.web.panes import (
     AIR,
     AREA,
+    BAR,
+    EDGE,
     HELD,
     PICTURE,
+    SMALL,
+    STEEPEST,
+    STILL,
     WAYS,
+    Stage,
     aside,
+    cut,
     leaves,
+    mechanism_seen,
+    paths_of,
+    plan_box,
     plan_pane,
     room_in,
+    scale_bar,
     scale_in,
+    stage,
     worth,
 )
+from graphkin.web.frames import GROWN, FrameSequence, motion
+from graphkin.web.moving_labels import COVERED, GAP, LETTER, crossed, obstacles, price
 from graphkin.web.player import player_page, vector_names
 from graphkin.web.screen_sheets import screen_sheets
 from tests.chosen import EVERY

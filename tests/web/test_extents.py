@@ -12,7 +12,7 @@ import pytest
 from graphkin.drawing.marks import CircleMark, LineMark, Mark
 from graphkin.numbers.plane import Line as Carrier
 from graphkin.numbers.plane import Ratio
-from graphkin.web.field_extents import box_of, room_of
+from graphkin.web.field_binder import box_of, room_of
 from graphkin.web.step_page import step_page
 from tests.browser.opening import Opened
 from tests.chosen import EVERY

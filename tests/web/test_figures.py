@@ -9,7 +9,7 @@ from msgspec.structs import replace
 
 from graphkin.mechanism import Mechanism, load
 from graphkin.scene.quantity import expression
-from graphkin.web.figures import figures
+from graphkin.web.page_driver import figures
 from tests.documents.sheet_tools import FOLDER, mechanism_named
 from tests.web.test_moving import LABS, compared, marks_of, named, page_of
 from tests.web.written import ran

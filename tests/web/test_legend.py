@@ -13,9 +13,8 @@ from graphkin.drawing.style import BY_SIGN
 from graphkin.drawing.symbol_markup import symbol
 from graphkin.mechanism import load
 from graphkin.text import LANGUAGES, words
-from graphkin.web.legend import meanings
 from graphkin.web.screen_sheets import ScreenSheet, screen_sheets
-from graphkin.web.step_page import step_page
+from graphkin.web.step_page import meanings, step_page
 from tests.chosen import SCENES
 from tests.documents.sheet_tools import mechanism_named
 

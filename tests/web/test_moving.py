@@ -16,10 +16,9 @@ import shapely
 from msgspec.structs import replace
 
 from graphkin.construction.core.drawn_scene import Drawing
-from graphkin.construction.core.plot import above_foot, inside
+from graphkin.construction.core.paper_canvas import above_foot, inside
 from graphkin.construction.core.quantities import SHEETS
-from graphkin.drawing.areas import Rect
-from graphkin.drawing.field import clipped
+from graphkin.drawing.field import Rect, clipped
 from graphkin.drawing.marks import CircleMark, LineMark, Mark, Polyline, Text
 from graphkin.mechanism import Mechanism, load
 from graphkin.motion.cycle import cycle

@@ -13,8 +13,8 @@ import pytest
 
 from graphkin.construction.core.program import Part, Plane
 from graphkin.construction.result_tables import turning_rows, vector_rows
-from graphkin.documents.captions import HEADING
 from graphkin.documents.sentences import TURNING, sentences
+from graphkin.documents.sheet import HEADING
 from graphkin.drawing.marks import CircleMark, LineMark, Text, reach
 from graphkin.drawing.richtext import plain
 from graphkin.drawing.style import BRIEF
@@ -23,11 +23,17 @@ from graphkin.scene.read_scene import read_text
 from graphkin.text import LANGUAGES, words
 from graphkin.web import step_page as page
 from graphkin.web.facts import results
-from graphkin.web.field_pictures import ink_sheet
 from graphkin.web.highlights import ghosts, rows_found
-from graphkin.web.offline_page import data_block, offline_page, part
-from graphkin.web.page_sentences import MOST, SentencePart, grouped
-from graphkin.web.protocol import PageProtocol, in_parts, strokes, telling
+from graphkin.web.offline_page import data_block, ink_sheet, offline_page, part
+from graphkin.web.protocol import (
+    MOST,
+    PageProtocol,
+    SentencePart,
+    grouped,
+    in_parts,
+    strokes,
+    telling,
+)
 from graphkin.web.screen_sheets import ScreenSheet, screen_sheets
 from graphkin.web.step_page import step_page, task_page
 from graphkin.writers.svg import number

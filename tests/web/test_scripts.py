@@ -7,9 +7,18 @@ from itertools import chain
 
 import pytest
 
-from graphkin.web import scripts
-from graphkin.web.offline_page import WEB, part
-from graphkin.web.scripts import FORM, MOVING, PLAYER, STEP_PAGE, joined, tight, together
+from graphkin.web import offline_page
+from graphkin.web.offline_page import (
+    FORM,
+    MOVING,
+    PLAYER,
+    STEP_PAGE,
+    WEB,
+    joined,
+    part,
+    tight,
+    together,
+)
 
 PAGES = (STEP_PAGE, PLAYER, FORM, MOVING)
 DECLARED = re.compile(
@@ -50,16 +59,18 @@ def test_files_are_short_and_say_first_what_they_hold():
 def test_remarks_are_left_out_and_nothing_else(page):
     told = joined(page).splitlines()
     lines = [line.strip() for name in page for line in part(name).splitlines()]
-    short_lines = [scripts.REMARK.sub("", line) for line in lines]
+    short_lines = [offline_page.REMARK.sub("", line) for line in lines]
     script = "\n".join(short_lines)
-    for place, what in scripts.WRITTEN_IN.items():
+    for place, what in offline_page.WRITTEN_IN.items():
         script = script.replace(place, what)
     written = script.splitlines()
     assert [line for line in written if line in set(told)] == told
     for line, short in zip(lines, short_lines, strict=True):
         assert line == short or line.removeprefix(short).lstrip().startswith("// ")
         assert short.count('"') == line.count('"'), line
-    assert all(not line or line.startswith(scripts.REMARKS) for line in set(written) - set(told))
+    assert all(
+        not line or line.startswith(offline_page.REMARKS) for line in set(written) - set(told)
+    )
     assert together(page) == f'(() => {{\n"use strict";\n{tight(joined(page))}\n}})();'
 
 

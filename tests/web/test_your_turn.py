@@ -14,11 +14,10 @@ from graphkin.construction.velocity.turned_velocity import LaidOffByRate
 from graphkin.mechanism import load
 from graphkin.numbers.plane import Circle, Line, Ratio
 from graphkin.text import LANGUAGES, words
-from graphkin.web.palette_moves import MoveFinder, YourTurn, your_turn
+from graphkin.web.offline_page import joined
 from graphkin.web.protocol import PageProtocol, telling
 from graphkin.web.screen_sheets import ScreenSheet, screen_sheets
-from graphkin.web.scripts import joined
-from graphkin.web.your_turn import palette, record
+from graphkin.web.your_turn import MoveFinder, YourTurn, palette, record, your_turn
 from tests.chosen import CHOSEN, SCENES
 from tests.documents.sheet_tools import mechanism_named
 

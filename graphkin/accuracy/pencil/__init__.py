@@ -3,7 +3,7 @@
 from graphkin.accuracy.pencil.forecast import Forecast, forecast
 from graphkin.accuracy.pencil.original import Original, original
 from graphkin.accuracy.pencil.pencil import Pencil
-from graphkin.accuracy.pencil.simulation import Drawn, pencil_drawings, simulated
+from graphkin.accuracy.pencil.redrawing import Drawn, pencil_drawings, simulated
 
 __all__ = [
     "Drawn",

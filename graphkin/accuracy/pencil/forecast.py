@@ -22,13 +22,11 @@ from msgspec import Struct
 from msgspec.structs import replace
 
 from graphkin.accuracy.pencil.original import Original
-from graphkin.accuracy.pencil.pencil import Pencil
-from graphkin.accuracy.pencil.pencil_marks import PencilMark
+from graphkin.accuracy.pencil.pencil import Pencil, PencilMark
 from graphkin.accuracy.pencil.read_off import DrawnQuantity, answers
-from graphkin.accuracy.pencil.redrawing import redrawn
-from graphkin.accuracy.pencil.simulation import Drawn, simulated
+from graphkin.accuracy.pencil.redrawing import Drawn, redrawn, simulated
 from graphkin.construction.core.program import Target
-from graphkin.numbers.arrays import np
+from graphkin.numbers.arithmetic import np
 
 NODE = sqrt(3)
 """Where an error is tried, in standard deviations."""

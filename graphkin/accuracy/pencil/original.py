@@ -8,7 +8,7 @@ from typing import Any
 
 from msgspec import Struct
 
-from graphkin.accuracy.pencil.pencil_marks import Paper, PencilMark, mark_of
+from graphkin.accuracy.pencil.pencil import Paper, PencilMark, mark_of
 from graphkin.construction.core.component import component_of, has_many_triangles
 from graphkin.construction.core.plan_vector import sign_of
 from graphkin.construction.core.program import Program, Target
@@ -17,7 +17,7 @@ from graphkin.construction.core.run import Trace
 from graphkin.construction.velocity.turning_of_link import TurningOfLink
 from graphkin.drawing.scale import Scales
 from graphkin.mechanism import Mechanism
-from graphkin.numbers.arrays import np
+from graphkin.numbers.arithmetic import np
 from graphkin.numbers.plane import by_parts, cross
 
 SAME = 1e-9

@@ -2,10 +2,17 @@
 
 from __future__ import annotations
 
+from enum import Enum
 from math import isfinite, log, radians, sqrt
+from typing import Any
 
 from msgspec import Struct
 
+from graphkin.construction.core.kind import ByHand, construction
+from graphkin.construction.core.program import Plane, Step
+from graphkin.construction.higher_class.closure_solver import closer_of
+from graphkin.numbers.arithmetic import Point, Real, np, turn_by
+from graphkin.numbers.plane import Circle, Line, Ratio, Vector
 from graphkin.text.errors import Problem, SceneError
 
 POINT = 0.5
@@ -56,3 +63,97 @@ class Pencil(Struct, frozen=True):
     def turn(self) -> float:
         """Standard deviation of the direction of a line, in radians."""
         return radians(self.degrees) / STRAIGHT
+
+
+# --- what of a step is drawn ----------------------------------------------------------------------
+
+
+class PencilMark(Enum):
+    """The kinds of marks a hand makes, each with the number of its independent errors."""
+
+    POINT = "a point, pricked or crossed", 2
+    ARROW = "a point laid off from another, along a line that is not drawn by itself", 3
+    LINE = "a line through a point", 1
+    ARC = "an opening of the compass", 1
+    WAY = "a direction", 1
+    CLOSING = "the place where a locus closes a group", 1
+
+    def __init__(self, drawn: str, errors: int) -> None:
+        self.drawn, self.errors = drawn, errors
+
+
+def mark_of(step: Step, value: Any) -> PencilMark | None:
+    """The mark that a step puts on paper; None where it puts none, or only joins what is there."""
+    if closer_of(step) is not None:
+        return PencilMark.CLOSING
+    if step.plane is Plane.NUMBERS or isinstance(value, Vector):
+        return None
+    kind = construction(step)
+    by_hand = kind.pencil.get(step.role) if kind is not None else None
+    if by_hand is ByHand.KNOWN:
+        return None
+    if isinstance(value, Line):
+        return PencilMark.LINE
+    if isinstance(value, Circle):
+        return PencilMark.ARC
+    if isinstance(value, Ratio):
+        return PencilMark.POINT
+    if not isinstance(value, complex):
+        return None
+    if by_hand is ByHand.TURNED:
+        return PencilMark.WAY
+    return PencilMark.POINT if by_hand is None else PencilMark.ARROW
+
+
+class Paper(Struct, frozen=True):
+    """What a metre of paper stands for in each plan: m, m/s, m/s²."""
+
+    mechanism: float
+    velocities: float
+    accelerations: float
+
+    def millimetre(self, plane: Plane) -> float:
+        """What a millimetre stands for in a plane; numbers are drawn nowhere."""
+        match plane:
+            case Plane.VELOCITIES:
+                return self.velocities / 1000
+            case Plane.ACCELERATIONS:
+                return self.accelerations / 1000
+        return self.mechanism / 1000
+
+
+def marked(
+    mark: PencilMark, value: Any, start: Point, errors: Any, pencil: Pencil, mm: float
+) -> Any:
+    """A value as the pencil leaves it: ``errors`` are columns in standard deviations.
+
+    ``start`` is the point from which an arrow is laid off, ``mm`` what a millimetre stands for.
+    """
+    if mark is PencilMark.LINE:
+        return Line(value.point, value.along * turn_by(pencil.turn * errors[:, 0]))
+    if mark is PencilMark.WAY:
+        return value * turn_by(pencil.turn * errors[:, 0])
+    if mark is PencilMark.ARC:
+        radius = value.radius + pencil.mark * mm * errors[:, 0]
+        return Circle(value.centre, rounded(radius, pencil, mm))
+    shift = pencil.mark * mm * (errors[:, 0] + 1j * errors[:, 1])
+    if isinstance(value, Ratio):
+        return Ratio(value.start + shift, value.shift, value.size)
+    if mark is PencilMark.ARROW:
+        shift = shift + (value - start) * (turn_by(pencil.turn * errors[:, 2]) - 1)
+    return on_grid(value + shift, pencil, mm)
+
+
+def rounded(value: Real, pencil: Pencil, mm: float) -> Real:
+    """A length as a pencil with a grid leaves it."""
+    if not pencil.grid:
+        return value
+    step = pencil.grid * mm
+    return np.rint(value / step) * step
+
+
+def on_grid(point: Point, pencil: Pencil, mm: float) -> Point:
+    """A point as a pencil with a grid leaves it."""
+    if not pencil.grid:
+        return point
+    return rounded(point.real, pencil, mm) + 1j * rounded(point.imag, pencil, mm)

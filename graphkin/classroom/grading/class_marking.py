@@ -10,7 +10,7 @@ from msgspec import Struct, field
 from msgspec.structs import replace
 
 from graphkin.classroom.grading.class_standards import standards
-from graphkin.classroom.grading.copied_answers import wrong_variants
+from graphkin.classroom.grading.copied_answers import copies, wrong_variants
 from graphkin.classroom.grading.decisions import by_student, settled, with_decisions
 from graphkin.classroom.grading.graded import (
     WAITING,
@@ -22,7 +22,6 @@ from graphkin.classroom.grading.graded import (
     Status,
 )
 from graphkin.classroom.grading.marking import Marker
-from graphkin.classroom.grading.same_digits import copies
 from graphkin.classroom.grading.slips import Slip
 from graphkin.classroom.grading.standard import Expectation, standard
 from graphkin.classroom.lab.items import items

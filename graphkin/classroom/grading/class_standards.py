@@ -14,17 +14,15 @@ from typing import Any
 from msgspec.structs import replace
 
 from graphkin.accuracy.pencil.original import original
-from graphkin.accuracy.pencil.pencil import Pencil
-from graphkin.accuracy.pencil.pencil_marks import PencilMark
-from graphkin.classroom.grading.standard import FormLayout, Standard, layout
-from graphkin.classroom.grading.tolerance import pencil_errors
+from graphkin.accuracy.pencil.pencil import Pencil, PencilMark
+from graphkin.classroom.grading.standard import FormLayout, Standard, layout, pencil_errors
 from graphkin.classroom.lab.lab_model import Item, Rubric
 from graphkin.classroom.lab.variant_scales import Scaling, by_arrays, scaled
 from graphkin.construction.core.program import Program, Step
 from graphkin.documents.scaling import scales, the_crank
 from graphkin.drawing.scale import Scales
 from graphkin.mechanism import Mechanism
-from graphkin.numbers.arrays import np
+from graphkin.numbers.arithmetic import np
 from graphkin.scene.findings import Findings
 from graphkin.scene.model import Scene, quantities_within
 from graphkin.scene.parameters import set_values

@@ -2,21 +2,23 @@
 
 from __future__ import annotations
 
+import json
 import re
 from collections import defaultdict
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Collection, Iterable, Mapping, Sequence
 from fractions import Fraction
 from pathlib import Path
 
+import msgspec
 from msgspec import Struct
 from msgspec.structs import replace
 
 from graphkin.classroom.grading.graded import Decision, EarnedMark, Graded
-from graphkin.classroom.lab.asking import asked_of, worth
+from graphkin.classroom.lab.items import asked_of, worth
 from graphkin.classroom.lab.lab_model import Item, Rubric
 from graphkin.classroom.roster.read_roster import NAMES
-from graphkin.classroom.roster.sheet_rows import SheetRow
 from graphkin.classroom.roster.spreadsheets import (
+    SheetRow,
     Spreadsheet,
     TableProblems,
     columns,
@@ -26,7 +28,7 @@ from graphkin.classroom.roster.spreadsheets import (
 from graphkin.classroom.roster.student_signs import Signs
 from graphkin.classroom.roster.taker import Taker
 from graphkin.scene.findings import nearest, shown
-from graphkin.text.errors import InTable
+from graphkin.text.errors import InTable, Problem, SceneError
 
 DECISIONS = "decisions.csv"
 """The file of a report folder that holds them."""
@@ -185,3 +187,50 @@ def ruled(mark: EarnedMark, decision: Decision | None) -> EarnedMark:
     earned = mark.earned if decision.points is None else decision.points
     before = None if mark.waits else mark.earned
     return replace(mark, earned=earned, decision=replace(decision, before=before))
+
+
+# --- whose held marks a lecturer has released: kept beside the report, until taken back -----------
+
+
+RELEASED = "released.json"
+"""The file of a report folder that keeps the ids."""
+MOST = 1 << 20
+"""Bytes of it that are read."""
+
+
+class Releases(Struct, frozen=True):
+    """The ids of those whose marks are given, in the order of the class; ``earlier`` tells that
+    some run before this one kept a list."""
+
+    ids: tuple[str, ...] = ()
+    earlier: bool = False
+
+    def files(self) -> dict[str, bytes]:
+        """The file that keeps them; none where nobody was ever released."""
+        if not self.ids and not self.earlier:
+            return {}
+        return {RELEASED: (json.dumps(self.ids, ensure_ascii=False) + "\n").encode("utf-8")}
+
+
+def releases(
+    report: Path, students: Sequence[str], released: Collection[str], held: Collection[str]
+) -> Releases:
+    """Those released before and now, without those who are held again.
+
+    Raises SceneError for a file that keeps no list of ids.
+    """
+    path = report / RELEASED
+    earlier = path.is_file()
+    every = {*(kept(path) if earlier else ()), *released}.difference(held)
+    return Releases(tuple(who for who in students if who in every), earlier)
+
+
+def kept(path: Path) -> list[str]:
+    """The ids in a file."""
+    try:
+        with path.open("rb") as file:
+            return msgspec.json.decode(file.read(MOST), type=list[str])
+    except (OSError, msgspec.MsgspecError, UnicodeDecodeError, RecursionError):
+        hint = "remove it, and release again whom you decide to"
+        problem = Problem(str(path), "is no list of ids", '["0042", "0057"]', hint)
+        raise SceneError(problem) from None

@@ -6,18 +6,36 @@ separators and ends of lines included, so that order, language, ids and unknown 
 
 from __future__ import annotations
 
+import io
 import re
+import zipfile
 from collections import Counter
 from collections.abc import Callable, Collection, Iterator, Mapping, Sequence
+from copy import copy
 from fractions import Fraction
+from pathlib import Path
+from typing import NoReturn
+from xml.parsers.expat import ExpatError, ParserCreate
 
 from msgspec import Struct
+from openpyxl.utils import column_index_from_string, get_column_letter
 
 from graphkin.classroom.roster.read_roster import NAMES, POSSIBLE
-from graphkin.classroom.roster.spreadsheets import folded
+from graphkin.classroom.roster.spreadsheets import (
+    MOST_CELLS,
+    bytes_of,
+    cell_text,
+    folded,
+    full_rows,
+    open_sheet,
+    opened,
+    separator_of,
+    too_large,
+    unreadable,
+)
 from graphkin.classroom.roster.student_signs import EMAIL, Match, Signs
 from graphkin.classroom.roster.student_signs import signs as signs_of
-from graphkin.text.errors import GraphkinError, Problem
+from graphkin.text.errors import GraphkinError, Problem, RosterError
 
 COMMA = re.compile(r"[0-9]+,[0-9]+")
 POINT = re.compile(r"[0-9]+\.[0-9]+")
@@ -330,3 +348,278 @@ def with_mark(row: tuple[Cell, ...], column: int, text: str, separator: str) -> 
     quoted = cells[column].raw.strip().startswith('"') or separator in text
     cells[column] = Cell(f'"{text}"' if quoted else text, text)
     return tuple(cells)
+
+
+# --- A gradebook export as CSV --------------------------------------------------------------------
+
+
+BOMS = {b"\xef\xbb\xbf": "utf-8-sig", b"\xff\xfe": "utf-16-le", b"\xfe\xff": "utf-16-be"}
+
+
+def read_gradebook(path: Path) -> Gradebook:
+    """An export as it stands, CSV or XLSX. Raises GradebookError where it is no table."""
+    data = bytes_of(path)
+    if data.startswith(START):
+        return read_workbook(data, path.name)
+    bom = next((mark for mark in BOMS if data.startswith(mark)), b"")
+    coding = BOMS.get(bom, "utf-8").removesuffix("-sig")
+    try:
+        text = data[len(bom) :].decode(coding)
+    except UnicodeDecodeError:
+        text, coding = data.decode("cp1250", "surrogateescape"), "cp1250"
+    separator = separator_of(text)
+    rows, ends = split(text, separator, path.name)
+    if len(rows) < 2:
+        raise GradebookError(Problem(path.name, "has no row below its head", "a gradebook"))
+    return CsvGradebook(path.name, rows, ends, separator, coding, bom)
+
+
+def split(
+    text: str, separator: str, name: str
+) -> tuple[tuple[tuple[Cell, ...], ...], tuple[str, ...]]:
+    """The rows of cells of a text with their line ends; quotes and blanks stay as they are.
+
+    Raises GradebookError for a quote that is never closed, or as soon as there are too many cells.
+    """
+    piece = re.compile(
+        rf'([^\S\r\n{separator}]*+"[^"]*+(?:""[^"]*+)*+"|)([^\r\n{separator}]*+)'
+        rf"({separator}|\r\n|\r|\n|\Z)"
+    )
+    rows: list[tuple[Cell, ...]] = []
+    ends: list[str] = []
+    row: list[Cell] = []
+    for count, found in enumerate(piece.finditer(text), 1):
+        quoted, rest, end = found.groups("")
+        if count > MOST_CELLS:
+            raise GradebookError(too_large(name, f"more than {MOST_CELLS} cells").problems)
+        if not quoted and rest.lstrip().startswith('"'):
+            place = f"{name}, row {len(rows) + 1}"
+            raise GradebookError(
+                Problem(place, "a quote that is opened and never closed", 'a closing "')
+            )
+        if end or row or quoted or rest:
+            row.append(cell(quoted + rest))
+        if end != separator and row:
+            rows.append(tuple(row))
+            ends.append(end)
+            row = []
+        if not end:
+            break
+    return tuple(rows), tuple(ends)
+
+
+def cell(raw: str) -> Cell:
+    """A cell from its characters."""
+    bare = raw.strip()
+    if len(bare) >= 2 and bare[0] == bare[-1] == '"':
+        return Cell(raw, bare[1:-1].replace('""', '"').strip())
+    return Cell(raw, bare)
+
+
+START = b"PK\x03\x04"
+"""The first bytes of an XLSX, which is a ZIP file."""
+WORKBOOK = re.compile(r"xl/workbook[0-9]*\.xml")
+"""The part of the file that says how formulas are computed."""
+
+
+class Workbook(Gradebook, frozen=True):
+    """An export as XLSX: its file, and the cells of the sheet that was open last.
+
+    A row that holds nothing has no cells. ``formulas`` are the places of formulas, by line and
+    column from 0; ``sheet`` and ``sheets`` the parts of the file that hold this and all sheets.
+    """
+
+    data: bytes
+    formulas: frozenset[tuple[int, int]]
+    sheet: str
+    sheets: tuple[str, ...]
+
+    def filled(self, column: int, marks: Mapping[int, Fraction]) -> bytes:
+        """Its bytes with the marks. Raises GradebookError where they would replace formulas."""
+        wrong = [line for line in marks if (line, column) in self.formulas]
+        if wrong:
+            where = f"{self.name}, row {wrong[0] + 1}"
+            text = f'"{self.rows[0][column].text}" holds a formula'
+            hint = "name another one with --column"
+            raise GradebookError(Problem(where, text, "a column for points", hint))
+        numbers = {
+            (line + 1, column + 1): mark_text(mark, comma=False) for line, mark in marks.items()
+        }
+        try:
+            return with_cells(self, numbers)
+        except (ExpatError, ValueError) as error:
+            raise GradebookError(unreadable(self.name).problems) from error
+
+
+def read_workbook(data: bytes, name: str) -> Workbook:
+    """An export as it stands. Raises GradebookError where it is no table."""
+    rows: list[tuple[Cell, ...]] = []
+    formulas: set[tuple[int, int]] = set()
+    try:
+        with opened(data, name, data_only=False) as book:
+            sheet = open_sheet(book)
+            for number, cells in full_rows(sheet, name):
+                rows += [()] * (number - 1 - len(rows))
+                formulas |= {(len(rows), i) for i, c in enumerate(cells) if c.data_type == "f"}
+                rows.append(tuple(Cell(text, text.strip()) for text in map(cell_text, cells)))
+            parts = tuple(each._worksheet_path for each in book.worksheets)
+            part = sheet._worksheet_path
+    except RosterError as error:
+        raise GradebookError(error.problems) from error
+    if not rows or not rows[0]:
+        raise GradebookError(Problem(name, "has nothing in its first row", "the names of columns"))
+    if len(rows) < 2:
+        raise GradebookError(Problem(name, "has no row below its head", "a gradebook"))
+    return Workbook(name, tuple(rows), data, frozenset(formulas), part, parts)
+
+
+def with_cells(book: Workbook, numbers: Mapping[tuple[int, int], str]) -> bytes:
+    """The file with numbers in cells of its sheet; all parts that need not change are copied."""
+
+    found = io.BytesIO()
+    with zipfile.ZipFile(io.BytesIO(book.data)) as packed, zipfile.ZipFile(found, "w") as again:
+        changed: dict[str, bytes] = {}
+        for name in book.sheets if numbers else ():
+            xml = packed.read(name)
+            new = with_numbers(xml, numbers if name == book.sheet else {})
+            changed |= {name: new} if new != xml else {}
+        if changed.keys() - {book.sheet} or (changed and book.formulas):
+            main = filter(WORKBOOK.fullmatch, packed.namelist())
+            changed |= {name: computed_anew(packed.read(name)) for name in main}
+        for part in packed.infolist():
+            content = packed.read(part)
+            again.writestr(copy(part), changed.get(part.filename, content), part.compress_type)
+    return found.getvalue()
+
+
+# --- the XML of a workbook with other numbers in some cells; every other byte stays as it is ------
+
+
+ROW = ["worksheet", "sheetData", "row"]
+CELL = [*ROW, "c"]
+FORMULA, VALUE = [*CELL, "f"], [*CELL, "v"]
+PLACE = re.compile(r"([A-Z]+)[0-9]+")
+TYPE = re.compile(rb"""\st\s*=\s*("[^"]*"|'[^']*')""")
+COMPUTES = re.compile(rb"<([\w.-]+:)?calcPr\b[^>]*>")
+FULL_CALCULATION = re.compile(rb"""\sfullCalcOnLoad\s*=\s*("[^"]*"|'[^']*')""")
+BEFORE = re.compile(rb"</([\w.-]+:)?(?:sheets|functionGroups|externalReferences|definedNames)\s*>")
+"""The ends of elements behind which a workbook says how it computes."""
+
+
+def with_numbers(xml: bytes, numbers: Mapping[tuple[int, int], str]) -> bytes:
+    """A worksheet with numbers in cells, by row and column from 1; results of formulas left out.
+
+    Every row of a number holds some cell already. Raises ExpatError or ValueError where the bytes
+    are no worksheet that can be changed.
+    """
+    if b"\0" in xml:
+        raise ValueError("not UTF-8")
+    return Worksheet(xml, numbers).changed()
+
+
+class Worksheet:
+    """A worksheet while it is read: where in it what is to stand instead of what."""
+
+    def __init__(self, xml: bytes, numbers: Mapping[tuple[int, int], str]) -> None:
+        self.xml = xml
+        self.rows: dict[int, dict[int, str]] = {}
+        for (row, column), number in sorted(numbers.items()):
+            self.rows.setdefault(row, {})[column] = number
+        self.pieces: list[tuple[int, int, bytes]] = []
+        self.path: list[str] = []
+        self.row = self.column = 0
+        self.tag = self.style = ""
+        self.begin = 0
+        self.formula = False
+        self.value: tuple[int, int] | None = None
+        self.parser = ParserCreate()
+        self.parser.StartElementHandler = self.start
+        self.parser.EndElementHandler = self.end
+        self.parser.StartDoctypeDeclHandler = refuse
+
+    def changed(self) -> bytes:
+        """The bytes with everything in its place."""
+        self.parser.Parse(self.xml, True)
+        found, at = [], 0
+        for begin, end, new in self.pieces:
+            found += [self.xml[at:begin], new]
+            at = end
+        return b"".join([*found, self.xml[at:]])
+
+    def start(self, name: str, attributes: dict[str, str]) -> None:
+        """An element begins."""
+        self.path.append(name.rpartition(":")[2])
+        here = self.parser.CurrentByteIndex
+        if self.path == ROW:
+            self.row = int(attributes.get("r", self.row + 1))
+            self.column = 0
+        elif self.path == CELL:
+            place = PLACE.fullmatch(attributes.get("r", ""))
+            self.column = column_index_from_string(place[1]) if place else self.column + 1
+            self.insert(here, self.column)
+            self.tag, self.style, self.begin = name, attributes.get("s", ""), here
+            self.formula, self.value = False, None
+        elif self.path == FORMULA:
+            self.formula = True
+        elif self.path == VALUE:
+            self.value = (here, here)
+
+    def end(self, name: str) -> None:
+        """An element ends."""
+        here = self.parser.CurrentByteIndex
+        if self.path == VALUE and self.value is not None:
+            self.value = (self.value[0], self.behind(name, here))
+        elif self.path == CELL:
+            number = self.rows.get(self.row, {}).pop(self.column, None)
+            if number is not None:
+                whole = self.cell(self.column, number, self.style)
+                self.pieces.append((self.begin, self.behind(name, here), whole))
+            elif self.formula and self.value is not None:
+                inner = self.xml.index(b">", self.begin) + 1
+                tag = TYPE.sub(b"", self.xml[self.begin : inner])
+                self.pieces += [(self.begin, inner, tag), (*self.value, b"")]
+        elif self.path == ROW:
+            self.insert(here)
+        self.path.pop()
+
+    def insert(self, here: int, column: int | None = None) -> None:
+        """Put the numbers of a row whose cells are missing before a column, or at its end."""
+        waiting = self.rows.get(self.row, {})
+        for each in [each for each in waiting if column is None or each < column]:
+            self.pieces.append((here, here, self.cell(each, waiting.pop(each))))
+
+    def cell(self, column: int, number: str, style: str = "") -> bytes:
+        """A cell with a number; its format is kept."""
+        prefix = self.tag[:-1]
+        form = f' s="{style}"' if style else ""
+        place = f"{get_column_letter(column)}{self.row}"
+        return (
+            f'<{self.tag} r="{place}"{form}><{prefix}v>{number}</{prefix}v></{self.tag}>'.encode()
+        )
+
+    def behind(self, name: str, here: int) -> int:
+        """The place behind an element that ends: behind its tag, unless that is the first as well.
+
+        For an element of one tag the parser has passed it already.
+        """
+        tag = f"</{name}".encode()
+        ends = self.xml.startswith(tag, here) and self.xml[here + len(tag)] in b"> \t\r\n"
+        return self.xml.index(b">", here) + 1 if ends else here
+
+
+def refuse(*_: object) -> NoReturn:
+    """No worksheet has declarations, in which places would not be those of the file."""
+    raise ValueError("a document type")
+
+
+def computed_anew(xml: bytes) -> bytes:
+    """The XML of a workbook that tells whoever opens it to compute all formulas."""
+    found = COMPUTES.search(xml)
+    if found:
+        name = (found[1] or b"") + b"calcPr"
+        tag = FULL_CALCULATION.sub(b"", found[0])
+        tag = tag.replace(b"<" + name, b"<" + name + b' fullCalcOnLoad="1"', 1)
+        return xml[: found.start()] + tag + xml[found.end() :]
+    *_, last = BEFORE.finditer(xml)
+    tag = b"<" + (last[1] or b"") + b'calcPr fullCalcOnLoad="1"/>'
+    return xml[: last.end()] + tag + xml[last.end() :]

@@ -2,29 +2,198 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+import csv
+import io
+from collections import defaultdict
+from collections.abc import Iterable, Mapping, Sequence
 from fractions import Fraction
 from pathlib import Path
+from typing import Any
 
 from msgspec import Struct, field
 
-from graphkin.classroom.grading.answers import Unread
+from graphkin.classroom.grading.answers import Sender, Unread, packed_feedback
 from graphkin.classroom.grading.class_report import class_report
 from graphkin.classroom.grading.feedback import feedback_html, feedback_pages
-from graphkin.classroom.grading.graded import Graded, Result
-from graphkin.classroom.grading.marks_tables import (
-    differences,
-    differences_table,
-    marks_table,
-    tolerances_table,
-)
-from graphkin.classroom.grading.submissions import Sender, packed_feedback
+from graphkin.classroom.grading.graded import Decision, Graded, Result, Status
+from graphkin.classroom.grading.standard import Expectation
 from graphkin.classroom.lab.lab_model import Lab
 from graphkin.classroom.printing.file_names import stems
+from graphkin.classroom.roster.spreadsheets import csv_text
 from graphkin.scene.model import Scene
 from graphkin.text import Words, words
 from graphkin.text.errors import Refusals
 from graphkin.writers.pdf import write_pdf
+
+BEFORE = (
+    *("row", "number", "id", "name", "group", "points", "of", "percent", "pending", "evidence"),
+    "decision",
+)
+WHY = " why"
+FIRST = 5
+"""Changes that a terminal shows."""
+
+
+def number(value: Fraction | float) -> str:
+    """A number in a cell: a point, four places at most."""
+    text = f"{float(value):.4f}".rstrip("0").rstrip(".")
+    return "0" if text in ("-0", "") else text
+
+
+def csv_bytes(lines: Iterable[Sequence[object]]) -> bytes:
+    """Rows as CSV in UTF-8, with a mark at the beginning by which spreadsheets know that."""
+    return ("\ufeff" + csv_text(lines)).encode("utf-8")
+
+
+def marks_table(result: Result) -> bytes:
+    """A row for each student in the order of the class: points of each field, and why.
+
+    ``of`` and ``percent`` are of the points that are decided; ``pending`` are those that wait;
+    ``evidence`` names whose data the answers fit better than the own, and who has the same values;
+    points and percent of who is held are empty, those of each field stay for the decision;
+    ``decision`` is the lecturer's on the whole form, those on fields stand with their reasons.
+    """
+    graded = result.graded
+    fits: dict[str, list[str]] = defaultdict(list)
+    for each in result.wrong_variants:
+        fits[each.students[0]].append(f"fits {each.students[1]}")
+    for each in result.copies:
+        for who in each.students:
+            fits[who] += [f"same as {other}" for other in each.students if other != who]
+    fields = [mark.item.field for mark in graded[0].marks if mark.points] if graded else []
+    head = [*BEFORE, *fields, *(f"{name}{WHY}" for name in fields)]
+    return csv_bytes([head, *(marks_row(each, fields, fits) for each in graded)])
+
+
+def marks_row(graded: Graded, fields: Sequence[str], fits: Mapping[str, list[str]]) -> list[str]:
+    """One student's row; the points of an answer that waits for a decision stay empty."""
+    student = graded.taker.student
+    marks = {mark.item.field: mark for mark in graded.marks}
+    share = None if graded.held else graded.share
+    told = {name for name in fields if graded.present or marks[name].decision is not None}
+    return [
+        str(student.row),
+        "" if student.number is None else str(student.number),
+        student.id,
+        student.name,
+        student.group,
+        number(graded.earned) if graded.is_marked and not graded.held else "",
+        number(graded.decided),
+        f"{float(100 * share):.1f}" if share is not None else "",
+        number(graded.pending) if graded.pending else "",
+        "; ".join([*fits.get(student.id, ()), *(["held"] if graded.held else [])]),
+        ruling(graded.decision) if graded.decision is not None else "",
+        *(
+            number(marks[name].earned) if name in told and not marks[name].waits else ""
+            for name in fields
+        ),
+        *(reason(graded, name) if name in told else "" for name in fields),
+    ]
+
+
+def ruling(decision: Decision) -> str:
+    """What the lecturer decided, in plain words: decided, was 0: why; stands: why; asked: why."""
+    if decision.is_open:
+        return f"asked: {decision.reason}"
+    if decision.points is None:
+        return f"stands: {decision.reason}"
+    before = "open" if decision.before is None else number(decision.before)
+    return f"decided, was {before}: {decision.reason}"
+
+
+def reason(graded: Graded, name: str) -> str:
+    """What was found of a field, in plain words: right, right from v_BA, follows v_BA_mm, slip
+    rpm_as_rad, slip rpm_as_rad paid at v_D.
+    """
+    mark = graded.mark(name)
+    source, paid = mark.source, ""
+    if mark.status is Status.RIGHT and source:
+        source = f"from {source}"
+    if mark.status is Status.SLIP and source:
+        source, paid = "", f"paid at {source}"
+    torn = "contradicts its sign" if mark.torn else ""
+    parts = (mark.status.value, source, mark.slip, paid, torn)
+    found = " ".join(part for part in parts if part)
+    return found if mark.decision is None else f"{found}; {ruling(mark.decision)}"
+
+
+def tolerances_table(graded: Sequence[Graded], expected: Sequence[Expectation]) -> bytes:
+    """For each student and field the key, its tolerance, and of what that is made."""
+    head = ("id", "field", "unit", "key", "tolerance", "percent", "pencil", "ruler", "unsure")
+    lines: list[Sequence[str]] = [head]
+    for each, form in zip(graded, expected, strict=True):
+        who = each.taker.student.id
+        for name, allowed in form.tolerance.items():
+            key, item = form.key[name], form.item[name]
+            share = 100 * allowed.value / abs(key) if key and item.what != "place" else None
+            amounts = (allowed.value, allowed.pencil, allowed.ruler)
+            value, pencil, ruler = (f"{amount:.4g}" for amount in amounts)
+            lines.append(
+                (
+                    who,
+                    name,
+                    item.unit,
+                    f"{key:.6g}",
+                    value,
+                    "" if share is None else f"{share:.2f}",
+                    pencil,
+                    ruler,
+                    "unsure" if allowed.unsure else "",
+                )
+            )
+    return csv_bytes(lines)
+
+
+def read_marks(data: bytes) -> dict[str, dict[str, str]]:
+    """The cells of a marks.csv by student and column; nothing where it is none."""
+    rows = list(csv.reader(io.StringIO(data.decode("utf-8-sig", "replace"), newline="")))
+    if not rows or "id" not in rows[0]:
+        return {}
+    where = rows[0].index("id")
+    return {
+        row[where]: dict(zip(rows[0], row, strict=False)) for row in rows[1:] if len(row) > where
+    }
+
+
+def differences(before: bytes, after: bytes) -> list[tuple[str, str, str, str]]:
+    """What a new marking changed: student, column, before, after."""
+    old, new = read_marks(before), read_marks(after)
+    found: list[tuple[str, str, str, str]] = []
+    for who in dict.fromkeys((*old, *new)):
+        found += changed(who, old.get(who, {}), new.get(who, {}))
+    return found
+
+
+def changed(
+    who: str, old: Mapping[str, str], new: Mapping[str, str]
+) -> Iterable[tuple[str, str, str, str]]:
+    """The cells of one student that are not the same; names and rows do not count."""
+    for column in dict.fromkeys((*old, *new)):
+        if column not in ("row", "name", "group") and old.get(column, "") != new.get(column, ""):
+            yield who, column, old.get(column, ""), new.get(column, "")
+
+
+def change_lines(table: bytes, words: Words) -> Iterable[str]:
+    """What a terminal shows of a difference list: how many students and cells, and the first."""
+    rows = list(csv.reader(io.StringIO(table.decode("utf-8-sig"), newline="")))[1:]
+    if not rows:
+        yield words("class.unchanged")
+        return
+    yield words("class.changes", count=len(rows), students=len({row[0] for row in rows}))
+    for who, column, before, after in rows[:FIRST]:
+        yield f"  {who}, {column}: {before or '–'} → {after or '–'}"
+    if len(rows) > FIRST:
+        yield f" {words('class.more', count=len(rows) - FIRST)}"
+
+
+def differences_table(found: Iterable[tuple[str, str, str, str]]) -> bytes:
+    """The difference list as CSV."""
+    lines: list[Any] = [("id", "column", "before", "after"), *found]
+    return csv_bytes(lines)
+
+
+# --- what grading writes: marks, tolerances, feedback for each student, the report on the class ---
+
 
 MARKS, TOLERANCES, REPORT, CHANGES = (
     "marks.csv",

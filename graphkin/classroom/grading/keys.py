@@ -18,7 +18,7 @@ from graphkin.classroom.grading.answer_numbers import NUMBER, rounding
 from graphkin.classroom.grading.graded import Answer, Graded
 from graphkin.classroom.grading.likelihood import Key
 from graphkin.classroom.grading.standard import Expectation
-from graphkin.numbers.arrays import np
+from graphkin.numbers.arithmetic import np
 
 COMPUTED = 0.005
 """Share by which a value may be off that is computed from a length as it was read."""

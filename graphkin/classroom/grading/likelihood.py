@@ -15,7 +15,7 @@ from msgspec import Struct
 
 from graphkin.classroom.grading.graded import SURE
 from graphkin.classroom.grading.slip_diagnosis import ASTRAY, HALF
-from graphkin.numbers.arrays import np
+from graphkin.numbers.arithmetic import np
 
 MISTAKES = 0.1
 """The share of answers that are mistakes."""

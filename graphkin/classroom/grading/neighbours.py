@@ -14,15 +14,13 @@ from msgspec import Struct
 
 from graphkin.classroom.grading.class_standards import standards
 from graphkin.classroom.grading.keys import Keys
-from graphkin.classroom.grading.marking import sense_is_open
-from graphkin.classroom.grading.one_drawing import is_one_drawing
+from graphkin.classroom.grading.marking import is_one_drawing, sense_is_open
 from graphkin.classroom.grading.standard import Standard
-from graphkin.classroom.lab.asking import worth
 from graphkin.classroom.lab.fairness import Fault
-from graphkin.classroom.lab.items import items
+from graphkin.classroom.lab.items import items, worth
 from graphkin.classroom.lab.lab_model import Lab
 from graphkin.classroom.lab.rules import exact_text
-from graphkin.numbers.arrays import np
+from graphkin.numbers.arithmetic import np
 
 Array = Any
 Asked = tuple[Mapping[str, Fraction], tuple[str, ...]]

@@ -2,12 +2,25 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
-from math import isnan, pi
+from collections.abc import Iterator, Mapping
+from math import degrees, isnan, pi
+from typing import Any
 
 from msgspec import Struct
+from msgspec.structs import replace
 
+from graphkin.accuracy.pencil.pencil import Paper
 from graphkin.classroom.grading.standard import Standard
+from graphkin.classroom.lab.items import motion_of
+from graphkin.construction.core.component import component_of
+from graphkin.construction.core.crossings import Determined
+from graphkin.construction.core.program import Plane
+from graphkin.construction.core.quantities import OMEGA, RATES
+from graphkin.construction.registry import COMPONENTS
+from graphkin.construction.velocity.turning_of_link import TurningOfLink
+from graphkin.numbers.arithmetic import turn_by
+from graphkin.scene.model import Driver
+from graphkin.structure.groups import Crank
 
 RATIOS = {
     "rpm_as_rad": 30 / pi,
@@ -45,3 +58,233 @@ def differs(standard: Standard, field: str, value: float) -> bool:
     if item.what == "sense":
         return value != 0 and value == -right
     return abs(item.off(value, right)) > standard.tolerance[field].value
+
+
+# --- slips of single fields: what a wrong scale, unit or formula makes of the right drawing -------
+
+
+OTHER = {"ν": "τ", "τ": "ν"}
+"""The component that is taken for another."""
+POWERS = (10.0, 100.0, 1000.0, 0.1, 0.01, 0.001)
+
+
+def of_fields(standard: Standard) -> Iterator[Slip]:
+    """What wrong scales, units and formulas make of single fields: one slip for each way in which
+    it can be made, with all fields in which it can be made so.
+    """
+    gathered: dict[tuple[str, str], dict[str, float]] = {}
+    for probe in standard.layout.probes:
+        field = probe.item.field
+        for name, way, value in of_field(standard, field):
+            if differs(standard, field, value):
+                gathered.setdefault((name, way), {})[field] = value
+    for (name, _), values in gathered.items():
+        yield Slip(name, False, values)
+
+
+Way = tuple[str, str, float]
+"""A slip of a field: its name, the way in which it is made, and what the field would be."""
+
+
+def of_field(standard: Standard, field: str) -> Iterator[Way]:
+    """The slips of one field."""
+    item, right = standard.by_field[field].item, standard.key[field]
+    if item.what == "sense":
+        if right:
+            yield "sense_reversed", "", -right
+        return
+    if item.what == "place":
+        yield from of_place(standard, field)
+        return
+    if item.what == "segment":
+        yield from of_segment(standard, field)
+    else:
+        is_rate = motion_of(item) in RATES
+        yield from of_rate(standard, field) if is_rate else of_vector(standard, field)
+        yield from of_unit(standard, field)
+    for power in POWERS:
+        yield "power_of_ten", f"{power:g}", right * power
+    yield from swapped(standard, field)
+
+
+def of_segment(standard: Standard, field: str) -> Iterator[Way]:
+    """A length that is not measured on paper: of the other plan's scale, or of the real thing."""
+    probe, paper = standard.by_field[field], standard.paper
+    own = paper.millimetre(probe.plane)
+    length = standard.key[field]
+    yield "scale_missing", "", length * own
+    yield "drawn_in_full", "", length * paper.mechanism
+
+
+def of_vector(standard: Standard, field: str) -> Iterator[Way]:
+    """A velocity or acceleration from the right segment by a wrong factor, or by none."""
+    probe, paper = standard.by_field[field], standard.paper
+    right = abs(standard.key[field])
+    length = right / paper.millimetre(probe.plane)
+    yield "scale_missing", "", length
+    scales = (paper.mechanism, paper.velocities, paper.accelerations)
+    for way, factor in zip(("lengths", "velocities", "accelerations"), scales, strict=True):
+        yield "wrong_scale", way, length * factor / 1000
+    yield "wrong_scale", "without lengths", right / paper.mechanism
+    yield "wrong_scale", "lengths twice", right * paper.mechanism
+
+
+def of_rate(standard: Standard, field: str) -> Iterator[Way]:
+    """A rate over a bar measured on paper, of the wrong vector, or in the wrong unit."""
+    right, number = abs(standard.key[field]), standard.by_field[field].step
+    yield "length_not_scaled", "", right * standard.paper.mechanism
+    yield "wrong_scale", "without lengths", right / standard.paper.mechanism
+    yield from rates_of(standard, number)
+    if standard.by_field[field].item.quantity == OMEGA:
+        yield "rate_in_degrees", "", degrees(right)
+        yield "rate_in_turns", "", right * 30 / pi
+
+
+def of_unit(standard: Standard, field: str) -> Iterator[Way]:
+    """A velocity or acceleration after a driver's speed in the wrong unit, only in this field.
+
+    Accelerations go with the square of the speed, or with the speed where only one factor is wrong.
+    """
+    right, plane = abs(standard.key[field]), standard.by_field[field].plane
+    for name, ratio in unit_ratios(standard).items():
+        yield name, "once", right * ratio
+        squared = plane is Plane.ACCELERATIONS
+        yield name, "squared", right * (ratio**2 if squared else ratio)
+
+
+def rates_of(standard: Standard, number: int) -> Iterator[Way]:
+    """Rates that are reckoned from another vector than the one that is square to the bar."""
+    step, values = standard.mechanism.program.steps[number], standard.exact.trace.values
+    if not isinstance(step.of, TurningOfLink):
+        return
+    p, q, tail, tip = (values[arg] for arg in step.args)
+    bar = abs(q - p)
+    if step.of.quantity == OMEGA:
+        yield "absolute_for_relative", "tip", abs(tip) / bar
+        yield "absolute_for_relative", "tail", abs(tail) / bar
+    else:
+        whole = (tip - tail) / (q - p)
+        yield "normal_for_tangential", "", abs(whole.real)
+        yield "whole_for_tangential", "", abs(whole)
+
+
+def of_place(standard: Standard, field: str) -> Iterator[Way]:
+    """A coordinate of the other axis, or counted the other way."""
+    item = standard.by_field[field].item
+    other = item.beside("place", "y" if item.axis == "x" else "x")
+    if other in standard.key:
+        yield "axes_swapped", "", standard.key[other]
+    yield "opposite", "", -standard.key[field]
+
+
+def swapped(standard: Standard, field: str) -> Iterator[Way]:
+    """The component along the bar in the place of that across it, and the other way round."""
+    item = standard.by_field[field].item
+    if item.vector is None or item.vector.sign not in OTHER:
+        return
+    other = replace(item.vector, sign=OTHER[item.vector.sign]).symbol
+    for each in standard.items:
+        if each.what == item.what and each.vector is not None and each.vector.symbol == other:
+            yield "swapped", "", standard.key[each.field]
+
+
+# --- slips of the whole construction --------------------------------------------------------------
+
+
+def constructions(standard: Standard) -> Iterator[Slip]:
+    """Slips after which everything is constructed rightly from something wrong."""
+    for name, told in (
+        *of_drivers(standard),
+        *of_cranks(standard),
+        *of_sides(standard),
+        *of_components(standard),
+    ):
+        changed = {field: value for field, value in told.items() if differs(standard, field, value)}
+        if changed:
+            yield Slip(name, True, changed)
+
+
+def of_drivers(standard: Standard) -> Iterator[tuple[str, dict[str, float]]]:
+    """A driver's speed in the wrong unit or sense, its angle misread, its acceleration left out."""
+    program, values = standard.mechanism.program, standard.exact.trace.values
+    every = list(zip(standard.mechanism.scene.drivers, program.drives, strict=True))
+    turning = [drive for driver, drive in every if driver.kind == "turn"]
+    known = [drive for drive in turning if drive.speed in values]
+    for name, ratio in unit_ratios(standard).items() if known else ():
+        faster = {drive.speed: values[drive.speed] * ratio for drive in known}
+        yield name, standard.told(faster, paper=scaled(standard, ratio))
+    if known:
+        yield "driver_reversed", standard.told({d.speed: -values[d.speed] for d in known})
+    placed = [drive for drive in turning if drive.position in values]
+    if placed:
+        yield (
+            "angle_clockwise",
+            standard.told({d.position: values[d.position].conjugate() for d in placed}),
+        )
+        yield "degrees_as_radians", standard.told(in_degrees(standard, every))
+    hastened = [d for _, d in every if values.get(d.acceleration)]
+    if hastened:
+        nothing = {drive.acceleration: 0.0 for drive in hastened}
+        yield "driver_acceleration_missing", standard.told(nothing)
+
+
+def scaled(standard: Standard, ratio: float) -> Paper:
+    """The scale factors that follow from a crank as many times faster: its plan stays the same.
+
+    Where no crank says them, they stay as the sheet states them.
+    """
+    paper = standard.paper
+    if not standard.scales.of_crank:
+        return paper
+    return Paper(paper.mechanism, paper.velocities * ratio, paper.accelerations * ratio**2)
+
+
+def in_degrees(standard: Standard, every: list[tuple[Driver, Any]]) -> dict[int, Any]:
+    """The directions of cranks whose angle in degrees was given to a cosine in radians."""
+    values = standard.mechanism.scene.values
+    found: dict[int, Any] = {}
+    for driver, drive in every:
+        if driver.kind == "turn" and standard.mechanism.scene.units.get("angle") == "deg":
+            angle = degrees(float(driver.position.si(values)))
+            found[drive.position] = turn_by(angle)
+            if drive.angle is not None:
+                found[drive.angle] = angle
+    return found
+
+
+def of_cranks(standard: Standard) -> Iterator[tuple[str, dict[str, float]]]:
+    """Cranks drawn twice as long, or half: a diameter for a radius."""
+    program, values = standard.mechanism.program, standard.exact.trace.values
+    from graphkin.construction.core.bases import crank_tip
+
+    tips: dict[int, tuple[Any, Any]] = {}
+    for group in standard.mechanism.groups:
+        tip = crank_tip(standard.mechanism.scene, group) if isinstance(group, Crank) else None
+        number = program.targets.get(("position", tip or ""), -1)
+        if isinstance(group, Crank) and number in values:
+            tips[number] = values[program.targets["position", group.pivot]], values[number]
+    for name, ratio in (("diameter_for_radius", 2.0), ("radius_for_diameter", 0.5)):
+        if tips:
+            longer = {n: pivot + ratio * (tip - pivot) for n, (pivot, tip) in tips.items()}
+            yield name, standard.told(longer)
+
+
+def of_sides(standard: Standard) -> Iterator[tuple[str, dict[str, float]]]:
+    """A pin drawn where the arcs meet on the other side."""
+    program = standard.mechanism.program
+    for number in standard.layout.needed:
+        step = program.steps[number]
+        mirrored = isinstance(step.of, Determined) and step.of.has_mirror
+        if mirrored and step.extra:
+            other = replace(step, extra=tuple(-sign for sign in step.extra))
+            steps = (*program.steps[:number], other, *program.steps[number + 1 :])
+            yield "other_side", standard.told({}, replace(program, steps=steps))
+
+
+def of_components(standard: Standard) -> Iterator[tuple[str, dict[str, float]]]:
+    """Components left out, or laid off the wrong way round."""
+    values, program = standard.exact.trace.values, standard.mechanism.program
+    for kind in reversed(COMPONENTS):
+        found = [n for n in standard.layout.needed if isinstance(component_of(program, n), kind)]
+        for name, times in kind.slips.items() if found else ():
+            yield name, standard.told({n: times * values[n] for n in found})

@@ -17,7 +17,7 @@ from typing import Annotated, Literal
 import msgspec
 from msgspec import Meta, Struct
 
-from graphkin.classroom.grading.marks_tables import csv_bytes
+from graphkin.classroom.grading.grading_files import csv_bytes
 from graphkin.scene.findings import visible
 from graphkin.text.errors import Problem, Refusals, RosterError
 

@@ -20,7 +20,7 @@ from graphkin.classroom.grading.neighbours import pencil_faults
 from graphkin.classroom.lab.fairness import Fairness, judged
 from graphkin.classroom.lab.lab_model import Lab, Range, ValueList
 from graphkin.classroom.lab.rules import Settings
-from graphkin.numbers.arrays import np
+from graphkin.numbers.arithmetic import np
 from graphkin.scene.model import Parameter, Scene
 from graphkin.scene.parameters import plain
 from graphkin.text.errors import Problem, SceneError

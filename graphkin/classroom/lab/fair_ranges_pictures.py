@@ -7,7 +7,7 @@ from itertools import combinations
 from typing import TYPE_CHECKING, Any
 
 from graphkin.classroom.lab.fair_ranges import FairRanges, Tried
-from graphkin.numbers.arrays import np
+from graphkin.numbers.arithmetic import np
 from graphkin.writers.plot_style import (
     COLOURS,
     FORMATS,

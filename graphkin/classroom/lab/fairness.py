@@ -8,31 +8,155 @@ sheet does not hold, or whose rays cross flatter than that, spoils nothing else:
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
-from functools import cached_property
+from functools import cached_property, reduce
 from typing import Any
 
 from msgspec import Struct, field
 from msgspec.structs import astuple
 
-from graphkin.classroom.lab.demands import (
-    crossing_angles,
-    ray_angles,
-    segment_lengths,
-    triangle_ratios,
-)
-from graphkin.classroom.lab.drawing_extents import VariantSheet, sketches
-from graphkin.classroom.lab.held_centres import held
-from graphkin.classroom.lab.items import items
+from graphkin.classroom.lab.items import arrow_steps, items
 from graphkin.classroom.lab.lab_model import Fair, Item, Lab
 from graphkin.classroom.lab.rules import Settings
-from graphkin.classroom.lab.variant_scales import scaling, taken
+from graphkin.classroom.lab.variant_scales import VariantSheet, scaling, sketches, taken
+from graphkin.construction.core.component import component_of
+from graphkin.construction.core.crossings import is_drawn, letter_of
+from graphkin.construction.core.drawn_scene import ENDLESS
+from graphkin.construction.core.layout import held_beside, room_below
+from graphkin.construction.core.paper_canvas import WITHIN
+from graphkin.construction.core.program import Part, Plane
+from graphkin.construction.core.quantities import BY_TARGET, RATES
 from graphkin.construction.core.solution import FAIR, LinkMotion, PointMotion, SlideMotion
 from graphkin.construction.registry import LIMITED
-from graphkin.drawing.scale import Scales
+from graphkin.drawing.field import AREA
+from graphkin.drawing.scale import Extent, Scales
 from graphkin.mechanism import Mechanism
-from graphkin.numbers.arrays import np
+from graphkin.numbers.arithmetic import larger, np
+from graphkin.numbers.plane import Ratio, Vector
 
 Array = Any
+
+
+def crossing_angles(sheet: VariantSheet) -> Iterator[tuple[str, Array]]:
+    """The angle in degrees at which lines cross for each point that answers hang on.
+
+    What only the hand's way of a plate or a triangle needs has another way, or its own limit.
+    """
+    program = sheet.trace.program
+    for number, sine in sheet.trace.margins.items():
+        step = program.steps[number]
+        if step.hand or step.part in (Part.CENTRE, Part.POLE) or not is_drawn(step, 1.0):
+            continue
+        angle = np.degrees(np.arcsin(np.clip(sine, 0.0, 1.0)))
+        yield letter_of(program, number) or f"step {number}", angle
+
+
+def segment_lengths(
+    sheet: VariantSheet, form: Sequence[Item], scale: Array
+) -> Iterator[tuple[str, Array]]:
+    """How long, in mm, the segment is that each field of the form is measured by, on its sheet."""
+    for item in form:
+        size = measured(sheet, item)
+        if size is not None:
+            yield item.field, 1000 * np.abs(size) / scale
+
+
+def measured(sheet: VariantSheet, item: Item) -> Array | None:
+    """The vector of a plan by which a field is measured; None where this sheet has none.
+
+    A rate is read by the relative velocity, or its tangential acceleration, over the bar.
+    """
+    trace, program = sheet.trace, sheet.trace.program
+    quantity = BY_TARGET.get(item.quantity)
+    twin = quantity is None or quantity.sort == "vector"
+    if item.what in ("sense", "place") or (item.what == "value" and twin):
+        return None
+    if quantity is None:
+        value = trace.values.get(arrow_steps(program).get(item.of, -1))
+        return value.tip - value.tail if isinstance(value, Vector) else None
+    number = program.targets.get((item.quantity, item.of), -1)
+    if number not in trace.values or sheet.kind != quantity.kind:
+        return None
+    if quantity not in RATES:
+        return trace.values[number]
+    args = program.steps[number].args
+    if len(args) != 4:
+        return None
+    return trace.values[number] * abs(trace.values[args[1]] - trace.values[args[0]])
+
+
+def triangle_ratios(sheet: VariantSheet) -> Iterator[tuple[str, Array]]:
+    """v/l of each triangle that is drawn for a component, at the sheet's scale."""
+    program, values = sheet.trace.program, sheet.trace.values
+    for number in values:
+        kind = component_of(program, number)
+        if kind is not None and not program.steps[number].hand and kind.read in values:
+            yield from kind.proportions(values, sheet.seconds)
+
+
+def ray_angles(sheet: VariantSheet, form: Sequence[Item]) -> Iterator[tuple[str, Array]]:
+    """The angle in degrees at which the rays to each centre or pole of the form cross."""
+    program, margins = sheet.trace.program, sheet.trace.margins
+    for item in form:
+        number = program.targets.get((item.quantity, item.of), -1)
+        if item.what != "place" or number not in sheet.trace.values:
+            continue
+        sine = margins.get(program.steps[number].by_hand or -1)
+        if sine is not None:
+            yield item.field, np.degrees(np.arcsin(np.clip(sine, 0.0, 1.0)))
+
+
+# --- centres and poles of many variants that their sheets hold ------------------------------------
+
+
+PARTS = {"velocity": Part.CENTRE, "acceleration": Part.POLE}
+
+
+def held(
+    sheets: Sequence[VariantSheet], sheet: VariantSheet, form: Sequence[Item], scales: Scales
+) -> Iterator[tuple[str, Array]]:
+    """Whether the mechanism's field holds each place of the form on a sheet; scales are arrays."""
+    asked = [item for item in form if item.what == "place"]
+    targets = sheet.trace.program.targets
+    places = {
+        item.field: sheet.trace.values[number]
+        for item in asked
+        if (number := targets.get((item.quantity, item.of), -1)) in sheet.trace.values
+        and sheet.trace.program.steps[number].part is PARTS[sheet.kind]
+    }
+    if not places:
+        return
+    mm = 1000 / scales.kL
+    plans = (each.plan_box.width * mm * scales.times(each.kind) for each in sheets)
+    box = reduce(Extent.joined, (each.mechanism_box for each in sheets))
+    poles = (place for each in sheets for place in poles_of(each))
+    field = held_beside(box, poles, mm, reduce(larger, plans))
+    left, bottom, right, top = field.box.sides
+    height, room = (top - bottom) * mm, AREA[3] - AREA[1]
+    lift = room_below(height) + height / 2 - room / 2
+    for name, value in places.items():
+        point = placed(sheet, value)
+        x = (point.real - (left + right) / 2) * mm
+        y = (point.imag - (bottom + top) / 2) * mm + lift
+        yield name, (abs(x) <= field.width / 2 - WITHIN) & (abs(y) <= room / 2 - WITHIN)
+
+
+def poles_of(sheet: VariantSheet) -> Iterator[Array]:
+    """The centres or poles on a sheet."""
+    for step, value in sheet.steps(Plane.MECHANISM):
+        if step.part is PARTS[sheet.kind] and isinstance(value, Ratio):
+            yield placed(sheet, value)
+
+
+def placed(sheet: VariantSheet, value: Ratio) -> Array:
+    """The point of a centre or pole; NaN at infinity, or as far away as makes no odds."""
+    with np.errstate(all="ignore"):
+        near = np.abs(value.size) * ENDLESS * sheet.reach > np.abs(value.shift)
+        return np.where(near, value.start + value.shift / value.size, np.nan + 0j)
+
+
+# --- how fair variants are to their students: a class as one batch, at the scales of its sheets ---
+
+
 BLOCK = 4096
 """Variants judged at once, so that memory stays small."""
 WORDS = {

@@ -9,7 +9,8 @@ a sense, J_3_x_mm a place on paper from the first fixed pivot, to the right and 
 from __future__ import annotations
 
 import re
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Collection, Iterable, Iterator, Mapping
+from fractions import Fraction
 
 from msgspec.structs import replace
 
@@ -185,3 +186,34 @@ def plain(name: str) -> str:
     """A name as part of a field: A@3 is A3 where the two cannot be mistaken, else A_3."""
     joined = lettered(name)
     return re.sub(r"\W+", "_", joined, flags=re.ASCII).strip("_") or "x"
+
+
+# --- what one student's form asks, and its worth: a segment that is too short is not measured -----
+
+
+def is_left_out(item: Item, points: Mapping[str, Fraction], compute: Collection[str]) -> bool:
+    """Whether only the value is asked of a vector: its segment is too short to be measured, and the
+    value, which is computed, is worth points of its own."""
+    left = item.what == "segment" and item.field in compute
+    return left and bool(points.get(item.beside("value")))
+
+
+def worth(item: Item, points: Mapping[str, Fraction], compute: Collection[str]) -> Fraction | None:
+    """The points of a field; a segment that is left out leaves its own to the value.
+
+    None where the rubric gives none at all.
+    """
+    if is_left_out(item, points, compute):
+        return None
+    own = points.get(item.field)
+    more = points.get(item.segment) if item.segment in compute else None
+    return own if more is None else (own or 0) + more
+
+
+def asked_of(
+    form: Iterable[Item], points: Mapping[str, Fraction], compute: Collection[str]
+) -> tuple[tuple[Item, ...], dict[str, Fraction]]:
+    """The fields that one student's form has, and the points of those that are worth any."""
+    items = tuple(item for item in form if not is_left_out(item, points, compute))
+    worths = {item.field: worth(item, points, compute) for item in items}
+    return items, {field: found for field, found in worths.items() if found is not None}

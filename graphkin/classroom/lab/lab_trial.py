@@ -13,7 +13,7 @@ from graphkin.classroom.lab.lab_model import Lab
 from graphkin.classroom.lab.rules import Settings, outside, settings
 from graphkin.classroom.roster.student import Student
 from graphkin.classroom.variants.assign import Assigned, assigned, held_against
-from graphkin.numbers.arrays import np
+from graphkin.numbers.arithmetic import np
 from graphkin.text.errors import Problem, SceneError
 
 TRIED = 1000

@@ -7,7 +7,6 @@ from collections.abc import Iterator, Mapping
 from pathlib import Path
 
 from graphkin.classroom.lab.fair_ranges import space_of
-from graphkin.classroom.lab.fair_ranges_words import variants_lines
 from graphkin.classroom.lab.items import (
     all_fields,
     arrow_items,
@@ -19,7 +18,7 @@ from graphkin.classroom.lab.items import (
     vector_items,
 )
 from graphkin.classroom.lab.lab_model import Item
-from graphkin.classroom.lab.proposed_ranges import COURSE
+from graphkin.classroom.lab.proposed_ranges import COURSE, variants_lines
 from graphkin.classroom.lab.slip_names import NAMES
 from graphkin.construction.core.plan_vector import PlanVector
 from graphkin.construction.core.quantities import CENTRES, RATES, SHEETS, TURNING, VECTORS

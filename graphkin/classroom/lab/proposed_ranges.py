@@ -2,17 +2,107 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+import re
+from collections.abc import Collection, Iterator, Mapping
+from fractions import Fraction
+from pathlib import Path
+from tempfile import TemporaryDirectory
 
 from msgspec import Struct
 from msgspec.structs import replace
 
 from graphkin.classroom.lab.fair_ranges import FairRanges
-from graphkin.classroom.lab.formula_mending import Mending, mended
+from graphkin.classroom.lab.fairness import judged
+from graphkin.classroom.lab.fairness_words import draw_words, limit_words
 from graphkin.classroom.lab.lab_model import Lab, LabRule, Range, ValueList
-from graphkin.classroom.lab.lab_trial import tried
+from graphkin.classroom.lab.lab_trial import LabTrial, tried
+from graphkin.classroom.lab.rules import exact_text
 from graphkin.classroom.roster.student import Student
 from graphkin.classroom.variants.assign import assigned
+from graphkin.scene.model import DRIVEN, JOINED
+from graphkin.text.errors import GraphkinError
+from graphkin.text.plain_table import labelled, table
+
+CHANGES = (1, 2, 3, 5, 8, 12)
+"""Changes in percent that are tried, the smallest first, up before down."""
+NUMBER = re.compile(r"(?<![\w.\"-])\d+(?:\.\d+)?(?![\w.])")
+SECTION = re.compile(r"\s*\[+\s*(\w+)")
+CHANGED = ("frame", "links", "drivers")
+"""The tables whose numbers are lengths, places and laws of the driver."""
+VALUE = re.compile(r"\s*(?:\{\s*value\s*=\s*)?[\d.]+")
+"""The value of a parameter as far as it is a plain number."""
+FIXED = re.compile(rf"\s*({'|'.join(('on', 'against', *DRIVEN, *JOINED))})\s*=")
+"""Keys whose numbers name links, or count teeth."""
+
+
+class Mending(Struct, frozen=True):
+    """A number of a scene in its line, from 1, and column, from 0, what it may become, and by how
+    many percent that differs."""
+
+    line: int
+    column: int
+    text: str
+    old: str
+    new: str
+    percent: float
+
+
+def mended(lab: Lab, outcome: LabTrial) -> Mending | None:
+    """The smallest change that is fair to all numbers that were tried; None where none was found.
+
+    One number is changed by some percent at a time, rounded to three digits.
+    """
+    text = lab.scene.read_text(encoding="utf-8")
+    with TemporaryDirectory() as folder:
+        path = Path(folder) / lab.scene.name
+        for change in CHANGES:
+            for mending, changed in candidates(text, change, lab.rule.settings):
+                path.write_text(changed, encoding="utf-8")
+                if is_fair(replace(lab, scene=path), outcome):
+                    return mending
+    return None
+
+
+def is_fair(lab: Lab, outcome: LabTrial) -> bool:
+    """Whether a scene is fair to all of the variants on which a lab was tried."""
+    try:
+        return bool(judged(lab, outcome.many).fair.all())
+    except GraphkinError:
+        return False
+
+
+def candidates(
+    text: str, change: float, given: Collection[str] = ()
+) -> Iterator[tuple[Mending, str]]:
+    """Every scene with one of its numbers larger or smaller by some percent; also of parameters
+    that are not ``given`` to each student the value that all have.
+    """
+    lines, section = text.split("\n"), ""
+    for row, line in enumerate(lines):
+        if found := SECTION.match(line):
+            section = found[1]
+        key, equals, value = line.partition("=")
+        shared = section == "parameters" and key.strip() not in given
+        if not (section in CHANGED or shared) or not equals or FIXED.match(line):
+            continue
+        stated = value.partition("#")[0]
+        if shared:
+            found = VALUE.match(stated)
+            stated = found[0] if found else ""
+        for number in NUMBER.finditer(stated):
+            for factor in (1 + change / 100, 1 - change / 100):
+                old, new = number[0], f"{float(number[0]) * factor:.3g}"
+                if float(new) == float(old):
+                    continue
+                start = len(key) + 1 + number.start()
+                changed = line[:start] + new + line[start + len(old) :]
+                percent = 100 * (float(new) / float(old) - 1)
+                mending = Mending(row + 1, start, line.partition("#")[0].strip(), old, new, percent)
+                yield mending, "\n".join([*lines[:row], changed, *lines[row + 1 :]])
+
+
+# --- what is proposed to a lab: ranges in which all is fair, and what mends a formula -------------
+
 
 CLASS = 60
 """Students of the class on which a proposal is tried."""
@@ -64,3 +154,91 @@ def formula_faults(lab: Lab) -> FormulaFaults:
         if not outcome.fairness.fair[i]
     }
     return FormulaFaults(unfair, mended(lab, outcome) if unfair else None)
+
+
+# --- what is said of the ranges in which a lab is fair, and the text to be put into lab.toml ------
+
+
+SHOWN = 6
+"""Limits that are listed."""
+NUMBERS = 12
+"""Numbers of which it is told why a formula is unfair to them."""
+
+
+def range_lines(lab: Lab, found: FairRanges) -> Iterator[str]:
+    """The whole report on where a lab is fair."""
+    tried = found.tried
+    draws = "all" if tried.complete else "draws"
+    told = (f"{name} {draw_words(values)}" for name, values in tried.space.items())
+    yield from labelled("tried", [f"{len(tried.places)} {draws} of {', '.join(told)}"])
+    if found.left_alone:
+        names = ", ".join(found.left_alone)
+        yield from labelled("left", [f"{names}: no min and max in the scene, so left as written"])
+    yield from labelled("limits", [limit_words(lab.fair)])
+    fair = [f"{100 * tried.share:.0f} %"]
+    if found.exact:
+        share = f"{100 * sum(found.exact) / len(found.exact):.0f} %"
+        fair.append(f"a pencil draws {share} of {len(found.exact)} of these exactly enough")
+    yield from labelled("fair", fair)
+    rows = [(limit, str(times)) for limit, times in tried.reasons()]
+    more = [f"and {len(rows) - SHOWN} more limits"] if rows[SHOWN:] else []
+    lines = [*table(("limit", "times"), rows[:SHOWN]), *more] if rows else ["none"]
+    yield from labelled("unfair", lines)
+    if tried.share < 1:
+        guilt = sorted(((tried.guilt(name), name) for name in tried.space), reverse=True)
+        shares = [f"{name} {100 * share:.0f} %" for share, name in guilt]
+        yield from labelled("decides", [f"{', '.join(shares)} of what is fair and what is not"])
+        for _, name in guilt:
+            yield from labelled(name[:9], value_lines(found, name))
+
+
+def value_lines(found: FairRanges, name: str) -> list[str]:
+    """The fair share by the values of a parameter."""
+    rows = []
+    for first, last, share, _ in found.tried.by_value(name):
+        ends = exact_text(first)
+        if last != first:
+            ends += f" to {exact_text(last)}"
+        rows.append((ends, f"{100 * share:.0f}", "#" * round(20 * share)))
+    return table(("value", "fair, %", ""), rows)
+
+
+def variants_lines(ranges: Mapping[str, Range | ValueList], course: str) -> list[str]:
+    """``[variants]`` that draws from some ranges."""
+    lines = ["[variants]", f'course = "{course}"', "[variants.draw]"]
+    return lines + [f"{name} = {listed_alone(values)}" for name, values in ranges.items()]
+
+
+def listed_alone(values: Range | ValueList) -> str:
+    """The same, a single value as a list of one: alone it is no rule to draw by."""
+    text = as_toml(values)
+    return f"[{text}]" if isinstance(values, Range) and len(values) == 1 else text
+
+
+def as_toml(values: Range | ValueList) -> str:
+    """A range, or a list of ranges and values, as lab.toml writes it."""
+    if isinstance(values, ValueList):
+        return f"[{', '.join(map(as_toml, values.parts))}]"
+    if len(values) == 1:
+        return number_text(values.least)
+    ends = {"min": values.least, "max": values.most, "step": values.step}
+    return f"{{ {', '.join(f'{key} = {number_text(end)}' for key, end in ends.items())} }}"
+
+
+def number_text(value: Fraction) -> str:
+    """An exact number as TOML: one that has no finite decimals in quotes."""
+    text = exact_text(value)
+    return f'"{text}"' if "/" in text else text
+
+
+def mending_lines(unfair: Mapping[str, str], mending: Mending | None) -> list[str]:
+    """Which numbers a formula is unfair to, why, and what one change would mend."""
+    if not unfair:
+        return ["the formula is fair to every number"]
+    lines = [f"number {number}: {why}" for number, why in [*unfair.items()][:NUMBERS]]
+    if len(unfair) > NUMBERS:
+        lines.append(f"and {len(unfair) - NUMBERS} numbers more, see graphkin check")
+    if mending is None:
+        return [*lines, "no change of one number of the scene by up to 12 % is fair to all"]
+    change = f"{mending.old} to {mending.new} ({mending.percent:+.1f} %)"
+    return [*lines, f"fair to all: scene.toml, line {mending.line}, {mending.text}: {change}"]

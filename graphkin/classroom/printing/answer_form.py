@@ -8,9 +8,9 @@ from math import ceil
 
 from graphkin.classroom.lab.items import motion_of
 from graphkin.classroom.lab.lab_model import Item
-from graphkin.classroom.printing.qr_code import SIDE, square
+from graphkin.classroom.printing.personal import SIDE, square
 from graphkin.construction.core.quantities import BY_TARGET
-from graphkin.drawing.areas import A4_AREA, A4_SIZE
+from graphkin.drawing.field import A4_AREA, A4_SIZE
 from graphkin.drawing.frame import page_frame
 from graphkin.drawing.marks import LineMark, Mark, Page, Text, box
 from graphkin.drawing.richtext import extent

@@ -14,9 +14,8 @@ from msgspec import Struct
 from msgspec.structs import replace
 
 from graphkin.classroom.lab.lab_model import Lab
-from graphkin.classroom.roster.csv_text import safe
 from graphkin.classroom.roster.language_names import HEADS
-from graphkin.classroom.roster.spreadsheets import columns, read_sheet
+from graphkin.classroom.roster.spreadsheets import columns, read_sheet, safe
 from graphkin.classroom.roster.student import Student
 from graphkin.classroom.roster.student_signs import EMAIL, Signs, signs
 from graphkin.classroom.roster.taker import Taker

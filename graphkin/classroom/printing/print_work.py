@@ -10,15 +10,13 @@ from threading import Lock
 from msgspec import Struct
 from msgspec.structs import replace
 
-from graphkin.classroom.lab.asking import asked_of
-from graphkin.classroom.lab.items import items
+from graphkin.classroom.lab.items import asked_of, items
 from graphkin.classroom.lab.lab_model import Item, Lab
 from graphkin.classroom.printing.answer_form import form, quantity_of, why
-from graphkin.classroom.printing.personal import Owner, owned, owned_pages, owner, signed
-from graphkin.classroom.printing.register_crosses import crossed
+from graphkin.classroom.printing.personal import Owner, crossed, owned, owned_pages, owner, signed
 from graphkin.classroom.roster.taker import Taker
 from graphkin.construction.core.drawn_scene import Drawing
-from graphkin.construction.core.parameter_words import parameters
+from graphkin.construction.core.given_data import parameters
 from graphkin.documents.calculation import calculation
 from graphkin.documents.scaling import sheet_motion
 from graphkin.documents.sheet import title_of

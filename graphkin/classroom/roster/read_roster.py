@@ -13,8 +13,8 @@ from pathlib import Path
 from msgspec import Struct, field
 
 from graphkin.classroom.roster.language_names import HEADS as LANGUAGE
-from graphkin.classroom.roster.sheet_rows import SheetRow
 from graphkin.classroom.roster.spreadsheets import (
+    SheetRow,
     Spreadsheet,
     TableProblems,
     columns,

@@ -9,25 +9,59 @@ import csv
 import io
 import re
 import unicodedata
+import zipfile
 from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
+from contextlib import closing, contextmanager
+from datetime import date, datetime
 from itertools import chain, islice
 from pathlib import Path
+from typing import IO, Any
+from warnings import catch_warnings, simplefilter
 
 from msgspec import Struct
 from msgspec.structs import replace
 
-from graphkin.classroom.roster.sheet_rows import (
-    LAST_ROW,
-    LONGEST,
-    MOST_CELLS,
-    MOST_COLUMNS,
-    MOST_ROWS,
-    SheetRow,
-    too_large,
-)
 from graphkin.scene.file_limits import file_bytes
 from graphkin.scene.findings import Findings, near_file, visible
-from graphkin.text.errors import MOST, About, Change, Hint, InTable, Mend, Problem, RosterError
+from graphkin.text.errors import (
+    MOST,
+    About,
+    Change,
+    GraphkinError,
+    Hint,
+    InTable,
+    Mend,
+    Problem,
+    RosterError,
+)
+
+MOST_ROWS, MOST_COLUMNS, LONGEST = 200_000, 1000, 4000
+"""Rows that are not empty, columns, and characters of one cell."""
+MOST_CELLS, LAST_ROW = 2_000_000, 1 << 20
+"""Cells of a table, rows times columns; the last row that a spreadsheet has."""
+
+
+class SheetRow(Struct, frozen=True):
+    """One row: its line in the file, or its row in the sheet, and its cells by column.
+
+    ``numbers`` are the columns of cells that are numbers in the file, without zeros before them;
+    ``broken`` is the line at which the fault begins where the cells may be in wrong columns, or 0.
+    """
+
+    line: int
+    cells: tuple[str, ...]
+    numbers: frozenset[int] = frozenset()
+    broken: int = 0
+
+
+def too_large(name: str, found: str) -> RosterError:
+    """The error for a table beyond the limits, told as soon as it is found to be."""
+    expected = f"at most {MOST_ROWS} rows, {MOST_COLUMNS} columns, {MOST_CELLS} cells in all"
+    return RosterError(Problem(name, found, expected))
+
+
+# --- tables as spreadsheets write them ------------------------------------------------------------
+
 
 LARGEST = 16 * 1024 * 1024
 """Bytes of a table."""
@@ -169,8 +203,6 @@ def sheet_in(
         hint = "save it as .xlsx or as CSV UTF-8"
         raise RosterError(Problem(name, "is an old Excel file (.xls)", "CSV or XLSX", hint))
     if data.startswith(ZIP):
-        from graphkin.classroom.roster.xlsx import xlsx_rows
-
         rows, separator = list(xlsx_rows(data, name)), "\t"
     else:
         text = text_of(data, name)
@@ -422,3 +454,152 @@ def columns(sheet: Spreadsheet, names: Mapping[str, Sequence[str]]) -> dict[str,
         if place is not None:
             found[what] = place
     return found
+
+
+# --- the first sheet of an XLSX file as rows of texts, numbers as they would be typed -------------
+
+
+LARGEST_UNPACKED, MOST_ELEMENTS = 64 * 1024 * 1024, 1_000_000
+"""Bytes and XML elements of an XLSX unpacked; more is a bomb. A cell with a number has two."""
+BLOCK = 1 << 20
+PADDED = re.compile(r"0+")
+"""A number format that shows leading zeros: 0000."""
+
+
+def xlsx_rows(data: bytes, name: str) -> Iterator[SheetRow]:
+    """The rows of the sheet that was open last; leading zeros that its format shows are kept."""
+    with opened(data, name, data_only=True) as book:
+        for number, cells in full_rows(open_sheet(book), name):
+            bare = frozenset(i for i, cell in enumerate(cells) if is_bare(cell))
+            yield SheetRow(number, tuple(map(cell_text, cells)), bare)
+
+
+def open_sheet(book: Any) -> Any:
+    """The sheet that was open last."""
+    return book.active if book.active is not None else book.worksheets[0]
+
+
+def full_rows(sheet: Any, name: str) -> Iterator[tuple[int, Sequence[Any]]]:
+    """The rows of a sheet that hold something, each with its number, which counts from 1.
+
+    Cells are those as far as the last of the row. Raises RosterError as soon as there are too many.
+    """
+    sheet.reset_dimensions()  # what a file says of its size may be anything
+    count = 0
+    for number, cells in enumerate(sheet.iter_rows(), 1):
+        count += len(cells)
+        if number > LAST_ROW or count > MOST_CELLS:
+            raise too_large(name, f"{number} rows, and {count} cells as far as there")
+        if any(cell.value not in (None, "") for cell in cells):
+            yield number, cells
+
+
+@contextmanager
+def opened(data: bytes, name: str, *, data_only: bool) -> Iterator[Any]:
+    """The workbook, opened for reading row by row: values, or the formulas that give them.
+
+    Raises RosterError where openpyxl is missing, or the file is no workbook.
+    """
+    try:
+        from openpyxl import load_workbook
+    except ImportError:
+        hint = "or install it: pip install 'graphkin[class]'"
+        found = "is an XLSX file, and openpyxl, which reads those, is not installed"
+        raise RosterError(Problem(name, found, "the table saved as CSV UTF-8", hint)) from None
+    try:
+        refuse_bomb(data, name)
+        with catch_warnings():  # openpyxl names what it does not read: it is not written either
+            simplefilter("ignore")
+            book = load_workbook(
+                io.BytesIO(data), read_only=True, data_only=data_only, keep_links=False
+            )
+            with closing(book):
+                yield book
+    except GraphkinError:
+        raise
+    except Exception as error:
+        raise unreadable(name) from error
+
+
+def refuse_bomb(data: bytes, name: str) -> None:
+    """Raise RosterError where a file is far larger unpacked; BadZipFile where it is no ZIP."""
+    expected = f"at most {LARGEST_UNPACKED >> 20} MiB and {MOST_ELEMENTS} XML elements"
+    with zipfile.ZipFile(io.BytesIO(data)) as packed:
+        size = sum(part.file_size for part in packed.infolist())
+        if size > LARGEST_UNPACKED:
+            raise RosterError(Problem(name, "is far larger unpacked", expected))
+        elements = sum(map(elements_of, map(packed.open, packed.infolist())))
+    if elements > MOST_ELEMENTS:
+        raise RosterError(Problem(name, f"holds about {elements} XML elements", expected))
+
+
+def elements_of(part: IO[bytes]) -> int:
+    """About how many elements a part has, if it is XML: its tags that close none."""
+    blocks = iter(lambda: part.read(BLOCK), b"")
+    return sum(block.count(b"<") - block.count(b"</") for block in blocks)
+
+
+def unreadable(name: str) -> RosterError:
+    """The error for a file that is no workbook."""
+    hint = "open it in a spreadsheet and save it again, or as CSV UTF-8"
+    return RosterError(Problem(name, "cannot be read as XLSX", "a workbook", hint))
+
+
+def is_bare(cell: Any) -> bool:
+    """Whether a cell is a number that shows no zeros before it: 0041 would be 41."""
+    number = isinstance(cell.value, int | float) and not isinstance(cell.value, bool)
+    return number and not PADDED.fullmatch(getattr(cell, "number_format", "") or "")
+
+
+def cell_text(cell: Any) -> str:
+    """A cell as it would be typed: whole numbers without a point, zeros before them as shown."""
+    value = cell.value
+    if value is None:
+        return ""
+    if isinstance(value, bool):
+        return str(value).upper()
+    if isinstance(value, float) and value.is_integer() and abs(value) < 1e15:
+        value = int(value)
+    if isinstance(value, int):
+        shown = getattr(cell, "number_format", "") or ""
+        zeros = len(shown) if PADDED.fullmatch(shown) else 0
+        return f"{value:0{zeros}d}" if zeros else str(value)
+    if isinstance(value, datetime | date):
+        return value.isoformat()
+    return repr(value) if isinstance(value, float) else str(value)
+
+
+# --- tables as they are written -------------------------------------------------------------------
+
+
+NUMBER = re.compile(r"[+-]?(?:\d+(?:[.,]\d*)?|[.,]\d+)(?:[eE][+-]?\d+)?", re.ASCII)
+RUNS = re.compile(r"""^(?=\s*[=+\-@＝＋－＠]|[\t\r\n])|([;\t\r\n][\s"]*)(?=[=+\-@＝＋－＠])""")
+"""Where a spreadsheet takes what follows for a formula: at the beginning of a text, and behind what
+ends a cell for one that expects semicolons or tabs between cells.
+"""
+QUOTED = re.compile(r'[",;\t\r\n]')
+"""What a cell in quotes holds: signs at which some spreadsheet ends a cell."""
+
+
+def safe(cell: object) -> str:
+    """A cell that no spreadsheet runs: in a text, what looks like a formula gets a ' before it.
+
+    What is a number stays one, -5 too.
+    """
+    text = str(cell)
+    if not isinstance(cell, str) or NUMBER.fullmatch(text):
+        return text
+    return RUNS.sub(r"\1'", text)
+
+
+def csv_text(rows: Iterable[Sequence[object]]) -> str:
+    """The text of a CSV file, a line for each row; None is an empty cell."""
+    return "".join(
+        ",".join("" if cell is None else quoted(safe(cell)) for cell in row) + "\r\n"
+        for row in rows
+    )
+
+
+def quoted(text: str) -> str:
+    """A cell in quotes where it must be."""
+    return '"' + text.replace('"', '""') + '"' if QUOTED.search(text) else text

@@ -21,7 +21,7 @@ from graphkin.classroom.lab.lab_model import Lab
 from graphkin.classroom.lab.rules import Settings, settings
 from graphkin.classroom.roster.read_roster import Check
 from graphkin.classroom.roster.student import Student
-from graphkin.numbers.arrays import np
+from graphkin.numbers.arithmetic import np
 from graphkin.scene.parameters import misfit, range_words
 from graphkin.scene.quantity import shortest
 from graphkin.text.errors import Problem, RosterError, problems_of

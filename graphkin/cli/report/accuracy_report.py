@@ -7,12 +7,10 @@ import io
 from collections.abc import Iterator
 from math import isinf
 
-from graphkin.accuracy.agreement import DOUBLE, Agreement
-from graphkin.accuracy.compared_answers import BITS
-from graphkin.accuracy.flattening import Flattening
-from graphkin.accuracy.machine import machine_words
+from graphkin.accuracy.comparison import BITS
+from graphkin.accuracy.effort import machine_words
 from graphkin.accuracy.methods import MethodRow
-from graphkin.accuracy.study import Study
+from graphkin.accuracy.study import DOUBLE, Agreement, Flattening, Study
 from graphkin.construction.core.timing import Timing
 from graphkin.numbers.kinds import GUARD
 from graphkin.scene.quantity import LENGTHS

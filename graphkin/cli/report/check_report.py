@@ -3,38 +3,336 @@
 from __future__ import annotations
 
 from cmath import phase
-from collections.abc import Iterator
-from itertools import combinations
-from math import degrees, isinf
+from collections.abc import Iterator, Mapping
+from fractions import Fraction
+from itertools import combinations, islice
+from math import degrees, isinf, pi
+
+from msgspec.structs import replace
 
 from graphkin.cli.report.crossing_words import crossing
 from graphkin.cli.report.motion_report import flat_words, is_flat, verdict_words
 from graphkin.cli.report.solution_record import heading
-from graphkin.cli.report.structure_report import group_lines, structure
 from graphkin.construction.compile import write
 from graphkin.construction.core.cam_profiles import CamProfile, profiles_of
 from graphkin.construction.core.crossings import crossings
 from graphkin.construction.core.drawn_scene import METRES
 from graphkin.construction.core.run import Trace
 from graphkin.construction.core.solution import gathered
-from graphkin.construction.links.counted_turn import counted_link
+from graphkin.construction.links.rolled_turn import counted_link
 from graphkin.diagnosis.closures import Choice, choices
 from graphkin.diagnosis.ranges import ClosingRanges, closing, reached_words
+from graphkin.loops.freedom import true_mobility
 from graphkin.mechanism import Mechanism
-from graphkin.scene.model import Cam, Scene, link_words
+from graphkin.scene.model import FRAME, Cam, Driver, Scene, joined_words, link_words
+from graphkin.scene.quantity import SI, exact
 from graphkin.structure.decomposition import decompose
-from graphkin.structure.driver_count import driver_problem
-from graphkin.structure.groups import Higher
-from graphkin.structure.pairs import sharers
+from graphkin.structure.driver_count import count, driver_problem
+from graphkin.structure.grashof import FourBar, Loop, SliderCrank, single_loops
+from graphkin.structure.groups import Group, Higher, Tie
+from graphkin.structure.pairs import all_pairs, sharers
 from graphkin.structure.turn_counting import place_of_turns
-from graphkin.text.errors import (
-    ClosureError,
-    GraphkinError,
-    Problem,
-    StructureError,
-    WitnessError,
-)
+from graphkin.text.errors import ClosureError, GraphkinError, Problem, StructureError, WitnessError
 from graphkin.text.plain_table import labelled, listed, table
+
+Places = Mapping[str, complex]
+TOLD = 10
+"""Idle links and pairs that are told; each of them is a count of its own."""
+NUDGE = Fraction(1, 50)
+"""How far the drivers are moved to leave a singular position, in radians or longest bars."""
+
+
+class Rank:
+    """The true mobility of a mechanism at its position, and in words what it tells of the count.
+
+    Raises ClosureError where the position does not close, and StructureError where the vector
+    loops do not cover a pair.
+    """
+
+    def __init__(self, mechanism: Mechanism) -> None:
+        self.mechanism, self.scene = mechanism, mechanism.scene
+        self.places = places_of(mechanism)
+        self.ties = [group for group in mechanism.groups if isinstance(group, Tie)]
+        self.here = true_mobility(self.scene, self.places)
+        self.counted = count(self.scene).mobility
+        self.moving = self.here
+        if self.here > self.counted:
+            self.moving = min(self.here, nearby(mechanism, self.places) or self.here)
+
+    def lines(self) -> Iterator[str]:
+        """The true mobility, and why it is another than the count's."""
+        if self.here == self.counted:
+            yield f"{self.here}, true mobility by the rank of the constraints, as the count says"
+            return
+        yield f"{self.here}, true mobility by the rank of the constraints"
+        if self.here > self.moving:
+            yield f"singular position: beside it the constraints leave {self.moving}"
+        if self.moving > self.counted:
+            yield from self.idle_lines(self.moving - self.counted)
+
+    def idle_lines(self, surplus: int) -> Iterator[str]:
+        """Which constraints take a freedom that others have taken already."""
+        many = "one constraint is" if surplus == 1 else f"{surplus} constraints are"
+        yield f"{surplus} more than the count: {many} idle, taking what others take already"
+        found = list(islice(self.idle(), TOLD + 1))
+        if not found:
+            return
+        first, *others = found[:TOLD]
+        if len(found) > TOLD:
+            others.append("others")
+        also = f" (or {listed(others)})" if others else ""
+        right = ", and the count is right" if surplus == 1 else ""
+        yield f"without {first}{also} the motion is the same{right}"
+
+    def idle(self) -> Iterator[str]:
+        """What can be taken away without another freedom, what the groups found idle first."""
+        ties = [tie.link for tie in self.ties]
+        for link in (*ties, *(name for name in self.scene.links if name not in ties)):
+            if spare(self.scene, link) and self.same_without(without_link(self.scene, link)):
+                yield f"link {link}"
+        for name, part in parts_without(self.scene):
+            if self.same_without(part):
+                yield name
+
+    def same_without(self, part: Scene) -> bool:
+        """Whether a part of the mechanism moves as the whole, though the count allows it more."""
+        try:
+            more = count(part).mobility > self.counted
+            return more and true_mobility(part, self.places) == self.here
+        except StructureError:
+            return False
+
+
+def places_of(mechanism: Mechanism) -> dict[str, complex]:
+    """Where the points stand (m); no velocity is constructed for it."""
+    positions = [target for target in mechanism.program.targets if target[0] == "position"]
+    points = gathered(mechanism.trace(positions)).points.items()
+    return {name: motion.position for name, motion in points if motion.position is not None}
+
+
+def nearby(mechanism: Mechanism, places: Places) -> int | None:
+    """True mobility with the drivers moved a little; None where that cannot be constructed."""
+    spread = [abs(p - q) for p in places.values() for q in places.values()]
+    for sense in (1, -1):
+        moved = Mechanism(nudged(mechanism.scene, sense, max(spread, default=1.0)))
+        try:
+            return true_mobility(moved.scene, places_of(moved))
+        except GraphkinError:
+            continue
+    return None
+
+
+def nudged(scene: Scene, sense: int, size: float) -> Scene:
+    """The scene with every driver a little further, each by another amount."""
+    drivers = []
+    for number, driver in enumerate(scene.drivers, 1):
+        whole = 1.0 if driver.kind == "turn" else size
+        drivers.append(further(scene, driver, float(NUDGE) * sense * number * whole))
+    return replace(scene, drivers=tuple(drivers))
+
+
+def further(scene: Scene, driver: Driver, step: float) -> Driver:
+    """A driver at a position that is so much (rad, m) further on."""
+    position = driver.position
+    factor, of_pi = SI[position.unit]
+    written = Fraction(step) / factor / (Fraction(pi) if of_pi else 1)
+    value = Fraction(position.number(scene.values)) + written
+    return replace(driver, position=exact(value, position.unit, position.place))
+
+
+def spare(scene: Scene, name: str) -> bool:
+    """Whether a link could be left out: no driver moves it, and it leads nothing."""
+    driven = {end for driver in scene.drivers for end in (driver.link, driver.against)}
+    links = scene.links.values()
+    carriers = {path.on for link in links for path in link.paths}
+    return name not in driven | carriers | {FRAME}
+
+
+def without_link(scene: Scene, name: str) -> Scene:
+    """The mechanism without a link, for counting only: no drivers."""
+    links = {other: link for other, link in scene.links.items() if other != name}
+    return replace(scene, links=links, drivers=())
+
+
+def parts_without(scene: Scene) -> Iterator[tuple[str, Scene]]:
+    """The mechanism without one of a link's wheels' tracks, or a block's further guides."""
+    for link in scene.links.values():
+        for path in link.spare_paths:
+            links = {**scene.links, link.name: link.without(path)}
+            yield path.named(link.name), replace(scene, links=links, drivers=())
+
+
+# --- the text of check on how a mechanism is put together: pairs, count, loops, drivers, groups ---
+
+
+MOST_LOOPS = 24
+"""Rings of four links that are told."""
+NUMBERS = ("no", "one", "two", "three", "four", "five", "six", "seven", "eight")
+
+
+def structure(scene: Scene) -> Iterator[str]:
+    """Links, pairs, the count of freedoms, and the drivers.
+
+    Raises StructureError for wheels that do not touch, after the links.
+    """
+    bare = scene.bare
+    moving = listed(bare.links)
+    yield from labelled("links", [f"{len(bare.links)} moving ({moving}), and the frame"])
+    joined = all_pairs(bare)
+    yield from labelled("pairs", [f"{len(joined)}:", *(pair.words for pair in joined)])
+    counted = count(scene)
+    yield from labelled("count", [f"{counted.words}, mobility by the count", *count_notes(bare)])
+    yield from labelled("loops", loop_lines(scene))
+    drivers = [driver_words(scene, driver) for driver in scene.drivers] or ["none"]
+    yield from labelled("drivers", drivers)
+    yield from labelled("put in", list(keeper_lines(scene)))
+
+
+def keeper_lines(scene: Scene) -> Iterator[str]:
+    """Each link that the scene does not have, put in to keep a wheel on its track.
+
+    And each guide that it does not have, put in for rollers of one size.
+    """
+    for name, link in scene.links.items():
+        for slide in (each for each in link.slides if each.rollers):
+            rollers = joined_words(slide.rollers)
+            kept = f"{rollers}, wheels of one size, keep it parallel to {link_words(slide.on)}"
+            yield f"slide of {link_words(name)} on {link_words(slide.on)}: {kept}"
+    for name, (wheel, path) in scene.keepers.items():
+        link = scene.links[name]
+        what = f"{link.points[0]}, a block on the parallel to the track through the centre"
+        if path.through is None:
+            what = f"{'-'.join(link.points)}, the line of centres"
+        pair = f"the wheel of {link_words(wheel)} on {link_words(path.on)}"
+        yield f"link {name}: {what}; it keeps {pair} and takes nothing from the motion"
+
+
+# --- pairs and the count -------------------------------------------------------------------------
+
+
+def count_notes(scene: Scene) -> Iterator[str]:
+    """What is easily counted wrong: pins of several links, pairs that take one freedom, springs."""
+    for point, links in sharers(scene).items():
+        if len(links) > 2:
+            many = dict(enumerate(NUMBERS)).get(len(links) - 1, len(links) - 1)
+            yield f"pin {point} of {joined_words(links)} counts as {many} pairs"
+    singles = [pair for pair in all_pairs(scene) if pair.taken == 1]
+    if singles:
+        one = "the wheel" if len(singles) == 1 else "each wheel"
+        yield f"{one} whose distance is kept takes one freedom, every other pair two"
+
+
+# --- closed loops --------------------------------------------------------------------------------
+
+
+def loop_lines(scene: Scene) -> list[str]:
+    """How many closed loops are independent, and what turns fully in each single one."""
+    loops = count(scene).loops
+    if loops <= 0:
+        return ["none: an open chain"]
+    noun = "closed loop" if loops == 1 else "independent closed loops"
+    lines = [f"{loops} {noun}"]
+    single = [loop for loop in single_loops(scene) if not scene.unseen & {*loop.links}]
+    for loop in single[:MOST_LOOPS]:
+        lines += single_loop_lines(scene, loop)
+    if len(single) > MOST_LOOPS:
+        lines.append(f"and {len(single) - MOST_LOOPS} more rings of four links")
+    return lines
+
+
+def single_loop_lines(scene: Scene, loop: Loop) -> list[str]:
+    """A loop of four links: its class, the rule that decides it, and what that means."""
+    head = four_bar_words(scene, loop) if isinstance(loop, FourBar) else slider_words(scene, loop)
+    verdicts = [words for driver in scene.drivers if (words := driver_turn(loop, driver))]
+    return [head, *(f"  {words}" for words in verdicts)]
+
+
+def four_bar_words(scene: Scene, loop: FourBar) -> str:
+    """Grashof's rule with the numbers of a loop: s + l against p + q."""
+    short, *middle, long = sorted(loop.lengths)
+    sign = {"triple rocker": ">", "change point": "="}.get(loop.kind, "<")
+    numbers = [written(scene, length) for length in (short, long, *middle)]
+    rule = f"{numbers[0]} + {numbers[1]} {sign} {numbers[2]} + {numbers[3]} {unit(scene)}"
+    kind = f" ({loop.kind})" if FRAME in loop.links or not loop.slack else ""
+    return f"four-bar {ring(loop)}: {rule}, {turning_words(loop)}{kind}"
+
+
+def slider_words(scene: Scene, loop: SliderCrank) -> str:
+    """The rule r + |d| against c with the numbers of a loop."""
+    short, long = loop.lengths
+    sign = {1: "<", 0: "=", -1: ">"}[loop.slack]
+    left = f"{written(scene, short)} + {written(scene, abs(loop.offset))}"
+    rule = f"{left} {sign} {written(scene, long)} {unit(scene)}"
+    if FRAME not in loop.links:
+        kind = "loop with a slide"
+    else:
+        kind = "slider-crank" if loop.guide == FRAME else "inverted slider-crank"
+    return f"{kind} {ring(loop)}: {rule}, {turning_words(loop)}"
+
+
+def turning_words(loop: Loop) -> str:
+    """Which links turn all the way round against the others."""
+    if not loop.turning:
+        return "no link turns fully"
+    if FRAME in loop.turning and loop.slack:
+        return "every link turns fully against the frame"
+    if len(loop.turning) == 1:
+        words = f"{link_words(*loop.turning)} turns fully"
+    else:
+        words = f"{joined_words(loop.turning)} turn fully"
+    if loop.slack:
+        return f"{words} against the others"
+    return f"{words}, but with the bars in line both closures meet"
+
+
+def driver_turn(loop: Loop, driver: Driver) -> str:
+    """Whether a turning driver within a loop turns fully there; empty where it is not in it."""
+    ends = {driver.link, driver.against}
+    if driver.kind != "turn" or not ends <= set(loop.links):
+        return ""
+    against = "" if driver.against == FRAME else f" against link {driver.against}"
+    name = f"in this loop the driver of link {driver.link}{against}"
+    if ends.isdisjoint(loop.turning):
+        return f"{name} cannot turn fully: dead points end its range"
+    return f"{name} turns fully"
+
+
+def ring(loop: Loop) -> str:
+    """The links of a loop, one after the other."""
+    return "–".join(loop.links)
+
+
+def written(scene: Scene, length: float) -> str:
+    """A length (m) as a number in the unit of the scene."""
+    return f"{length / float(SI[unit(scene)][0]):.6g}"
+
+
+def unit(scene: Scene) -> str:
+    """The unit of lengths of the scene."""
+    return scene.units["length"]
+
+
+# --- drivers and groups --------------------------------------------------------------------------
+
+
+def driver_words(scene: Scene, driver: Driver) -> str:
+    """What a driver does, in the units of the scene, at these parameters."""
+    found = [
+        f"{quantity.written(scene.values)} {quantity.unit}".strip()
+        for quantity in (driver.position, driver.speed, driver.acceleration)
+    ]
+    at = f"at {found[0]}, speed {found[1]}"
+    at += "" if driver.acceleration.is_zero() else f", acceleration {found[2]}"
+    return f"link {driver.link} {driver.kind}s against {link_words(driver.against)}: {at}"
+
+
+def group_lines(groups: tuple[Group, ...]) -> list[str]:
+    """The groups in the order of construction."""
+    return [f"{i}. {group.words}" for i, group in enumerate(groups, 1)]
+
+
+# --- the text of check: what a scene is made of, how it closes, how well it can be drawn ----------
+
 
 WORST = 3
 """Flattest crossings shown."""
@@ -92,7 +390,6 @@ class Checking:
 
         Where nothing closes, more drivers than the count leaves freedoms may be the cause.
         """
-        from graphkin.cli.report.mobility_report import Rank
 
         try:
             rank = Rank(self.mechanism)

@@ -2,12 +2,24 @@
 
 from __future__ import annotations
 
+import csv
+import io
 from collections.abc import Iterable, Iterator, Sequence
-from typing import TYPE_CHECKING
+from itertools import groupby
+from typing import TYPE_CHECKING, Any
 
-from graphkin.cli.report.piece_words import at_words, length_words, pieces_words, short
 from graphkin.cli.report.solution_record import heading
-from graphkin.numbers.arrays import np
+from graphkin.construction.core.quantities import (
+    OF_POINTS,
+    OF_SLIDES,
+    RATES,
+    MotionQuantity,
+    motion_value,
+)
+from graphkin.numbers.arithmetic import np
+from graphkin.numbers.plane import Ratio
+from graphkin.scene.model import Closure
+from graphkin.scene.quantity import SI
 from graphkin.text.plain_table import labelled, listed
 
 if TYPE_CHECKING:
@@ -16,9 +28,180 @@ if TYPE_CHECKING:
     from graphkin.motion.events import Singular
     from graphkin.motion.follower_limits import Dwell, Follower, Limit
     from graphkin.motion.jumps import Jump
-    from graphkin.motion.pieces import Path
+    from graphkin.motion.pieces import Path, Piece
     from graphkin.motion.single_loop import Loop
     from graphkin.motion.sweep import Sweep
+
+Column = tuple[str, Any]
+
+
+def cycle_table(cycle: Cycle) -> str:
+    """The whole table as CSV: heads with their units, '.' decimals, full precision.
+
+    A cell is empty where there is no value, an instantaneous centre at infinity, and where no digit
+    of the value is sure.
+    """
+    columns = list(columns_of(cycle))
+    out = io.StringIO()
+    writer = csv.writer(out, lineterminator="\n")
+    writer.writerow([head for head, _ in columns])
+    for row in range(len(cycle.at)):
+        writer.writerow([cell(values[row]) for _, values in columns])
+    return out.getvalue()
+
+
+def cell(value: Any) -> str:
+    """A number in its shortest exact form, never minus nought; empty where there is none."""
+    import math
+
+    if getattr(value, "dtype", None) == "int64":
+        return str(value)
+    return repr(float(value) + 0.0) if math.isfinite(value) else ""
+
+
+def columns_of(cycle: Cycle) -> Iterator[Column]:
+    """Every column with its head, in the order of the scene."""
+    sweep = cycle.sweep
+    yield f"{sweep.symbol} [{sweep.unit}]", cycle.at
+    if sweep.what == "turn":
+        yield f"{sweep.symbol} [rad]", np.radians(cycle.at)
+    yield "piece", cycle.piece
+    yield from of_points(cycle)
+    yield from of_links(cycle)
+    yield from of_slides(cycle)
+    yield from of_cams(cycle)
+    for pin, margin in cycle.margins.items():
+        yield f"margin_{pin}", margin
+    if not cycle.witnessed.refused:
+        yield "witness", cycle.witnessed.difference
+
+
+def of_points(cycle: Cycle) -> Iterator[Column]:
+    """Position, velocity and acceleration of every moving point, by components."""
+    for name, motion in cycle.sure.points.items():
+        if name in cycle.scene.fixed_points:
+            continue
+        yield from own(motion, OF_POINTS, name)
+
+
+def own(motion: Any, quantities: Iterable[MotionQuantity], name: str) -> Iterator[Column]:
+    """Some quantities of a motion, those that are not numbers by components."""
+    for quantity in quantities:
+        value, tail = motion_value(motion, quantity), f"_{name} [{quantity.caret_unit}]"
+        if value is None:
+            continue
+        if quantity.sort == "number":
+            yield quantity.letter + tail, value
+        else:
+            yield f"{quantity.letter}x{tail}", value.real
+            yield f"{quantity.letter}y{tail}", value.imag
+
+
+def of_links(cycle: Cycle) -> Iterator[Column]:
+    """Angular velocity and acceleration and the instantaneous centre of every link."""
+    for name, motion in cycle.sure.links.items():
+        for rate in RATES:
+            value = motion_value(motion, rate)
+            if value is not None:
+                yield f"{rate.target}_{name} [{rate.caret_unit}]", value
+        centre = motion.instant_centre
+        if isinstance(centre, Ratio):
+            with np.errstate(all="ignore"):
+                place = centre.start + centre.shift / centre.size
+            yield f"Ix_{name} [m]", place.real
+            yield f"Iy_{name} [m]", place.imag
+
+
+def of_cams(cycle: Cycle) -> Iterator[Column]:
+    """The pressure angle and the radius of curvature of every cam."""
+    for follower, profile in cycle.profiles.items():
+        yield f"pressure_{follower} [deg]", profile.pressure
+        yield f"radius_{follower} [m]", profile.radius
+
+
+def of_slides(cycle: Cycle) -> Iterator[Column]:
+    """The motion of every block along its guide."""
+    for name, motion in cycle.sure.slides.items():
+        yield from own(motion, OF_SLIDES, f"slide_{name}")
+
+
+# --- the places of a sweep and the pieces of a cycle in words: which closures are stated where ----
+
+
+NOTHING = 1e-12
+"""A length, in the scene's unit, that is rounding."""
+
+
+def at_words(sweep: Sweep, at: float, name: bool = True) -> str:
+    """A place of the sweep, such as φ = 28.955°."""
+    head = f"{sweep.coordinate.letter} = " if name else ""
+    if sweep.what == "turn":
+        return f"{head}{at:.3f}°".replace("-0.000°", "0.000°")
+    if sweep.what == "time":
+        return f"{head}{short(at)} s"
+    return head + length_words(sweep, at)
+
+
+def length_words(sweep: Sweep, value: float) -> str:
+    """A length in the scene's unit."""
+    unit = sweep.original.units["length"]
+    size = value / float(SI[unit][0])
+    return f"{short(size if abs(size) > NOTHING else 0.0)} {unit}"
+
+
+def short(value: float) -> str:
+    """A number with at most six digits."""
+    return f"{value + 0.0:.6g}"
+
+
+def pieces_words(cycle: Cycle) -> tuple[str, list[str]]:
+    """The label and the lines about the pieces; none where there is but one."""
+    pieces = cycle.pieces
+    if any(piece.low.kind == "number" for piece in pieces):
+        return "closures", list(number_words(cycle, pieces))
+    if len(pieces) == 1:
+        return "pieces", []
+    lines = []
+    for piece in pieces:
+        signs = [f"{name} {branch}" for name, branch in piece.branches.items()]
+        span = span_words(cycle, piece.low.at, piece.high.at)
+        lines.append(f"{span}: {', '.join(signs) or 'nothing to pick'}")
+    return "pieces", lines
+
+
+def number_words(cycle: Cycle, pieces: Sequence[Piece]) -> Iterator[str]:
+    """The numbers that the closures of groups of higher class have along their one motion.
+
+    Pieces of the same numbers that follow one another are one line; too short ones have none.
+    """
+    yield "one motion through the whole range; to stand in it, write in [branches]"
+    for numbers, run in groupby(pieces, numbered):
+        part = list(run)
+        low, high = part[0].low.at, part[-1].high.at
+        if not is_short(cycle, low, high):
+            stated = ", ".join(f'{name} = "closure {number}"' for name, number in numbers)
+            yield f"{span_words(cycle, low, high)}: {stated}"
+
+
+def numbered(piece: Piece) -> tuple[tuple[str, int], ...]:
+    """The links whose closures are numbered on a piece, and their numbers."""
+    found = piece.branches.items()
+    return tuple((name, b.number) for name, b in found if isinstance(b, Closure))
+
+
+def is_short(cycle: Cycle, low: float, high: float) -> bool:
+    """Whether two places are told by the same figures."""
+    return at_words(cycle.sweep, low) == at_words(cycle.sweep, high)
+
+
+def span_words(cycle: Cycle, low: float, high: float) -> str:
+    """A part of the sweep."""
+    ends = (at_words(cycle.sweep, end, name=False) for end in (low, high))
+    return f"{cycle.sweep.coordinate.letter} from {' to '.join(ends)}"
+
+
+# --- the text of cycle ----------------------------------------------------------------------------
+
 
 FLAT = 1e-10
 """Difference that a row may have, over the cube of its flattest sine: beside singular places an

@@ -198,7 +198,7 @@ def is_flat(trace: Trace) -> bool:
 
 def flat_words(scene: Scene, trace: Trace) -> str:
     """The flattest crossing: its point, its sine, what is nearly in line, and how to leave it."""
-    from graphkin.diagnosis.singularity_words import beside_dead_point
+    from graphkin.diagnosis.assembly_failure import beside_dead_point
 
     number = min(trace.margins, key=lambda step: float(trace.margins[step]))
     from graphkin.cli.report.crossing_words import crossing

@@ -21,8 +21,12 @@ from graphkin.construction.guides.guides import axis, path_of, path_of_block, st
 from graphkin.construction.links.link_shapes import bar_length, local_place
 from graphkin.drawing.symbol_markup import bar, escape, symbol
 from graphkin.numbers.arithmetic import Point, Real, sqrt
-from graphkin.numbers.cam_followers import (
+from graphkin.numbers.cam_motions import (
+    MOTIONS,
+    Rise,
     TipMotion,
+    displaced,
+    displaced_along,
     guided_face,
     guided_tip,
     level_on_path,
@@ -34,7 +38,6 @@ from graphkin.numbers.cam_followers import (
     swung_tip,
     upward,
 )
-from graphkin.numbers.cam_motions import MOTIONS, Rise, displaced, displaced_along
 from graphkin.numbers.plane import Line, cross, dot
 from graphkin.scene.model import FRAME, Cam, CamLever
 from graphkin.text.errors import Problem, Sought

@@ -13,8 +13,9 @@ from typing import Any
 import numpy as np
 from msgspec import Struct
 
-from graphkin.numbers.cam_followers import (
+from graphkin.numbers.cam_motions import (
     FaceMotion,
+    Rise,
     TipMotion,
     guided_face,
     guided_tip,
@@ -27,7 +28,6 @@ from graphkin.numbers.cam_followers import (
     swung_tip,
     upward,
 )
-from graphkin.numbers.cam_motions import Rise
 from graphkin.numbers.plane import Line
 from graphkin.scene.model import Cam, Scene
 from graphkin.scene.quantity import Quantity

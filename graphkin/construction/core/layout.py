@@ -18,8 +18,7 @@ from msgspec.structs import replace
 from graphkin.construction.core.drawn_scene import Drawing
 from graphkin.construction.core.kind import JoinsPoints, construction
 from graphkin.construction.core.program import Part, Plane
-from graphkin.drawing.areas import ABOVE, AREA, HEIGHT, LEAST_FIELD, MARGIN, WIDTH, Rect
-from graphkin.drawing.field import Field
+from graphkin.drawing.field import ABOVE, AREA, HEIGHT, LEAST_FIELD, MARGIN, WIDTH, Field, Rect
 from graphkin.drawing.scale import Extent
 from graphkin.numbers.arithmetic import Point, Real, larger, pick, smaller
 from graphkin.numbers.plane import Circle, Line, Ratio

@@ -2,32 +2,285 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
 from functools import wraps
 from itertools import count
-from math import degrees, hypot
+from math import cos, degrees, hypot, pi, sin
 from typing import Any, Concatenate, ParamSpec, TypeVar
 
 from msgspec import Struct, field
 from msgspec.structs import replace
 
 from graphkin.construction.core.component import TriangleComponent
-from graphkin.construction.core.curve_marks import clipped_path, ring
 from graphkin.construction.core.drawn_scene import Drawing
 from graphkin.construction.core.kind import Construction
-from graphkin.construction.core.layout import BEYOND, SWEEP, arc_span
-from graphkin.construction.core.plan_marks import name_point, put_locus, put_point, put_pole
-from graphkin.construction.core.plot import Plot, above_foot, line_part, middle
-from graphkin.construction.core.program import Step
+from graphkin.construction.core.layout import BEYOND, SWEEP, Layout, arc_span
+from graphkin.construction.core.naming import scale_of
+from graphkin.construction.core.plan_vector import plan_vector, sign_of
+from graphkin.construction.core.program import Plane, Step
+from graphkin.construction.core.quantities import OnPaper, in_mm
 from graphkin.construction.core.segments import NEAR, TINY
-from graphkin.drawing.field import XY, clipped
-from graphkin.drawing.label import Label
-from graphkin.drawing.labels import FootNote
-from graphkin.drawing.marks import Arc, CircleMark, LineMark
-from graphkin.drawing.style import CHAIN_LINES, OWN_LINES
+from graphkin.construction.core.solution import Curve
+from graphkin.drawing.field import XY, Field, Rect, clipped
+from graphkin.drawing.labels import FieldContent, FootNote, Label
+from graphkin.drawing.marks import Arc, CircleMark, LineMark, Polyline, SharedLetter, Shown
+from graphkin.drawing.style import BY_SIGN, CENTRODES, CHAIN_LINES, OWN_LINES
 from graphkin.drawing.symbol_markup import symbol
-from graphkin.drawing.symbols import FIXED, SHORT, arrow, bearing, head, square_mark
+from graphkin.drawing.symbols import FIXED, PIN, SHORT, arrow, bearing, head, square_mark
 from graphkin.numbers.plane import Circle, Ratio
+from graphkin.text import Words
+
+CHORDS, FINE = 240, 0.02
+"""Straight pieces of a small circle, and how far (mm) those of a large one may leave it."""
+UNSEEN = 0.01
+"""How far, in mm, a broken line may pass by corners that are left out."""
+
+
+def ring(circle: Circle, mm: float = 0.0) -> list[complex]:
+    """Points around a circle, the first again at the end, close enough for so many mm a metre."""
+    chords = max(CHORDS, int(pi * (circle.radius * mm / FINE / 2) ** 0.5))
+    turns = (2 * pi * i / chords for i in range(chords + 1))
+    return [circle.centre + circle.radius * complex(cos(a), sin(a)) for a in turns]
+
+
+def clipped_path(
+    points: Sequence[XY], rect: Rect, cls: str, name: str, step: int | None = None
+) -> Iterator[Polyline]:
+    """The parts of a broken line that lie in a rectangle, without corners that nobody sees."""
+    from shapely import LineString, box
+
+    if len(points) < 2:
+        return
+    line, field = LineString(points).simplify(UNSEEN, preserve_topology=False), box(*rect)
+    found = line if field.covers(line) else line.intersection(field)
+    for part in getattr(found, "geoms", [found]):
+        if part.geom_type == "LineString" and len(part.coords) > 1:
+            yield Polyline(tuple((x, y) for x, y in part.coords), cls, name, step)
+
+
+def draw_curves(board: FieldContent, drawing: Drawing, field: Field, rect: Rect) -> None:
+    """Paths of points and centrodes, each with its name."""
+    for curve in drawing.curves:
+        parts = [
+            part
+            for run in curve.runs
+            for part in clipped_path([field(point) for point in run], rect, curve.kind, curve.name)
+        ]
+        board.marks += parts
+        if parts:
+            subject = middle_of(max(parts, key=length), share=SHARES[curve.kind])
+            words = name_of(drawing.words, curve)
+            cls = CENTRODES.get(curve.kind, "")
+            board.labels.append(Label(words, cls, subject, 2.5, curve.name, led=True))
+
+
+SHARES = {"fixed-centrode": 0.5, "moving-centrode": 0.3, "trajectory": 0.15, "locus": 0.6}
+"""How far along its longest part a curve is named, so that names do not meet."""
+
+
+def name_of(words: Words, curve: Curve) -> str:
+    """What is written beside a curve."""
+    return words(f"page.{curve.kind}", of=symbol(curve.of))
+
+
+def length(part: Polyline) -> float:
+    """Length of a broken line in mm."""
+    ends = zip(part.points, part.points[1:], strict=False)
+    return sum(hypot(x - u, y - v) for (x, y), (u, v) in ends)
+
+
+def middle_of(part: Polyline, share: float) -> XY:
+    """The place on a broken line that a share of its length lies before."""
+    left = share * length(part)
+    for (x, y), (u, v) in zip(part.points, part.points[1:], strict=False):
+        step = hypot(x - u, y - v)
+        if step >= left > 0:
+            return x + (u - x) * left / step, y + (v - y) * left / step
+        left -= step
+    return part.points[-1]
+
+
+# --- where the steps of one drawing are put down, and what every kind of step needs there ---------
+
+
+EDGE = 3.0
+"""How far from a field's edge lines end that would go on, in mm."""
+FOOT = 6.5
+"""The same at the foot of a field, which is for notes."""
+
+
+class Plot(Struct, frozen=True):
+    """Where steps of one drawing are put down: board, field, and the sheet's material."""
+
+    board: FieldContent
+    field: Field
+    drawing: Drawing
+    layout: Layout
+
+    @property
+    def colour(self) -> str:
+        """The class that colours this sheet's plan."""
+        return self.drawing.kind
+
+
+def line_part(plot: Plot, value: Any, low: float, high: float) -> tuple[XY, XY] | None:
+    """The part of a line between two distances in mm from its anchor, within its field."""
+    unit = value.along / abs(value.along) / plot.field.mm
+    start, end = plot.field(value.point + low * unit), plot.field(value.point + high * unit)
+    return clipped(start, end, above_foot(plot.field.rect))
+
+
+def inside(rect: Rect) -> Rect:
+    """A field without its edges."""
+    return rect[0] + EDGE, rect[1] + EDGE, rect[2] - EDGE, rect[3] - EDGE
+
+
+def above_foot(rect: Rect) -> Rect:
+    """A field without its edges and its lowest part, which is for notes."""
+    return rect[0] + EDGE, rect[1] + EDGE, rect[2] - EDGE, rect[3] - FOOT
+
+
+def middle(tail: XY, tip: XY) -> XY:
+    """The middle of a vector."""
+    return (tail[0] + tip[0]) / 2, (tail[1] + tip[1]) / 2
+
+
+def note_tiny(plot: Plot, name: str, length: OnPaper) -> None:
+    """Name a vector that is too short to be seen at the foot of its field."""
+    words, drawing = plot.drawing.words, plot.drawing
+    factor = scale_of(drawing, drawing.plane)
+    key = "page.tiny" if drawing.settled(length * factor / 1000) else "page.nought"
+    note = FootNote(words(key, name=name, length=in_mm(words, length)), name)
+    if note not in plot.board.notes:
+        plot.board.notes.append(note)
+
+
+def draw_line(
+    board: FieldContent,
+    field: Field,
+    line: tuple[complex, complex],
+    name: str,
+    shows: Shown | None = None,
+) -> None:
+    """A line across the field, chain-dotted."""
+    start, along = line
+    seen = start + along * (100 / (abs(along) * field.mm))  # of any size, 100 mm on paper
+    part = clipped(*stretched(field(start), field(seen)), above_foot(field.rect))
+    if part:
+        board.marks.append(LineMark(*part[0], *part[1], "centre-line", name, shows=shows))
+
+
+def stretched(start: XY, end: XY) -> tuple[XY, XY]:
+    """A segment through two places, long enough to leave any page on both sides."""
+    dx, dy = end[0] - start[0], end[1] - start[1]
+    far = 2000 / max(abs(dx), abs(dy))
+    return (start[0] - far * dx, start[1] - far * dy), (start[0] + far * dx, start[1] + far * dy)
+
+
+# --- the marks of a plan's steps: lines with what they are square to, points, poles, arrows -------
+
+
+SAME = 0.01
+"""How near to each other, in mm, points of a plan stand that are told to be the same."""
+PLAN_DOT = 0.7
+"""Radius of a point of a plan in mm."""
+
+
+def put_locus(plot: Plot, number: int, name: str, text: str, parts: tuple[int, int]) -> None:
+    """A construction line as far as the layout says, with what it is drawn by along it.
+
+    Between its first point and the one that was found on it an arrow lies; it is drawn beyond, in
+    two ``parts``, the near one first.
+    """
+    ends = beyond(plot, number, plot.drawing.trace.values[number])
+    drawn = [(end, part) for end, part in zip(ends, parts, strict=False) if end]
+    for end, part in drawn:
+        line = LineMark(*end[0], *end[1], "construction", name, number, part)
+        plot.board.marks.append(line)
+    if drawn:
+        end, part = drawn[-1]
+        own = name, number
+        label = Label(text, "construction", end, 2.5, *own, priority=-1, part=part)
+        plot.board.labels.append(label)
+
+
+def beyond(plot: Plot, number: int, value: Any) -> list[tuple[XY, XY] | None]:
+    """The parts of a line before its first point and after its last, in this order."""
+    low, high = plot.layout.spans[number]
+    if high - low <= 2 * BEYOND + TINY:
+        return [line_part(plot, value, low, high)]
+    first = line_part(plot, value, low, low + BEYOND)
+    last = line_part(plot, value, high - BEYOND, high)
+    return [first, last] if abs(low) < abs(high) else [last, first]
+
+
+def put_point(plot: Plot, number: int, step: Step, value: Any) -> None:
+    """A named point of a plan."""
+    if step.name:
+        at = plot.field(value)
+        plot.board.marks.append(
+            CircleMark(*at, PLAN_DOT, f"point {plot.colour}", step.name, number)
+        )
+        name_point(plot, number, step.name, at, PLAN_DOT)
+
+
+def put_pole(plot: Plot, number: int, step: Step, value: Any) -> None:
+    """The pole of a plan."""
+    at = plot.field(value)
+    plot.board.marks.append(CircleMark(*at, PIN, f"pole {plot.colour}", step.name, number))
+    name_point(plot, number, step.name, at, PIN)
+
+
+def name_point(
+    plot: Plot, number: int, name: str, at: XY, radius: float, look: str = "", height: float = 3.5
+) -> None:
+    """The letter of a point; points that fall together share one label, o ≡ a or, nearly, o ≈ a."""
+    board, look = plot.board, look or plot.colour
+    for i, (x, y) in board.lettered.items():
+        apart = hypot(x - at[0], y - at[1])
+        if apart < TINY:
+            label, joint = board.labels[i], "≡" if apart < SAME else "≈"
+            letters = (*label.letters, SharedLetter(name, symbol(name), f" {joint} "))
+            board.labels[i] = label.of_letters(letters)
+            return
+    board.lettered[len(board.labels)] = at
+    letters = (SharedLetter(name, symbol(name)),)
+    label = Label("", look, at, height, "", number, priority=2, radius=radius)
+    board.labels.append(label.of_letters(letters))
+
+
+def put_arrow(plot: Plot, number: int, step: Step, value: Any) -> None:
+    """A vector with its symbol; a very short one without head, named at the end of a leader."""
+    tail, tip = plot.field(value.tail), plot.field(value.tip)
+    length = hypot(tip[0] - tail[0], tip[1] - tail[1])
+    cls = arrow_class(step, plot)
+    if length > 0:
+        plot.board.marks += arrow(tail, tip, cls, step.name, number)
+    vector = plan_vector(step)
+    assert vector is not None
+    name, short = symbol(vector.symbol), length < SHORT
+    if length < TINY:
+        note_tiny(plot, name, OnPaper(length))
+        return
+    subject = middle(tail, tip) if short else (tail, tip)
+    plot.board.labels.append(
+        Label(name, cls, subject, 2.5, step.name, number, priority=1, led=short, spare=True)
+    )
+
+
+def arrow_class(step: Step, plot: Plot) -> str:
+    """The look of a vector: normal and tangential components, relative and absolute ones."""
+    kind = BY_SIGN.get(sign_of(step))
+    if kind:
+        return kind.look
+    tail = plot.drawing.trace.program.steps[step.args[0]].name
+    if step.plane is Plane.MECHANISM or tail == plot.drawing.pole:
+        return plot.colour
+    return f"relative-{plot.colour}"
+
+
+# --- how paper draws the steps of constructions: each mark at once, in millimetres of its field ---
+
 
 P = ParamSpec("P")
 R = TypeVar("R")

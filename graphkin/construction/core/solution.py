@@ -12,8 +12,7 @@ from msgspec.structs import asdict, replace
 from graphkin.construction.core.program import Part
 from graphkin.construction.core.quantities import QUANTITIES, Whose
 from graphkin.construction.core.run import Trace
-from graphkin.numbers.arithmetic import Point, Real, least
-from graphkin.numbers.arrays import np
+from graphkin.numbers.arithmetic import Point, Real, least, np
 from graphkin.numbers.plane import Ratio
 from graphkin.structure.pairs import is_in_scene
 

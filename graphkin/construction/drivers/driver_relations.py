@@ -7,6 +7,7 @@ from collections.abc import Iterator
 from functools import partial
 
 from graphkin.construction.core.drawn_scene import Drawing
+from graphkin.construction.core.given_data import expression, has_own_relation, is_derived
 from graphkin.construction.core.kind import construction
 from graphkin.construction.core.naming import (
     angle_symbol,
@@ -16,7 +17,6 @@ from graphkin.construction.core.naming import (
     sense,
     speed_symbol,
 )
-from graphkin.construction.core.parameter_words import expression, has_own_relation, is_derived
 from graphkin.construction.core.program import Plane
 from graphkin.construction.core.quantities import RATES, number_of, unit_words
 from graphkin.construction.core.relation import (

@@ -13,8 +13,7 @@ from graphkin.construction.guides.pivot_grounds import ground_ways
 from graphkin.construction.guides.rails import seat
 from graphkin.construction.guides.slide_symbols import within
 from graphkin.drawing.field import XY, Field
-from graphkin.drawing.label import Label
-from graphkin.drawing.labels import FieldContent
+from graphkin.drawing.labels import FieldContent, Label
 from graphkin.drawing.marks import Arc, LineMark, Mark, Shown, showing
 from graphkin.drawing.symbols import BLOCK, SHORT, across, arrow, distance, head, turned_arrow
 from graphkin.numbers.arithmetic import Real, phase, pick, turn_by

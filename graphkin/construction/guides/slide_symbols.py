@@ -8,7 +8,7 @@ from functools import reduce
 from msgspec.structs import replace
 
 from graphkin.construction.core.drawn_scene import Drawing
-from graphkin.construction.core.plot import inside
+from graphkin.construction.core.paper_canvas import inside
 from graphkin.construction.guides.pivot_grounds import ground_ways
 from graphkin.construction.guides.rails import (
     ALIKE,
@@ -20,8 +20,7 @@ from graphkin.construction.guides.rails import (
     rails_of,
     seat,
 )
-from graphkin.drawing.areas import Rect
-from graphkin.drawing.field import XY, Field, clipped
+from graphkin.drawing.field import XY, Field, Rect, clipped
 from graphkin.drawing.labels import FieldContent
 from graphkin.drawing.marks import LineMark, Mark, reach
 from graphkin.drawing.symbols import (

@@ -17,12 +17,16 @@ from graphkin.construction.core.program import CLOSE, Program, Step
 from graphkin.construction.core.run import StepFailed, Trace, run
 from graphkin.construction.core.vocabulary import Action
 from graphkin.construction.higher_class.trial import MOST, Trial
-from graphkin.numbers.arithmetic import FLOAT, phase
-from graphkin.numbers.arrays import np
+from graphkin.numbers.arithmetic import FLOAT, np, phase
 from graphkin.numbers.common_roots import roots_beside, solutions
 from graphkin.numbers.kinds import ball_kind, in_doubles, kind_of
-from graphkin.numbers.roots import roots_and_touches, roots_beside_poles
-from graphkin.numbers.windows import Windows, fits_beside, narrowed
+from graphkin.numbers.roots import (
+    Windows,
+    fits_beside,
+    narrowed,
+    roots_and_touches,
+    roots_beside_poles,
+)
 from graphkin.scene.model import Scene
 
 DOUBLES = ("float", "batch")

@@ -15,8 +15,7 @@ from msgspec import Struct
 from msgspec.structs import replace
 
 from graphkin.construction.higher_class.closure_solver import HIDDEN, Closures, Trying
-from graphkin.numbers.arithmetic import phase
-from graphkin.numbers.arrays import np
+from graphkin.numbers.arithmetic import np, phase
 from graphkin.numbers.common_roots import roots_beside
 
 Reals = Any

@@ -16,9 +16,7 @@ from msgspec import Struct
 
 from graphkin.construction.higher_class.trial import TrialChain
 from graphkin.numbers.arithmetic import Kind, is_ball
-from graphkin.numbers.kinds import in_doubles, middle
-from graphkin.numbers.plane import cross
-from graphkin.numbers.refined_roots import (
+from graphkin.numbers.common_roots import (
     APART,
     by_newton,
     by_newton_arrays,
@@ -27,6 +25,8 @@ from graphkin.numbers.refined_roots import (
     proved,
     proved_together,
 )
+from graphkin.numbers.kinds import in_doubles, middle
+from graphkin.numbers.plane import cross
 
 NEAR = 1e-3
 """How near closures that merge lie, in radians or parts of their trial value."""

@@ -11,10 +11,9 @@ from collections.abc import Sequence
 from functools import cached_property, partial
 from typing import Any, NamedTuple
 
-from graphkin.construction.core.batch import Ready, run_moving
+from graphkin.construction.core.run import Ready, run_moving
 from graphkin.construction.higher_class.closure_solver import Closures, Trying, sign_table
-from graphkin.numbers.arithmetic import batch_kind
-from graphkin.numbers.arrays import np
+from graphkin.numbers.arithmetic import batch_kind, np
 from graphkin.numbers.common_roots import (
     Array,
     Cells,

@@ -10,12 +10,18 @@ from typing import Any
 
 from msgspec import Struct
 
-from graphkin.construction.core.batch import Ready, made_ready, run_batch, run_moving
 from graphkin.construction.core.program import Program
-from graphkin.construction.core.run import StepFailed, Values, run
+from graphkin.construction.core.run import (
+    Ready,
+    StepFailed,
+    Values,
+    made_ready,
+    run,
+    run_batch,
+    run_moving,
+)
 from graphkin.construction.core.vocabulary import meet
-from graphkin.numbers.arithmetic import Kind, batch_kind, phase, turn_by
-from graphkin.numbers.arrays import np
+from graphkin.numbers.arithmetic import Kind, batch_kind, np, phase, turn_by
 from graphkin.numbers.kinds import middle
 from graphkin.numbers.plane import cross
 

@@ -10,13 +10,11 @@ from graphkin.construction.core.drawn_scene import Drawing
 from graphkin.construction.guides.pivot_grounds import Segment, away_from
 from graphkin.construction.guides.rails import places_of
 from graphkin.construction.guides.slide_symbols import number_side
-from graphkin.construction.links.plates import corners_of, farthest
+from graphkin.construction.links.link_shapes import corners_of, farthest
 from graphkin.construction.links.wheel_symbols import number_beside, part_of_rim
-from graphkin.drawing.areas import Rect
-from graphkin.drawing.chords import pieces_of
-from graphkin.drawing.field import XY, Field
-from graphkin.drawing.label import GAP, NUMBER, Label
-from graphkin.drawing.labels import FieldContent
+from graphkin.drawing.clearance import pieces_of
+from graphkin.drawing.field import XY, Field, Rect
+from graphkin.drawing.labels import GAP, NUMBER, FieldContent, Label
 from graphkin.drawing.marks import LineMark, Polyline
 from graphkin.drawing.placement import Spot
 from graphkin.drawing.richtext import extent

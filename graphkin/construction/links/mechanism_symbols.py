@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from graphkin.construction.cams.cam_symbols import draw_cams
 from graphkin.construction.core.drawn_scene import Drawing
-from graphkin.construction.core.plot import draw_line
+from graphkin.construction.core.paper_canvas import draw_line
 from graphkin.construction.guides.pivot_grounds import ground_ways, grounds_of, is_covered
 from graphkin.construction.guides.rails import places_of, rails_of
 from graphkin.construction.guides.slide_symbols import (
@@ -13,7 +13,7 @@ from graphkin.construction.guides.slide_symbols import (
     draw_guide_bars,
 )
 from graphkin.construction.links.link_numbers import draw_numbers
-from graphkin.construction.links.plates import corners_of, farthest, is_all_wheel
+from graphkin.construction.links.link_shapes import corners_of, farthest, is_all_wheel
 from graphkin.construction.links.wheel_symbols import (
     draw_edges,
     draw_fixed_wheels,
@@ -23,8 +23,7 @@ from graphkin.construction.links.wheel_symbols import (
     draw_wheels,
 )
 from graphkin.drawing.field import XY, Field
-from graphkin.drawing.label import Label
-from graphkin.drawing.labels import FieldContent
+from graphkin.drawing.labels import FieldContent, Label
 from graphkin.drawing.marks import CircleMark, LineMark, Shown, polygon, reach
 from graphkin.drawing.symbol_markup import symbol
 from graphkin.drawing.symbols import FIXED, FREE, HINGE, PIN, TALL, across, legs, pin, pivot_ground

@@ -9,15 +9,13 @@ from typing import Any, NamedTuple
 
 from graphkin.construction.core.drawn_scene import Drawing
 from graphkin.construction.core.link_poses import APART, Disc, Touch
-from graphkin.construction.core.plot import draw_line
+from graphkin.construction.core.paper_canvas import draw_line
 from graphkin.construction.guides.rails import ALIKE, REACH, places_of, seat
 from graphkin.construction.guides.slide_symbols import within
 from graphkin.construction.links.gear_symbols import BASE, ROOT, gear, polar, rack, teeth_beside
-from graphkin.construction.links.plates import is_all_wheel
-from graphkin.drawing.areas import MARGIN
-from graphkin.drawing.field import XY, Field
-from graphkin.drawing.label import Label
-from graphkin.drawing.labels import FieldContent
+from graphkin.construction.links.link_shapes import is_all_wheel
+from graphkin.drawing.field import MARGIN, XY, Field
+from graphkin.drawing.labels import FieldContent, Label
 from graphkin.drawing.marks import Arc, CircleMark, LineMark, Mark
 from graphkin.drawing.symbol_markup import symbol
 from graphkin.drawing.symbols import across, hatched

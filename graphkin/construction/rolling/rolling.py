@@ -20,15 +20,16 @@ from graphkin.construction.core.vocabulary import (
 )
 from graphkin.construction.guides.guides import axis, guide_line, local_line, path_of
 from graphkin.construction.guides.set_by_coordinate import set_at, set_point
-from graphkin.construction.links.counted_turn import (
+from graphkin.construction.links.link_shapes import local_place
+from graphkin.construction.links.plate_points import place_point, plate_points
+from graphkin.construction.links.rolled_turn import (
     CountedTurn,
+    TurnOnTrack,
+    TurnOnWheel,
     counted_link,
     counted_near,
     turned_ahead,
 )
-from graphkin.construction.links.link_shapes import local_place
-from graphkin.construction.links.plate_points import place_point, plate_points
-from graphkin.construction.links.rolled_turn import TurnOnTrack, TurnOnWheel
 from graphkin.construction.rolling.contact_points import (
     CentreOfBelt,
     CentrePath,

@@ -13,8 +13,8 @@ from graphkin.construction.core.vocabulary import sum_of
 from graphkin.construction.group_images import GroupImages
 from graphkin.construction.guides.guides import turned_with
 from graphkin.construction.higher_class.higher import Each
-from graphkin.construction.links.counted_turn import counted_near
 from graphkin.construction.links.plate_points import place_point
+from graphkin.construction.links.rolled_turn import counted_near
 from graphkin.construction.plan import VELOCITY, Plan
 from graphkin.construction.rolling import rolling, wheel_images
 from graphkin.construction.rolling.contact_points import by_contact

@@ -13,15 +13,12 @@ from typing import Any, Literal
 
 from msgspec import Struct, field
 
-from graphkin.construction.core.batch import is_array, run_batch, run_blocks
 from graphkin.construction.core.program import Program
-from graphkin.construction.core.run import Trace, Values
+from graphkin.construction.core.run import Trace, Values, is_array, run_batch, run_blocks
 from graphkin.construction.core.solution import with_least_margin
 from graphkin.construction.tape.emitted import Emitted
-from graphkin.construction.tape.traced import UntraceableError
-from graphkin.construction.tape.tracer import parts_named, traced
-from graphkin.numbers.arithmetic import batch_kind
-from graphkin.numbers.arrays import np
+from graphkin.construction.tape.traced import UntraceableError, parts_named, traced
+from graphkin.numbers.arithmetic import batch_kind, np
 
 EMITTED_FROM = 2_000
 """Variants from which source is written: a few such batches make up for it."""

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from functools import cached_property
 from typing import Any
 
@@ -11,11 +11,247 @@ from msgspec import Struct
 
 from graphkin.construction.core.program import Program
 from graphkin.construction.core.run import Trace
-from graphkin.construction.tape.emit import Column, loop_source, numpy_source
-from graphkin.construction.tape.graph import Graph
+from graphkin.construction.tape.graph import Graph, Node
 from graphkin.construction.tape.traced import TracedNumber
-from graphkin.numbers.arrays import np
+from graphkin.numbers.arithmetic import np
 from graphkin.numbers.plane import Circle, Line, Ratio, Vector
+
+ARRAYS = {
+    "add": "add",
+    "sub": "subtract",
+    "mul": "multiply",
+    "min": "minimum",
+    "max": "maximum",
+    "over": "divide",
+    "neg": "negative",
+    "abs": "absolute",
+    "sqrt": "sqrt",
+    "round": "rint",
+    "floor": "floor",
+    "cos": "cos",
+    "sin": "sin",
+    "sin45": "sin",
+    "atan2": "arctan2",
+}
+"""The numpy function of an operation that fills an array of numbers."""
+TRUTHS = {
+    "less": "less",
+    "at_most": "less_equal",
+    "equal": "equal",
+    "both": "logical_and",
+    "either": "logical_or",
+    "not": "logical_not",
+}
+"""The numpy function of an operation that gives a condition."""
+LOOP = {
+    "add": "{} + {}",
+    "sub": "{} - {}",
+    "mul": "{} * {}",
+    "over": "1.0 / {}",
+    "min": "{0} if {0} <= {1} else {1}",
+    "max": "{1} if {0} <= {1} else {0}",
+    "neg": "-{}",
+    "abs": "abs({})",
+    "sqrt": "sqrt({})",
+    "round": "rint({})",
+    "floor": "floor({})",
+    "cos": "cos({})",
+    "sin": "sin({})",
+    "sin45": "sin45({})",
+    "atan2": "atan2({}, {})",
+    "less": "{} < {}",
+    "at_most": "{} <= {}",
+    "equal": "{} == {}",
+    "both": "{} & {}",
+    "either": "{} | {}",
+    "not": "not {}",
+    "choose": "{1} if {0} else {2}",
+}
+"""An operation in a loop over single numbers."""
+CALLS = frozenset({"cos", "sin", "atan2"})
+"""Operations that call a library, number by number: they cannot go several variants at once."""
+Column = tuple[int, ...]
+"""The nodes of what goes into one array: one of real numbers, two of points."""
+STRIP = 64
+"""Variants that a compiled loop takes through its scratch, which stays in the nearest cache."""
+
+
+def last_uses(graph: Graph, order: Sequence[int]) -> dict[int, int]:
+    """After which node each node is no longer needed."""
+    last = {number: number for number in order}
+    for number in order:
+        last |= dict.fromkeys(graph.nodes[number].args, number)
+    return last
+
+
+def shown(node: Node) -> str:
+    """A constant as source."""
+    return repr(node.value)
+
+
+# --- numpy ---------------------------------------------------------------------------------------
+
+
+def numpy_source(graph: Graph, outputs: Sequence[int]) -> tuple[str, int]:
+    """Source of ``block(x, y, t)`` on arrays, and how many scratch arrays t it wants.
+
+    ``x`` are the inputs by name, ``y`` the arrays to be filled with the outputs.
+    """
+    order = graph.needed(outputs)
+    scratch = ScratchArrays(graph, order, outputs)
+    body = [line for number in order for line in scratch.written(number)]
+    opening = [f"t{number} = t[{number}]" for number in range(scratch.count)]
+    opening += [f"y{place} = y[{place}]" for place in range(len(outputs))]
+    constants = [f"{name} = array({value})" for value, name in scratch.constants.items()]
+    lines = ["def block(x, y, t):", *(f"    {line}" for line in (*opening, *body, "return"))]
+    lines = [*constants, *lines]
+    return "\n".join(lines) + "\n", scratch.count
+
+
+class ScratchArrays:
+    """Scratch arrays, each given to another node when the node in it has died."""
+
+    def __init__(self, graph: Graph, order: Sequence[int], outputs: Sequence[int]) -> None:
+        self.graph = graph
+        self.count = 0
+        self.free: list[int] = []
+        self.name: dict[int, str] = {}
+        self.constants: dict[str, str] = {}
+        self.places: dict[int, list[int]] = {}
+        for place, number in enumerate(outputs):
+            self.places.setdefault(number, []).append(place)
+        self.dying: dict[int, list[int]] = {}
+        for number, end in last_uses(graph, order).items():
+            self.dying.setdefault(end, []).append(number)
+
+    def take(self, number: int) -> str:
+        """A scratch array for a node; what is only an output goes where it belongs at once."""
+        if number in self.dying.get(number, ()):
+            return f"y{self.places[number].pop(0)}"
+        if not self.free:
+            self.free.append(self.count)
+            self.count += 1
+        return f"t{self.free.pop()}"
+
+    def constant(self, value: str) -> str:
+        """A constant by a name: numpy takes an array of one number quicker than a plain one."""
+        return self.constants.setdefault(value, f"k{len(self.constants)}")
+
+    def written(self, number: int) -> list[str]:
+        """The lines that give a node its value and copy it to the outputs that it is."""
+        node = self.graph.nodes[number]
+        lines = []
+        if node.op == "number":
+            self.name[number] = self.constant(shown(node))
+        elif node.op == "input":
+            self.name[number] = f"x[{node.name!r}]"
+        else:
+            lines.append(self.statement(number, node))
+        places = self.places.get(number, ())
+        lines += [f"copyto(y{place}, {self.name[number]})" for place in places]
+        for dead in self.dying.get(number, ()):
+            if self.name[dead].startswith("t"):
+                self.free.append(int(self.name[dead][1:]))
+        return lines
+
+    def statement(self, number: int, node: Node) -> str:
+        """The call that works out a node."""
+        args = [self.name[arg] for arg in node.args]
+        if node.op in TRUTHS or node.op == "choose":
+            function, letter = (TRUTHS[node.op], "c") if node.op in TRUTHS else ("where", "w")
+            self.name[number] = f"{letter}{number}"
+            return f"{letter}{number} = {function}({', '.join(args)})"
+        self.name[number] = array = self.take(number)
+        if node.op == "over":
+            args.insert(0, self.constant("1.0"))
+        return f"{ARRAYS[node.op]}({', '.join(args)}, out={array})"
+
+
+# --- a loop over single numbers ------------------------------------------------------------------
+
+
+def loop_source(graph: Graph, columns: Sequence[Column], inputs: Sequence[str]) -> str:
+    """Source of ``loop(size, x…, y…)``: a strip of variants at a time through a small scratch.
+
+    All that is worked on lies in one array at distances known beforehand, so that a compiler sees
+    that nothing overlaps and takes several variants at once. What calls a library goes first.
+    """
+    outputs = [number for column in columns for number in column]
+    order = graph.needed(outputs)
+    early = graph.needed([number for number in order if graph.nodes[number].op in CALLS])
+    kept = rows_of(graph, order, set(early), outputs)
+    xs = [f"x{place}" for place in range(len(inputs))]
+    ys = [f"y{place}" for place in range(len(columns))]
+    names = dict(zip(inputs, xs, strict=True))
+    lines = [f"def loop({', '.join(('size', *xs, *ys))}):"]
+    lines += [f"    s = zeros({len(kept) * STRIP})", f"    for start in range(0, size, {STRIP}):"]
+    lines += [f"        part = min({STRIP}, size - start)"]
+    for number, row in kept.items():
+        if graph.nodes[number].op == "input":
+            lines += each("part", f"{at(row)} = {names[graph.nodes[number].name]}[start + i]")
+    late = [number for number in order if number not in set(early)]
+    for phase, bound in ((early, "part"), (late, STRIP)):
+        lines += each(bound, *statements(graph, phase, kept))
+    for y, column in zip(ys, columns, strict=True):
+        parts = [at(kept[number]) for number in column]
+        whole = parts[0] if len(parts) == 1 else f"complex({', '.join(parts)})"
+        lines += [f"        z = {y}[start : start + part]", *each("part", f"z[i] = {whole}")]
+    return "\n".join(lines) + "\n"
+
+
+def rows_of(
+    graph: Graph, order: Sequence[int], early: set[int], outputs: Iterable[int]
+) -> dict[int, int]:
+    """The nodes that have a row of the scratch: inputs, outputs, what goes from loop to loop."""
+    wanted = set(outputs)
+    for number in order:
+        node = graph.nodes[number]
+        if node.op == "input":
+            wanted.add(number)
+        if number not in early:
+            wanted |= {arg for arg in node.args if arg in early}
+    rows = [n for n in order if n in wanted and graph.nodes[n].op != "number"]
+    constants = [n for n in set(outputs) if graph.nodes[n].op == "number"]
+    return {number: row for row, number in enumerate((*rows, *sorted(constants)))}
+
+
+def statements(graph: Graph, phase: Sequence[int], kept: dict[int, int]) -> list[str]:
+    """One statement for each node of a loop; what another loop has left is read first."""
+    mine = set(phase)
+    used = {arg for number in phase for arg in graph.nodes[number].args}
+    lines = [f"v{arg} = {at(kept[arg])}" for arg in sorted(used - mine) if arg in kept]
+    for number in phase:
+        node = graph.nodes[number]
+        if node.op == "input":
+            lines.append(f"v{number} = {at(kept[number])}")
+        elif node.op != "number":
+            args = [value(graph, arg) for arg in node.args]
+            lines.append(f"v{number} = {LOOP[node.op].format(*args)}")
+        if number in kept and node.op != "input":
+            lines.append(f"{at(kept[number])} = {value(graph, number)}")
+    return lines
+
+
+def value(graph: Graph, number: int) -> str:
+    """A node in an expression."""
+    node = graph.nodes[number]
+    return f"({shown(node)})" if node.op == "number" else f"v{number}"
+
+
+def at(row: int) -> str:
+    """The place of a row in the scratch."""
+    return f"s[{row * STRIP} + i]"
+
+
+def each(bound: int | str, *body: str) -> list[str]:
+    """A loop over the variants of a strip."""
+    if not body:
+        return []
+    return [f"        for i in range({bound}):", *(f"            {line}" for line in body)]
+
+
+# --- A traced program as something to run: its source as numpy functions, or as a compiled loop ---
+
 
 BLOCK = 8192
 """Variants run at once by numpy: few enough for the cache, enough to pay for each call."""

@@ -13,7 +13,7 @@ from typing import Any
 
 from graphkin.construction.tape.graph import FOLD, Graph, Node
 from graphkin.construction.tape.traced import COMPARE, TracedNumber, Truth, entered
-from graphkin.numbers.arrays import np
+from graphkin.numbers.arithmetic import np
 
 TRUTHS: Mapping[str, Callable[..., Any]] = {
     **COMPARE,
@@ -102,8 +102,8 @@ def value_of(node: Node, values: Sequence[Any], inputs: Mapping[str, float]) -> 
 
 def runner(graph: Graph, outputs: Sequence[int]) -> Callable[[Mapping[str, Any]], list[Any]]:
     """Some outputs as a function of arrays of inputs, each array of the same length."""
-    from graphkin.construction.tape.emit import ARRAYS
-    from graphkin.construction.tape.emit import TRUTHS as CONDITIONS
+    from graphkin.construction.tape.emitted import ARRAYS
+    from graphkin.construction.tape.emitted import TRUTHS as CONDITIONS
 
     known = {**ARRAYS, **CONDITIONS, "choose": "where", "over": "reciprocal"}
     order = [(number, graph.nodes[number]) for number in graph.needed(outputs)]

@@ -19,7 +19,7 @@ from graphkin.construction.core.solution import (
     Solution,
     Verdict,
 )
-from graphkin.loops.branch_closures import (
+from graphkin.loops.assemble import (
     ON_LINE,
     closure_numbers,
     closures,
@@ -32,8 +32,7 @@ from graphkin.loops.cam_laws import by_law, without_linkages
 from graphkin.loops.closing_groups import Group, counted_in_order, groups, speaks_of, stages
 from graphkin.loops.equations import Equations, equations, joined, part_of
 from graphkin.loops.loop_motion import Motion, pose_of, setting_of, unknowns_of
-from graphkin.loops.newton import LoopSolution, closed_from, refuse_undriven
-from graphkin.loops.newton_start import Start, start_values
+from graphkin.loops.newton import LoopSolution, Start, closed_from, refuse_undriven, start_values
 from graphkin.loops.rigid_bodies import Reals
 from graphkin.loops.witness.differences import (
     LEAST_LIMIT,

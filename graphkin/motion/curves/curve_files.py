@@ -6,8 +6,8 @@ from collections.abc import Callable, Iterator, Sequence
 from functools import partial
 from typing import TYPE_CHECKING
 
-from graphkin.motion.curves import over_driver, plane_paths, ring
-from graphkin.motion.curves.sampled import Sampled, sampled
+from graphkin.motion.curves import over_driver, plane_paths
+from graphkin.motion.curves.over_driver import Sampled, sampled
 from graphkin.motion.cycle import Cycle
 from graphkin.motion.single_loop import loop_of
 from graphkin.writers import plot_style
@@ -33,4 +33,4 @@ def figures(found: Sampled) -> Iterator[tuple[str, Callable[[], Figure]]]:
         yield f"centrodes-{link}", partial(plane_paths.both_centrodes, found, link)
     loop = loop_of(found.cycle)
     if loop is not None:
-        yield "reach", partial(ring.reach, found, loop)
+        yield "reach", partial(plane_paths.reach, found, loop)

@@ -16,8 +16,7 @@ from graphkin.accuracy.pencil.pencil import STRAIGHT, Pencil
 from graphkin.classroom.grading.class_marking import Book
 from graphkin.classroom.grading.graded import Answer
 from graphkin.classroom.grading.marking import Marker
-from graphkin.classroom.grading.standard import Standard, standard
-from graphkin.classroom.grading.tolerance import joint_drawings
+from graphkin.classroom.grading.standard import Standard, joint_drawings, standard
 from graphkin.classroom.lab.items import items
 from graphkin.classroom.lab.lab_model import Lab
 from graphkin.classroom.lab.read_lab import read_lab

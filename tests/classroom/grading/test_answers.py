@@ -10,7 +10,7 @@ import pytest
 from graphkin.classroom.grading.answer_numbers import read_answer, rounding
 from graphkin.classroom.grading.answers import Unread, read_answers
 from graphkin.classroom.grading.class_report import stranger_lines
-from graphkin.classroom.grading.feedback_rows import unread
+from graphkin.classroom.grading.feedback import unread
 from graphkin.classroom.grading.graded import Answer
 from graphkin.classroom.lab.lab_model import Item
 from graphkin.classroom.roster.student_signs import signs

@@ -13,12 +13,10 @@ import pytest
 from msgspec.structs import replace
 
 from graphkin.classroom.grading.class_marking import graded_class
-from graphkin.classroom.grading.class_pictures import slip_counts
-from graphkin.classroom.grading.class_report import own_work
-from graphkin.classroom.grading.copied_answers import wrong_variants
+from graphkin.classroom.grading.class_report import own_work, slip_counts
+from graphkin.classroom.grading.copied_answers import copies, wrong_variants
+from graphkin.classroom.grading.copied_answers import named as grouped
 from graphkin.classroom.grading.graded import SURE, Answer, Status
-from graphkin.classroom.grading.same_digits import copies
-from graphkin.classroom.grading.same_digits import named as grouped
 from tests.chosen import EVERY
 from tests.classroom.grading.classes import (
     COPYING,

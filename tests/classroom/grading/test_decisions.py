@@ -11,12 +11,15 @@ from msgspec.structs import replace
 from graphkin.classroom.grading.answers import Unread
 from graphkin.classroom.grading.class_marking import graded_class
 from graphkin.classroom.grading.class_report import open_cells
-from graphkin.classroom.grading.decisions import EMPTY, Deciding, read_decisions
+from graphkin.classroom.grading.decisions import EMPTY, Deciding, Releases, read_decisions
 from graphkin.classroom.grading.feedback import feedback_html, feedback_pages
 from graphkin.classroom.grading.graded import Answer, Decision, Status
-from graphkin.classroom.grading.grading_files import ReportSettings, points_by_id, report_files
-from graphkin.classroom.grading.marks_tables import read_marks
-from graphkin.classroom.grading.releases import Releases
+from graphkin.classroom.grading.grading_files import (
+    ReportSettings,
+    points_by_id,
+    read_marks,
+    report_files,
+)
 from graphkin.classroom.roster.student_signs import signs
 from graphkin.text import words
 from graphkin.text.errors import RosterError

@@ -9,7 +9,6 @@ import numpy as np
 import pytest
 
 from graphkin import load
-from graphkin.classroom.grading.construction_slips import constructions
 from graphkin.classroom.grading.graded import Answer, EarnedMark, Status
 from graphkin.classroom.grading.marking import Marker
 from graphkin.classroom.grading.slip_diagnosis import (
@@ -21,7 +20,7 @@ from graphkin.classroom.grading.slip_diagnosis import (
     judged,
     share,
 )
-from graphkin.classroom.grading.slips import Slip
+from graphkin.classroom.grading.slips import Slip, constructions
 from graphkin.classroom.grading.standard import Standard, standard
 from graphkin.classroom.lab.items import asked_fields
 from graphkin.classroom.lab.lab_model import Rubric

@@ -11,10 +11,9 @@ from msgspec.structs import replace
 
 from graphkin.classroom.grading.answer_numbers import read_answer
 from graphkin.classroom.grading.class_report import summary
-from graphkin.classroom.grading.feedback import feedback_html, feedback_pages
-from graphkin.classroom.grading.feedback_rows import rows
+from graphkin.classroom.grading.feedback import feedback_html, feedback_pages, rows
 from graphkin.classroom.grading.graded import Answer, Graded, Result, Status
-from graphkin.classroom.grading.marks_tables import marks_table, read_marks
+from graphkin.classroom.grading.grading_files import marks_table, read_marks
 from graphkin.drawing.marks import Page, Text, reach
 from graphkin.drawing.richtext import plain
 from graphkin.text import LANGUAGES, words

@@ -13,10 +13,14 @@ import openpyxl
 import openpyxl.styles
 import pytest
 
-from graphkin.classroom.grading import gradebook_xlsx
-from graphkin.classroom.grading.gradebook import GradebookError, with_marks
-from graphkin.classroom.grading.gradebook_xlsx import read_gradebook
-from graphkin.classroom.grading.sheet_xml import computed_anew, with_numbers
+from graphkin.classroom.grading import gradebook
+from graphkin.classroom.grading.gradebook import (
+    GradebookError,
+    computed_anew,
+    read_gradebook,
+    with_marks,
+    with_numbers,
+)
 from graphkin.classroom.roster.spreadsheets import SEPARATORS
 from graphkin.classroom.roster.student_signs import signs
 
@@ -135,9 +139,9 @@ def test_cells_of_a_gradebook_are_those_that_a_spreadsheet_reads(book):
 
 
 def test_a_gradebook_of_too_many_cells_is_not_read_to_its_end(book, monkeypatch):
-    seen, cell = [], gradebook_xlsx.cell
-    monkeypatch.setattr(gradebook_xlsx, "MOST_CELLS", 50)
-    monkeypatch.setattr(gradebook_xlsx, "cell", lambda raw: seen.append(raw) or cell(raw))
+    seen, cell = [], gradebook.cell
+    monkeypatch.setattr(gradebook, "MOST_CELLS", 50)
+    monkeypatch.setattr(gradebook, "cell", lambda raw: seen.append(raw) or cell(raw))
     with pytest.raises(GradebookError, match="more than 50 cells"):
         book("id,mark\n" + "\n" * 1000)
     assert len(seen) == 50

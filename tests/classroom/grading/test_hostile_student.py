@@ -23,8 +23,8 @@ from graphkin.classroom.grading.class_marking import Marked, graded_class, marke
 from graphkin.classroom.grading.class_report import open_cells
 from graphkin.classroom.grading.graded import Answer, Graded, Status
 from graphkin.classroom.grading.graded import Result as Marks
+from graphkin.classroom.grading.grading_files import marks_table
 from graphkin.classroom.grading.marking import Marker
-from graphkin.classroom.grading.marks_tables import marks_table
 from graphkin.classroom.roster.spreadsheets import RowProblems, sheet_in
 from graphkin.classroom.roster.student_signs import signs
 from graphkin.cli.main import app

@@ -13,11 +13,10 @@ from itertools import pairwise
 import numpy as np
 import pytest
 
-from graphkin.classroom.grading.feedback_rows import why
+from graphkin.classroom.grading.feedback import why
 from graphkin.classroom.grading.graded import Answer, Status
-from graphkin.classroom.grading.marking import Marker, is_right
+from graphkin.classroom.grading.marking import Marker, is_near, is_right
 from graphkin.classroom.grading.neighbours import RightValues, is_within, neighbours, standards_of
-from graphkin.classroom.grading.one_drawing import is_near
 from graphkin.text import Words
 from tests.chosen import EVERY
 from tests.classroom.grading import own_labs

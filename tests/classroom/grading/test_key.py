@@ -11,7 +11,7 @@ from graphkin.accuracy.pencil.pencil import Pencil
 from graphkin.classroom.grading.class_marking import Book
 from graphkin.classroom.grading.graded import Status
 from graphkin.classroom.grading.marking import sense_is_open
-from graphkin.classroom.grading.tolerance import (
+from graphkin.classroom.grading.standard import (
     FINE,
     added,
     combined,

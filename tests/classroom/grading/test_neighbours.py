@@ -22,9 +22,9 @@ from graphkin.classroom.lab.fairness_words import apart_lines
 from graphkin.classroom.lab.lab_model import LabRule, Range
 from graphkin.classroom.lab.rules import settings
 from graphkin.classroom.roster.student import Student
-from graphkin.classroom.variants import assign, class_words
+from graphkin.classroom.variants import assign, class_files
 from graphkin.classroom.variants.assign import assigned
-from graphkin.classroom.variants.class_words import class_lines
+from graphkin.classroom.variants.class_files import class_lines
 from graphkin.text.errors import RosterError
 from tests.classroom.grading.students import LABS, lab_of
 
@@ -209,7 +209,7 @@ def test_of_a_long_list_a_part_is_compared_and_that_is_said(monkeypatch):
     lab = lab_of("pump")
     found = assigned(lab, STUDENTS)
     assert not [line for line in class_lines(lab, found) if line.startswith("compared")]
-    monkeypatch.setattr(class_words, "COMPARED", 4)
+    monkeypatch.setattr(class_files, "COMPARED", 4)
     told = list(class_lines(lab, found))
     (said,) = [line for line in told if line.startswith("compared")]
     assert said.endswith("4 of 8 students, evenly spaced in the list")

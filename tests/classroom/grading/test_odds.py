@@ -15,6 +15,18 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 
+from graphkin.classroom.grading.copied_answers import (
+    FEW,
+    AnswerSheet,
+    by_oneself,
+    by_own_scales,
+    chosen,
+    copies,
+    misunderstood,
+    sheet,
+    told,
+    with_slips,
+)
 from graphkin.classroom.grading.graded import Answer, Graded
 from graphkin.classroom.grading.keys import Keys, distinct
 from graphkin.classroom.grading.likelihood import (
@@ -25,19 +37,7 @@ from graphkin.classroom.grading.likelihood import (
     likelihood_if_drawn,
     scattered,
 )
-from graphkin.classroom.grading.one_drawing import is_one_drawing
-from graphkin.classroom.grading.own_ways import by_own_scales
-from graphkin.classroom.grading.same_digits import (
-    FEW,
-    AnswerSheet,
-    by_oneself,
-    chosen,
-    copies,
-    misunderstood,
-    sheet,
-    told,
-    with_slips,
-)
+from graphkin.classroom.grading.marking import is_one_drawing
 from graphkin.classroom.lab.rules import exact_text
 from graphkin.classroom.roster.student import Student
 from graphkin.classroom.roster.taker import Taker

@@ -16,12 +16,18 @@ from msgspec.structs import replace
 
 from graphkin.classroom.grading import class_report
 from graphkin.classroom.grading.class_marking import graded_class
-from graphkin.classroom.grading.class_pictures import pictures
+from graphkin.classroom.grading.class_report import pictures
 from graphkin.classroom.grading.decisions import EMPTY
 from graphkin.classroom.grading.feedback import feedback_pages
 from graphkin.classroom.grading.graded import Answer, Result, Suspicion
-from graphkin.classroom.grading.grading_files import ReportSettings, points_by_id, report_files
-from graphkin.classroom.grading.marks_tables import differences, marks_table, read_marks
+from graphkin.classroom.grading.grading_files import (
+    ReportSettings,
+    differences,
+    marks_table,
+    points_by_id,
+    read_marks,
+    report_files,
+)
 from graphkin.classroom.roster.student import Student
 from graphkin.classroom.roster.taker import Taker
 from graphkin.cli.main import app

@@ -10,9 +10,8 @@ from pathlib import Path
 import pytest
 from click.testing import CliRunner
 
-from graphkin.classroom.grading.answers import read_answers
-from graphkin.classroom.grading.marks_tables import read_marks
-from graphkin.classroom.grading.submissions import sender, submissions
+from graphkin.classroom.grading.answers import read_answers, sender, submissions
+from graphkin.classroom.grading.grading_files import read_marks
 from graphkin.classroom.roster.student_signs import signs
 from graphkin.cli.main import app
 from graphkin.text.errors import RosterError
@@ -157,10 +156,10 @@ def test_what_is_no_zip_and_what_holds_too_much_is_refused(tmp_path, monkeypatch
     with pytest.raises(RosterError, match="without any table"):
         submissions(path)
     packed(path, {"a.csv": "x" * 200})
-    monkeypatch.setattr("graphkin.classroom.grading.submissions.LARGEST", 100)
+    monkeypatch.setattr("graphkin.classroom.grading.answers.LARGEST", 100)
     with pytest.raises(RosterError, match=r"a.csv: is too large"):
         submissions(path).tables[0].read()
-    monkeypatch.setattr("graphkin.classroom.grading.submissions.MOST_BYTES", 100)
+    monkeypatch.setattr("graphkin.classroom.grading.answers.MOST_BYTES", 100)
     with pytest.raises(RosterError, match=r"a.zip: is too large"):
         submissions(path)
 

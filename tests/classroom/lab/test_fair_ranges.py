@@ -19,14 +19,20 @@ from graphkin.classroom.lab.fair_ranges import (
     round_step,
     runs_of,
 )
-from graphkin.classroom.lab.fair_ranges_words import as_toml, variants_lines
-from graphkin.classroom.lab.formula_mending import candidates, is_fair, mended
 from graphkin.classroom.lab.lab_model import Range, ValueList
 from graphkin.classroom.lab.lab_trial import tried
-from graphkin.classroom.lab.proposed_ranges import formula_faults, proposed_ranges
+from graphkin.classroom.lab.proposed_ranges import (
+    as_toml,
+    candidates,
+    formula_faults,
+    is_fair,
+    mended,
+    proposed_ranges,
+    variants_lines,
+)
 from graphkin.classroom.lab.read_lab import read_lab
+from graphkin.cli.class_commands import proposed
 from graphkin.cli.main import app
-from graphkin.cli.ranges_command import proposed
 from graphkin.text.errors import SceneError
 from tests.scene_files import scene_text
 

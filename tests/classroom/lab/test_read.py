@@ -8,8 +8,7 @@ from fractions import Fraction
 import pytest
 from click.testing import CliRunner
 
-from graphkin.classroom.lab.asking import asked_of
-from graphkin.classroom.lab.items import all_fields, items
+from graphkin.classroom.lab.items import all_fields, asked_of, items
 from graphkin.classroom.lab.lab_model import Fair, LabRule, Range, Rubric
 from graphkin.classroom.lab.read_lab import find, read_lab, with_rules
 from graphkin.cli.main import app

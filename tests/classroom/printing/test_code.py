@@ -11,7 +11,7 @@ import zxingcpp as reader
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from graphkin.classroom.printing.qr_code import (
+from graphkin.classroom.printing.personal import (
     SIDE,
     boxes,
     corners_of_a3,
@@ -21,7 +21,7 @@ from graphkin.classroom.printing.qr_code import (
     rectangles,
     stamped,
 )
-from graphkin.drawing.areas import A3_AREA, A3_TITLE_BLOCK, A4_AREA, BELOW
+from graphkin.drawing.field import A3_AREA, A3_TITLE_BLOCK, A4_AREA, BELOW
 from graphkin.drawing.frame import TitleBlock, page_frame, sheet_frame
 from graphkin.drawing.marks import LineMark, Page, Polyline, Text, reach
 from graphkin.writers.pdf import write_pdf

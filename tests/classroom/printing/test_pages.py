@@ -21,16 +21,21 @@ from graphkin.classroom.printing.answer_form import (
     rows_within,
 )
 from graphkin.classroom.printing.edition import read_edition
-from graphkin.classroom.printing.personal import fits, owner, shortened
+from graphkin.classroom.printing.personal import (
+    boxes,
+    crosses_of,
+    fits,
+    modules,
+    owner,
+    shortened,
+    without_crosses,
+)
 from graphkin.classroom.printing.print_work import VIEWS, PrintOrder, Sheets, StudentSheets
 from graphkin.classroom.printing.print_work import make as made
-from graphkin.classroom.printing.qr_code import boxes, modules
-from graphkin.classroom.printing.register_crosses import crosses_of, without_crosses
 from graphkin.classroom.roster.student import Student
 from graphkin.classroom.roster.taker import Taker
-from graphkin.drawing.glyphs import measures
 from graphkin.drawing.marks import Page, Text
-from graphkin.drawing.richtext import plain
+from graphkin.drawing.richtext import measures, plain
 from graphkin.text import LANGUAGES, words
 from graphkin.writers import pdf
 from tests.chosen import SPOKEN

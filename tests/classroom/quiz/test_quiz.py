@@ -22,8 +22,16 @@ from graphkin.classroom.grading.slip_diagnosis import likelihood
 from graphkin.classroom.grading.slips import differs
 from graphkin.classroom.lab.read_lab import read_lab
 from graphkin.classroom.printing.print_work import PrintOrder
-from graphkin.classroom.quiz.gaps import Gap, Taken, gaps
-from graphkin.classroom.quiz.moodle_quiz import bank, cloze, questions, variants_of, weights
+from graphkin.classroom.quiz.moodle_quiz import (
+    Gap,
+    Taken,
+    bank,
+    cloze,
+    gaps,
+    questions,
+    variants_of,
+    weights,
+)
 from graphkin.cli.main import app
 from graphkin.text import words
 from tests.chosen import SPOKEN

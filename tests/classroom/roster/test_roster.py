@@ -15,13 +15,18 @@ from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as some
 
 from graphkin.classroom.lab.read_lab import read_lab
-from graphkin.classroom.roster import spreadsheets, xlsx
-from graphkin.classroom.roster.csv_text import NUMBER, csv_text, safe
+from graphkin.classroom.roster import spreadsheets
 from graphkin.classroom.roster.read_roster import NAMES, read_roster
-from graphkin.classroom.roster.sheet_rows import MOST_CELLS
-from graphkin.classroom.roster.spreadsheets import SEPARATORS, folded
+from graphkin.classroom.roster.spreadsheets import (
+    MOST_CELLS,
+    NUMBER,
+    SEPARATORS,
+    csv_text,
+    folded,
+    safe,
+    xlsx_rows,
+)
 from graphkin.classroom.roster.student import Student
-from graphkin.classroom.roster.xlsx import xlsx_rows
 from graphkin.classroom.variants.assign import check_of
 from graphkin.text.errors import InTable, RosterError
 
@@ -397,8 +402,8 @@ def test_a_stray_cell_far_below_costs_no_cells_between(packed):
 def test_a_workbook_far_too_large_is_not_read_to_its_end(packed, monkeypatch, rows, words):
     """No more than the cells that a table may have are looked at."""
     seen = []
-    monkeypatch.setattr(xlsx, "LAST_ROW", 1000)
-    monkeypatch.setattr(xlsx, "cell_text", lambda cell: seen.append(cell) or "")
+    monkeypatch.setattr(spreadsheets, "LAST_ROW", 1000)
+    monkeypatch.setattr(spreadsheets, "cell_text", lambda cell: seen.append(cell) or "")
     (found,) = problems(packed(rows))
     assert words in found
     assert len(seen) <= MOST_CELLS

@@ -23,8 +23,7 @@ from graphkin.classroom.roster.read_roster import read_roster
 from graphkin.classroom.roster.student import Student
 from graphkin.classroom.roster.taker import Taker
 from graphkin.classroom.variants.assign import assigned
-from graphkin.classroom.variants.class_files import write_class
-from graphkin.classroom.variants.class_words import class_lines
+from graphkin.classroom.variants.class_files import class_lines, write_class
 from graphkin.scene.scene_files import UNFINISHED
 from graphkin.text.errors import PageError, RosterError
 from tests.classroom.variants.rederiving import read_rule, rederived

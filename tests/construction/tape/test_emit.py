@@ -10,13 +10,12 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from graphkin.construction.core.batch import run_batch, run_blocks
 from graphkin.construction.core.program import Part, Plane, Program, Step
+from graphkin.construction.core.run import run_batch, run_blocks
 from graphkin.construction.core.solution import smallest_margin
 from graphkin.construction.core.vocabulary import action
 from graphkin.construction.tape.batch_runner import EMITTED_FROM, BatchRunner
-from graphkin.construction.tape.emit import loop_source, numpy_source
-from graphkin.construction.tape.emitted import BLOCK, loop_names, sin45
+from graphkin.construction.tape.emitted import BLOCK, loop_names, loop_source, numpy_source, sin45
 from graphkin.construction.tape.graph import COMMUTING, Graph
 from graphkin.construction.tape.traced import TracedNumber, UntraceableError
 from graphkin.mechanism import Mechanism, load
