@@ -10,6 +10,8 @@ from graphkin.text.errors import MOST, About, Change, Hint, Mend, Problem, Scene
 LISTED = 12
 BEGUN = 3
 """Letters in which a name and a longer one must begin alike for either to be near the other."""
+SHORT = 2
+"""Letters of a name so short that one of them is more than a third."""
 DIGITS = "0123456789"
 COMBINING = "\u0300"
 """The first sign that combines with the letter before it: what is all below is composed."""
@@ -159,20 +161,28 @@ def nearest(name: str, known: Iterable[str]) -> Hint:
 def near_name(name: str, known: Iterable[str]) -> str:
     """The known name nearest to one that is not known; empty when none is near.
 
-    Near is what differs by its case or its number, what begins alike, and what at most a third of
-    its letters would have to change for.
+    Near is what differs by its case, its number or leading zeros, what begins alike, and what at
+    most a third of its letters would have to change for. A name of one or two letters is near to
+    the only known one that has a letter more or less, or that is known at all and one letter off.
     """
-    meant = name[:60].lower()
+    meant, known = name[:60].lower(), tuple(known)
     near: dict[str, tuple[int, int]] = {}
+    single: list[str] = []
     for candidate in known:
         other = candidate.lower()
         short, long = sorted((len(meant), len(other)))
         begun = short >= BEGUN and other[:short] == meant[:short]
         numbered_otherwise = meant.rstrip(DIGITS) == other.rstrip(DIGITS) != ""
-        if begun or numbered_otherwise or 3 * (long - short) <= long:
+        padded = meant.lstrip("0") == other.lstrip("0") != ""
+        sure = begun or numbered_otherwise or padded
+        if sure or 3 * (long - short) <= long or long <= SHORT:
             changes = changes_between(meant, other)
-            if begun or numbered_otherwise or 3 * changes <= long:
+            if sure or 3 * changes <= long:
                 near[candidate] = changes, abs(number_of(meant) - number_of(other))
+            elif changes == 1 and (short < long or len(known) == 1):
+                single.append(candidate)
+    if not near and len(single) == 1:
+        return single[0]
     return min(near, key=lambda candidate: near[candidate], default="")
 
 

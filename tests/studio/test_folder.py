@@ -244,8 +244,9 @@ def test_what_is_opened_is_what_was_named(place):
     assert session.open("pump", "lab").text == PUMP
     assert session.open("pump", "lab").name == "pump.toml"
     read_text(session.open("", "").text, "new")
+    assert session.open("none.toml", "scene").gone
     for kind in ("scene", "like", "lab", "example"):
-        for name in ("none.toml", "../pump", "../secret.toml", "..", "/etc/passwd", "link.toml"):
+        for name in ("none", "../pump", "../secret.toml", "..", "/etc/passwd", "link.toml"):
             with pytest.raises(SceneError):
                 session.open(name, kind)
 
