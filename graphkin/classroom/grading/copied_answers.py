@@ -525,7 +525,10 @@ def likelihood(
 
 
 def tools(key: Key) -> tuple[Key, Key]:
-    """A key with the errors of a hand, and of a computer, by which no crank is laid off badly."""
+    """The key with the errors of a hand, and the key with those of a computer.
+
+    A computer sets every crank exactly.
+    """
     fine = replace(
         key, spread=FINER**2 * key.spread, computed=FINER * key.computed, cranks=0.0 * key.cranks
     )

@@ -296,7 +296,7 @@ def points_words(points: Fraction, words: Words) -> str:
 LEFT, RIGHT = A4_AREA[0] + 4, A4_AREA[2] - 4
 TOP, BOTTOM = A4_AREA[1] + 10, A4_AREA[3] - 5
 WIDTHS = (26.0, 34.5, 34.5, 28.2, 19.0, 29.8)
-"""Widths of the columns, in mm; a sense in words has room in the second and the third alike."""
+"""The widths of the columns, in mm; the second and third have room for a sense in words."""
 LETTER, SMALL = 2.5, 1.8
 LEADING, ROOM = 4.2, 2.6
 """The distance of lines and the space below a field, in mm."""

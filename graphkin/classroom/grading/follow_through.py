@@ -103,7 +103,7 @@ def size(answers: Answers, field: str) -> float:
 
 
 def own_value(standard: Standard, answers: Answers, field: str) -> float:
-    """An own value: of a rate with the own sense, with the key's where none was stated."""
+    """The own value of a field; a rate is signed by the own sense, else by the key."""
     sense = answers.get(standard.by_field[field].item.beside("sense"), BLANK).value
     return size(answers, field) * (sense or (1.0 if standard.key[field] >= 0 else -1.0))
 
