@@ -53,7 +53,10 @@ ELSEWISE = 0.3
 LIKELY = 1.5
 """The least odds at which a slip is named where nothing else is wrong."""
 SENSE = 6.0
-"""How much likelier a reversed sense is where a slip reverses it: else it seldom is wrong."""
+"""How much likelier a reversed sense is by a slip that reverses it.
+
+Otherwise a sense is seldom wrong.
+"""
 
 AGAINST = 0.1
 """How likely a sense is that contradicts the slip."""

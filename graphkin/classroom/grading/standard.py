@@ -25,7 +25,10 @@ from graphkin.mechanism import Mechanism
 from graphkin.numbers.arithmetic import FLOAT, np, turn_by
 
 FINE = 0.5
-"""A fine drawing has half the error that is forgiven: no cap takes its marks."""
+"""The error of a fine drawing, relative to the forgiven one.
+
+No cap takes marks from a fine drawing.
+"""
 RARE = 2.5758293035489004 / STRAIGHT
 """The error that 99 of 100 drawings keep to, relative to that of 95 of 100."""
 
@@ -157,7 +160,10 @@ def joint_errors(readings: Sequence[Reading], pencil: Pencil) -> list[float]:
 
 
 def joint_drawings(exact: Original, pencil: Pencil, count: int, seed: int) -> dict[int, Any]:
-    """Every value of so many drawings in which every mark is off; the same for the same seed."""
+    """The values of ``count`` drawings in which every mark is off.
+
+    The same ``seed`` gives the same values.
+    """
 
     def errors(number: int, mark: PencilMark) -> Any:
         stream = np.random.Generator(np.random.PCG64([seed, number]))

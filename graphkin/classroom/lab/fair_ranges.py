@@ -254,7 +254,10 @@ def halton(dimensions: int, count: int, start: int) -> Array:
 
 
 def runs_of(values: Range, fair: Sequence[bool]) -> Range | ValueList | None:
-    """The fair values of one parameter: a range, or a list of ranges and single values."""
+    """The fair values of one parameter: a range, or a list of ranges and values.
+
+    None where there are none.
+    """
     runs: list[Range] = []
     begun = None
     for index, good in enumerate([*fair, False]):
@@ -301,7 +304,10 @@ def peeled(lab: Lab, tried: Tried) -> Box | None:
 
 
 def peel(box: Box, places: Array, fair: Array) -> Box | None:
-    """Take the slice off whose loss leaves the largest fair share, until all inside is fair."""
+    """Peel slices off a box until all draws inside are fair; None where nothing is left.
+
+    Each slice is the one whose loss leaves the largest fair share.
+    """
 
     inside = within(box, places)
     while not fair[inside].all():

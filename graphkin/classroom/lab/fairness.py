@@ -235,7 +235,7 @@ class Fairness(Struct, dict=True):
 
     @cached_property
     def flattest_rays(self) -> Array:
-        """The smallest angle in degrees of rays to a centre or pole; infinite where none is."""
+        """The smallest angle in degrees of rays to a centre or pole, infinite without any."""
         return least_of(self.rays, len(self), float("inf"))
 
     @cached_property
@@ -329,7 +329,7 @@ def judge(
 
 
 def closing(mechanism: Mechanism, values: Mapping[str, Any], count: int) -> Array:
-    """Which variants can be constructed: all that is asked is finite, no crossing is singular."""
+    """Which variants can be constructed: all values asked are finite, no crossing is singular."""
     given = {name: value for name, value in values.items() if hasattr(value, "shape")}
     asked = mechanism.run_many(given, asked=True, kind="float64")
     motions: list[PointMotion | LinkMotion | SlideMotion] = [*asked.points.values()]
@@ -357,7 +357,10 @@ def put_drawn(found: Fairness, drawn: Sequence[VariantSheet], scales: Scales, wh
 def put(
     room: dict[str, Array], found: Iterator[tuple[str, Array]], which: Array, size: int
 ) -> None:
-    """Put arrays of some variants at their places; of two under one name the smaller stays."""
+    """Write arrays of some variants at their indices.
+
+    Of two arrays with one name, the smaller values are kept.
+    """
     for name, value in found:
         empty = np.zeros(size, dtype=bool) if np.asarray(value).dtype == bool else None
         array = room.setdefault(name, np.full(size, np.nan) if empty is None else empty)
