@@ -216,7 +216,7 @@ def packed_feedback(backs: Mapping[str, str], pages: Mapping[str, bytes], kind: 
     return data.getvalue()
 
 
-# --- answer tables: one row for each student, or one file each, by the fields of the form ---------
+# --- answer tables --------------------------------------------------------------------------------
 
 
 ABSENT = (
@@ -340,7 +340,7 @@ def read_answers(path: Path, items: Sequence[Item], signs: Signs, match: Match =
 def within_budget(tables: Sequence[HandedIn], reading: AnswerReading) -> Iterator[HandedIn]:
     """The tables, except those of senders who handed in too many or too much.
 
-    The tables of such a sender are refused.
+    The tables of these senders are refused.
     """
     own: dict[Sender, list[HandedIn]] = defaultdict(list)
     for file in tables:
@@ -512,9 +512,9 @@ class AnswerReading(Struct, dict=True):
         return (who,) if who is not None else ()
 
     def signed(self, place: InTable, sign: str, file: HandedIn, alone: bool) -> str | None:
-        """The student who signs a row or a file; None, with a note, where there is none.
+        """The student whose id a row or a file states; None, with a note, where there is none.
 
-        Where a platform names the sender, the signature must agree.
+        Where a platform names the sender, the id must agree.
         """
         owners = self.owners(file) if alone or file.sender is not None else ()
         if not sign and alone and len(owners) == 1:
@@ -547,7 +547,7 @@ class AnswerReading(Struct, dict=True):
         """Note what is not marked, and whose it may be.
 
         With a sender, these are the students of the sender's name. Otherwise they are the owner of
-        the file and ``who``, its signer.
+        the file and ``who``, whose id it states.
         """
         owners = self.owners(file)
         whose = tuple(dict.fromkeys(filter(None, (*owners, who))))

@@ -86,7 +86,7 @@ def single(
 ) -> Standard:
     """The standard of one variant, without pencil errors.
 
-    A variant whose steps differ gets a layout of its own.
+    A variant whose steps differ gets its own layout.
     """
     same = mechanism.program is shared.program
     form = shared if same else layout(mechanism, shared.items)
@@ -132,7 +132,7 @@ def by_driving(mechanism: Mechanism, names: set[str]) -> bool:
 
 
 def as_usual(mechanism: Mechanism, usual: Mechanism) -> Mechanism:
-    """The mechanism, sharing the steps of the usual one where its own are the same."""
+    """The mechanism; it shares the steps of the usual one where its steps are the same."""
     own, known = mechanism.program, usual.program
     same = len(own.steps) == len(known.steps) and own.targets == known.targets
     if same and all(map(is_same, own.steps, known.steps)):

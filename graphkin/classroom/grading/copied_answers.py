@@ -37,7 +37,7 @@ from graphkin.numbers.arithmetic import np
 FEW = 3
 """The fewest values that determine a scale."""
 ODD = 1.25
-"""The least factor by which a scale of one's own is too large or too small."""
+"""The least factor, up or down, by which a student's scale differs from the right one."""
 
 
 class OwnWay(Struct, frozen=True):
@@ -99,7 +99,7 @@ def by_slips(slips: Iterable[Slip], keys: Keys, variant: int) -> Iterator[OwnWay
 
 
 def from_own_values(graded: Graded, answers: Any, keys: Keys, variant: int) -> Iterator[OwnWay]:
-    """The way in which answers follow from own earlier values, whatever these are."""
+    """The way in which answers follow from the student's earlier values, whatever these are."""
     marks = {mark.item.field: mark for mark in graded.marks}
     told = (Status.FOLLOWS, Status.RIGHT)
     follows = np.array([bool(marks[f].source) and marks[f].status in told for f in keys.fields])
@@ -109,7 +109,7 @@ def from_own_values(graded: Graded, answers: Any, keys: Keys, variant: int) -> I
         yield OwnWay(sizes, np.ones(len(keys.fields)))
 
 
-# --- evidence for the lecturer: answers that fit another student's data better than the own -------
+# --- answers that fit another student's data ------------------------------------------------------
 
 
 STRONG = 1000.0
@@ -242,7 +242,7 @@ def nearest(answers: Any, digits: Any, keys: Keys, mine: int) -> Any:
     return [int(i) for i in nearer[np.argsort(far[nearer], kind="stable")[:TRIED]]]
 
 
-# --- evidence for the lecturer: two students who handed in the same digits ------------------------
+# --- two students with the same digits ------------------------------------------------------------
 
 
 INNOCENT = 0.001
@@ -583,8 +583,8 @@ def named(
     """The groups of students to name, with their fields and odds as a logarithm.
 
     Each group grows from the strongest pair, by students who agree as strongly with every member in
-    the fields of all. A pair that touches a named group is dropped where it shares only fields that
-    the group shares.
+    the fields of all. A pair that touches a named group is dropped where its fields are all shared
+    within the group.
     """
     left = dict(sorted(strong.items(), key=lambda item: -item[1]))
     while left:

@@ -135,7 +135,7 @@ def answer_words(mark: EarnedMark, words: Words) -> str:
 
 
 def safe(text: str) -> str:
-    """An answer as it was written, as far as a page can show it."""
+    """An answer as it was written, in printable characters."""
     return printable(shown_cell(text.strip()))
 
 
@@ -228,7 +228,7 @@ def why(graded: Graded, mark: EarnedMark, words: Words) -> str:
 
 
 def share_words(graded: Graded, mark: EarnedMark, words: Words) -> str:
-    """The share that a slip leaves: its own once, then the share for what follows from it."""
+    """The share that a slip leaves: its own the first time, then the share of follow-through."""
     if not mark.source:
         return words("feedback.share", share=percent(mark))
     source = graded.mark(mark.source).item.symbol

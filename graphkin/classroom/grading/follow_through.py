@@ -1,7 +1,7 @@
-"""Follow-through: the values that later fields take from a student's own earlier values.
+"""Follow-through: the values that later fields take from a student's earlier values.
 
-The relations of the form compute some of them. For the others, the own length replaces ours in the
-true direction, and the construction is run again.
+The relations of the form compute some of them. For the others, the student's length replaces ours
+in the true direction, and the construction is run again.
 """
 
 from __future__ import annotations
@@ -23,9 +23,9 @@ from graphkin.construction.core.vocabulary import part_along
 from graphkin.construction.velocity.turning_of_link import TurningOfLink
 
 EASY = 0.1
-"""The part of the right value below which an own value, or what follows from it, is too easy."""
+"""The part of the right value below which a value is too easy to be followed, or to follow."""
 WILD = 30.0
-"""The largest factor of the right value at which an own value is still followed."""
+"""The largest factor of the right value at which a student's value is still followed."""
 SPAN = (0.5, 2.0)
 """The least and largest factor by which a tolerance scales with its value."""
 ALIKE = 1e-9
@@ -36,10 +36,10 @@ Answers = Mapping[str, Answer]
 def followings(
     standard: Standard, answers: Answers, wrong: tuple[str, ...], right: tuple[str, ...]
 ) -> Iterator[Following]:
-    """All values that follow from own values, for wrong fields.
+    """All values that follow from a student's answers, for wrong fields.
 
-    Formulas also use right values, named after wrong ones in the sources; the drawing uses wrong
-    values only. For a wrong sense, the size of its rate is included.
+    Formulas also use right answers, named after wrong ones in the sources; the drawing uses wrong
+    answers only. For a wrong sense, the size of its rate is included.
     """
     sources = {field: own_value(standard, answers, field) for field in numbers(standard, wrong)}
     sources = {field: value for field, value in sources.items() if is_fit(standard, field, value)}
@@ -53,7 +53,7 @@ def followings(
 def rightly(
     standard: Standard, answers: Answers, wrong: tuple[str, ...], right: tuple[str, ...]
 ) -> dict[str, Following]:
-    """The values that follow by formula from right own values, for fields off the key.
+    """The values that follow by formula from right answers, for fields off the key.
 
     A value may also follow from values found in this way.
     """
@@ -80,7 +80,7 @@ def is_hit(standard: Standard, following: Following, answers: Answers) -> bool:
 def by_formula(
     standard: Standard, answers: Answers, known: Sequence[str], fields: tuple[str, ...]
 ) -> Iterator[Following]:
-    """The values that the relations of the form give from known own values."""
+    """The values that the relations of the form give from known answers."""
     own = {
         field: Own(si(standard, field, size(answers, field)), rounding(answers[field]), field)
         for field in known
@@ -103,13 +103,13 @@ def size(answers: Answers, field: str) -> float:
 
 
 def own_value(standard: Standard, answers: Answers, field: str) -> float:
-    """The own value of a field; a rate is signed by the own sense, else by the key."""
+    """The student's value of a field; a rate is signed by the answered sense, else by the key."""
     sense = answers.get(standard.by_field[field].item.beside("sense"), BLANK).value
     return size(answers, field) * (sense or (1.0 if standard.key[field] >= 0 else -1.0))
 
 
 def is_fit(standard: Standard, field: str, value: float) -> bool:
-    """Whether an own value may be followed: neither nearly zero nor wild."""
+    """Whether a student's value may be followed: neither nearly zero nor far too large."""
     right = abs(standard.key[field])
     return EASY * right <= abs(value) <= WILD * right and abs(value) > 0
 
@@ -117,7 +117,7 @@ def is_fit(standard: Standard, field: str, value: float) -> bool:
 def too_easy(standard: Standard, answers: Answers, following: Following) -> bool:
     """Whether the value that follows is nearly zero, so that a wrong start made the work trivial.
 
-    A value that changed its sign, with a sense to match, is not too easy.
+    A value that changed its sign, with an answered sense to match, is not too easy.
     """
     field, value = following.field, following.value
     item, right = standard.by_field[field].item, standard.key[field]
@@ -138,7 +138,10 @@ def too_easy(standard: Standard, answers: Answers, following: Following) -> bool
 def by_drawing(
     standard: Standard, sources: Mapping[str, float], wrong: tuple[str, ...]
 ) -> Iterator[Following]:
-    """The values that the construction gives from each own length alone, and from all together."""
+    """The values that the construction gives from each length alone, and from all together.
+
+    The lengths are the student's.
+    """
     values = standard.exact.trace.values
     single = {field: put_in_place(standard, field, value) for field, value in sources.items()}
     single = {field: overrides for field, overrides in single.items() if overrides}
@@ -158,7 +161,7 @@ def by_drawing(
 
 
 def reruns(standard: Standard, overrides: Mapping[int, Any]) -> Iterator[Mapping[int, Any]]:
-    """The construction run again from own lengths.
+    """The construction run again from a student's lengths.
 
     A second run takes the components computed from its velocities as they measure on the plan,
     though the directions no longer fit.
@@ -185,7 +188,7 @@ def closing(
 ) -> Iterator[float]:
     """A rate or a slide speed from the whole vector that closes the plan.
 
-    With an own length, a student measures this vector although its direction no longer fits.
+    After a wrong length, a student measures this vector although its direction no longer fits.
     """
     probe = standard.by_field[field]
     step = standard.mechanism.program.steps[probe.step]
@@ -202,7 +205,7 @@ def closing(
 def together(
     single: Mapping[str, Mapping[int, Any]],
 ) -> Iterator[tuple[tuple[str, ...], Mapping[int, Any]]]:
-    """All own lengths at once; where several replace the same step, the first one."""
+    """All lengths of a student at once; where several replace the same step, the first one."""
     if len(single) > 1:
         merged: dict[int, Any] = {}
         for overrides in reversed(list(single.values())):
@@ -211,7 +214,7 @@ def together(
 
 
 def put_in_place(standard: Standard, field: str, value: float) -> dict[int, Any]:
-    """The steps that an own value replaces.
+    """The steps that a student's value replaces.
 
     For a vector, its end that is drawn last. For a rate or a slide speed, its step and the
     components computed from it.
@@ -243,7 +246,10 @@ def components_with(standard: Standard, number: int, ratio: float) -> dict[int, 
 
 
 def drawing_error(standard: Standard, field: str, value: float) -> float:
-    """The tolerance of a field drawn from own values: that of the key, scaled with its size."""
+    """The tolerance of a field drawn from a student's values.
+
+    It is the tolerance of the key, scaled with the size of the value.
+    """
     probe = standard.by_field[field]
     if probe.item.what == "sense":
         return 0.0

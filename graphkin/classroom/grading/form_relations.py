@@ -1,8 +1,8 @@
-"""The relations of a form: what a student computes from own values, without the drawing.
+"""The relations of a form: what a student computes from earlier answers, without the drawing.
 
-A value is the own segment times the scale. A rate is the own relative vector over the length of the
-bar. Components of accelerations follow as their constructions say. A block slides at the speed of
-its relative vector. A computed length is laid off as it came out.
+A value is the student's segment times the scale. A rate is the student's relative vector over the
+length of the bar. Components of accelerations follow as their constructions say. A block slides at
+the speed of its relative vector. A computed length is laid off as it came out.
 """
 
 from __future__ import annotations
@@ -26,7 +26,7 @@ COARSE = 0.05
 
 
 class Own(Struct, frozen=True):
-    """A student's own size in SI units, its relative rounding, and the field that states it.
+    """A size that a student states, in SI units, its relative rounding, and its field.
 
     Where no field states it, ``field`` is empty and the size is the key's.
     """
@@ -37,7 +37,7 @@ class Own(Struct, frozen=True):
 
 
 class Following(Struct, frozen=True):
-    """The value that a field takes from own values of other fields, and its tolerance.
+    """The value that a field takes from the student's other answers, and its tolerance.
 
     ``drawn`` says that the construction gives it.
     """
@@ -50,7 +50,7 @@ class Following(Struct, frozen=True):
 
 
 class FormRelation(NamedTuple):
-    """Own values as factors, their result in SI units, and the bar used, in metres."""
+    """The student's values as factors, their result in SI units, and the bar used, in metres."""
 
     factors: tuple[Own, ...]
     size: float
@@ -80,7 +80,7 @@ def computed_first(standard: Standard, probe: Probe) -> Component | None:
 
 
 class OwnLengths(Struct, frozen=True):
-    """A student's own sizes by field, from which others are computed.
+    """A student's sizes by field, from which others are computed.
 
     Where no field states what a component needs, the key's value is used.
     """
@@ -89,9 +89,9 @@ class OwnLengths(Struct, frozen=True):
     own: Mapping[str, Own]
 
     def computed(self, field: str, rounded: float) -> Iterator[Following]:
-        """The values of a field by each relation to own values.
+        """The values of a field by each relation to the student's other answers.
 
-        ``rounded`` is the relative rounding of the field's own answer.
+        ``rounded`` is the relative rounding of the field's answer.
         """
         standard = self.standard
         probe = standard.by_field[field]
@@ -123,7 +123,7 @@ class OwnLengths(Struct, frozen=True):
             yield from (FormRelation((v,), v.size) for v in self.vectors(tail, tip))
 
     def rates(self, probe: Probe) -> Iterator[FormRelation]:
-        """A rate from the own relative vector over the bar.
+        """A rate from the student's relative vector over the bar.
 
         For an angular acceleration this is the tangential component.
         """
@@ -141,14 +141,14 @@ class OwnLengths(Struct, frozen=True):
         return float(abs(values[q] - values[p]))
 
     def vectors(self, tail: int, tip: int) -> Iterator[Own]:
-        """The own sizes of the vector between two images."""
+        """The student's sizes of the vector between two images."""
         for field, value in self.own.items():
             probe = self.standard.by_field[field]
             if probe.vector and {*probe.steps} == {tail, tip}:
                 yield value
 
     def turnings_over(self, ends: tuple[int, ...]) -> Iterator[Own]:
-        """The own angular velocities read off the same points and images."""
+        """The student's angular velocities read off the same points and images."""
         steps = self.standard.mechanism.program.steps
         for field, omega in self.own.items():
             probe = self.standard.by_field[field]
@@ -156,7 +156,7 @@ class OwnLengths(Struct, frozen=True):
                 yield omega
 
     def turnings(self, rate: int) -> Iterator[Own]:
-        """The angular velocities of a step: stated, from own velocities, then the key's."""
+        """The angular velocities of a step: as answered, from velocities, then the key's."""
         for field, value in self.own.items():
             probe = self.standard.by_field[field]
             if probe.item.quantity == OMEGA and probe.step == rate:
@@ -169,7 +169,7 @@ class OwnLengths(Struct, frozen=True):
         yield Own(abs(self.standard.exact.trace.values[rate]))
 
     def slidings(self, tail: int, tip: int) -> Iterator[Own]:
-        """The sliding velocities: stated, from own vectors, then the key's."""
+        """The sliding velocities: as answered, from vectors, then the key's."""
         steps = self.standard.mechanism.program.steps
         for field, value in self.own.items():
             probe = self.standard.by_field[field]

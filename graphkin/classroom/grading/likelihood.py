@@ -69,7 +69,7 @@ def fit(answers: Any, rounding: Any, key: Key, *starts: Any) -> Fit:
     seen: dict[bytes, tuple[Fit, int | None]] = {}
 
     def judge(fits: Any) -> tuple[Fit, int | None]:
-        told = fits.tobytes()  # one way often comes to where another began
+        told = fits.tobytes()  # different starts often meet
         if told not in seen:
             seen[told] = judged(off, key.spread, noise, astray, fits)
         return seen[told]

@@ -120,7 +120,7 @@ class Marker:
     def followed(
         self, answers: Mapping[str, Answer], wrong: tuple[str, ...], right: tuple[str, ...]
     ) -> dict[str, Following]:
-        """For each wrong field that follows from own values, these values; never in a circle.
+        """For each wrong field, the answers from which it follows; never in a circle.
 
         A sense follows only where the size of its rate follows from the same values.
         """
@@ -196,8 +196,8 @@ class Marker:
         that it explains follow from it. A slip without a share in the rubric earns nothing.
         ``paid`` maps each slip to the field where it was paid for.
 
-        Where the drawing gives an answer only from own values of the same slip, the slip counts:
-        nobody finds such a chain on their own paper.
+        An answer may follow on the drawing only from values with the same slip. Then the slip
+        counts: nobody finds such a chain on their own paper.
         """
         rubric, field = self.standard.rubric, mark.item.field
         found = slipped.get(field)
@@ -263,7 +263,7 @@ def asked_of_thousands(standard: Standard, answers: Mapping[str, Answer]) -> dic
 
 
 def is_torn(standard: Standard, field: str, answers: Mapping[str, Answer]) -> bool:
-    """Whether a sense contradicts the sign written before its own value.
+    """Whether a sense contradicts the sign written before its value.
 
     It is unclear which of the two is meant, so the sense earns nothing; the value counts by its
     size. Where no drawing determines the sense, there is no contradiction.

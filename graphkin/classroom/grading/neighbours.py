@@ -28,7 +28,7 @@ Asked = tuple[Mapping[str, Fraction], tuple[str, ...]]
 
 
 class Neighbours(Struct, frozen=True):
-    """The shares of all points that a neighbour's right values earn, a row for each own sheet.
+    """The shares of all points that a neighbour's right values earn, a row for each sheet.
 
     ``exact`` is for the neighbour's key; ``drawn`` is the mean for the neighbour's careful drawing.
     Both are NaN for a sheet compared with itself. ``pencil`` is the largest pencil error on each
@@ -117,7 +117,7 @@ class RightValues(Struct, frozen=True):
         return RightValues(self.keys.rows(which), *(part[list(which)] for part in parts))
 
     def by_key(self, other: RightValues) -> Array:
-        """The shares that exact values of others earn, a row for each own sheet."""
+        """The shares that exact values of others earn, a row for each sheet."""
         shares = self.earned(other, is_within)
         for i, points in enumerate(self.points):
             away, read = other.keys.sizes - self.keys.sizes[i], self.keys.known(i)
@@ -129,7 +129,7 @@ class RightValues(Struct, frozen=True):
         return shares
 
     def earned(self, other: RightValues, chance: Callable[[Array, Array, Array], Array]) -> Array:
-        """The shares that right values of others earn, a row for each own sheet.
+        """The shares that right values of others earn, a row for each sheet.
 
         ``chance`` maps differences of values, tolerances and deviations to the probability of being
         right.

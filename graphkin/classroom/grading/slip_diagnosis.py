@@ -5,7 +5,7 @@ distribution, with half of them within a factor of two. Places are distributed l
 millimetres.
 
 An answer within the tolerance of a slip's value is likelier by the slip, the narrower the tolerance
-is. A value computed from an own segment is compared with that segment.
+is. A value computed from the student's segment is compared with that segment.
 
 The odds of a slip are its share among mistakes times this ratio for each answer that it hits. They
 drop for each wrong or right answer that the slip should have changed otherwise. The more wrong
@@ -45,7 +45,7 @@ MISSED = 0.4
 UNTOUCHED = 0.15
 """The factor on the odds for a right answer that the slip should have made wrong."""
 RECKONED = 2 * ROUNDED
-"""The relative tolerance of a value computed from an own segment."""
+"""The relative tolerance of a value computed from the student's segment."""
 WIDEST = 0.9
 """The largest relative tolerance of a slip's value."""
 ELSEWISE = 0.3
@@ -82,7 +82,7 @@ def diagnosed(
 ) -> dict[str, Found]:
     """For each wrong field the likeliest slip that explains it, where one is better than chance.
 
-    ``sources`` are the own values from which wrong fields are computed.
+    ``sources`` are the student's values from which wrong fields are computed.
     """
     tried = [judged(standard, slip, answers, wrong, right, sources) for slip in every]
     tried += own_scales(standard, answers, wrong, right, sources)
@@ -203,7 +203,7 @@ def hit_density(off: float, allowed: float) -> float:
 
 
 def own_length(standard: Standard, field: str, answers: Mapping[str, Answer]) -> float:
-    """The own segment from which a vector was computed, over the right segment.
+    """The student's segment from which a vector was computed, over the right segment.
 
     Zero where no segment was handed in.
     """
@@ -240,7 +240,7 @@ def slip_error(standard: Standard, slip: Slip, field: str, told: float) -> float
     return max(drawn, abs(told) * min(part, WIDEST))
 
 
-# --- a scale of one's own -----------------------------------------------------------------------
+# --- an unlisted scale --------------------------------------------------------------------------
 
 
 def own_scales(
@@ -252,8 +252,8 @@ def own_scales(
 ) -> Iterator[Found]:
     """Slips of a scale that is on no list: several values off by one factor.
 
-    Accelerations may be off by its square. A value whose own segment is right sets the factor and
-    is no evidence; the other values must agree.
+    Accelerations may be off by its square. A value with a right segment sets the factor and is no
+    evidence; the other values must agree.
     """
     values = [field for field in wrong if is_scaled(standard, field, right)]
     roots = [field for field in values if not set(values).intersection(sources.get(field, ()))]
@@ -278,7 +278,7 @@ def is_scaled(standard: Standard, field: str, right: tuple[str, ...]) -> bool:
 
 
 def factor_of(standard: Standard, field: str, answers: Mapping[str, Answer]) -> float:
-    """The factor by which a value is too large for the own segment.
+    """The factor by which a value is too large for the student's segment.
 
     Zero where the value follows from the segment, or where no segment was handed in.
     """

@@ -109,7 +109,7 @@ def of_field(standard: Standard, field: str) -> Iterator[Way]:
 
 
 def of_segment(standard: Standard, field: str) -> Iterator[Way]:
-    """A length not measured on paper: in the plan's own units, or of the real thing."""
+    """A length not measured on paper: in the plan's units, or of the real thing."""
     probe, paper = standard.by_field[field], standard.paper
     own = paper.millimetre(probe.plane)
     length = standard.key[field]

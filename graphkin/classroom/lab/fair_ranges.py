@@ -186,7 +186,7 @@ def how_many(ranges: Mapping[str, Range | ValueList]) -> int:
 
 
 def ends(parameter: Parameter) -> Range | None:
-    """All values that a scene allows, in its own or in round steps; None without both ends."""
+    """All values that a scene allows, in its steps or in round ones; None without both ends."""
     if parameter.minimum is None or parameter.maximum is None:
         return None
     least, most = plain(parameter.minimum), plain(parameter.maximum)
@@ -210,7 +210,7 @@ Box = list[tuple[int, int]]
 
 
 def whole_box(space: Space) -> Box:
-    """All indices."""
+    """The box of all indices."""
     return [(0, len(values) - 1) for values in space.values()]
 
 

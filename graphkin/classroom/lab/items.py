@@ -65,7 +65,7 @@ def named(found: Iterable[Item]) -> dict[str, Item]:
         own, tail = item, 1
         while own.field in fields and meant(fields[own.field]) != meant(item):
             if item.quantity == ARROW:
-                break  # the arrow of a vector that is there already
+                break  # the vector itself is already a field
             tail += 1
             own = replace(item, tail=f"_{tail}")
         fields.setdefault(own.field, own)

@@ -298,7 +298,7 @@ def side_by_side(
 
 
 def one_by_one(load: Loader, index: int, found: Scaling) -> None:
-    """Find the scale factors of one variant by its own sheet, if it has any."""
+    """Find the scale factors of one variant by its sheet, if it has any."""
     try:
         one = load(index)
         own = scales(one)
