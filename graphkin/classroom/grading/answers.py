@@ -566,6 +566,7 @@ class AnswerReading(Struct, dict=True):
         unread: Sequence[Unread],
         file: HandedIn,
     ) -> None:
+        """Note the answers of a student at one place, with the sender of the file."""
         is_sure = file.sender is not None and who in self.owners(file)
         found = Claim(who, sign or who, place, cells, unread, file.sender, is_sure)
         self.claims.setdefault(who, []).append(found)

@@ -322,6 +322,7 @@ def decisions_of(result: Result, *, is_open: bool) -> Iterator[tuple[Graded, Dec
 
 
 def wrong_variant_words(found: Suspicion, names: dict[str, str], words: Words) -> str:
+    """A sentence about a student whose answers fit the data of others."""
     who, *others = found.students
     return words(
         "class.wrong_variant_row",
@@ -334,6 +335,7 @@ def wrong_variant_words(found: Suspicion, names: dict[str, str], words: Words) -
 
 
 def copies_words(found: Suspicion, names: dict[str, str], words: Words) -> str:
+    """A sentence about students who handed in the same digits."""
     return words(
         "class.copies_row",
         who=some([names[each] for each in found.students], words),

@@ -454,6 +454,7 @@ def blocks(
 
 
 def text_block(markup: str, height: float) -> Block:
+    """A paragraph, broken into lines between the margins."""
     lines = flowed(list(pieces(markup, RIGHT - LEFT, height)), " ", RIGHT - LEFT, height)
     leading = LEADING * max(height / LETTER, 0.85)
     marks: list[Mark] = [
@@ -532,6 +533,7 @@ def shortened(markup: str, width: float, height: float) -> str:
 
 
 def paged(blocks: Iterator[Block]) -> Iterator[list[Mark]]:
+    """The marks of each page; a block that does not fit starts the next page."""
     page: list[Mark] = []
     y = TOP
     for height, marks in blocks:
@@ -544,6 +546,7 @@ def paged(blocks: Iterator[Block]) -> Iterator[list[Mark]]:
 
 
 def lowered(mark: Mark, by: float) -> Mark:
+    """A mark moved down the page, by a distance in mm."""
     if isinstance(mark, Text):
         return replace(mark, y=mark.y + by)
     assert isinstance(mark, LineMark)

@@ -419,6 +419,7 @@ def split(
 
 
 def cell(raw: str) -> Cell:
+    """A cell from its characters: the text without quotes and spaces around it."""
     bare = raw.strip()
     if len(bare) >= 2 and bare[0] == bare[-1] == '"':
         return Cell(raw, bare[1:-1].replace('""', '"').strip())

@@ -1,8 +1,9 @@
 """Judges how fair variants are to their students: a class as one batch, at its sheets' scales.
 
-A variant is fair if it closes, fits its page, and keeps the lab's limits. These are the flattest
-crossing, the shortest segment, and the narrowest and longest triangle. A centre or pole is computed
-where its sheet does not hold it, or where its rays cross too flat; this spoils nothing else.
+A variant is fair if it closes, fits its page, and keeps the lab's limits. These limit how flat a
+crossing is, how short a segment is, and how narrow or long a triangle is. A centre or pole is
+computed where its sheet does not hold it, or where its rays cross too flat; this spoils nothing
+else.
 """
 
 from __future__ import annotations

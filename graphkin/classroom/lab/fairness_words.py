@@ -99,6 +99,7 @@ def draw_words(values: Range | ValueList) -> str:
 
 
 def limit_words(fair: Fair) -> str:
+    """The limits of fairness in words."""
     low, high = fair.triangle
     more = ""
     if fair.apart is not None:

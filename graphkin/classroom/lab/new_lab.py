@@ -57,6 +57,7 @@ def kinds() -> Mapping[str, str]:
 
 
 def examples() -> Iterator[Item]:
+    """A field of each kind, for point B, link 3 and block 2."""
     for vector in VECTORS:
         yield from vector_items(vector, "B")
     for rate in RATES:
