@@ -4,8 +4,8 @@ Most wrong answers lie near the right one, some far off. Their logarithms follow
 distribution, with half of them within a factor of two. Places are distributed likewise, in
 millimetres.
 
-An answer within the tolerance of a slip's value is likelier by the slip, the narrower the tolerance
-is. A value computed from the student's segment is compared with that segment.
+The narrower the tolerance around a slip's value, the more an answer within it speaks for the
+slip. A value computed from the student's segment is compared with that segment.
 
 The odds of a slip are its share among mistakes times this ratio for each answer that it hits. They
 drop for each wrong or right answer that the slip should have changed otherwise. The more wrong

@@ -72,7 +72,7 @@ class VariantSheet(Struct, frozen=True, dict=True):
     def plan_box(self) -> Extent:
         """The box of the plan, with its vectors as long as on the mechanism, in metres."""
         scale = self.plan_seconds
-        with np.errstate(all="ignore"):  # what does not close has no plan
+        with np.errstate(all="ignore"):  # a variant that does not close has no plan
             points = [p * scale for _, v in self.steps(PLANES[self.kind]) for p in ends(v)]
         return boxes(points, len(self.seconds))
 
