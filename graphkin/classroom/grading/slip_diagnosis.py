@@ -7,10 +7,10 @@ millimetres.
 The narrower the tolerance around a slip's value, the more an answer within it speaks for the
 slip. A value computed from the student's segment is compared with that segment.
 
-The odds of a slip are its share among mistakes times this ratio for each answer that it hits. They
-drop for each wrong or right answer that the slip should have changed otherwise. The more wrong
-answers no slip explains, the likelier a single hit is chance, and the better it must be to be
-named.
+The odds of a slip are its share among mistakes, times a ratio for each answer that it hits: how
+much likelier the slip makes the answer than chance does. The odds drop for each wrong or right
+answer that the slip should have changed otherwise. The more wrong answers no slip explains, the
+likelier a single hit is chance, and the better it must be to be named.
 """
 
 from __future__ import annotations

@@ -48,8 +48,8 @@ def read_lab(name: str | Path, called: str = "") -> Lab:
     """The lab of a shipped lab's name, of a folder with lab.toml, or of that file.
 
     It is named after its folder, unless ``called`` gives a name, as for a copy stored with a class.
-    Raises
-    SceneError with the problems of the scene or, where it has none, with every problem of lab.toml.
+    Raises SceneError with the problems of the scene or, where it has none, with every problem of
+    lab.toml.
     """
     folder = find(name)
     scene = read_scene_of(folder)
