@@ -1,4 +1,4 @@
-"""Numbers and senses as students write them, in any language: read strictly, or told unreadable."""
+"""Reads numbers and senses as students write them, in any language, or reports them unreadable."""
 
 from __future__ import annotations
 
@@ -13,7 +13,6 @@ from graphkin.construction.core.quantities import TURNING
 
 
 def words_in(text: str) -> frozenset[str]:
-    """The words of a text."""
     return frozenset(text.split())
 
 
@@ -21,38 +20,38 @@ SIGNS = {
     +1: "+ +1 1 ↺ ⟲ ↶ plus piu pos poz positive positiv positivo positiva pozitiv pozitiva",
     -1: "- -1 ↻ ⟳ ↷ minus meno neg negative negativ negativo negativa",
 }
-"""What says a sense of anything: counter-clockwise and along a guide are positive."""
+"""The ways to write a sense of anything: counter-clockwise and along a guide are positive."""
 TURNED = {
     +1: "ccw acw trig trigonometric trigonometrica trigonometrico levogiro levogira sinistrorso"
     " sinistrorsa",
     -1: "cw clockwise orar orara orario oraria ceas ceasornic ceasornicului"
     " ceasului acelor orologio lancette destrogiro destrogira destrorso destrorsa",
 }
-"""Words for the way something turns, without diacritics."""
+"""Words for a sense of rotation, without diacritics."""
 SLIDING = {
     +1: "forward forwards along lungo dupa inainte avanti away guide guides ghidaj ghidajului"
     " ghidajul guida",
     -1: "backward backwards back inapoi indietro towards toward",
 }
-"""Words for the way a block slides: along its guide, or against it."""
+"""Words for a sense of sliding: along the guide, or against it."""
 ROUND = words_in(
     "anti counter contra contrar contrara contro contrario contraria invers inversa inverso"
     " inversul opus opusa opposto opposta opposite against"
 )
-"""Words, or beginnings of words, that turn the next one round."""
+"""Words or prefixes that reverse the word after them."""
 ANTI = "anti"
-"""What stands for each of them."""
+"""The token that replaces each word of ``ROUND``."""
 FILLING = words_in(
     "a al ale ai de del della delle dell dei di da in nel nella l il la le lo se the of to its it"
     " sens sensul sensului senso sense direction direzione directie directia verso wise s sensu"
     " rotatie rotatia rotatiei rotazione rotation rot turns turning miscare miscarii ace lui"
     " pe per con cu alle all hand hands"
 )
-"""Words that say nothing of the sense."""
+"""Words that carry no sense."""
 SHORT = {"or": "orar", "ant": "antiorar", "antior": "antiorar", "anticl": "anticlockwise"}
-"""What is cut short."""
+"""Abbreviations and the words they stand for."""
 BESIDE = re.compile(r"^\s*[+\-\N{MINUS SIGN}\N{EN DASH}]|\(\s*[+\-\N{MINUS SIGN}\N{EN DASH}]\s*\)")
-"""A sign before words, or in brackets, which must say the same."""
+"""A sign before words, or in brackets. It must agree with the words."""
 SAID = {
     is_turning: {
         word: sign
@@ -62,13 +61,13 @@ SAID = {
     }
     for is_turning, known in ((True, TURNED), (False, SLIDING))
 }
-"""The sign of each known word, of a turning or not."""
+"""The sign of each known word, for rotation (True) and for sliding (False)."""
 
 
 def sense_of(text: str, *, turning: bool) -> int | None:
-    """The sign of a sense, +1 or -1, by a sign or by words; None where it says none.
+    """The sign of a sense, +1 or -1, written as a sign or in words; None where there is none.
 
-    ``turning`` tells what it is the sense of: something that turns, or slides along a guide.
+    ``turning`` says whether the quantity turns or slides along a guide.
     """
     found = signed(text)
     if found is not None:
@@ -89,13 +88,13 @@ def sense_of(text: str, *, turning: bool) -> int | None:
 
 
 def signed(text: str) -> int | None:
-    """The sense that a mere sign states: +, -, +1, an arrow."""
+    """The sense that a bare sign states: +, -, +1 or an arrow; None for other text."""
     bare = re.sub(r"[\s()]", "", text).replace("\N{MINUS SIGN}", "-").replace("–", "-")
     return next((sign for sign, words in SIGNS.items() if bare in words.split()), None)
 
 
 def plain_words(text: str) -> list[str]:
-    """The words of a text without case, diacritics and signs; c.c.w. is one word."""
+    """The words of a text without case, diacritics and punctuation; c.c.w. is one word."""
     spread = unicodedata.normalize("NFD", text.casefold())
     plain = "".join(sign for sign in spread if not unicodedata.combining(sign))
     plain = re.sub(r"\b([a-z])\.\s?(?=[a-z]\b)", r"\1", plain)
@@ -103,7 +102,7 @@ def plain_words(text: str) -> list[str]:
 
 
 def parts(word: str, said: Collection[str]) -> list[str]:
-    """A word taken apart: what turns it round, then itself; nothing where it only fills."""
+    """The parts of a word: ``ANTI`` where it reverses, then the word; empty for a filling word."""
     word = SHORT.get(word, word)
     if word in ROUND:
         return [ANTI]
@@ -122,27 +121,27 @@ NUMBER = re.compile(
     r"(?:(?:[~∼≈≃≅]|cc?a\.|circa)\s?)?(?P<sign>[+\-\u2212]?)(?P<digits>[0-9]+(?:[.,][0-9]*)?|[.,][0-9]+)"
     r"(?:(?:[eE]|\s?[*x×·]\s?10\s?\^\s?)(?P<power>[+-]?[0-9]{1,3}))?"
 )
-"""A number in ASCII digits, with a point or a comma, perhaps with a power of ten.
+"""A number in ASCII digits, with a point or a comma, and optionally a power of ten.
 
-That it is said to be about right changes nothing.
+A mark for "about" before the number is ignored.
 """
 BLANKS = ("-", "–", "—", "--", "n/a", "n.a.", "na")
-"""What stands for no answer; a single - is a sense in a field of one."""
+"""Text that means no answer. In a field for a sense, a single - is a sense."""
 OPEN = "?"
-"""What stands for a number that is not decided yet, as those of drawings that are still asked."""
+"""The mark for a number that is not decided yet, as in a drawing still to be made."""
 MISTYPED = re.compile(
     r"^[\s()\[\]^*·/-]*[0-9_']|[.,]|^[oOlI]+(?:[0-9\s]|$)|[A-Za-z](?![23](?![0-9]))[0-9]"
 )
-"""What stands after the beginning of a number and is no unit: 5o0 is not 5 of something.
+"""Text after a number that shows a typing mistake rather than a unit: 5o0 is not 5 of a unit.
 
-Of digits after letters only the powers 2 and 3 belong to units.
+Of digits after letters, only the powers 2 and 3 belong to units.
 """
 GROUPED = re.compile(r"[1-9][0-9]{0,2}[.,][0-9]{3}")
-"""Digits whose point or comma may part thousands."""
+"""Digits whose point or comma may separate thousands."""
 LARGEST_ANSWER = 1e12
-"""No answer is that large in any unit of a field; a larger one is a mistake in typing."""
+"""The upper limit of an answer in any unit of a field; a larger one is a typing mistake."""
 LONGEST = 60
-"""Characters of an answer; a longer one is no number."""
+"""The most characters of an answer; longer text is not a number."""
 UNITS: dict[str, dict[str, float]] = {
     "mm": {"mm": 1, "cm": 10, "m": 1000, "in": 25.4},
     "m": {"m": 1, "cm": 0.01, "mm": 0.001, "in": 0.0254},
@@ -162,11 +161,11 @@ UNITS: dict[str, dict[str, float]] = {
     },
     "rad/s²": {"rad/s2": 1, "1/s2": 1, "s-2": 1, "rads-2": 1, "deg/s2": pi / 180},
 }
-"""What units stand for in the unit of the field."""
+"""For each field's unit, the factors that convert the units students may write."""
 
 
 def read_answer(text: str, item: Item) -> Answer:
-    """The answer that a cell states to a field: blank, a value in its unit, or unreadable."""
+    """The answer in a cell: blank, a value in the field's unit, or unreadable."""
     stripped = text.strip()
     if not stripped:
         return BLANK
@@ -179,7 +178,7 @@ def read_answer(text: str, item: Item) -> Answer:
 
 
 def read_sense(text: str, stripped: str, quantity: str) -> Answer:
-    """A sense by sign or by word, in any of the languages."""
+    """Read a sense written as a sign or a word, in any of the languages."""
     turning = quantity in TURNING
     known = sense_of(stripped, turning=turning) if len(stripped) <= LONGEST else None
     if known is None:
@@ -188,7 +187,7 @@ def read_sense(text: str, stripped: str, quantity: str) -> Answer:
 
 
 def read_number(text: str, stripped: str, unit: str) -> Answer:
-    """A number with a decimal point or comma, and its unit where one is written; ? is open."""
+    """Read a number with a decimal point or comma and an optional unit; ? is an open answer."""
     if stripped == OPEN:
         return Answer(text, problem="open")
     found = NUMBER.match(stripped) if len(stripped) <= LONGEST else None
@@ -212,13 +211,13 @@ def read_number(text: str, stripped: str, unit: str) -> Answer:
 
 
 def beyond_number(text: str) -> str:
-    """What stands after the number with which a text begins; all of it where none does."""
+    """The text after the leading number; all of the text where there is no number."""
     found = NUMBER.match(text.strip())
     return text.strip()[found.end() :].strip() if found else text.strip()
 
 
 def rounding(answer: Answer) -> float:
-    """How far a number may be rounded, in parts of it: half a unit of its last digit."""
+    """The relative rounding error of a number: half a unit of its last digit."""
     found = NUMBER.match(answer.text.strip())
     if found is None:
         return 0.0
@@ -228,13 +227,13 @@ def rounding(answer: Answer) -> float:
 
 
 def plain_unit(text: str) -> str:
-    """A unit without blanks, brackets and signs of a power."""
+    """A unit without spaces, brackets and power signs."""
     return (
         re.sub(r"[\s()\[\]^*·]", "", text).replace("²", "2").replace("⁻¹", "-1").replace("−", "-")
     )
 
 
 def shown_cell(text: str) -> str:
-    """A cell in a message: short, and without signs that steer a terminal."""
+    """A cell's text for a message: at most 30 characters, all of them printable."""
     clean = "".join(sign if sign.isprintable() else "?" for sign in text)
     return clean if len(clean) <= 30 else clean[:29] + "…"

@@ -1,6 +1,6 @@
 """Answer tables: one row for each student, or one file each, by the fields of the form.
 
-A cell that cannot be read is no error of the table: it is told, and does not count as wrong.
+A cell that cannot be read is no error of the table: it is reported, and does not count as wrong.
 """
 
 from __future__ import annotations
@@ -40,23 +40,22 @@ from graphkin.scene.findings import near_name, nearest, visible
 from graphkin.text.errors import Hint, InTable, Problem, RosterError, problems_of
 
 KINDS = (".csv", ".txt", ".tsv", ".xlsx")
-"""Files that are read."""
 PACKED = ".zip"
 MOST_BYTES, MOST_FILES = 512 << 20, 100_000
-"""Bytes of a ZIP file, and files in it."""
+"""The most bytes of a ZIP file, and the most files in it."""
 MOST_OWN = 50
-"""Tables of one student; all of them together are no larger than one table may be."""
+"""The most tables of one student. Together they may be no larger than one table."""
 MOODLE = re.compile(r"(?P<name>[^_]+)_(?P<number>\d+)_assignsubmission_[a-z]+(?:_(?P<file>.*))?")
 CANVAS = re.compile(r"(?P<name>[^_]+)_(?:LATE_)?(?P<number>\d+)_\d+_(?P<file>.+)")
 DATE = (1980, 1, 1, 0, 0, 0)
-"""The time of a file in a ZIP file of ours: none, so that the same marks give the same bytes."""
+"""A fixed time for files in our ZIP files, so that the same marks give the same bytes."""
 
 
 class Sender(Struct, frozen=True):
-    """Whose a learning platform says that a file is.
+    """The student to whom a learning platform assigns a file.
 
-    ``name`` is the full name as the platform has it; ``back`` what the path of a feedback to it
-    begins with, empty where the platform takes none.
+    ``name`` is the full name on the platform. ``back`` is the path prefix of a feedback file for
+    this student, empty where the platform takes none.
     """
 
     name: str
@@ -64,9 +63,9 @@ class Sender(Struct, frozen=True):
 
 
 class HandedIn(Struct, frozen=True):
-    """A table that was handed in: its path within all that was, its size, and whose it is.
+    """A table that was handed in: its path among the submissions, its size, and its sender.
 
-    ``read`` gives its bytes, and raises RosterError where there are none.
+    ``read`` returns its bytes, and raises RosterError where they cannot be read.
     """
 
     name: str
@@ -76,15 +75,15 @@ class HandedIn(Struct, frozen=True):
 
     @property
     def stem(self) -> str:
-        """The name of the file itself, which may be an id."""
+        """The file name without folder and suffix, which may be an id."""
         return PurePosixPath(self.name).stem
 
 
 class Submissions(Struct, frozen=True):
-    """Everything that was handed in; ``empty`` are senders without any table, ``others`` the names
-    of other files without a sender, which are not read.
+    """Everything that was handed in.
 
-    ``is_one`` tells that it is a single table.
+    ``empty`` are senders without a table. ``others`` are the names of other files without a sender,
+    which are not read. ``is_one`` says that the path is a single table.
     """
 
     tables: tuple[HandedIn, ...]
@@ -94,7 +93,7 @@ class Submissions(Struct, frozen=True):
 
 
 def submissions(path: Path) -> Submissions:
-    """What stands at a path: a table, a folder with all that is below it, or a ZIP file.
+    """The submissions at a path: a table, a folder with everything below it, or a ZIP file.
 
     Raises RosterError where there is no table.
     """
@@ -121,22 +120,22 @@ def submissions(path: Path) -> Submissions:
 
 
 def is_hidden(path: PurePosixPath) -> bool:
-    """Whether a file is one that a system leaves beside others."""
+    """Whether the file is hidden or left by an operating system or an editor."""
     return any(part.startswith((".", "~", "__MACOSX")) for part in path.parts)
 
 
 def is_table(path: PurePosixPath) -> bool:
-    """Whether a file is a table to be read."""
+    """Whether the file is a table to read."""
     return path.suffix.lower() in KINDS and not is_hidden(path)
 
 
 def is_beside(path: PurePosixPath) -> bool:
-    """Whether a file that is no table needs no word: a hidden one, or a score sheet."""
+    """Whether a file that is no table goes unmentioned: a hidden file or a score sheet."""
     return is_hidden(path) or path.suffix.lower() == ".json"
 
 
 def in_folder(folder: Path) -> Iterator[HandedIn]:
-    """The files below a folder by their paths in it."""
+    """The files below a folder, by their paths in it."""
     for path in sorted(p for p in folder.rglob("*") if p.is_file() or p.is_symlink()):
         name = path.relative_to(folder).as_posix()
         size = path.lstat().st_size
@@ -144,7 +143,7 @@ def in_folder(folder: Path) -> Iterator[HandedIn]:
 
 
 def own_bytes(path: Path, name: str) -> bytes:
-    """The bytes of a file that is no link to another place. Raises RosterError."""
+    """The bytes of a file. Raises RosterError for a symbolic link."""
     if path.is_symlink():
         found, hint = "is a link to another place", "put the file itself there"
         raise RosterError(Problem(name, found, "a file of its own", hint))
@@ -152,9 +151,9 @@ def own_bytes(path: Path, name: str) -> bytes:
 
 
 def in_zip(path: Path) -> list[HandedIn]:
-    """The files of a ZIP file by their paths in it; nothing is unpacked onto the disk.
+    """The files of a ZIP file by their paths in it; nothing is unpacked to disk.
 
-    Raises RosterError where it is none, or holds too much.
+    Raises RosterError where it is no ZIP file, or holds too much.
     """
     expected = f"at most {MOST_FILES} files, {MOST_BYTES >> 20} MiB"
     try:
@@ -181,7 +180,7 @@ def in_zip(path: Path) -> list[HandedIn]:
 
 
 def unpacked(packed: zipfile.ZipFile, part: zipfile.ZipInfo) -> bytes:
-    """The bytes of a file in a ZIP file. Raises RosterError where they cannot be had."""
+    """The bytes of a file in a ZIP file. Raises RosterError where it cannot be unpacked."""
     if part.file_size > LARGEST:
         raise RosterError(Problem(part.filename, "is too large", f"at most {LARGEST >> 20} MiB"))
     try:
@@ -193,7 +192,7 @@ def unpacked(packed: zipfile.ZipFile, part: zipfile.ZipInfo) -> bytes:
 
 
 def sender(name: str) -> Sender | None:
-    """Whose a file is by its path, as a learning platform writes it."""
+    """The sender in a file's path, as a learning platform writes it; None where there is none."""
     parts = PurePosixPath(name).parts
     for i, part in enumerate(parts):
         found = MOODLE.fullmatch(part)
@@ -206,9 +205,9 @@ def sender(name: str) -> Sender | None:
 
 
 def packed_feedback(backs: Mapping[str, str], pages: Mapping[str, bytes], kind: str) -> bytes:
-    """Moodle's ZIP file of feedback: for each student with a name there the page of that kind.
+    """Moodle's ZIP file of feedback: a page of that kind for each student in ``backs``.
 
-    ``backs`` are the beginnings of the paths, ``pages`` the files, both by id.
+    ``backs`` are the path prefixes and ``pages`` the files, both by id.
     """
     data = io.BytesIO()
     with zipfile.ZipFile(data, "w", zipfile.ZIP_DEFLATED) as packed:
@@ -217,7 +216,7 @@ def packed_feedback(backs: Mapping[str, str], pages: Mapping[str, bytes], kind: 
     return data.getvalue()
 
 
-# --- answer tables: one row for each student, or one file each, by the fields of the form ---------
+# --- answer tables --------------------------------------------------------------------------------
 
 
 ABSENT = (
@@ -225,25 +224,28 @@ ABSENT = (
     " --force into the same folder, and grade again"
 )
 FIELD, VALUE = ("field", "câmp", "mărime", "campo", "quantity"), ("value", "valoare", "valore")
-"""The heads of a file that holds one student's answers line by line."""
+"""Column heads of a file that holds one student's answers, a field in each row."""
 MOST_FIELDS = 1000
-"""Rows of a file that holds one student's answers line by line."""
+"""The most rows of a file that holds one student's answers, a field in each row."""
 MOST_NEAR = 100
-"""Unknown ids for which the nearest known one is looked for."""
+"""The most unknown ids for which a similar known id is looked up."""
 LEAST, SHOWN = 1 / 3, 12
-"""The share of the form below which a table may be another lab's; columns that are named then."""
+"""The least share of the form's fields that a table of this lab has.
+
+Below it, a table may belong to another lab; the error then names up to ``SHOWN`` columns.
+"""
 HEADS = {"id": NAMES["id"], "email": EMAIL}
 BESIDE = {what: NAMES[what] for what in NAMES if what != "id"} | {"language": LANGUAGE}
-"""Columns that a class list has as well, and that are none of the form's."""
+"""Columns that a class list has too, and that are no fields of the form."""
 IDS = {folded(name) for name in ("id", *HEADS["id"])}
 OTHERS = {folded(n) for w, every in (BESIDE | {"email": EMAIL}).items() for n in (w, *every)}
-"""The same as they are compared."""
+"""The names of these columns, folded for comparison."""
 
 
 class Unread(Struct, frozen=True):
-    """A cell that cannot be read: its file and row, whose it is, its field, what it says and why.
+    """A cell that cannot be read: its file and row, its student, its field and its text.
 
-    ``problem`` is that of its answer; ``unit`` that of its field.
+    ``problem`` is that of its :class:`Answer`; ``unit`` is that of its field.
     """
 
     file: str
@@ -256,7 +258,7 @@ class Unread(Struct, frozen=True):
 
 
 class Stranger(Struct, frozen=True):
-    """A column, or a row of one student's file, that is no field; ``near`` is the one meant."""
+    """A column, or a row of one student's file, that is no field; ``near`` is a similar field."""
 
     file: str
     name: str
@@ -264,15 +266,16 @@ class Stranger(Struct, frozen=True):
 
 
 class Refused(Struct, frozen=True):
-    """Something that was handed in and is not marked: why, and the students whose it may be."""
+    """A submission that is not marked: why, and the ids of the students it may belong to."""
 
     problem: Problem
     whose: tuple[str, ...] = ()
 
 
 class Claim(Struct, frozen=True):
-    """The answers of a student at one place of what was handed in; ``is_sure`` tells that a
-    learning platform says whose they are.
+    """The answers of a student at one place in the submissions.
+
+    ``is_sure`` says that a learning platform confirms the student.
     """
 
     who: str
@@ -285,13 +288,15 @@ class Claim(Struct, frozen=True):
 
 
 class Answers(Struct):
-    """The answers of each student by id, the notes about cells, and columns that are no fields.
+    """The answers of each student by id, notes on cells, and columns that are no fields.
 
-    ``unread`` are cells that cannot be read, or that marking has to tell from another reading;
-    ``refused`` is what is not marked, ``withheld`` the students who wait for that, each with an
-    answer to every field that cannot be read; ``senders`` is what a learning platform calls each,
-    ``empty`` those who sent no table, ``unlisted`` those taken by the ids in their files since the
-    class list has no such name, ``others`` files that are no tables.
+    ``unread`` are cells that cannot be read, or that can be read in two ways. ``refused`` is what
+    is not marked. ``withheld`` are the students who wait for that: each of their answers is
+    unreadable.
+
+    ``senders`` maps ids to senders on a learning platform. ``empty`` are senders without a table.
+    ``unlisted`` are students known only by the id in their file, since the class list lacks the
+    sender's name. ``others`` are files that are no tables.
     """
 
     of: dict[str, dict[str, Answer]] = field(default_factory=dict)
@@ -306,7 +311,7 @@ class Answers(Struct):
     others: Sequence[str] = ()
 
     def withhold(self, who: str, fields: Iterable[str]) -> None:
-        """Let all answers of a student wait."""
+        """Replace all answers of a student by waiting ones."""
         self.withheld.append(who)
         self.of[who] = dict.fromkeys(fields, WAITING)
 
@@ -314,8 +319,9 @@ class Answers(Struct):
 def read_answers(path: Path, items: Sequence[Item], signs: Signs, match: Match = "") -> Answers:
     """The answers in a table, or in each file of a folder or a ZIP file.
 
-    ``match`` is by what students are found in a table. A file or row that cannot be read keeps
-    nobody else back. Raises RosterError, all at once, where nobody's answers can be read.
+    ``match`` names the column by which students are found in a table. A file or row that cannot be
+    read does not hold up other students. Raises RosterError, with every problem, where no answers
+    can be read.
     """
     known = {item.field: item for item in items}
     given = submissions(path)
@@ -332,7 +338,10 @@ def read_answers(path: Path, items: Sequence[Item], signs: Signs, match: Match =
 
 
 def within_budget(tables: Sequence[HandedIn], reading: AnswerReading) -> Iterator[HandedIn]:
-    """The tables but those of senders who handed in too many, or too much; these are refused."""
+    """The tables, except those of senders who handed in too many or too much.
+
+    The tables of these senders are refused.
+    """
     own: dict[Sender, list[HandedIn]] = defaultdict(list)
     for file in tables:
         if file.sender is not None:
@@ -350,14 +359,14 @@ def within_budget(tables: Sequence[HandedIn], reading: AnswerReading) -> Iterato
 
 
 def merged(name: str, refused: Iterable[Refused]) -> list[Problem]:
-    """What is wrong with everything that is not marked, in a few lines where it is alike."""
+    """The problems of everything that is not marked; similar problems share a line."""
     told = RowProblems(name)
     told.extend(each.problem for each in refused)
     return told.merged
 
 
 def refuse_other_lab(name: str, reading: AnswerReading) -> None:
-    """Raise RosterError where most that was handed in are no fields, and few are: another lab's."""
+    """Raise RosterError where few columns are fields and more are not: another lab's table."""
     others = list(dict.fromkeys(each.name for each in reading.answers.strangers))
     if len(reading.seen) >= LEAST * len(reading.known) or len(others) <= len(reading.seen):
         return
@@ -378,9 +387,11 @@ def is_form(sheet: Spreadsheet) -> bool:
 
 
 class AnswerReading(Struct, dict=True):
-    """Tables being read: the fields that are ``known``, what students sign with, by which of it
-    they are to be found, whether there ``is_one`` table, what was found, and which fields were
-    ``seen``.
+    """The state of reading tables.
+
+    ``known`` are the fields of the form, ``signs`` identify students, and ``match`` names the
+    column to use. ``is_one`` says that there is one table only. ``seen`` are the fields found so
+    far.
     """
 
     known: Mapping[str, Item]
@@ -393,11 +404,11 @@ class AnswerReading(Struct, dict=True):
 
     @cached_property
     def fields(self) -> dict[str, str]:
-        """The fields by their names as they are compared."""
+        """The fields by their names, folded for comparison."""
         return {folded(name): name for name in self.known}
 
     def file(self, file: HandedIn) -> None:
-        """Read one table; whatever is wrong with it is noted, and is nobody else's fault."""
+        """Read one table; its problems are noted and affect no other student."""
         heads = ["id", *HEADS["id"], *self.known, *FIELD, *VALUE]
         told = RowProblems(file.name)
         try:
@@ -410,7 +421,7 @@ class AnswerReading(Struct, dict=True):
             self.refuse(file, *(in_file(each, file.name) for each in problems_of(error)))
 
     def rows(self, sheet: Spreadsheet, file: HandedIn, told: TableProblems) -> None:
-        """A table with a row for each student, or one row of the student whose file it is."""
+        """Read a table with a row for each student, or with one row of the file's owner."""
         where = columns(sheet, HEADS | BESIDE)
         named = ((i, self.fields.get(folded(cell))) for i, cell in enumerate(sheet.head))
         own = {i: name for i, name in named if name is not None}
@@ -450,8 +461,10 @@ class AnswerReading(Struct, dict=True):
                 self.claim(who, sign, place, cells, unread, file)
 
     def form(self, sheet: Spreadsheet, file: HandedIn, told: TableProblems) -> None:
-        """One student's answers, a field in each row; the id is in a row of its own, or the name
-        of the file, or the student's name is that under which a learning platform has the file.
+        """Read one student's answers, a field in each row.
+
+        The student is identified by a row with the id, by the file name, or by the learning
+        platform's sender.
         """
         stated = [row for row in sheet.rows if folded(row.cells[0]) in IDS]
         stated = [row for row in stated if row.cells[1]] or stated
@@ -485,12 +498,13 @@ class AnswerReading(Struct, dict=True):
             self.claim(who, sign, place, cells, unread, file)
 
     def by_stem(self, file: HandedIn) -> str:
-        """What stands for the id of a file that tells none, nor is anybody's: its name."""
+        """The file name in place of a missing id; empty where the file has an owner."""
         return "" if self.owners(file) else file.stem
 
     def owners(self, file: HandedIn) -> tuple[str, ...]:
-        """Whose a file may be by where it lies: those of the name under which a learning platform
-        has it, else the one whose id its own name is.
+        """The students who may own a file: those with the sender's name.
+
+        Without a sender, the student whose id is the file name.
         """
         if file.sender is not None:
             return self.signs.named(file.sender.name)
@@ -498,9 +512,9 @@ class AnswerReading(Struct, dict=True):
         return (who,) if who is not None else ()
 
     def signed(self, place: InTable, sign: str, file: HandedIn, alone: bool) -> str | None:
-        """The student of the class who signs a row, or all of a file; None, noted, if none.
+        """The student whose id a row or a file states; None, with a note, where there is none.
 
-        The platform that has the file says whose it is, and who signs it must be the same.
+        Where a platform names the sender, the id must agree.
         """
         owners = self.owners(file) if alone or file.sender is not None else ()
         if not sign and alone and len(owners) == 1:
@@ -530,8 +544,10 @@ class AnswerReading(Struct, dict=True):
         return None
 
     def refuse(self, file: HandedIn, *problems: Problem, who: str | None = None) -> None:
-        """Note what is not marked, and whose it may be: that of who bears the name of the sender,
-        where a platform names one; else that of the owner of the file and of ``who`` signs it.
+        """Note what is not marked, and whose it may be.
+
+        With a sender, these are the students of the sender's name. Otherwise they are the owner of
+        the file and ``who``, whose id it states.
         """
         owners = self.owners(file)
         whose = tuple(dict.fromkeys(filter(None, (*owners, who))))
@@ -550,13 +566,16 @@ class AnswerReading(Struct, dict=True):
         unread: Sequence[Unread],
         file: HandedIn,
     ) -> None:
-        """Note the answers of a student."""
+        """Note the answers of a student at one place, with the sender of the file."""
         is_sure = file.sender is not None and who in self.owners(file)
         found = Claim(who, sign or who, place, cells, unread, file.sender, is_sure)
         self.claims.setdefault(who, []).append(found)
 
     def settled(self) -> Answers:
-        """The answers of each student; whoever has several, none of them surer, has to wait."""
+        """The answers of each student.
+
+        A student with several sets of answers has to wait, unless a platform confirms one of them.
+        """
         answers = self.answers
         for who, claims in self.claims.items():
             first, *rivals = [each for each in claims if each.is_sure] or claims
@@ -582,7 +601,7 @@ class AnswerReading(Struct, dict=True):
         return answers
 
     def stranger(self, sheet: Spreadsheet, cell: str) -> None:
-        """Note what is no field; of those that are shown, with the field that may be meant."""
+        """Note a column that is no field; the first few with a similar field."""
         few = len(self.answers.strangers) < SHOWN
         near = near_name(cell, self.known) if few else ""
         self.answers.strangers.append(Stranger(sheet.name, visible(cell), near))
@@ -596,7 +615,7 @@ class AnswerReading(Struct, dict=True):
         name: str,
         unread: list[Unread],
     ) -> Answer:
-        """One cell; one that cannot be read, or in two ways, is noted."""
+        """The answer in one cell; it is noted where it cannot be read, or reads in two ways."""
         item = self.known[name]
         answer = read_answer(row.cells[column], item)
         problem = answer.problem or (THOUSANDS if answer.grouped is not None else "")
@@ -607,7 +626,7 @@ class AnswerReading(Struct, dict=True):
 
 
 def wrong_rows(told: TableProblems, used: Collection[str]) -> dict[int, list[Problem]]:
-    """What is wrong, by its row; what is wrong in columns that are not used does not matter."""
+    """The problems by row, without those in columns that are not used."""
     found: dict[int, list[Problem]] = defaultdict(list)
     for problem in told.every:
         place = place_of(problem)
@@ -618,10 +637,10 @@ def wrong_rows(told: TableProblems, used: Collection[str]) -> dict[int, list[Pro
 
 
 def cell_at(row: SheetRow, column: int) -> str:
-    """A cell of a row that may be too short."""
+    """The text of a cell; empty where the row is too short."""
     return row.cells[column] if column < len(row.cells) else ""
 
 
 def in_file(problem: Problem, name: str) -> Problem:
-    """A problem that names its file, whatever its place is."""
+    """The problem, with its file's name where its place has none."""
     return problem if name in problem.place else replace(problem, file=name)

@@ -1,4 +1,4 @@
-"""A whole class: each student marked against the own variant, then all looked at together."""
+"""Marks a whole class: each student against their own variant, then all students together."""
 
 from __future__ import annotations
 
@@ -35,11 +35,11 @@ from graphkin.text.errors import GraphkinError, Problem, Refusals
 Variant = tuple[tuple[tuple[str, str], ...], tuple[str, ...]]
 Given = Mapping[str, Answer]
 KEPT = 64
-"""Variants whose constructions are held at once; in a class by a formula there are few."""
+"""The most variants whose constructions are kept. A class with a formula has few variants."""
 
 
 class Book(Struct, dict=True):
-    """The variants of a lab, each constructed once while it is asked for again."""
+    """The variants of a lab; each is constructed once while it is needed."""
 
     lab: Lab
     scene: str
@@ -47,7 +47,7 @@ class Book(Struct, dict=True):
 
     @cached_property
     def form(self) -> tuple[Item, ...]:
-        """The fields of the form, the same for all."""
+        """The fields of the form, the same for all students."""
         return items(self.usual, self.lab)
 
     def mechanism(self, settings: Mapping[str, str]) -> Mechanism:
@@ -56,11 +56,11 @@ class Book(Struct, dict=True):
 
     @cached_property
     def usual(self) -> Mechanism:
-        """The mechanism as the scene says, without settings."""
+        """The mechanism with the scene's own values."""
         return self.mechanism({})
 
     def prepare(self, takers: Iterable[Taker]) -> None:
-        """Work out together what marks some students, at most as many variants as are held."""
+        """Construct the variants of some students together, at most ``KEPT`` of them."""
         wanted = {variant(t.settings, t.compute): (t.settings, t.compute) for t in takers}
         new = {name: each for name, each in wanted.items() if name not in self.markers}
         if len(new) < 2:
@@ -72,7 +72,7 @@ class Book(Struct, dict=True):
         self.markers |= {name: Marker(each) for name, each in zip(new, found, strict=True)}
 
     def marker(self, settings: Mapping[str, str], computed: tuple[str, ...] = ()) -> Marker:
-        """What marks the answers to a variant, some of whose fields are computed."""
+        """The marker for a variant, some of whose fields are computed."""
         name = variant(settings, computed)
         if name not in self.markers:
             if len(self.markers) >= KEPT:
@@ -82,7 +82,7 @@ class Book(Struct, dict=True):
         return self.markers[name]
 
     def expectation(self, taker: Taker) -> Expectation:
-        """What is expected of a student's variant."""
+        """The expected answers to a student's variant."""
         return self.marker(taker.settings, taker.compute).standard.expectation
 
     def slips(self, graded: Graded) -> tuple[Slip, ...]:
@@ -90,15 +90,17 @@ class Book(Struct, dict=True):
         return self.marker(graded.taker.settings, graded.taker.compute).slips
 
     def mark(self, taker: Taker, answers: Given | None) -> tuple[Graded, Expectation]:
-        """The marks of one student, without answers none, and what was expected."""
+        """The marks of one student and the expected answers; ``answers`` is None where absent."""
         marker = self.marker(taker.settings, taker.compute)
         graded = marker.mark(taker, answers or {}, answers is not None)
         return graded, marker.standard.expectation
 
 
 class Marked(Struct, frozen=True):
-    """The marks of one student and what was expected, and what hindered that: none where the own
-    variant cannot be constructed, all open where the answers cannot be marked.
+    """The marks of one student, the expected answers, and the problems met on the way.
+
+    There are no marks where the variant cannot be constructed. All marks are open where the answers
+    cannot be marked.
     """
 
     graded: Graded | None = None
@@ -107,7 +109,7 @@ class Marked(Struct, frozen=True):
 
 
 def marked(book: Book, taker: Taker, answers: Given | None) -> Marked:
-    """The marks of one student, whatever may be wrong with the answers or the variant."""
+    """The marks of one student, with any problem of the answers or the variant."""
     who, refusals, found = taker.student.id, Refusals(), Marked()
     waiting = dict.fromkeys((item.field for item in book.form), WAITING)
     for given in (answers, waiting):
@@ -120,7 +122,7 @@ def marked(book: Book, taker: Taker, answers: Given | None) -> Marked:
 
 
 def variant(settings: Mapping[str, str], computed: tuple[str, ...]) -> Variant:
-    """What all students share who have the same data, and the same fields to be computed."""
+    """The key shared by students with the same data and the same computed fields."""
     return tuple(sorted(settings.items())), computed
 
 
@@ -132,10 +134,10 @@ def graded_class(
     released: Collection[str] = (),
     decisions: Sequence[Decision] = (),
 ) -> Result:
-    """The marks of a whole class, by the ids of its students, with what only a class can tell.
+    """The marks of a whole class, by student id, with the evidence that needs the whole class.
 
-    Where the rubric holds marks, those of ``released`` and of whom something was decided are not
-    held. Evidence is that of the answers, whatever was decided.
+    Where the rubric holds marks back, those of ``released`` students and of students with a
+    decision are not held. The evidence comes from the answers, whatever was decided.
     """
     every = [(taker, handed_in(answers.get(taker.student.id))) for taker in takers]
     order = sorted(range(len(every)), key=lambda i: (sorted(every[i][0].settings.items()), i))
@@ -172,21 +174,23 @@ def graded_class(
 
 
 def unguessed(graded: Graded, fits: Sequence[str]) -> Graded:
-    """A student whose answers fit other data in some fields: there nothing follows from own values;
-    slips that explain an answer by chance and earned nothing go.
+    """The marks of a student whose answers fit another student's data in some fields.
+
+    In these fields nothing follows from the student's own values. Slips that fit by chance and
+    earned nothing are dropped.
     """
     return replace(graded, marks=tuple(unfollowed(without_slip(m), fits) for m in graded.marks))
 
 
 def unfollowed(mark: EarnedMark, fits: Sequence[str]) -> EarnedMark:
-    """A mark without what follows from own values, where the answer fits another's data."""
+    """A mark without follow-through where the answer fits another student's data."""
     if mark.status is not Status.FOLLOWS or mark.item.sized not in fits:
         return mark
     return replace(mark, status=Status.WRONG, earned=Fraction(), source="")
 
 
 def without_slip(mark: EarnedMark) -> EarnedMark:
-    """A mark without the name of a slip by which it earned nothing."""
+    """A mark without the name of a slip that earned nothing."""
     if not mark.slip or (mark.status is Status.SLIP and mark.earned):
         return mark
     status = Status.WRONG if mark.status is Status.SLIP else mark.status
@@ -194,14 +198,17 @@ def without_slip(mark: EarnedMark) -> EarnedMark:
 
 
 def handed_in(answers: Given | None) -> Given | None:
-    """The answers of a student; none where every field is blank, for then nothing was handed in."""
+    """The answers of a student; None where every field is blank."""
     if answers is None or all(answer.is_blank for answer in answers.values()):
         return None
     return answers
 
 
 def spread(book: Book, every: Sequence[tuple[Taker, Given | None]], jobs: int) -> list[Marked]:
-    """The marks of students, those of one variant beside one another, by some processes."""
+    """The marks of students, computed in ``jobs`` processes.
+
+    Students with the same variant should be consecutive.
+    """
     if jobs == 1:
         return mark_all(book, every)
     work = partial(mark_all, replace(book, markers={}))
@@ -214,9 +221,10 @@ def spread(book: Book, every: Sequence[tuple[Taker, Given | None]], jobs: int) -
 
 
 def mark_all(book: Book, every: Sequence[tuple[Taker, Given | None]]) -> list[Marked]:
-    """The marks of some students, as many at a time as their variants are held together.
+    """The marks of some students, ``KEPT`` at a time, since as many variants are kept.
 
-    Where these cannot be prepared together, each is by itself, and only what hinders it is lost.
+    Where the variants cannot be prepared together, each is prepared alone, and only those that fail
+    are lost.
     """
     found: list[Marked] = []
     for start in range(0, len(every), KEPT):
@@ -228,7 +236,7 @@ def mark_all(book: Book, every: Sequence[tuple[Taker, Given | None]]) -> list[Ma
 
 
 def shared(found: Iterable[tuple[Graded, Expectation]]) -> list[Expectation]:
-    """What is expected of each student; one record for all of the same variant."""
+    """The expectation of each student; students with the same variant share one record."""
     known: dict[Variant, Expectation] = {}
     return [
         known.setdefault(variant(graded.taker.settings, graded.taker.compute), expected)
@@ -237,7 +245,7 @@ def shared(found: Iterable[tuple[Graded, Expectation]]) -> list[Expectation]:
 
 
 def unsure(graded: Sequence[Graded], expected: Sequence[Expectation]) -> dict[str, tuple[str, ...]]:
-    """The fields of each student's variant that hardly any drawing tells."""
+    """The fields of each student's variant that hardly any drawing determines."""
     found = {
         each.taker.student.id: tuple(f for f, t in form.tolerance.items() if t.unsure)
         for each, form in zip(graded, expected, strict=True)

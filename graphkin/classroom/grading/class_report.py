@@ -1,4 +1,4 @@
-"""The report on a class for its lecturer: points, difficulty, slips, evidence; one file."""
+"""The report on a class for the lecturer: points, difficulty, slips and evidence in one file."""
 
 from __future__ import annotations
 
@@ -42,24 +42,24 @@ FILLS = {
     Status.UNREADABLE: ("class.unreadable", "#8a4fa3", "xx"),
     Status.BLANK: ("class.blank", "#dfe5ea", ""),
 }
-"""Words, colour and hatching of each status; told apart in grey too."""
+"""The words, colour and hatching of each status; distinguishable in grey too."""
 WIDTH = 7.2
 BARS = 10
-"""Classes of points, in percent."""
+"""The number of classes of points, in percent."""
 MOST = 12
-"""Slips that are shown."""
+"""The most slips shown."""
 ACROSS = 92
-"""Signs of a line of a slip's sentence above its bar."""
+"""The most characters in a line of a slip's sentence above its bar."""
 BAR, LINE, APART, INCH = 0.5, 0.55, 0.4, 0.27
-"""Heights of a bar, a line of text and the gap below a bar, and what one of height is in inches."""
+"""The heights of a bar, of a line of text and of the gap below a bar; inches per unit of height."""
 
 
 def pictures(
     graded: Sequence[Graded], words: Words, kind: str, own: Sequence[Graded] | None = None
 ) -> dict[str, bytes]:
-    """Each picture by its name, as svg or png; the same bytes for the same marks.
+    """Each picture by its name, as SVG or PNG; the same marks give the same bytes.
 
-    ``own`` are those among whom slips are counted, all who are there by default.
+    ``own`` are the students among whom slips are counted; by default all who are present.
     """
     present = [each for each in graded if each.present]
     found: dict[str, bytes] = {}
@@ -74,13 +74,13 @@ def pictures(
 
 
 def figure(height: float) -> tuple[Figure, Any]:
-    """A figure with one field."""
+    """A figure with one set of axes."""
     drawn = new_figure(WIDTH, height)
     return drawn, drawn.add_subplot()
 
 
 def difficulty(graded: Sequence[Graded], words: Words) -> Figure:
-    """For each field how many answers were right, followed, slipped, wrong, or missing."""
+    """Draw the share of answers to each field that are right, followed, slips, wrong or missing."""
     found: dict[str, list[EarnedMark]] = {}
     for each in graded:
         for mark in worth(each):
@@ -113,13 +113,13 @@ def difficulty(graded: Sequence[Graded], words: Words) -> Figure:
 
 
 def called(item: Item, words: Words) -> str:
-    """A field by its symbol, with the unit in which it is asked; a sense by the word for it."""
+    """A field's symbol and unit; for a sense, the word for it."""
     unit = words("table.sense") if item.what == "sense" else item.unit
     return f"{mathtext(item.symbol)}, {unit}"
 
 
 def mathtext(markup: str) -> str:
-    """A markup as matplotlib sets it."""
+    """Markup as matplotlib's mathtext."""
     parts = []
     for piece in pieces(markup):
         text = "".join(f"\\{sign}" if sign in "_$%#&{}^" else sign for sign in piece.text)
@@ -134,7 +134,7 @@ def worth(graded: Graded) -> list[EarnedMark]:
 
 
 def distribution(graded: Sequence[Graded], words: Words) -> Figure:
-    """How many students reached how many points, in percent."""
+    """Draw how many students reached how many points, in percent."""
     shares = [float(100 * each.share) for each in graded if each.share is not None]
     drawn, ax = figure(2.6)
     edges = [i * 100 / BARS for i in range(BARS + 1)]
@@ -149,7 +149,7 @@ def distribution(graded: Sequence[Graded], words: Words) -> Figure:
 
 
 def slip_counts(graded: Sequence[Graded]) -> list[tuple[str, int, int]]:
-    """Each slip with the answers and the students that it explains, the commonest first."""
+    """Each slip with the answers and the students it explains, the most frequent first."""
     answers: Counter[str] = Counter()
     students: Counter[str] = Counter()
     for each in graded:
@@ -161,7 +161,7 @@ def slip_counts(graded: Sequence[Graded]) -> list[tuple[str, int, int]]:
 
 
 def frequent(graded: Sequence[Graded], words: Words) -> Figure:
-    """How many students made each slip."""
+    """Draw how many students made each slip."""
     counts = slip_counts(graded)[:MOST]
     texts = [wrap(plain(words(SLIPS[name])), ACROSS) for name, _, _ in counts]
     places, height = stacked([len(lines) for lines in texts])
@@ -189,7 +189,7 @@ def frequent(graded: Sequence[Graded], words: Words) -> Figure:
 
 
 def stacked(lines: Sequence[int]) -> tuple[list[float], float]:
-    """The middle of each bar below its lines of text, from the top, and the height of all."""
+    """The middle of each bar below its lines of text, from the top, and the total height."""
     places: list[float] = []
     y = 0.0
     for count in lines:
@@ -199,11 +199,11 @@ def stacked(lines: Sequence[int]) -> tuple[list[float], float]:
     return places, y
 
 
-# --- the report on a class for its lecturer: points, difficulty, slips, evidence; one file --------
+# --- the HTML report ----------------------------------------------------------------------------
 
 
 NAMED = 5
-"""Students that are named of many with the same data."""
+"""The most students named where many have the same data."""
 
 
 def class_report(
@@ -213,8 +213,9 @@ def class_report(
     words: Words,
     refused: Sequence[str] = (),
 ) -> str:
-    """The report as a page for a browser, its pictures within; ``refused`` are lines about what is
-    not marked.
+    """The report as an HTML page with its pictures embedded.
+
+    ``refused`` are lines about what is not marked.
     """
     own = own_work(result)
     pngs = pictures(result.graded, words, "png", own)
@@ -241,13 +242,16 @@ def class_report(
 
 
 def own_work(result: Result) -> list[Graded]:
-    """Who handed in answers that fit no other's data: slips are counted among these."""
+    """The students who handed in answers that fit no other student's data.
+
+    Slips are counted among these.
+    """
     others = {each.students[0] for each in result.wrong_variants}
     return [g for g in result.graded if g.present and g.taker.student.id not in others]
 
 
 def summary(graded: Sequence[Graded], words: Words) -> str:
-    """How many handed in, and how they did."""
+    """How many students handed in answers, and their mean and median."""
     shares = [float(100 * g.share) for g in graded if g.share is not None]
     amounts = {
         name: words.fixed(found(shares), 1) if shares else "–"
@@ -260,12 +264,12 @@ def summary(graded: Sequence[Graded], words: Words) -> str:
 
 
 def names_of(result: Result) -> dict[str, str]:
-    """What each student is called, by id."""
+    """The name of each student, by id."""
     return {each.taker.student.id: each.taker.student.called for each in result.graded}
 
 
 def wrong_variant_lines(result: Result, words: Words) -> Iterator[str]:
-    """Each wrong variant, with the points that the row earned and what of them a person decides."""
+    """A sentence for each wrong variant, with the points earned and those to decide."""
     graded, names = {each.taker.student.id: each for each in result.graded}, names_of(result)
     for found in result.wrong_variants:
         each = graded[found.students[0]]
@@ -279,13 +283,13 @@ def wrong_variant_lines(result: Result, words: Words) -> Iterator[str]:
 
 
 def held_line(result: Result, words: Words) -> str:
-    """Whose marks are held, and how that is decided; empty where nobody's are."""
+    """Whose marks are held, and how to decide; empty where none are."""
     held = [each.taker.student.called for each in result.graded if each.held]
     return words("class.held_row", who=words("list_mark").join(held)) if held else ""
 
 
 def decision_lines(result: Result, words: Words) -> Iterator[str]:
-    """What the lecturer decided: whose, of which field, from and to how many points, why."""
+    """A sentence for each decision: student, field, points before and after, reason."""
     for graded, each in decisions_of(result, is_open=False):
         amounts = {
             "before": "–" if each.before is None else points_words(each.before, words),
@@ -301,7 +305,7 @@ def decision_lines(result: Result, words: Words) -> Iterator[str]:
 
 
 def request_lines(result: Result, words: Words) -> Iterator[str]:
-    """What was asked and is not decided yet."""
+    """A sentence for each request that is not decided yet."""
     for graded, each in decisions_of(result, is_open=True):
         field = each.field or words("class.whole")
         yield words(
@@ -310,7 +314,7 @@ def request_lines(result: Result, words: Words) -> Iterator[str]:
 
 
 def decisions_of(result: Result, *, is_open: bool) -> Iterator[tuple[Graded, Decision]]:
-    """The lecturer's decisions, or the requests that are open, with the student of each."""
+    """The lecturer's decisions, or the open requests, each with its student."""
     for graded in result.graded:
         for each in graded.decisions:
             if each.is_open == is_open:
@@ -318,7 +322,7 @@ def decisions_of(result: Result, *, is_open: bool) -> Iterator[tuple[Graded, Dec
 
 
 def wrong_variant_words(found: Suspicion, names: dict[str, str], words: Words) -> str:
-    """A wrong variant in a sentence."""
+    """A sentence about a student whose answers fit the data of others."""
     who, *others = found.students
     return words(
         "class.wrong_variant_row",
@@ -331,7 +335,7 @@ def wrong_variant_words(found: Suspicion, names: dict[str, str], words: Words) -
 
 
 def copies_words(found: Suspicion, names: dict[str, str], words: Words) -> str:
-    """A copied set in a sentence."""
+    """A sentence about students who handed in the same digits."""
     return words(
         "class.copies_row",
         who=some([names[each] for each in found.students], words),
@@ -341,14 +345,14 @@ def copies_words(found: Suspicion, names: dict[str, str], words: Words) -> str:
 
 
 def some(names: Sequence[str], words: Words) -> str:
-    """Some names, and how many more."""
+    """The first ``NAMED`` names, and how many more there are."""
     more = len(names) - NAMED
     rest = words("class.more", count=more) if more > 0 else ""
     return words("list_mark").join(names[:NAMED]) + rest
 
 
 def odds_words(odds: float, words: Words) -> str:
-    """Odds with the one digit that they are worth, and no surer than they can be."""
+    """Odds to one significant digit, at most ``SURE``."""
     if odds >= SURE:
         return words("class.at_least", odds=f"{SURE:.0f}")
     return words.significant(odds, 1)
@@ -357,7 +361,7 @@ def odds_words(odds: float, words: Words) -> str:
 def unread_lines(
     students: Iterable[Student], unread: Iterable[Unread], words: Words
 ) -> Iterator[str]:
-    """The cells that cannot be read, each in a sentence."""
+    """A sentence for each cell that cannot be read."""
     names = {student.id: student.called for student in students}
     for cell in unread:
         yield words(
@@ -372,7 +376,7 @@ def unread_lines(
 
 
 def open_cells(result: Result, unread: Iterable[Unread]) -> list[Unread]:
-    """The cells that cannot be read whose points nobody has decided."""
+    """The cells that cannot be read and whose points are not decided."""
     waiting = {
         (graded.taker.student.id, mark.item.field)
         for graded in result.graded
@@ -383,7 +387,7 @@ def open_cells(result: Result, unread: Iterable[Unread]) -> list[Unread]:
 
 
 def stranger_lines(given: Answers, earning: Container[str], words: Words) -> Iterator[str]:
-    """Columns that are no fields, and fields ``earning`` points that have no column."""
+    """A sentence for each column that is no field, and for missing fields that earn points."""
     for each in given.strangers:
         near = f"; {words('class.meant', field=each.near)}" if each.near else ""
         yield words("class.stranger", file=each.file, name=each.name) + near
@@ -393,7 +397,7 @@ def stranger_lines(given: Answers, earning: Container[str], words: Words) -> Ite
 
 
 def language_lines(takers: Iterable[Taker], words: Words) -> Iterator[str]:
-    """Students for whom the class list names a language that is none of the pages'."""
+    """A sentence for each student whose language in the class list has no pages."""
     for taker in takers:
         if taker.language and taker.spoken is None:
             yield words(
@@ -402,14 +406,14 @@ def language_lines(takers: Iterable[Taker], words: Words) -> Iterator[str]:
 
 
 def unsure_lines(result: Result, words: Words) -> Iterator[str]:
-    """The fields of each student that hardly a drawing tells."""
+    """A sentence for each student with fields that hardly any drawing determines."""
     names = names_of(result)
     for who, fields in result.unsure.items():
         yield words("class.unsure_row", who=names[who], fields=", ".join(fields))
 
 
 def result_lines(result: Result, words: Words) -> Iterator[str]:
-    """What a terminal shows: how the class did, and evidence."""
+    """The lines for the terminal: how the class did, and the evidence."""
     yield summary(result.graded, words)
     names = names_of(result)
     yield from wrong_variant_lines(result, words)

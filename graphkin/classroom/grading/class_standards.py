@@ -1,8 +1,8 @@
-"""What the answers to many variants are held against: their scales and their pencils in arrays.
+"""The standards of many variants: their scales and their pencil errors, in arrays.
 
-Variants that differ only in how fast and at which angle they are driven share one program; the
-others are written each by itself. Keys are those of single variants, to the last digit. Drawings
-with a pencil are made for as many variants at once as go into a block, an axis for each.
+Variants that differ only in the speed and angle of their drivers share one program; the others have
+a program each. Keys equal those of single variants to the last digit. Drawings with pencil errors
+are made for a block of variants at once, with an axis for the variants.
 """
 
 from __future__ import annotations
@@ -30,23 +30,23 @@ from graphkin.scene.read_scene import read_text
 from graphkin.structure.groups import Group, Tie
 
 DRAWINGS = 8_192
-"""Drawings made at once, of all variants together."""
+"""The most drawings made at once, for all variants together."""
 Settings = Mapping[str, str]
 
 
 class VariantMechanism(Mechanism, frozen=True, dict=True):
-    """A mechanism with other data than one that is ready, whose construction has the same steps."""
+    """A mechanism with other data than ``like``, whose construction has the same steps."""
 
     like: Mechanism
 
     @cached_property
     def groups(self) -> tuple[Group, ...]:
-        """Those of the other."""
+        """The groups of ``like``."""
         return self.like.groups
 
     @cached_property
     def program(self) -> Program:
-        """That of the other."""
+        """The program of ``like``."""
         return self.like.program
 
 
@@ -57,9 +57,10 @@ def standards(
     rubric: Rubric,
     many: Sequence[tuple[Settings, tuple[str, ...]]],
 ) -> list[Standard]:
-    """The standard of each variant of a scene, by its settings and the fields that are computed.
+    """The standard of each variant of a scene, by its settings and its computed fields.
 
-    ``usual`` is the scene as its ``text`` says. Raises what a single one raises.
+    ``usual`` is the mechanism of the scene in ``text``. Raises what
+    :func:`~graphkin.classroom.grading.standard.standard` raises.
     """
     own = mechanisms(usual, text, [settings for settings, _ in many])
     chosen = all_scales(usual, own)
@@ -83,7 +84,10 @@ def single(
     rubric: Rubric,
     computed: tuple[str, ...],
 ) -> Standard:
-    """One variant, its pencil left out; it has a layout of its own where its steps are others."""
+    """The standard of one variant, without pencil errors.
+
+    A variant whose steps differ gets its own layout.
+    """
     same = mechanism.program is shared.program
     form = shared if same else layout(mechanism, shared.items)
     exact = original(mechanism, chosen, form.targets)
@@ -94,7 +98,7 @@ def single(
 
 
 def mechanisms(usual: Mechanism, text: str, many: Sequence[Settings]) -> list[Mechanism]:
-    """The mechanism of each variant; those that differ only in their driving share its steps."""
+    """The mechanism of each variant; variants that differ only in their drivers share steps."""
     scene = usual.scene
     changed = {name for each in many for name in each}
     if scene.time is None and by_driving(usual, changed):
@@ -106,7 +110,7 @@ def mechanisms(usual: Mechanism, text: str, many: Sequence[Settings]) -> list[Me
 
 
 def values_of(scene: Scene, settings: Settings) -> dict[str, Any]:
-    """The exact data of a variant. Raises SceneError for what the scene does not allow."""
+    """The exact data of a variant. Raises SceneError for values that the scene does not allow."""
     findings = Findings()
     values = set_values(scene.parameters, dict(settings), findings)
     findings.stop()
@@ -114,10 +118,10 @@ def values_of(scene: Scene, settings: Settings) -> dict[str, Any]:
 
 
 def by_driving(mechanism: Mechanism, names: set[str]) -> bool:
-    """Whether parameters only say how a mechanism of pins and guides is driven.
+    """Whether the parameters only change how a mechanism of pins and guides is driven.
 
-    No step is then chosen by them: an idle link fits or not, and some of what may be asked is found
-    in ways that depend on the position.
+    Driving then selects no step. Two cases are excluded: an idle link, which may not fit, and
+    requests whose construction depends on the position.
     """
     scene = mechanism.scene
     idle = any(isinstance(group, Tie) for group in mechanism.groups)
@@ -128,7 +132,7 @@ def by_driving(mechanism: Mechanism, names: set[str]) -> bool:
 
 
 def as_usual(mechanism: Mechanism, usual: Mechanism) -> Mechanism:
-    """A mechanism, with the steps of the usual one where its own are the same."""
+    """The mechanism; it shares the steps of the usual one where its steps are the same."""
     own, known = mechanism.program, usual.program
     same = len(own.steps) == len(known.steps) and own.targets == known.targets
     if same and all(map(is_same, own.steps, known.steps)):
@@ -137,7 +141,7 @@ def as_usual(mechanism: Mechanism, usual: Mechanism) -> Mechanism:
 
 
 def is_same(one: Step, other: Step) -> bool:
-    """Whether two steps draw the same; sizes, by which only margins are judged, do not count."""
+    """Whether two steps draw the same. Sizes that only set margins are ignored."""
     if one.extra == other.extra:
         return one == other
     return replace(one, extra=signs(one)) == replace(other, extra=signs(other))
@@ -149,7 +153,7 @@ def signs(step: Step) -> tuple[float, ...]:
 
 
 def all_scales(usual: Mechanism, own: Sequence[Mechanism]) -> list[Scales]:
-    """The scale factors of the sheets of each variant."""
+    """The scale factors of each variant's sheets."""
     like = [i for i, each in enumerate(own) if each.program is usual.program]
     known: dict[int, Scales] = {}
     if by_arrays(usual) and len(like) > 1:
@@ -165,7 +169,7 @@ def all_scales(usual: Mechanism, own: Sequence[Mechanism]) -> list[Scales]:
 
 
 def as_sheet(mechanism: Mechanism, found: Scales) -> Scales:
-    """Scale factors to the last digit as a single sheet has them, which one crank says."""
+    """Scale factors equal to the last digit to those of a single sheet, set by one crank."""
     return replace(found, seconds=found.of_crank / the_crank(mechanism))
 
 
@@ -173,9 +177,9 @@ def as_sheet(mechanism: Mechanism, found: Scales) -> Scales:
 
 
 def alike(found: Sequence[Standard]) -> list[list[int]]:
-    """The places of variants that draw the same, in groups that make few enough drawings.
+    """The indices of variants that draw the same, in groups of at most ``DRAWINGS`` drawings.
 
-    Groups of higher class are closed for each variant by itself.
+    Variants with groups of higher class are left out: these are closed for each variant alone.
     """
     groups: dict[Any, list[int]] = {}
     for i, each in enumerate(found):

@@ -1,9 +1,9 @@
-"""Evidence for the lecturer: answers that fit another student's data better than the own.
+"""Evidence for the lecturer: answers that fit another student's data, or equal another's digits.
 
-Both are told by how closely the answers agree with either key, all of them together: by as much as
-one pencil explains, or to the very digits. The own key is also that of a slip that goes through the
-whole drawing: an angle laid off clockwise is another's angle. Whoever else is in the class matters
-only by number.
+Both are judged by how closely all the answers together agree with either key: as closely as one
+pencil explains, or to the last digit. A slip that runs through the whole drawing gives a further
+key of the student's own: an angle laid off clockwise may be another student's angle. The other
+students of the class matter only by their number.
 """
 
 from __future__ import annotations
@@ -35,14 +35,15 @@ from graphkin.classroom.grading.standard import Expectation
 from graphkin.numbers.arithmetic import np
 
 FEW = 3
-"""Fewer values tell nothing of a scale."""
+"""The fewest values that determine a scale."""
 ODD = 1.25
-"""A scale of one's own is at least so many times too large or too small."""
+"""The least factor, up or down, by which a student's scale differs from the right one."""
 
 
 class OwnWay(Struct, frozen=True):
-    """What each answer would be, ``times`` as far off as by the key, and how often that way is
-    gone, as a logarithm.
+    """The answers of one way of working, and how frequent the way is, as a logarithm.
+
+    ``sizes`` are the answers it gives. Their errors are ``times`` those of the key.
     """
 
     sizes: Any
@@ -50,7 +51,7 @@ class OwnWay(Struct, frozen=True):
     share: float = 0.0
 
     def key(self, keys: Keys, variant: int, read: Any) -> Key:
-        """The key of a variant, in the fields that are read, of whoever goes this way."""
+        """The key of a variant for a student who works this way, in the fields that are read."""
         key, times = keys.key(variant, read), self.times[read]
         return replace(
             key,
@@ -62,13 +63,14 @@ class OwnWay(Struct, frozen=True):
 
 
 def rightly(keys: Keys, variant: int) -> OwnWay:
-    """As the key has it."""
+    """The way of the key."""
     return OwnWay(keys.sizes[variant], np.ones(len(keys.fields)))
 
 
 def by_own_scales(answers: Any, keys: Keys, variant: int, read: Any) -> Iterator[OwnWay]:
-    """The values of either plan all as many times too large, by the likeliest factors, where they
-    are by far.
+    """The way in which all values of a plan are too large by one factor.
+
+    The factor of each plan is the likeliest. Nothing is yielded where both are near 1.
     """
     sizes, times = keys.sizes[variant], np.ones(len(keys.fields))
     for plan in (1, 2):
@@ -81,8 +83,9 @@ def by_own_scales(answers: Any, keys: Keys, variant: int, read: Any) -> Iterator
 
 
 def by_slips(slips: Iterable[Slip], keys: Keys, variant: int) -> Iterator[OwnWay]:
-    """With each of some slips: what it makes larger is off by more, as what it makes smaller by
-    less.
+    """The ways of some slips.
+
+    The error of a value grows with the value that a slip makes of it.
     """
     right = keys.standards[variant].key
     for slip in slips:
@@ -96,7 +99,7 @@ def by_slips(slips: Iterable[Slip], keys: Keys, variant: int) -> Iterator[OwnWay
 
 
 def from_own_values(graded: Graded, answers: Any, keys: Keys, variant: int) -> Iterator[OwnWay]:
-    """What follows from own earlier values as it was told, whatever these are."""
+    """The way in which answers follow from the student's earlier values, whatever these are."""
     marks = {mark.item.field: mark for mark in graded.marks}
     told = (Status.FOLLOWS, Status.RIGHT)
     follows = np.array([bool(marks[f].source) and marks[f].status in told for f in keys.fields])
@@ -106,15 +109,18 @@ def from_own_values(graded: Graded, answers: Any, keys: Keys, variant: int) -> I
         yield OwnWay(sizes, np.ones(len(keys.fields)))
 
 
-# --- evidence for the lecturer: answers that fit another student's data better than the own -------
+# --- answers that fit another student's data ------------------------------------------------------
 
 
 STRONG = 1000.0
-"""Odds from which a wrong variant is reported, all that was looked through counted."""
+"""The least odds at which a wrong variant is reported, after correction for all comparisons."""
 EXPLAINED = 1000.0
-"""Odds of a slip from which an answer is its own, and no evidence but where digits agree."""
+"""The least odds at which a slip explains an answer.
+
+Such an answer is no evidence, unless its digits agree with the other key.
+"""
 TRIED = 3
-"""Variants that are looked at closely: those nearest to the answers, each answer by itself."""
+"""The number of variants compared closely: those nearest to the answers taken singly."""
 
 
 Slips = Callable[[Graded], Sequence[Slip]]
@@ -122,16 +128,15 @@ Slips = Callable[[Graded], Sequence[Slip]]
 
 
 Alone = Callable[[str], AbstractContextManager[None]]
-"""Lets work on one unit, by its name, fail alone."""
+"""A context manager by the name of a unit of work, which may fail without the others."""
 
 
 def together(unit: str) -> AbstractContextManager[None]:
-    """What fails is raised."""
+    """A context manager that lets errors pass."""
     return nullcontext()
 
 
 def no_slips(graded: Graded) -> Sequence[Slip]:
-    """None."""
     return ()
 
 
@@ -141,10 +146,11 @@ def wrong_variants(
     slips: Slips = no_slips,
     alone: Alone = together,
 ) -> tuple[Suspicion, ...]:
-    """Students whose answers fit another's data: (student, owners), the fields, the odds.
+    """Students whose answers fit another student's data.
 
-    ``standards`` holds what each was marked against, in the same order; those who handed in
-    nothing have data, too. ``slips`` are asked only for whoever would be named without them.
+    Each suspicion names the student and the owners of the data, the fields and the odds.
+    ``standards`` holds the expectation of each student, in the same order, including students who
+    handed in nothing. ``slips`` is called only for students who would be named without it.
     """
     if not standards or len(standards[0].tolerance) < FEW:
         return ()
@@ -171,8 +177,11 @@ def wrong_variants(
 
 
 class Best(Struct, frozen=True):
-    """The other variant that some answers fit, in which fields of how many, and how much likelier
-    than the own, as a logarithm."""
+    """The other variant that some answers fit.
+
+    ``fields`` are those that fit, of ``of`` answers. ``odds`` says how much likelier the other
+    variant is than the student's own, as a logarithm.
+    """
 
     other: int
     fields: tuple[str, ...]
@@ -183,8 +192,10 @@ class Best(Struct, frozen=True):
 def best_other(
     graded: Graded, keys: Keys, mine: int, enough: float, slips: Sequence[Slip] = ()
 ) -> Best | None:
-    """The other variant that a student's answers fit best; None where none fits so much better than
-    the own, or the own with one of some slips, as is ``enough``, a logarithm.
+    """The other variant that a student's answers fit best; None where none fits clearly better.
+
+    The comparison is with the student's own variant, alone or with one of the slips. ``enough`` is
+    the least odds, as a logarithm.
     """
     answers, digits = read_of(graded, keys)
     marks = {mark.item.field: mark for mark in graded.marks}
@@ -220,7 +231,10 @@ def best_other(
 
 
 def nearest(answers: Any, digits: Any, keys: Keys, mine: int) -> Any:
-    """The few variants nearer to the answers than the own, each answer taken by itself."""
+    """At most ``TRIED`` variants that are nearer to the answers than the student's own.
+
+    Each answer counts by itself.
+    """
     with np.errstate(invalid="ignore", divide="ignore"):
         apart = (answers - keys.sizes) ** 2 / (keys.deviations**2 + digits**2 / 3)
     far = np.nansum(np.minimum(apart, FAR**2), axis=1)
@@ -228,35 +242,38 @@ def nearest(answers: Any, digits: Any, keys: Keys, mine: int) -> Any:
     return [int(i) for i in nearer[np.argsort(far[nearer], kind="stable")[:TRIED]]]
 
 
-# --- evidence for the lecturer: two students who handed in the same digits ------------------------
+# --- two students with the same digits ------------------------------------------------------------
 
 
 INNOCENT = 0.001
-"""How many innocent pairs are expected to be named in a class, at most."""
+"""The most innocent pairs expected to be named in a class."""
 STRONG_COPY = 1 / INNOCENT
-"""Odds from which a copy is reported, all that was looked through counted."""
+"""The least odds at which a copy is reported, after correction for all comparisons."""
 PART = 0.1
-"""How often of a length and the value computed from it only one is copied."""
+"""How often only one is copied of a length and the value computed from it."""
 RARE = 0.01
-"""How often two numbers agree by chance where nothing is known yet."""
+"""How often two numbers agree by chance where nothing else is known."""
 KNOWN = 10.0
-"""How many answers that is worth."""
+"""The weight of ``RARE``, in answers."""
 ASTRAY = 0.02
-"""The share of students who draw another's data."""
+"""The share of students who draw another student's data."""
 FINE = 1e-6
-"""No number is written more finely than this part of it."""
+"""The finest relative rounding of a number."""
 COMPUTING, FINER = 0.1, 0.05
-"""The share of students who compute or draw with a computer; how much finer that is than a hand."""
+"""The share of students who use a computer; the error of a computer relative to a hand's."""
 EXACT = 1 / 2
-"""The share of what is right that is right to the digits, at least, where all is computed."""
+"""The least share of right answers that are right to the last digit, where all is computed."""
 CROWD = 12
-"""So many with one value are no evidence of copies."""
+"""The largest group with one value that is evidence of copying."""
 Pair = tuple[int, int]
 
 
 class AnswerSheet(Struct, frozen=True):
-    """A student's numbers, how far each may be rounded by its ``digits``, and at ``least`` as
-    lengths are read, which are wrong, the own variant, and the ways that lead there by its data.
+    """A student's numbers, as arrays over the fields.
+
+    ``digits`` are the rounding errors by the digits written, and ``least`` those of reading a
+    length. ``wrong`` marks wrong answers. ``variant`` is the student's own, and ``ways`` are the
+    ways of working with its data that may give the answers.
     """
 
     answers: Any
@@ -268,7 +285,7 @@ class AnswerSheet(Struct, frozen=True):
 
     @property
     def rounding(self) -> Any:
-        """How far each may be rounded."""
+        """The rounding error of each answer."""
         return np.maximum(self.digits, self.least)
 
     @property
@@ -283,9 +300,10 @@ def copies(
     slips: Slips = no_slips,
     alone: Alone = together,
 ) -> tuple[Suspicion, ...]:
-    """Students who handed in the same digits: two, or more of whom any two did in all the fields
-    that are named; the odds are those of the weakest two. ``slips`` are asked only for whoever
-    would be named without them.
+    """Students who handed in the same digits: two, or a group.
+
+    In a group, any two students share the digits of all named fields; the odds are those of the
+    weakest pair. ``slips`` is called only for students who would be named without it.
     """
     present = [i for i, each in enumerate(graded) if each.present]
     if len(present) < 2:
@@ -302,12 +320,12 @@ def copies(
     pairs = {True: alike, False: comb(len(present), 2) - alike}
 
     def needed(pair: Pair) -> float:
-        """What counts for the choice of a pair: half of those who copy have the same data."""
+        """The correction for the choice of a pair: half of the copiers have the same data."""
         one, other = (sheets[who].variant for who in pair)
         return log(2 * pairs[one == other])
 
     def odds_of(pair: Pair, places: tuple[int, ...]) -> float:
-        """The odds of two with the same digits in some fields, as a logarithm."""
+        """The odds that two students copied the same digits in some fields, as a logarithm."""
         if len(places) < FEW:
             return -inf
         enough = log(STRONG_COPY) + needed(pair)
@@ -340,7 +358,7 @@ def copies(
 
 
 def sheet(graded: Graded, keys: Keys, variant: int) -> AnswerSheet:
-    """What a student handed in, as numbers; each at least as coarse as lengths are read."""
+    """A student's answers as numbers, with the ways of working that need no slips."""
     answers, digits = read_of(graded, keys)
     marks = {mark.item.field: mark for mark in graded.marks}
     wrong = np.array([marks[field].status is not Status.RIGHT for field in keys.fields])
@@ -355,14 +373,14 @@ def sheet(graded: Graded, keys: Keys, variant: int) -> AnswerSheet:
 
 
 def with_slips(each: AnswerSheet, graded: Graded, keys: Keys, slips: Slips) -> AnswerSheet:
-    """A student's numbers, to which the slips that explain some of them may have led as well."""
+    """A student's sheet, with the ways of the slips that explain some of the answers."""
     names = {mark.slip for mark in graded.marks if mark.slip}
     made = [slip for slip in slips(graded) if slip.name in names] if names else ()
     return replace(each, ways=(*each.ways, *by_slips(made, keys, each.variant)))
 
 
 def agreeing(sheets: Mapping[int, AnswerSheet], keys: Keys) -> dict[Pair, dict[int, float]]:
-    """The pairs with the same digits, in which fields, and how likely the class makes that."""
+    """The pairs with the same digits, the fields, and how likely the class makes each agreement."""
     found: dict[Pair, dict[int, float]] = defaultdict(dict)
     for place in range(len(keys.fields)):
         same: dict[float, list[int]] = defaultdict(list)
@@ -385,8 +403,9 @@ def told(
     places: Sequence[int],
     enough: float = -inf,
 ) -> float:
-    """How much likelier the same digits in some fields are by a copy of just these fields than by
-    chance, as a logarithm; no more exactly than that it is less than ``enough``.
+    """How much likelier a copy of just these fields is than chance, as a logarithm.
+
+    A result below ``enough`` is only an upper bound.
     """
     one, other = (sheets[who] for who in pair)
     agree = np.zeros(len(keys.fields), dtype=bool)
@@ -401,9 +420,11 @@ def told(
 
 
 def by_chance(one: AnswerSheet, other: AnswerSheet, keys: Keys, agree: Any) -> Iterator[float]:
-    """How likely two write the same digits, by each explanation, as a logarithm: by the chance of
-    whoever is the less likely to have written them, and by what both misunderstood. At least so
-    likely by what is quickly told, which is the key without the rest of the sheets.
+    """How likely two students write the same digits, by each innocent explanation, as a logarithm.
+
+    The explanations are independent work, judged by the less likely of the two students, and a
+    misunderstanding that both share. The first result, by the key alone, is the quickest to
+    compute.
     """
     shared = agree & one.wrong & other.wrong
     yield by_key(one, other, keys, agree)
@@ -416,16 +437,18 @@ def by_chance(one: AnswerSheet, other: AnswerSheet, keys: Keys, agree: Any) -> I
 
 
 def by_key(one: AnswerSheet, other: AnswerSheet, keys: Keys, read: Any) -> float:
-    """How likely the one of two who is the less likely to write some digits does so by the own
-    key, as a logarithm.
+    """How likely it is to write these digits by the student's own key, as a logarithm.
+
+    The result is that of the less likely of the two students.
     """
     both = (one, other)
     return min(0.0, *(likelihood(s, keys, s.variant, s.ways[0], read, True) for s in both))
 
 
 def chosen(keys: Keys, both: Any, agree: Any) -> float:
-    """How often just these of the fields that both have are copied, as a logarithm, with its sign
-    turned: any number of quantities, each mostly with its length and with its value.
+    """How often exactly these fields are copied, of those that both have, as a negative logarithm.
+
+    Any number of quantities may be copied, mostly with both the length and the value.
     """
     quantities, places = np.unique(keys.beside, return_inverse=True)
     there, taken = (np.bincount(places, each, len(quantities)) for each in (both, agree))
@@ -436,16 +459,20 @@ def chosen(keys: Keys, both: Any, agree: Any) -> float:
 
 
 def alone(one: AnswerSheet, other: AnswerSheet, keys: Keys, read: Any, agree: Any) -> float:
-    """How likely the one of two who is the less likely to write some digits does so without the
-    other's, as a logarithm; what does not agree is the own.
+    """How likely it is to write these digits without the other student's, as a logarithm.
+
+    The result is that of the less likely of the two students. The answers that do not agree count
+    as the student's own.
     """
     return min(by_oneself(*way, keys, read, ~agree) for way in ((one, other), (other, one)))
 
 
 def both_computed(one: AnswerSheet, other: AnswerSheet, keys: Keys, agree: Any) -> float:
-    """How likely two write the same digits who compute what they misunderstood alike, as a
-    logarithm: what is right to the digits is so for both, all else follows from that, though some
-    of it may be near enough to be right.
+    """How likely two students who compute write the same digits, as a logarithm.
+
+    Both misunderstood the same. Right answers agree to the digit, and all others follow from the
+    misunderstanding, even those near enough to be right. Minus infinity where too few answers are
+    right to the digit.
     """
     right = agree & ~(one.wrong & other.wrong)
     exact = agree.copy()
@@ -457,9 +484,11 @@ def both_computed(one: AnswerSheet, other: AnswerSheet, keys: Keys, agree: Any) 
 
 
 def by_oneself(each: AnswerSheet, other: AnswerSheet, keys: Keys, read: Any, rest: Any) -> float:
-    """How likely a student writes just these digits without the other's, as a logarithm: from the
-    own drawing, by each way that the rest of the sheet was gone, as it tells, or may be gone in
-    these answers alone; or from a drawing of the other's data, which then the rest tells as well.
+    """How likely a student writes just these digits without the other's, as a logarithm.
+
+    The digits come from the student's own drawing or from a drawing of the other student's data.
+    The ``rest`` of the sheet weights these explanations; the student's own ways keep at least their
+    prior share.
     """
     if not read.any():
         return 0.0
@@ -481,8 +510,10 @@ def by_oneself(each: AnswerSheet, other: AnswerSheet, keys: Keys, read: Any, res
 def likelihood(
     each: AnswerSheet, keys: Keys, variant: int, way: OwnWay, read: Any, exactly: bool = False
 ) -> float:
-    """How likely some of a student's answers are, or ``exactly`` their digits, by a way that is
-    gone with the data of a variant, as a logarithm: drawn by hand, or computed.
+    """How likely some of a student's answers are by one way of working, as a logarithm.
+
+    The way uses the data of ``variant``, drawn by hand or computed. With ``exactly``, the result is
+    the likelihood of the very digits.
     """
     if not read.any():
         return 0.0
@@ -494,7 +525,10 @@ def likelihood(
 
 
 def tools(key: Key) -> tuple[Key, Key]:
-    """A key with the errors of a hand, and of a computer, by which no crank is laid off badly."""
+    """The key with the errors of a hand, and the key with those of a computer.
+
+    A computer sets every crank exactly.
+    """
     fine = replace(
         key, spread=FINER**2 * key.spread, computed=FINER * key.computed, cranks=0.0 * key.cranks
     )
@@ -504,9 +538,11 @@ def tools(key: Key) -> tuple[Key, Key]:
 def misunderstood(
     one: AnswerSheet, other: AnswerSheet, keys: Keys, read: Any, pencil: float | None = None
 ) -> float:
-    """How likely two write the same digits who misunderstood the same: as far as pencils like
-    theirs do, or one that is stated, and their data, as a logarithm. What they make many times as
-    large is read as many times as coarsely; what smaller, off by less, and less apart.
+    """How likely two students who misunderstood the same write the same digits, as a logarithm.
+
+    The scatter is that of pencils like theirs, or of a given ``pencil``, and of the difference
+    between their data. Answers many times too large are read as many times more coarsely; the
+    errors of answers too small shrink in proportion.
     """
     if not read.any():
         return 0.0
@@ -526,8 +562,9 @@ def misunderstood(
 
 
 def pencil_of(each: AnswerSheet, keys: Keys) -> float:
-    """How coarse a student's pencil is by what is right, as fine as a computer's where that is as
-    likely; the finest by hand where little is right.
+    """The coarseness of a student's pencil, by the right answers; the finest by hand where few are.
+
+    A computer's fineness is returned where a computer is the likelier tool.
     """
     read = each.is_read & ~each.wrong
     if read.sum() < FEW:
@@ -543,10 +580,11 @@ def named(
     fields: Mapping[Pair, tuple[int, ...]],
     odds_of: Callable[[Pair, tuple[int, ...]], float],
 ) -> Iterator[tuple[tuple[int, ...], tuple[int, ...], float]]:
-    """Who is named together, in which fields, with which odds as a logarithm: the strongest pair
-    first, and whoever agrees as strongly with each of them in the fields of all.
+    """The groups of students to name, with their fields and odds as a logarithm.
 
-    Who shares with one of them only what these share is not named: it was theirs already.
+    Each group grows from the strongest pair, by students who agree as strongly with every member in
+    the fields of all. A pair that touches a named group is dropped where its fields are all shared
+    within the group.
     """
     left = dict(sorted(strong.items(), key=lambda item: -item[1]))
     while left:

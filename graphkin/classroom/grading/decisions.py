@@ -1,4 +1,4 @@
-"""What a lecturer decides beside the marking: a table in the report's folder, never overwritten."""
+"""The lecturer's decisions on marks: a table in the report's folder, never overwritten."""
 
 from __future__ import annotations
 
@@ -31,27 +31,27 @@ from graphkin.scene.findings import nearest, shown
 from graphkin.text.errors import InTable, Problem, SceneError
 
 DECISIONS = "decisions.csv"
-"""The file of a report folder that holds them."""
+"""The file of a report folder that holds the decisions."""
 EMPTY = b"\xef\xbb\xbfid;field;points;reason\r\n"
-"""The file without any."""
+"""The file without decisions."""
 HEADS: Mapping[str, Sequence[str]] = {
     "id": NAMES["id"],
     "field": ("câmp", "mărime", "campo", "quantity"),
     "points": ("puncte", "punctaj", "punti", "punteggio"),
     "reason": ("why", "motiv", "motivul", "motivo"),
 }
-"""What its columns may be called."""
+"""The accepted names of its columns."""
 WHOLE = ("total", "totale")
-"""What stands for the whole form in the place of a field."""
+"""The field names that mean the whole form."""
 ASKED = "?"
-"""What stands for the points while a request is not decided."""
+"""The points of a request that is not decided yet."""
 AMOUNT = re.compile(r"[0-9]{1,6}(?:[.,][0-9]{1,6})?", re.ASCII)
 LONGEST = 400
-"""Characters of a reason."""
+"""The most characters of a reason."""
 
 
 class Deciding(Struct, frozen=True):
-    """By whom and on what it can be decided: the students, the form, and what its fields earn."""
+    """The students and the form that decisions refer to."""
 
     takers: Sequence[Taker]
     form: Sequence[Item]
@@ -59,7 +59,7 @@ class Deciding(Struct, frozen=True):
     signs: Signs
 
     def worth_of(self, taker: Taker) -> Mapping[str, Fraction]:
-        """The points of each field of a student's own form that is worth any."""
+        """The points of each field of a student's form that is worth any."""
         items, _ = asked_of(self.form, self.rubric.points, taker.compute)
         found = {i.field: worth(i, self.rubric.points, taker.compute) for i in items}
         return {field: points for field, points in found.items() if points}
@@ -68,7 +68,7 @@ class Deciding(Struct, frozen=True):
 def read_decisions(report: Path, on: Deciding) -> tuple[Decision, ...]:
     """The decisions in a report's folder; none where there is no file.
 
-    Raises RosterError with everything that is wrong, row by row.
+    Raises RosterError with every problem, row by row.
     """
     path = report / DECISIONS
     if not path.is_file():
@@ -99,7 +99,7 @@ def decision(
     on: Deciding,
     told: TableProblems,
 ) -> Decision | None:
-    """One row; None, with what is wrong noted, where it decides nothing."""
+    """The decision in one row; None, with its problems noted, where the row is wrong."""
     cells = {what: row.cells[column] for what, column in where.items()}
     places = {what: sheet.place(row, sheet.head[column]) for what, column in where.items()}
     before = len(told.problems)
@@ -127,7 +127,7 @@ def field_in(
     told: TableProblems,
     known: bool,
 ) -> tuple[str, Fraction | None]:
-    """The field of a row, empty for the whole form, and the most that can be earned by it."""
+    """The field of a row, empty for the whole form, and the most points it can earn."""
     text = cells["field"]
     if folded(text) in WHOLE or (not text and not AMOUNT.fullmatch(cells["points"])):
         return "", sum(worths.values(), Fraction()) if known else None
@@ -143,7 +143,7 @@ def field_in(
 def points_in(
     text: str, place: InTable, most: Fraction | None, told: TableProblems
 ) -> Fraction | None:
-    """The points of a row; None where they stay as they are."""
+    """The points of a row; None where the mark stays."""
     if text in ("", "-", ASKED):
         return None
     points = Fraction(text.replace(",", ".")) if AMOUNT.fullmatch(text) else None
@@ -155,12 +155,12 @@ def points_in(
 
 
 def settled(decisions: Iterable[Decision]) -> set[str]:
-    """Those of whom something is decided, whose marks are held no more."""
+    """The ids of students with a decision, whose marks are no longer held."""
     return {each.who for each in decisions if not each.is_open}
 
 
 def by_student(decisions: Iterable[Decision]) -> Mapping[str, Sequence[Decision]]:
-    """The decisions of each student."""
+    """The decisions of each student, by id."""
     found: dict[str, list[Decision]] = defaultdict(list)
     for each in decisions:
         found[each.who].append(each)
@@ -168,7 +168,7 @@ def by_student(decisions: Iterable[Decision]) -> Mapping[str, Sequence[Decision]
 
 
 def with_decisions(graded: Graded, decisions: Sequence[Decision]) -> Graded:
-    """A student's marks as the lecturer decided: fields first, then the whole form."""
+    """A student's marks with the decisions applied: fields first, then the whole form."""
     if not decisions:
         return graded
     own = {each.field: each for each in decisions}
@@ -181,7 +181,7 @@ def with_decisions(graded: Graded, decisions: Sequence[Decision]) -> Graded:
 
 
 def ruled(mark: EarnedMark, decision: Decision | None) -> EarnedMark:
-    """A mark as it was decided, if it was."""
+    """A mark with its decision applied, if there is one."""
     if decision is None:
         return mark
     earned = mark.earned if decision.points is None else decision.points
@@ -189,24 +189,26 @@ def ruled(mark: EarnedMark, decision: Decision | None) -> EarnedMark:
     return replace(mark, earned=earned, decision=replace(decision, before=before))
 
 
-# --- whose held marks a lecturer has released: kept beside the report, until taken back -----------
+# --- released marks: kept in the report's folder until they are held again ------------------------
 
 
 RELEASED = "released.json"
 """The file of a report folder that keeps the ids."""
 MOST = 1 << 20
-"""Bytes of it that are read."""
+"""The most bytes of it that are read."""
 
 
 class Releases(Struct, frozen=True):
-    """The ids of those whose marks are given, in the order of the class; ``earlier`` tells that
-    some run before this one kept a list."""
+    """The ids of students whose marks are released, in the order of the class.
+
+    ``earlier`` says that a previous run kept a list.
+    """
 
     ids: tuple[str, ...] = ()
     earlier: bool = False
 
     def files(self) -> dict[str, bytes]:
-        """The file that keeps them; none where nobody was ever released."""
+        """The file that keeps the ids; none where marks were never released."""
         if not self.ids and not self.earlier:
             return {}
         return {RELEASED: (json.dumps(self.ids, ensure_ascii=False) + "\n").encode("utf-8")}
@@ -215,9 +217,9 @@ class Releases(Struct, frozen=True):
 def releases(
     report: Path, students: Sequence[str], released: Collection[str], held: Collection[str]
 ) -> Releases:
-    """Those released before and now, without those who are held again.
+    """The students released before and now, without those who are held again.
 
-    Raises SceneError for a file that keeps no list of ids.
+    Raises SceneError for a file that holds no list of ids.
     """
     path = report / RELEASED
     earlier = path.is_file()
@@ -226,7 +228,7 @@ def releases(
 
 
 def kept(path: Path) -> list[str]:
-    """The ids in a file."""
+    """The ids in a file. Raises SceneError where it holds no list of ids."""
     try:
         with path.open("rb") as file:
             return msgspec.json.decode(file.read(MOST), type=list[str])

@@ -1,4 +1,4 @@
-"""A feedback page for each student, for the browser and on paper, in the language of the lab."""
+"""A feedback page for each student, as HTML and on paper, in the language of the lab."""
 
 from __future__ import annotations
 
@@ -43,14 +43,13 @@ HEADS = {
     "earned": "feedback.earned",
 }
 SLIPS = {name: f"feedback.slip_{name}" for name in NAMES}
-"""The sentence of each slip."""
 SENSES = {
     (True, True): "feedback.anticlockwise",
     (True, False): "feedback.clockwise",
     (False, True): "feedback.forward",
     (False, False): "feedback.backward",
 }
-"""The words for a sense: of a turning or along a guide, positive or not."""
+"""The words for a sense: turning or sliding, positive or negative."""
 PLAIN = {
     Status.RIGHT: "feedback.right",
     Status.BLANK: "feedback.blank",
@@ -68,19 +67,19 @@ UNREAD = {
 """The sentence for each reason why a cell cannot be read."""
 REVERSED = "sense_reversed"
 UNTOLD = "…"
-"""What stands for an expected value that is kept back."""
+"""The text in place of an expected value that is kept back."""
 NEGLIGIBLE = 0.01
-"""Part of what is allowed below which an answer is off by nothing."""
+"""The part of the tolerance below which an answer's error is shown as zero."""
 MANIFOLD = 2.0
-"""From so many times on an answer is told beside the expected value, not beside its tolerance."""
+"""The least factor at which an answer is compared with the expected value, not the tolerance."""
 BARELY = 1.05
-"""Up to so many tolerances an answer is just over."""
+"""The most tolerances by which an answer is only just outside."""
 SCORE, MOST = 20, 1e99
 POWERS = {"²": "^2"}
 
 
 class FeedbackRow(Struct, frozen=True):
-    """One field: its cells in the order of COLUMNS, why, and what was found."""
+    """One field: its cells in the order of ``COLUMNS``, the reason, and the status."""
 
     cells: tuple[str, ...]
     why: str
@@ -88,15 +87,16 @@ class FeedbackRow(Struct, frozen=True):
 
 
 def rows(graded: Graded, words: Words) -> list[FeedbackRow]:
-    """What a student is told, a row for each field that earns points; of who handed in nothing
-    only what the lecturer decided.
+    """A row for each field that earns points.
+
+    Where nothing was handed in, only fields with a decision have a row.
     """
     told = (mark for mark in graded.marks if graded.present or mark.decision is not None)
     return [row_of(graded, mark, words) for mark in told if mark.points]
 
 
 def row_of(graded: Graded, mark: EarnedMark, words: Words) -> FeedbackRow:
-    """What a student is told of one field."""
+    """The row of one field."""
     open_yet = is_open(graded, mark)
     cells = (
         quantity(mark, words),
@@ -117,7 +117,10 @@ def row_of(graded: Graded, mark: EarnedMark, words: Words) -> FeedbackRow:
 
 
 def is_open(graded: Graded, mark: EarnedMark) -> bool:
-    """Whether the key of a field is kept back: it waits, or would tell that of one that does."""
+    """Whether the expected value is kept back.
+
+    It is kept back where the answer waits, or where it would give away the key of one that does.
+    """
     if mark.status is Status.RIGHT:
         return False
     mine = (mark.item.quantity, mark.item.of)
@@ -132,17 +135,17 @@ def answer_words(mark: EarnedMark, words: Words) -> str:
 
 
 def safe(text: str) -> str:
-    """An answer as it was written, as far as a page can show it."""
+    """An answer as it was written, in printable characters."""
     return printable(shown_cell(text.strip()))
 
 
 def printable(text: str) -> str:
-    """A text with only signs that the lettering has."""
+    """The text, with ? for each character that the lettering lacks."""
     return "".join(sign if known_sign(sign) else "?" for sign in text)
 
 
 def known_sign(sign: str) -> bool:
-    """Whether the lettering has a sign."""
+    """Whether the lettering has a character."""
     try:
         advance(sign, False)
     except PageError:
@@ -151,7 +154,7 @@ def known_sign(sign: str) -> bool:
 
 
 def quantity(mark: EarnedMark, words: Words) -> str:
-    """The symbol of a field, with what is told of it."""
+    """The symbol of a field with its unit; for a sense, with the word for it."""
     item = mark.item
     if item.what == "sense":
         return f"{item.symbol}, {words('table.sense')}"
@@ -159,7 +162,6 @@ def quantity(mark: EarnedMark, words: Words) -> str:
 
 
 def unit_markup(unit: str) -> str:
-    """A unit as markup."""
     return "".join(POWERS.get(sign, sign) for sign in unit)
 
 
@@ -175,12 +177,12 @@ def value_words(mark: EarnedMark, words: Words, value: float) -> str:
 
 
 def allowed_words(mark: EarnedMark, words: Words) -> str:
-    """How far a value may be off; nothing for a sense."""
+    """The tolerance of a field; empty for a sense."""
     return "" if mark.item.what == "sense" else words.significant(mark.tolerance, 2)
 
 
 def off_words(mark: EarnedMark, words: Words) -> str:
-    """How far an answer is off, in the field's unit; nothing for a sense or without an answer."""
+    """The error of an answer in the field's unit; empty for a sense or without an answer."""
     if mark.item.what == "sense" or mark.off is None or isnan(mark.off):
         return ""
     if abs(mark.off) < NEGLIGIBLE * mark.tolerance:
@@ -190,7 +192,7 @@ def off_words(mark: EarnedMark, words: Words) -> str:
 
 
 def why(graded: Graded, mark: EarnedMark, words: Words) -> str:
-    """Why a field earned what it did, in a sentence."""
+    """The reason for what a field earned, in one sentence."""
     if mark.status is Status.UNREADABLE:
         rest = escape(safe(beyond_number(mark.answer.text)))
         reason = unread(mark.answer.problem, unit_markup(mark.item.unit), words, rest)
@@ -226,7 +228,7 @@ def why(graded: Graded, mark: EarnedMark, words: Words) -> str:
 
 
 def share_words(graded: Graded, mark: EarnedMark, words: Words) -> str:
-    """What a slip leaves of the points: its own share once, then that of what follows from it."""
+    """The share that a slip leaves: its own the first time, then the share of follow-through."""
     if not mark.source:
         return words("feedback.share", share=percent(mark))
     source = graded.mark(mark.source).item.symbol
@@ -234,18 +236,18 @@ def share_words(graded: Graded, mark: EarnedMark, words: Words) -> str:
 
 
 def advice(mark: EarnedMark, words: Words) -> list[str]:
-    """How a sense of turning is told from the drawing."""
+    """How to find a sense of turning on the drawing, where it is reversed."""
     turning = mark.slip == REVERSED and mark.item.quantity in TURNING
     return [words("feedback.turning_advice")] if turning else []
 
 
 def unread(problem: str, unit: str, words: Words, rest: str = "") -> str:
-    """Why a cell cannot be read, of which ``rest`` stands after a number, and what could be."""
+    """Why a cell cannot be read, and what is accepted; ``rest`` is the text after its number."""
     return words(UNREAD[problem], unit=unit, rest=rest)
 
 
 def decision_words(decision: Decision, words: Words) -> str:
-    """What the lecturer decided, and why, in a sentence."""
+    """The lecturer's decision and its reason, in one sentence."""
     if decision.is_open:
         key = "feedback.asked"
     else:
@@ -254,7 +256,7 @@ def decision_words(decision: Decision, words: Words) -> str:
 
 
 def far(mark: EarnedMark, words: Words) -> str:
-    """How far off an answer is: how many times too large or small, or beside what is allowed."""
+    """How far off an answer is: a factor of the expected value, or a number of tolerances."""
     size, right = abs(mark.answer.value or 0.0), abs(mark.expected)
     if mark.item.what != "place" and right:
         if not size:
@@ -270,7 +272,7 @@ def far(mark: EarnedMark, words: Words) -> str:
 
 
 def times(number: float, words: Words) -> str:
-    """So many times, as a language says it: from twenty on some put a word after it."""
+    """A factor in words; from 20 on, some languages put a word after the number."""
     number = min(number, MOST)
     text = words.significant(number, 2)
     text = text if number >= 10 else words.decimal(f"{number:.1f}".removesuffix(".0"))
@@ -278,35 +280,35 @@ def times(number: float, words: Words) -> str:
 
 
 def percent(mark: EarnedMark) -> str:
-    """What was earned, in percent of a field's points."""
+    """The earned share of a field's points, in percent."""
     return f"{float(100 * mark.earned / mark.points):.0f}" if mark.points else "0"
 
 
 def points_words(points: Fraction, words: Words) -> str:
-    """Points without needless places, two at most."""
+    """Points with at most two decimals, without trailing zeros."""
     text = f"{float(points):.2f}".rstrip("0").rstrip(".")
     return words.decimal(text)
 
 
-# --- A feedback page for each student, for the browser and on paper, in the language of the lab ---
+# --- the page as HTML ---------------------------------------------------------------------------
 
 
 LEFT, RIGHT = A4_AREA[0] + 4, A4_AREA[2] - 4
 TOP, BOTTOM = A4_AREA[1] + 10, A4_AREA[3] - 5
 WIDTHS = (26.0, 34.5, 34.5, 28.2, 19.0, 29.8)
-"""Widths of the columns, in mm; a sense in words has room in the second and the third alike."""
+"""The widths of the columns, in mm; the second and third have room for a sense in words."""
 LETTER, SMALL = 2.5, 1.8
 LEADING, ROOM = 4.2, 2.6
-"""Distance of lines, and the room below a field, in mm."""
+"""The distance of lines and the space below a field, in mm."""
 INDENT = 4.0
 
 
 def feedback_html(
     graded: Graded, title: str, rubric: Rubric, words: Words, scene: Scene | None = None
 ) -> str:
-    """The page of one student for a browser; who handed in nothing is not told what was right.
+    """The HTML page of one student; without answers, it gives no expected values.
 
-    ``scene`` tells what the parameters are of; without it they stand by their names.
+    ``scene`` says what the parameters mean; without it they appear by name.
     """
     page = from_template(
         "classroom/templates/feedback.html",
@@ -330,7 +332,7 @@ def is_shown(graded: Graded) -> bool:
 
 
 def total(graded: Graded, words: Words) -> str:
-    """The sum of the points in words; what still waits is left out of both."""
+    """The sum of the points in words; points that wait are left out of both numbers."""
     earned, points = (points_words(each, words) for each in (graded.earned, graded.decided))
     text = words("feedback.total", earned=earned, points=points)
     if not graded.pending:
@@ -340,7 +342,7 @@ def total(graded: Graded, words: Words) -> str:
 
 
 def notes(graded: Graded, words: Words) -> list[str]:
-    """What is said of the whole form: that there is none, what was decided, what waits."""
+    """The notes on the whole form: no answers, a decision, held marks, points that wait."""
     told = [decision_words(graded.decision, words)] if graded.decision is not None else []
     if not graded.is_marked:
         return [words("feedback.absent"), *told]
@@ -358,7 +360,7 @@ def notes(graded: Graded, words: Words) -> list[str]:
 
 
 def settings_words(graded: Graded, words: Words, scene: Scene | None) -> str:
-    """The data of a student's variant as markup, as the sheets tell them."""
+    """The data of a student's variant as markup, worded as on the sheets."""
     settings = graded.taker.settings
     if scene is None:
         told = [f"{escape(name)} = {words.decimal(value)}" for name, value in settings.items()]
@@ -369,7 +371,7 @@ def settings_words(graded: Graded, words: Words, scene: Scene | None) -> str:
 
 
 def how(rubric: Rubric, words: Words) -> str:
-    """What a tolerance is."""
+    """The explanation of a tolerance."""
     amounts = {"point": rubric.point, "line": rubric.line, "ruler": rubric.ruler}
     return words(
         "feedback.how", **{name: words.decimal(f"{value:g}") for name, value in amounts.items()}
@@ -380,20 +382,20 @@ def how(rubric: Rubric, words: Words) -> str:
 
 
 class Spacing(Struct, frozen=True):
-    """Distances of a page, in mm: from a field's cells to its reason, and the room below it."""
+    """Distances of a page, in mm: from a field's cells to its reason, and below the field."""
 
     line: float
     room: float
 
 
 SPACINGS = (Spacing(3.4, 2.6), Spacing(3.3, 1.9), Spacing(3.1, 1.7))
-"""From wide to narrow: the first that fits one page is taken, else the first."""
+"""From wide to narrow. The first that fits one page is used, else the widest."""
 
 
 def feedback_pages(
     graded: Graded, title: str, rubric: Rubric, words: Words, scene: Scene | None = None
 ) -> tuple[Page, ...]:
-    """The pages of one student on A4, one wherever that can be."""
+    """The A4 pages of one student, one page where possible."""
     settings = settings_words(graded, words, scene)
     tried = (list(paged(blocks(graded, rubric, words, settings, by))) for by in SPACINGS)
     bodies = next((found for found in tried if len(found) == 1), None)
@@ -417,23 +419,23 @@ def feedback_pages(
 
 
 def name_of(graded: Graded) -> str:
-    """A student's name and group, or the id, as on the sheets, as markup."""
+    """A student's name and group, or the id, as markup and as on the sheets."""
     return escape(printable_name(graded.taker.student))
 
 
 def fitting(markup: str) -> str:
-    """A markup of a head or foot, cut where it is too long."""
+    """The markup of a head or foot, shortened where it is too long."""
     return markup if extent(markup, LETTER)[0] <= 105 else shortened(markup, 105, LETTER)
 
 
 Block = tuple[float, list[Mark]]
-"""The height of something that stays together, and its marks from a height of nought."""
+"""The height of a part that stays together, in mm, and its marks measured from its top."""
 
 
 def blocks(
     graded: Graded, rubric: Rubric, words: Words, settings: str, spacing: Spacing
 ) -> Iterator[Block]:
-    """What stands on the pages, from top to bottom."""
+    """The blocks of the pages, from top to bottom."""
     yield text_block(name_of(graded), 3.5)
     if settings:
         yield text_block(settings, LETTER)
@@ -452,7 +454,7 @@ def blocks(
 
 
 def text_block(markup: str, height: float) -> Block:
-    """A paragraph."""
+    """A paragraph, broken into lines between the margins."""
     lines = flowed(list(pieces(markup, RIGHT - LEFT, height)), " ", RIGHT - LEFT, height)
     leading = LEADING * max(height / LETTER, 0.85)
     marks: list[Mark] = [
@@ -462,7 +464,7 @@ def text_block(markup: str, height: float) -> Block:
 
 
 def pieces(markup: str, width: float, height: float) -> Iterator[str]:
-    """The words of a markup; one that is wider than a line in pieces that are not."""
+    """The words of a markup; a word wider than a line is split."""
     for word in words_of(markup):
         if extent(word, height)[0] <= width:
             yield word
@@ -477,14 +479,17 @@ def pieces(markup: str, width: float, height: float) -> Iterator[str]:
 
 
 def head_block(words: Words) -> Block:
-    """The heads of the columns, over a line."""
+    """The heads of the columns, above a line."""
     marks: list[Mark] = columns([words(HEADS[name]) for name in COLUMNS], LEADING)
     marks.append(LineMark(LEFT, LEADING + 1.6, RIGHT, LEADING + 1.6, "border"))
     return LEADING + ROOM + 0.8, marks
 
 
 def row_block(row: FeedbackRow, spacing: Spacing, right: str) -> Block:
-    """A field: its cells, and below them why; that it is right and no more beside its points."""
+    """A field: its cells, and the reason below them.
+
+    Where the reason is only that the answer is right, it goes before the points.
+    """
     marks: list[Mark] = columns(row.cells, LEADING)
     room = RIGHT - LEFT - INDENT
     why: Sequence[str] = ()
@@ -503,7 +508,7 @@ def row_block(row: FeedbackRow, spacing: Spacing, right: str) -> Block:
 
 
 def columns(texts: Sequence[str], y: float) -> list[Mark]:
-    """Texts in their columns, the first from the left, the others to the right edge of theirs."""
+    """Texts in their columns: the first aligned left, the others right."""
     marks: list[Mark] = []
     x = LEFT
     for i, (text, width) in enumerate(zip(texts, WIDTHS, strict=True)):
@@ -520,7 +525,7 @@ def columns(texts: Sequence[str], y: float) -> list[Mark]:
 
 
 def shortened(markup: str, width: float, height: float) -> str:
-    """A plain markup cut to a width in a lettering."""
+    """A plain markup cut to a width in mm, at a letter height."""
     text = plain(markup)
     while text and extent(escape(text) + "…", height)[0] > width:
         text = text[:-1]
@@ -528,7 +533,7 @@ def shortened(markup: str, width: float, height: float) -> str:
 
 
 def paged(blocks: Iterator[Block]) -> Iterator[list[Mark]]:
-    """The marks of each page."""
+    """The marks of each page; a block that does not fit starts the next page."""
     page: list[Mark] = []
     y = TOP
     for height, marks in blocks:
@@ -541,7 +546,7 @@ def paged(blocks: Iterator[Block]) -> Iterator[list[Mark]]:
 
 
 def lowered(mark: Mark, by: float) -> Mark:
-    """A mark moved down the page."""
+    """A mark moved down the page, by a distance in mm."""
     if isinstance(mark, Text):
         return replace(mark, y=mark.y + by)
     assert isinstance(mark, LineMark)

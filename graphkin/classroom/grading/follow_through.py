@@ -1,8 +1,7 @@
-"""What follows from a student's own values: later fields told by the own earlier ones.
+"""Follow-through: the values that later fields take from a student's earlier values.
 
-At the level of formulas it is what the relations of the form make of them. At the level of the
-drawing the own length, laid off in the true direction, takes the place of ours, and the
-construction is run again from it.
+The relations of the form compute some of them. For the others, the student's length replaces ours
+in the true direction, and the construction is run again.
 """
 
 from __future__ import annotations
@@ -24,21 +23,23 @@ from graphkin.construction.core.vocabulary import part_along
 from graphkin.construction.velocity.turning_of_link import TurningOfLink
 
 EASY = 0.1
-"""Part of the right value below which an own value, or what follows from it, is too easy."""
+"""The part of the right value below which a value is too easy to be followed, or to follow."""
 WILD = 30.0
-"""How many times the right value an own value may be and still be followed."""
+"""The largest factor of the right value at which a student's value is still followed."""
 SPAN = (0.5, 2.0)
-"""Between which times of the key's a tolerance grows with what it belongs to."""
+"""The least and largest factor by which a tolerance scales with its value."""
 ALIKE = 1e-9
-"""Vectors that differ by no more than this share are the same."""
+"""The relative difference up to which vectors are the same."""
 Answers = Mapping[str, Answer]
 
 
 def followings(
     standard: Standard, answers: Answers, wrong: tuple[str, ...], right: tuple[str, ...]
 ) -> Iterator[Following]:
-    """All that follows for wrong fields from own values: by formula from right ones too, which are
-    named after wrong ones; by drawing from wrong ones. Of a wrong sense its rate's size as well.
+    """All values that follow from a student's answers, for wrong fields.
+
+    Formulas also use right answers, named after wrong ones in the sources; the drawing uses wrong
+    answers only. For a wrong sense, the size of its rate is included.
     """
     sources = {field: own_value(standard, answers, field) for field in numbers(standard, wrong)}
     sources = {field: value for field, value in sources.items() if is_fit(standard, field, value)}
@@ -52,8 +53,9 @@ def followings(
 def rightly(
     standard: Standard, answers: Answers, wrong: tuple[str, ...], right: tuple[str, ...]
 ) -> dict[str, Following]:
-    """What follows, for fields off the key, by formula from nothing but right own values; or from
-    values that follow from those in turn.
+    """The values that follow by formula from right answers, for fields off the key.
+
+    A value may also follow from values found in this way.
     """
     found: dict[str, Following] = {}
     while True:
@@ -67,7 +69,7 @@ def rightly(
 
 
 def is_hit(standard: Standard, following: Following, answers: Answers) -> bool:
-    """Whether an answer is what follows."""
+    """Whether an answer agrees with the value that follows."""
     value = float(answers[following.field].value or 0.0)
     item = standard.by_field[following.field].item
     if item.what == "sense":
@@ -78,7 +80,7 @@ def is_hit(standard: Standard, following: Following, answers: Answers) -> bool:
 def by_formula(
     standard: Standard, answers: Answers, known: Sequence[str], fields: tuple[str, ...]
 ) -> Iterator[Following]:
-    """What the relations of the form make of known own values."""
+    """The values that the relations of the form give from known answers."""
     own = {
         field: Own(si(standard, field, size(answers, field)), rounding(answers[field]), field)
         for field in known
@@ -91,31 +93,31 @@ def by_formula(
 
 
 def numbers(standard: Standard, fields: tuple[str, ...]) -> list[str]:
-    """Those of some fields that are the size of a vector, or a rate."""
+    """The fields that are the size of a vector or a rate."""
     return [f for f in fields if standard.by_field[f].item.what in ("segment", "value")]
 
 
 def size(answers: Answers, field: str) -> float:
-    """The size of an answer that was read."""
+    """The absolute value of an answer that was read."""
     return abs(answers[field].value or 0.0)
 
 
 def own_value(standard: Standard, answers: Answers, field: str) -> float:
-    """An own value: of a rate with the own sense, with the key's where none was stated."""
+    """The student's value of a field; a rate is signed by the answered sense, else by the key."""
     sense = answers.get(standard.by_field[field].item.beside("sense"), BLANK).value
     return size(answers, field) * (sense or (1.0 if standard.key[field] >= 0 else -1.0))
 
 
 def is_fit(standard: Standard, field: str, value: float) -> bool:
-    """Whether an own value may be followed: neither nearly zero nor wild."""
+    """Whether a student's value may be followed: neither nearly zero nor far too large."""
     right = abs(standard.key[field])
     return EASY * right <= abs(value) <= WILD * right and abs(value) > 0
 
 
 def too_easy(standard: Standard, answers: Answers, following: Following) -> bool:
-    """Whether what follows is nearly zero, so that a wrong start made the work trivial.
+    """Whether the value that follows is nearly zero, so that a wrong start made the work trivial.
 
-    What has passed through zero and was told to turn the other way is not.
+    A value that changed its sign, with an answered sense to match, is not too easy.
     """
     field, value = following.field, following.value
     item, right = standard.by_field[field].item, standard.key[field]
@@ -136,7 +138,10 @@ def too_easy(standard: Standard, answers: Answers, following: Following) -> bool
 def by_drawing(
     standard: Standard, sources: Mapping[str, float], wrong: tuple[str, ...]
 ) -> Iterator[Following]:
-    """What the construction tells from each own length by itself, and from all of them."""
+    """The values that the construction gives from each length alone, and from all together.
+
+    The lengths are the student's.
+    """
     values = standard.exact.trace.values
     single = {field: put_in_place(standard, field, value) for field, value in sources.items()}
     single = {field: overrides for field, overrides in single.items() if overrides}
@@ -156,8 +161,10 @@ def by_drawing(
 
 
 def reruns(standard: Standard, overrides: Mapping[int, Any]) -> Iterator[Mapping[int, Any]]:
-    """The construction run again from own lengths; and with the components that are computed from
-    its velocities as they are measured, though these no longer lie as they should.
+    """The construction run again from a student's lengths.
+
+    A second run takes the components computed from its velocities as they measure on the plan,
+    though the directions no longer fit.
     """
     values = standard.exact.trace.values
     found = standard.rerun(overrides)
@@ -179,8 +186,9 @@ def reruns(standard: Standard, overrides: Mapping[int, Any]) -> Iterator[Mapping
 def closing(
     standard: Standard, field: str, found: Mapping[int, Any], told: float
 ) -> Iterator[float]:
-    """A rate over the bar, or a speed along a guide, from the whole vector that closes the plan:
-    with an own length that is measured, though it no longer lies as it should.
+    """A rate or a slide speed from the whole vector that closes the plan.
+
+    After a wrong length, a student measures this vector although its direction no longer fits.
     """
     probe = standard.by_field[field]
     step = standard.mechanism.program.steps[probe.step]
@@ -197,7 +205,7 @@ def closing(
 def together(
     single: Mapping[str, Mapping[int, Any]],
 ) -> Iterator[tuple[tuple[str, ...], Mapping[int, Any]]]:
-    """All own lengths at once, the first of those that replace the same."""
+    """All lengths of a student at once; where several replace the same step, the first one."""
     if len(single) > 1:
         merged: dict[int, Any] = {}
         for overrides in reversed(list(single.values())):
@@ -206,8 +214,10 @@ def together(
 
 
 def put_in_place(standard: Standard, field: str, value: float) -> dict[int, Any]:
-    """The steps that an own value replaces: the end of a vector that is drawn last; a rate or the
-    speed of a block, and the components that are computed with it.
+    """The steps that a student's value replaces.
+
+    For a vector, its end that is drawn last. For a rate or a slide speed, its step and the
+    components computed from it.
     """
     probe, values = standard.by_field[field], standard.exact.trace.values
     if probe.vector:
@@ -221,9 +231,9 @@ def put_in_place(standard: Standard, field: str, value: float) -> dict[int, Any]
 
 
 def components_with(standard: Standard, number: int, ratio: float) -> dict[int, Any]:
-    """The components that are computed with a rate or a speed so many times the right one.
+    """The components computed from a rate or speed ``ratio`` times the right one.
 
-    Those that use its step follow by themselves.
+    Components that use its step follow by themselves.
     """
     program, values = standard.mechanism.program, standard.exact.trace.values
     found: dict[int, Any] = {}
@@ -236,7 +246,10 @@ def components_with(standard: Standard, number: int, ratio: float) -> dict[int, 
 
 
 def drawing_error(standard: Standard, field: str, value: float) -> float:
-    """How far a field that is drawn from own values may be off: as the key's, by its size."""
+    """The tolerance of a field drawn from a student's values.
+
+    It is the tolerance of the key, scaled with the size of the value.
+    """
     probe = standard.by_field[field]
     if probe.item.what == "sense":
         return 0.0

@@ -1,8 +1,8 @@
-"""The relations of a form: what a student computes from own values, without the drawing.
+"""The relations of a form: what a student computes from earlier answers, without the drawing.
 
-A value is the own segment times the scale, a rate the own relative vector over the bar; components
-of accelerations follow as their constructions say; a block slides as fast as its relative vector
-says. What is computed is laid off as long as it came out.
+A value is the student's segment times the scale. A rate is the student's relative vector over the
+length of the bar. Components of accelerations follow as their constructions say. A block slides at
+the speed of its relative vector. A computed length is laid off as it came out.
 """
 
 from __future__ import annotations
@@ -20,14 +20,15 @@ from graphkin.construction.core.program import Plane
 from graphkin.construction.core.quantities import EPSILON, OMEGA
 
 ROUNDED = 0.005
-"""Share by which a value that is only computed may be rounded."""
+"""The relative rounding allowed for a value that is only computed."""
 COARSE = 0.05
-"""Numbers as they are written are rounded by no more than this share: two digits."""
+"""The largest relative rounding of a number as written: two digits."""
 
 
 class Own(Struct, frozen=True):
-    """A student's own size in SI, the share by which it is rounded, and the field that states it;
-    the key's where no field does.
+    """A size that a student states, in SI units, its relative rounding, and its field.
+
+    Where no field states it, ``field`` is empty and the size is the key's.
     """
 
     size: float
@@ -36,8 +37,9 @@ class Own(Struct, frozen=True):
 
 
 class Following(Struct, frozen=True):
-    """A value that a field would have, after the own values of others, and how near it must be;
-    ``drawn`` where the construction tells it.
+    """The value that a field takes from the student's other answers, and its tolerance.
+
+    ``drawn`` says that the construction gives it.
     """
 
     field: str
@@ -48,7 +50,7 @@ class Following(Struct, frozen=True):
 
 
 class FormRelation(NamedTuple):
-    """Own values as factors, what comes of them in SI, and the bar that is in it, in metres."""
+    """The student's values as factors, their result in SI units, and the bar used, in metres."""
 
     factors: tuple[Own, ...]
     size: float
@@ -56,17 +58,17 @@ class FormRelation(NamedTuple):
 
 
 def si(standard: Standard, field: str, value: float) -> float:
-    """A number of a field in SI: a segment by the scale of its drawing."""
+    """A field's number in SI units; a segment is converted by the scale of its drawing."""
     return abs(value) * unit(standard, standard.by_field[field])
 
 
 def unit(standard: Standard, probe: Probe) -> float:
-    """The unit of a field in SI."""
+    """The unit of a field in SI units."""
     return standard.paper.millimetre(probe.plane) if probe.item.unit == "mm" else 1.0
 
 
 def computed_first(standard: Standard, probe: Probe) -> Component | None:
-    """The component that is computed before the vector of a field is laid off; None for others."""
+    """The component computed before a field's vector is laid off; None where there is none."""
     program = standard.mechanism.program
     for end in probe.steps:
         start, *rest = program.steps[end].args or (end,)
@@ -78,15 +80,19 @@ def computed_first(standard: Standard, probe: Probe) -> Component | None:
 
 
 class OwnLengths(Struct, frozen=True):
-    """A student's own sizes by their fields, from which others are computed; the key's where no
-    field states what a component is computed from.
+    """A student's sizes by field, from which others are computed.
+
+    Where no field states what a component needs, the key's value is used.
     """
 
     standard: Standard
     own: Mapping[str, Own]
 
     def computed(self, field: str, rounded: float) -> Iterator[Following]:
-        """What a field would be by each relation to own values, itself ``rounded`` by a share."""
+        """The values of a field by each relation to the student's other answers.
+
+        ``rounded`` is the relative rounding of the field's answer.
+        """
         standard = self.standard
         probe = standard.by_field[field]
         rubric, mm = standard.rubric, unit(standard, probe)
@@ -102,7 +108,7 @@ class OwnLengths(Struct, frozen=True):
             yield Following(field, sources, size / mm, allowed + laid_off)
 
     def relations(self, probe: Probe) -> Iterator[FormRelation]:
-        """Each relation in which a field is what comes out."""
+        """Each relation that results in the field."""
         step = self.standard.mechanism.program.steps[probe.step]
         if probe.vector:
             component = computed_first(self.standard, probe)
@@ -117,8 +123,9 @@ class OwnLengths(Struct, frozen=True):
             yield from (FormRelation((v,), v.size) for v in self.vectors(tail, tip))
 
     def rates(self, probe: Probe) -> Iterator[FormRelation]:
-        """A rate from the own relative vector over the bar: of an acceleration its tangential
-        part.
+        """A rate from the student's relative vector over the bar.
+
+        For an angular acceleration this is the tangential component.
         """
         p, q, tail, tip = self.standard.mechanism.program.steps[probe.step].args
         bar = self.length(p, q)
@@ -134,14 +141,14 @@ class OwnLengths(Struct, frozen=True):
         return float(abs(values[q] - values[p]))
 
     def vectors(self, tail: int, tip: int) -> Iterator[Own]:
-        """The own sizes of the vector between two images."""
+        """The student's sizes of the vector between two images."""
         for field, value in self.own.items():
             probe = self.standard.by_field[field]
             if probe.vector and {*probe.steps} == {tail, tip}:
                 yield value
 
     def turnings_over(self, ends: tuple[int, ...]) -> Iterator[Own]:
-        """Own angular velocities that are read off the same places and images."""
+        """The student's angular velocities read off the same points and images."""
         steps = self.standard.mechanism.program.steps
         for field, omega in self.own.items():
             probe = self.standard.by_field[field]
@@ -149,9 +156,7 @@ class OwnLengths(Struct, frozen=True):
                 yield omega
 
     def turnings(self, rate: int) -> Iterator[Own]:
-        """The own angular velocities by the step that finds them, from own velocities too; then
-        the key's.
-        """
+        """The angular velocities of a step: as answered, from velocities, then the key's."""
         for field, value in self.own.items():
             probe = self.standard.by_field[field]
             if probe.item.quantity == OMEGA and probe.step == rate:
@@ -164,7 +169,7 @@ class OwnLengths(Struct, frozen=True):
         yield Own(abs(self.standard.exact.trace.values[rate]))
 
     def slidings(self, tail: int, tip: int) -> Iterator[Own]:
-        """The own velocities of what slides along its guide; then the key's."""
+        """The sliding velocities: as answered, from vectors, then the key's."""
         steps = self.standard.mechanism.program.steps
         for field, value in self.own.items():
             probe = self.standard.by_field[field]

@@ -1,7 +1,7 @@
-"""The lecturer's own gradebook export, filled in: Moodle's, Canvas's, or any other table.
+"""Fills in the lecturer's own gradebook export: Moodle's, Canvas's, or any other table.
 
-Nothing is written anew: every cell but those of the marks keeps its very characters, quotes,
-separators and ends of lines included, so that order, language, ids and unknown columns stay.
+Every cell except the marks keeps its exact characters, with quotes, separators and line ends.
+Order, language, ids and unknown columns therefore stay.
 """
 
 from __future__ import annotations
@@ -40,24 +40,24 @@ from graphkin.text.errors import GraphkinError, Problem, RosterError
 COMMA = re.compile(r"[0-9]+,[0-9]+")
 POINT = re.compile(r"[0-9]+\.[0-9]+")
 NUMERIC = re.compile(r"[-+]?[0-9]")
-"""How points, dates and ids begin, and names do not."""
+"""The beginning of points, dates and ids, but not of names."""
 EMPTY = ("", "-")
 """Cells without a mark."""
 MAILS = {folded(name) for name in ("email", *EMAIL)}
 PERSONS = {*MAILS, *(folded(h) for what, every in NAMES.items() for h in (what, *every))}
-"""Heads of columns that say who somebody is."""
+"""Heads of columns that identify a person."""
 DECIMAL = re.compile(r"[0-9]+(?:\.[0-9]+)?", re.ASCII)
 MAXIMA = {
     folded(name)
     for name in ("maximum grade", "nota maximă", "valutazione massima", "voto massimo", "max grade")
 }
-"""Heads of the column in which Moodle's grading worksheet says what an assignment is worth."""
+"""Heads of the column with an assignment's maximum in Moodle's grading worksheet."""
 GRADES = {folded(name) for name in ("grade", "notă", "valutazione", "voto")}
-"""Heads of the column in which it wants the points."""
+"""Heads of the column for the points in Moodle's grading worksheet."""
 COMPUTED = "(read only)"
-"""What that row says of a column that Canvas computes."""
+"""The text in Canvas's row of maxima for a column that Canvas computes."""
 NAMED = {folded(h) for what in ("name", "first", "last") for h in (what, *NAMES[what])}
-"""Heads of columns that say what somebody is called."""
+"""Heads of columns with a person's name."""
 NOBODY = Signs()
 
 
@@ -66,27 +66,25 @@ class GradebookError(GraphkinError):
 
 
 class Cell(Struct, frozen=True):
-    """The characters of a cell as they stand in the file, and the text that they mean."""
+    """The characters of a cell as they are in the file, and the text they mean."""
 
     raw: str
     text: str
 
 
 class Gradebook(Struct, frozen=True):
-    """An export, however it is written: the name of its file, and its cells, row by row, the head
-    first.
-    """
+    """An export in any format: its file name, and its cells row by row, the head first."""
 
     name: str
     rows: tuple[tuple[Cell, ...], ...]
 
     def filled(self, column: int, marks: Mapping[int, Fraction]) -> bytes:
-        """Its bytes with the marks of some lines in a column."""
+        """The bytes of the file, with the marks of some lines in a column."""
         raise NotImplementedError
 
 
 class CsvGradebook(Gradebook, frozen=True):
-    """One as CSV, each row with the end of its line."""
+    """A gradebook as CSV, with the end of each line."""
 
     ends: tuple[str, ...]
     separator: str
@@ -94,7 +92,7 @@ class CsvGradebook(Gradebook, frozen=True):
     bom: bytes
 
     def filled(self, column: int, marks: Mapping[int, Fraction]) -> bytes:
-        """Its bytes with the marks; decimals are written as its others are."""
+        """The bytes with the marks; decimals are written like the others in the file."""
         comma = writes_comma(self, column)
         rows = list(self.rows)
         for line, mark in marks.items():
@@ -108,13 +106,14 @@ class CsvGradebook(Gradebook, frozen=True):
 
 
 class Filled(Struct, frozen=True):
-    """Where marks go in a gradebook, and its bytes with them in it.
+    """The place of the marks in a gradebook, and its bytes with the marks.
 
-    ``place`` is the column, ``lines`` has the student of each line; both count from nought, lines
-    from the head. ``absent`` are those of the class who are not in it. ``worth`` is what it holds
-    the column worth, where it says so, as Canvas does; ``replaced`` how many marks take the place
-    of something else; ``strangers`` what those are called whose rows are of nobody in the class,
-    by the number of the row.
+    ``place`` is the column; ``lines`` maps lines to student ids. Both count from zero, lines from
+    the head. ``absent`` are students of the class who are not in the gradebook.
+
+    ``worth`` is the column's maximum, where the file states it, as Canvas does. ``replaced`` counts
+    the marks that replace other content. ``strangers`` are the names in rows of nobody in the
+    class, by row number.
     """
 
     place: int
@@ -139,11 +138,11 @@ def with_marks(
     signs: Signs = NOBODY,
     match: Match = "",
 ) -> Filled:
-    """The gradebook with the marks in a column, students found by whatever column has their ids,
-    or their e-mail addresses.
+    """The gradebook with the marks in a column; students are found by id or e-mail address.
 
-    ``signs`` are those of the whole class, also of who gets no mark. Raises GradebookError where
-    that cannot be told.
+    ``signs`` identify the whole class, including students without a mark. Raises GradebookError
+    where no column holds ids or addresses, where the column for marks is unclear, and where a
+    student occurs twice.
     """
     signs = signs if signs.ids else signs_of(marks)
     where = id_column(book, signs, match)
@@ -172,8 +171,10 @@ def with_marks(
 
 
 def students(book: Gradebook, where: int, signs: Signs, match: Match) -> Iterator[tuple[int, str]]:
-    """The student of each line; of one without an id whose e-mail address stands in it, unless
-    ids alone shall match, or another line has that id.
+    """The student of each line, by id.
+
+    A line without an id is matched by its e-mail address, unless ``match`` is "id" or another line
+    has that student's id.
     """
     known = {
         line: who
@@ -190,7 +191,7 @@ def students(book: Gradebook, where: int, signs: Signs, match: Match) -> Iterato
 
 
 def strangers(book: Gradebook, where: int, ours: Collection[int]) -> dict[int, str]:
-    """What those are called who have an id or an address, but are nobody of the class, by row."""
+    """The names in rows that have an id or address of nobody in the class, by row number."""
     names = [i for i, head in enumerate(book.rows[0]) if folded(head.text) in NAMED]
     found: dict[int, str] = {}
     for line, row in rows_of(book):
@@ -201,7 +202,7 @@ def strangers(book: Gradebook, where: int, ours: Collection[int]) -> dict[int, s
 
 
 def refuse_names(book: Gradebook, column: int, ids: int) -> None:
-    """Raise GradebookError for a column that says who somebody is: no mark goes there."""
+    """Raise GradebookError for a column that identifies persons: no mark goes there."""
     head = book.rows[0][column].text
     texts = [text_at(row, column) for row in of_students(book, ids)]
     filled_in = [text for text in texts if text not in EMPTY]
@@ -214,12 +215,12 @@ def refuse_names(book: Gradebook, column: int, ids: int) -> None:
 
 
 def text_at(row: Sequence[Cell], column: int) -> str:
-    """The text of a cell; empty where the row ends before it."""
+    """The text of a cell; empty where the row is too short."""
     return row[column].text if column < len(row) else ""
 
 
 def is_other(text: str, mark: Fraction) -> bool:
-    """Whether a cell holds something else than the mark that is put there."""
+    """Whether a cell holds something else than the mark to be put there."""
     number = text.replace(",", ".")
     if DECIMAL.fullmatch(number):
         return float(number) != float(mark_text(mark, comma=False))
@@ -227,8 +228,10 @@ def is_other(text: str, mark: Fraction) -> bool:
 
 
 def worth_of(book: Gradebook, column: int) -> Fraction | None:
-    """The points that a column is worth: Canvas has a row for them, Moodle's grading worksheet a
-    column; None where nothing says so."""
+    """The maximum of a column; None where the file does not state it.
+
+    Canvas has a row for it, Moodle's grading worksheet a column.
+    """
     row = points_row(book)
     texts = {text_at(row, column)}
     for i, head in enumerate(book.rows[0]):
@@ -239,24 +242,26 @@ def worth_of(book: Gradebook, column: int) -> Fraction | None:
 
 
 def points_row(book: Gradebook) -> Sequence[Cell]:
-    """Canvas's row of what each column is worth; nothing where there is none."""
+    """Canvas's row with the maximum of each column; empty where there is none."""
     return next((row for row in book.rows[1:4] if is_possible(row)), ())
 
 
 def rows_of(book: Gradebook) -> Iterator[tuple[int, Sequence[Cell]]]:
-    """The rows below the head by their lines, but that of what each column is worth."""
+    """The rows below the head with their lines, without Canvas's row of maxima."""
     every = enumerate(book.rows[1:], 1)
     return ((line, row) for line, row in every if not is_possible(row))
 
 
 def is_possible(row: Sequence[Cell]) -> bool:
-    """Whether a row is the one in which Canvas holds the points of each assignment."""
+    """Whether a row is Canvas's row of maxima."""
     return any(each.text == POSSIBLE for each in row[:1])
 
 
 def id_column(book: Gradebook, signs: Signs, match: Match) -> int:
-    """The column in which most cells are ids of the class, in whatever language it is named; else
-    that of most e-mail addresses, or of ids without the zeros before them."""
+    """The column in which most cells are ids of the class, whatever its name.
+
+    Without one, the column with the most e-mail addresses, or with ids that lack leading zeros.
+    """
     counts = {
         "id": known_cells(book, lambda text: text in signs.exact),
         "email": known_cells(book, lambda text: text.casefold() in signs.emails),
@@ -276,7 +281,7 @@ def id_column(book: Gradebook, signs: Signs, match: Match) -> int:
 
 
 def known_cells(book: Gradebook, is_known: Callable[[str], bool]) -> Counter[int]:
-    """How many cells of each column say who somebody of the class is."""
+    """How many cells of each column identify a student of the class."""
     return Counter(
         i
         for row in book.rows[1:]
@@ -286,8 +291,11 @@ def known_cells(book: Gradebook, is_known: Callable[[str], bool]) -> Counter[int
 
 
 def mark_column(book: Gradebook, head: Sequence[str], column: str | None, ids: int) -> int:
-    """The column for the marks: the one that is named, else the only empty one but feedback and
-    what Canvas computes; of several that of Moodle's own name."""
+    """The column for the marks: the named one, else the only empty one.
+
+    Columns for feedback and columns that Canvas computes do not count. Of several empty columns,
+    one with Moodle's own name is used.
+    """
     students = of_students(book, ids)
     if column is not None:
         found = [i for i, text in enumerate(head) if folded(text) == folded(column)]
@@ -319,17 +327,16 @@ def mark_column(book: Gradebook, head: Sequence[str], column: str | None, ids: i
 
 
 def of_students(book: Gradebook, ids: int) -> list[Sequence[Cell]]:
-    """The rows of students, who have something in the column of ids; not those of averages."""
+    """The rows of students, which have an entry in the id column; averages have none."""
     return [row for _, row in rows_of(book) if text_at(row, ids)]
 
 
 def is_comment(head: str) -> bool:
-    """Whether a column is one for comments."""
     return head.casefold().startswith(("feedback", "comment", "commenti", "comentarii"))
 
 
 def writes_comma(book: CsvGradebook, target: int) -> bool:
-    """Whether a gradebook writes decimals with a comma: as its other numbers do."""
+    """Whether a gradebook writes decimals with a comma, judged by its other numbers."""
     texts = [each.text for row in book.rows[1:] for i, each in enumerate(row) if i != target]
     commas = sum(COMMA.fullmatch(text) is not None for text in texts)
     points = sum(POINT.fullmatch(text) is not None for text in texts)
@@ -337,27 +344,30 @@ def writes_comma(book: CsvGradebook, target: int) -> bool:
 
 
 def mark_text(mark: Fraction, comma: bool) -> str:
-    """A mark with two places at most."""
+    """A mark with at most two decimals."""
     text = f"{float(mark):.2f}".rstrip("0").rstrip(".")
     return text.replace(".", ",") if comma else text
 
 
 def with_mark(row: tuple[Cell, ...], column: int, text: str, separator: str) -> tuple[Cell, ...]:
-    """A row with a mark in a column, quoted where its neighbours of that column are or must be."""
+    """A row with a mark in a column.
+
+    The mark is quoted where the old cell was quoted, or where the mark contains the separator.
+    """
     cells = list(row) + [Cell("", "")] * (column + 1 - len(row))
     quoted = cells[column].raw.strip().startswith('"') or separator in text
     cells[column] = Cell(f'"{text}"' if quoted else text, text)
     return tuple(cells)
 
 
-# --- A gradebook export as CSV --------------------------------------------------------------------
+# --- a gradebook export as CSV --------------------------------------------------------------------
 
 
 BOMS = {b"\xef\xbb\xbf": "utf-8-sig", b"\xff\xfe": "utf-16-le", b"\xfe\xff": "utf-16-be"}
 
 
 def read_gradebook(path: Path) -> Gradebook:
-    """An export as it stands, CSV or XLSX. Raises GradebookError where it is no table."""
+    """Read an export, CSV or XLSX. Raises GradebookError where it is no table."""
     data = bytes_of(path)
     if data.startswith(START):
         return read_workbook(data, path.name)
@@ -377,9 +387,9 @@ def read_gradebook(path: Path) -> Gradebook:
 def split(
     text: str, separator: str, name: str
 ) -> tuple[tuple[tuple[Cell, ...], ...], tuple[str, ...]]:
-    """The rows of cells of a text with their line ends; quotes and blanks stay as they are.
+    """The rows of cells of a CSV text and their line ends; quotes and spaces are kept.
 
-    Raises GradebookError for a quote that is never closed, or as soon as there are too many cells.
+    Raises GradebookError for a quote that is never closed, or where there are too many cells.
     """
     piece = re.compile(
         rf'([^\S\r\n{separator}]*+"[^"]*+(?:""[^"]*+)*+"|)([^\r\n{separator}]*+)'
@@ -409,7 +419,7 @@ def split(
 
 
 def cell(raw: str) -> Cell:
-    """A cell from its characters."""
+    """A cell from its characters: the text without quotes and spaces around it."""
     bare = raw.strip()
     if len(bare) >= 2 and bare[0] == bare[-1] == '"':
         return Cell(raw, bare[1:-1].replace('""', '"').strip())
@@ -417,16 +427,17 @@ def cell(raw: str) -> Cell:
 
 
 START = b"PK\x03\x04"
-"""The first bytes of an XLSX, which is a ZIP file."""
+"""The first bytes of an XLSX file, which is a ZIP file."""
 WORKBOOK = re.compile(r"xl/workbook[0-9]*\.xml")
 """The part of the file that says how formulas are computed."""
 
 
 class Workbook(Gradebook, frozen=True):
-    """An export as XLSX: its file, and the cells of the sheet that was open last.
+    """An export as XLSX: its bytes, and the cells of the sheet that was open last.
 
-    A row that holds nothing has no cells. ``formulas`` are the places of formulas, by line and
-    column from 0; ``sheet`` and ``sheets`` the parts of the file that hold this and all sheets.
+    An empty row has no cells. ``formulas`` are the places of formulas, by line and column from
+    zero. ``sheet`` is the part of the file with this sheet, ``sheets`` are the parts with all
+    sheets.
     """
 
     data: bytes
@@ -435,7 +446,7 @@ class Workbook(Gradebook, frozen=True):
     sheets: tuple[str, ...]
 
     def filled(self, column: int, marks: Mapping[int, Fraction]) -> bytes:
-        """Its bytes with the marks. Raises GradebookError where they would replace formulas."""
+        """The bytes with the marks. Raises GradebookError where they would replace formulas."""
         wrong = [line for line in marks if (line, column) in self.formulas]
         if wrong:
             where = f"{self.name}, row {wrong[0] + 1}"
@@ -452,7 +463,7 @@ class Workbook(Gradebook, frozen=True):
 
 
 def read_workbook(data: bytes, name: str) -> Workbook:
-    """An export as it stands. Raises GradebookError where it is no table."""
+    """Read an export as XLSX. Raises GradebookError where it is no table."""
     rows: list[tuple[Cell, ...]] = []
     formulas: set[tuple[int, int]] = set()
     try:
@@ -474,7 +485,7 @@ def read_workbook(data: bytes, name: str) -> Workbook:
 
 
 def with_cells(book: Workbook, numbers: Mapping[tuple[int, int], str]) -> bytes:
-    """The file with numbers in cells of its sheet; all parts that need not change are copied."""
+    """The file with numbers in cells of its sheet; parts that need no change are copied."""
 
     found = io.BytesIO()
     with zipfile.ZipFile(io.BytesIO(book.data)) as packed, zipfile.ZipFile(found, "w") as again:
@@ -492,7 +503,7 @@ def with_cells(book: Workbook, numbers: Mapping[tuple[int, int], str]) -> bytes:
     return found.getvalue()
 
 
-# --- the XML of a workbook with other numbers in some cells; every other byte stays as it is ------
+# --- the XML of a workbook with new numbers in some cells; every other byte is kept ---------------
 
 
 ROW = ["worksheet", "sheetData", "row"]
@@ -503,14 +514,14 @@ TYPE = re.compile(rb"""\st\s*=\s*("[^"]*"|'[^']*')""")
 COMPUTES = re.compile(rb"<([\w.-]+:)?calcPr\b[^>]*>")
 FULL_CALCULATION = re.compile(rb"""\sfullCalcOnLoad\s*=\s*("[^"]*"|'[^']*')""")
 BEFORE = re.compile(rb"</([\w.-]+:)?(?:sheets|functionGroups|externalReferences|definedNames)\s*>")
-"""The ends of elements behind which a workbook says how it computes."""
+"""The ends of the elements after which a workbook says how it computes."""
 
 
 def with_numbers(xml: bytes, numbers: Mapping[tuple[int, int], str]) -> bytes:
-    """A worksheet with numbers in cells, by row and column from 1; results of formulas left out.
+    """A worksheet with numbers in cells, by row and column from 1, without results of formulas.
 
-    Every row of a number holds some cell already. Raises ExpatError or ValueError where the bytes
-    are no worksheet that can be changed.
+    Every row of a number already holds a cell. Raises ExpatError or ValueError where the bytes are
+    no worksheet that can be changed.
     """
     if b"\0" in xml:
         raise ValueError("not UTF-8")
@@ -518,7 +529,7 @@ def with_numbers(xml: bytes, numbers: Mapping[tuple[int, int], str]) -> bytes:
 
 
 class Worksheet:
-    """A worksheet while it is read: where in it what is to stand instead of what."""
+    """A parser of a worksheet that collects the replacements of byte ranges."""
 
     def __init__(self, xml: bytes, numbers: Mapping[tuple[int, int], str]) -> None:
         self.xml = xml
@@ -538,7 +549,7 @@ class Worksheet:
         self.parser.StartDoctypeDeclHandler = refuse
 
     def changed(self) -> bytes:
-        """The bytes with everything in its place."""
+        """The bytes with all replacements made."""
         self.parser.Parse(self.xml, True)
         found, at = [], 0
         for begin, end, new in self.pieces:
@@ -547,7 +558,7 @@ class Worksheet:
         return b"".join([*found, self.xml[at:]])
 
     def start(self, name: str, attributes: dict[str, str]) -> None:
-        """An element begins."""
+        """Handle the start of an element."""
         self.path.append(name.rpartition(":")[2])
         here = self.parser.CurrentByteIndex
         if self.path == ROW:
@@ -565,7 +576,7 @@ class Worksheet:
             self.value = (here, here)
 
     def end(self, name: str) -> None:
-        """An element ends."""
+        """Handle the end of an element."""
         here = self.parser.CurrentByteIndex
         if self.path == VALUE and self.value is not None:
             self.value = (self.value[0], self.behind(name, here))
@@ -583,13 +594,13 @@ class Worksheet:
         self.path.pop()
 
     def insert(self, here: int, column: int | None = None) -> None:
-        """Put the numbers of a row whose cells are missing before a column, or at its end."""
+        """Insert the numbers of missing cells before a column, or at the end of the row."""
         waiting = self.rows.get(self.row, {})
         for each in [each for each in waiting if column is None or each < column]:
             self.pieces.append((here, here, self.cell(each, waiting.pop(each))))
 
     def cell(self, column: int, number: str, style: str = "") -> bytes:
-        """A cell with a number; its format is kept."""
+        """A cell with a number, in the format ``style``."""
         prefix = self.tag[:-1]
         form = f' s="{style}"' if style else ""
         place = f"{get_column_letter(column)}{self.row}"
@@ -598,9 +609,9 @@ class Worksheet:
         )
 
     def behind(self, name: str, here: int) -> int:
-        """The place behind an element that ends: behind its tag, unless that is the first as well.
+        """The position after an element's end tag.
 
-        For an element of one tag the parser has passed it already.
+        After an element with a single tag, the parser is already past it.
         """
         tag = f"</{name}".encode()
         ends = self.xml.startswith(tag, here) and self.xml[here + len(tag)] in b"> \t\r\n"
@@ -608,12 +619,12 @@ class Worksheet:
 
 
 def refuse(*_: object) -> NoReturn:
-    """No worksheet has declarations, in which places would not be those of the file."""
+    """Raise ValueError: a document type may declare entities, which shift the byte positions."""
     raise ValueError("a document type")
 
 
 def computed_anew(xml: bytes) -> bytes:
-    """The XML of a workbook that tells whoever opens it to compute all formulas."""
+    """The XML of a workbook that makes programs recompute all formulas on opening."""
     found = COMPUTES.search(xml)
     if found:
         name = (found[1] or b"") + b"calcPr"

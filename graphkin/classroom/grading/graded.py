@@ -1,4 +1,4 @@
-"""What marking is about, as plain records: answers as they were read, and what they earned."""
+"""Plain records of marking: answers as they were read, and what they earned."""
 
 from __future__ import annotations
 
@@ -18,19 +18,24 @@ if TYPE_CHECKING:
 
 
 WITHHELD, THOUSANDS = "withheld", "thousands"
-"""Why a cell cannot be read: all that its student handed in is refused; its point or comma may part
-thousands.
+"""Reasons why a cell cannot be read.
+
+With ``WITHHELD``, everything that the student handed in is refused. With ``THOUSANDS``, a point or
+comma may separate thousands.
 """
 
 
 class Answer(Struct, frozen=True):
-    """One cell of an answer table: its ``text`` and the number that it states, in the field's unit.
+    """One cell of an answer table: its ``text``, and the number it states in the field's unit.
 
-    A sense is +1 or -1, counter-clockwise or along the guide positive. ``signed`` tells that a
-    sign was written; ``problem`` why a cell cannot be read (open, number, unit, large, turning,
-    sliding, thousands, withheld), which is not the same as wrong; ``followed`` that it was found
-    on the drawing to follow from the student's own earlier points; ``grouped`` is the number if its
-    point or comma parts thousands.
+    A sense is +1 or -1; counter-clockwise and along the guide are positive. ``signed`` says that a
+    sign was written.
+
+    ``problem`` is why a cell cannot be read, which is not the same as wrong: open, number, unit,
+    large, turning, sliding, thousands or withheld.
+
+    ``followed`` says that the answer was found on the drawing to follow from the student's own
+    earlier points. ``grouped`` is the number if its point or comma separates thousands.
     """
 
     text: str
@@ -53,11 +58,11 @@ class Answer(Struct, frozen=True):
 
 BLANK = Answer("")
 WAITING = Answer("?", problem=WITHHELD)
-"""An answer of somebody whose answers cannot be read or marked."""
+"""The answer of a student whose answers cannot be read or marked."""
 
 
 class Status(Enum):
-    """What an answer was found to be."""
+    """The result of marking an answer."""
 
     RIGHT = "right"
     FOLLOWS = "follows"
@@ -68,10 +73,10 @@ class Status(Enum):
 
 
 class Decision(Struct, frozen=True):
-    """What the lecturer decided of a student's ``field``, or of the whole form (no field), and why.
+    """The lecturer's decision on a student's ``field``, or on the whole form (no field).
 
-    ``points`` is what it earns, None where the mark stays; ``is_open`` tells of a request that is
-    not decided yet; ``before`` is what was earned without it, None where that waited.
+    ``points`` is what it earns, None where the mark stays. ``is_open`` marks a request that is not
+    decided yet. ``before`` is what was earned without the decision, None where that mark waited.
     """
 
     who: str
@@ -83,15 +88,18 @@ class Decision(Struct, frozen=True):
 
 
 class EarnedMark(Struct, frozen=True):
-    """What one field earned, of ``points``, and why.
+    """What one field earned, out of ``points``, and why.
 
-    ``expected`` is the key's value and ``tolerance`` how far an answer may lie from it, in the
-    field's unit; ``source`` is the field from whose own value the answer follows (none where its
-    drawing tells that), rightly where it is right but not by the key, or at which its slip was paid
-    for; ``slip`` the name of the mistake
-    that gives it, ``odds`` how much better that explains it than chance;
-    ``torn`` tells of a sense that the sign of its own value contradicts; ``decision`` is the
-    lecturer's.
+    ``expected`` is the value in the key, and ``tolerance`` the largest accepted error, in the
+    field's unit.
+
+    ``source`` is the field that explains the mark: the answer follows from that field's own value,
+    or its slip was paid for there. A right answer has a source where it is right but not by the
+    key. ``source`` is empty where the student's drawing shows what follows.
+
+    ``slip`` is the name of the mistake that gives the answer, and ``odds`` how much better the slip
+    explains it than chance. ``torn`` says that a sense contradicts the sign of its own value.
+    ``decision`` is the lecturer's.
     """
 
     item: Item
@@ -114,18 +122,18 @@ class EarnedMark(Struct, frozen=True):
 
     @property
     def is_together(self) -> bool:
-        """Whether it is right, though beyond its own tolerance, since all are one drawing."""
+        """Whether it is right beyond its own tolerance, since all answers fit one drawing."""
         sized = self.item.what != "sense" and self.status is Status.RIGHT and not self.source
         return sized and self.off is not None and abs(self.off) > self.tolerance
 
     @property
     def waits(self) -> bool:
-        """Whether it cannot be read, and nobody has decided its points."""
+        """Whether it cannot be read, and its points are not decided."""
         return self.status is Status.UNREADABLE and not self.is_ruled
 
     @property
     def off(self) -> float | None:
-        """How far the answer lies from the key's; None where there is none."""
+        """The difference between the answer and the key; None without an answer."""
         value = self.answer.value
         return None if value is None else self.item.off(value, self.expected)
 
@@ -133,8 +141,8 @@ class EarnedMark(Struct, frozen=True):
 class Graded(Struct, frozen=True):
     """A student with the mark of each field, in the order of the form.
 
-    ``held`` tells that they are kept back until the lecturer has decided whose answers these are;
-    ``decision`` is the lecturer's on the whole form.
+    ``held`` says that the marks are kept back until the lecturer has decided whose answers these
+    are. ``decision`` is the lecturer's on the whole form.
     """
 
     taker: Taker
@@ -145,7 +153,7 @@ class Graded(Struct, frozen=True):
 
     @property
     def decisions(self) -> tuple[Decision, ...]:
-        """The lecturer's, of fields and of the whole."""
+        """The lecturer's decisions, on fields and on the whole form."""
         found = (*(mark.decision for mark in self.marks), self.decision)
         return tuple(each for each in found if each is not None)
 
@@ -156,19 +164,19 @@ class Graded(Struct, frozen=True):
 
     @property
     def earned(self) -> Fraction:
-        """What was earned: the sum, or what the lecturer decided for the whole."""
+        """The points earned: the sum, or what the lecturer decided for the whole form."""
         if self.decision is not None and self.decision.points is not None:
             return self.decision.points
         return sum((mark.earned for mark in self.marks), Fraction())
 
     @property
     def points(self) -> Fraction:
-        """The most that could be earned."""
+        """The most points that can be earned."""
         return sum((mark.points for mark in self.marks), Fraction())
 
     @property
     def pending(self) -> Fraction:
-        """The points of answers that cannot be read, which a person has still to decide."""
+        """The points of answers that cannot be read, which a person must still decide."""
         if self.decision is not None and self.decision.points is not None:
             return Fraction()
         waiting = (mark.points for mark in self.marks if mark.waits)
@@ -181,14 +189,14 @@ class Graded(Struct, frozen=True):
 
     @property
     def spared(self) -> Fraction:
-        """What wrong answers earned all the same, by what follows or by slips."""
+        """The points that wrong answers earned by following through or by a slip's share."""
         known = (Status.FOLLOWS, Status.SLIP)
         found = (m.earned for m in self.marks if m.status in known and not m.is_ruled)
         return sum(found, Fraction())
 
     @property
     def share(self) -> Fraction | None:
-        """What was earned, in parts of the points that are decided; None without any."""
+        """The earned share of the decided points; None where there are none."""
         return self.earned / self.decided if self.is_marked and self.decided else None
 
     def mark(self, name: str) -> EarnedMark:
@@ -197,14 +205,14 @@ class Graded(Struct, frozen=True):
 
 
 SURE = 10_000.0
-"""The largest odds that are reported: no model of hands and pencils is surer than that."""
+"""The largest odds reported: no model of hands and pencils is surer than that."""
 
 
 class Suspicion(Struct, frozen=True):
-    """Evidence for the lecturer: answers that fit another's data, or were handed in twice.
+    """Evidence for the lecturer: answers that fit another student's data, or were handed in twice.
 
-    ``students`` are ids; ``fields`` what fits, ``odds`` how much better than chance, ``SURE`` at
-    most.
+    ``students`` are ids. ``fields`` are those that fit, of ``of`` in all. ``odds`` says how much
+    better they fit than by chance, at most ``SURE``.
     """
 
     students: tuple[str, ...]
@@ -214,9 +222,11 @@ class Suspicion(Struct, frozen=True):
 
 
 class Result(Struct, frozen=True):
-    """A whole class, marked; ``unsure`` are fields that no drawing of a student's variant tells,
-    ``expected`` is what each student's answers were held against; ``refused`` says of whom
-    something could not be worked out, and why.
+    """A whole class, marked.
+
+    ``unsure`` are fields of a student's variant that hardly any drawing determines. ``expected``
+    holds the standard for each student's answers. ``refused`` has the problems, by student id, of
+    what could not be worked out.
     """
 
     graded: tuple[Graded, ...]

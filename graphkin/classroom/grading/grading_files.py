@@ -1,4 +1,4 @@
-"""What grading writes: marks, tolerances, feedback for each student, the report on the class."""
+"""The files that grading writes: marks, tolerances, feedback for students, the class report."""
 
 from __future__ import annotations
 
@@ -31,27 +31,29 @@ BEFORE = (
 )
 WHY = " why"
 FIRST = 5
-"""Changes that a terminal shows."""
+"""The most changes shown on a terminal."""
 
 
 def number(value: Fraction | float) -> str:
-    """A number in a cell: a point, four places at most."""
+    """A number for a cell: a decimal point, and at most four decimals."""
     text = f"{float(value):.4f}".rstrip("0").rstrip(".")
     return "0" if text in ("-0", "") else text
 
 
 def csv_bytes(lines: Iterable[Sequence[object]]) -> bytes:
-    """Rows as CSV in UTF-8, with a mark at the beginning by which spreadsheets know that."""
+    """Rows as CSV in UTF-8, with a byte order mark for spreadsheets."""
     return ("\ufeff" + csv_text(lines)).encode("utf-8")
 
 
 def marks_table(result: Result) -> bytes:
-    """A row for each student in the order of the class: points of each field, and why.
+    """A row for each student in the order of the class: the points of each field, and why.
 
-    ``of`` and ``percent`` are of the points that are decided; ``pending`` are those that wait;
-    ``evidence`` names whose data the answers fit better than the own, and who has the same values;
-    points and percent of who is held are empty, those of each field stay for the decision;
-    ``decision`` is the lecturer's on the whole form, those on fields stand with their reasons.
+    ``of`` and ``percent`` refer to the points that are decided; ``pending`` are those that wait.
+    ``evidence`` names whose data the answers fit better, and who has the same values. ``decision``
+    is the lecturer's on the whole form; those on fields follow the reasons.
+
+    For a held student, points and percent are empty. The points of the fields stay, so that the
+    lecturer can decide.
     """
     graded = result.graded
     fits: dict[str, list[str]] = defaultdict(list)
@@ -66,7 +68,7 @@ def marks_table(result: Result) -> bytes:
 
 
 def marks_row(graded: Graded, fields: Sequence[str], fits: Mapping[str, list[str]]) -> list[str]:
-    """One student's row; the points of an answer that waits for a decision stay empty."""
+    """One student's row; an answer that waits for a decision has no points."""
     student = graded.taker.student
     marks = {mark.item.field: mark for mark in graded.marks}
     share = None if graded.held else graded.share
@@ -92,7 +94,7 @@ def marks_row(graded: Graded, fields: Sequence[str], fits: Mapping[str, list[str
 
 
 def ruling(decision: Decision) -> str:
-    """What the lecturer decided, in plain words: decided, was 0: why; stands: why; asked: why."""
+    """The lecturer's decision as text: ``decided, was 0: …``, ``stands: …`` or ``asked: …``."""
     if decision.is_open:
         return f"asked: {decision.reason}"
     if decision.points is None:
@@ -102,8 +104,9 @@ def ruling(decision: Decision) -> str:
 
 
 def reason(graded: Graded, name: str) -> str:
-    """What was found of a field, in plain words: right, right from v_BA, follows v_BA_mm, slip
-    rpm_as_rad, slip rpm_as_rad paid at v_D.
+    """The result of a field as text: right, right from v_BA, follows v_BA_mm, slip rpm_as_rad.
+
+    A slip paid for at another field reads ``slip rpm_as_rad paid at v_D``.
     """
     mark = graded.mark(name)
     source, paid = mark.source, ""
@@ -118,7 +121,7 @@ def reason(graded: Graded, name: str) -> str:
 
 
 def tolerances_table(graded: Sequence[Graded], expected: Sequence[Expectation]) -> bytes:
-    """For each student and field the key, its tolerance, and of what that is made."""
+    """For each student and field, the key, its tolerance and the parts of the tolerance."""
     head = ("id", "field", "unit", "key", "tolerance", "percent", "pencil", "ruler", "unsure")
     lines: list[Sequence[str]] = [head]
     for each, form in zip(graded, expected, strict=True):
@@ -145,7 +148,7 @@ def tolerances_table(graded: Sequence[Graded], expected: Sequence[Expectation]) 
 
 
 def read_marks(data: bytes) -> dict[str, dict[str, str]]:
-    """The cells of a marks.csv by student and column; nothing where it is none."""
+    """The cells of a marks.csv by student and column; empty for another file."""
     rows = list(csv.reader(io.StringIO(data.decode("utf-8-sig", "replace"), newline="")))
     if not rows or "id" not in rows[0]:
         return {}
@@ -156,7 +159,7 @@ def read_marks(data: bytes) -> dict[str, dict[str, str]]:
 
 
 def differences(before: bytes, after: bytes) -> list[tuple[str, str, str, str]]:
-    """What a new marking changed: student, column, before, after."""
+    """The changes of a new marking: student, column, before, after."""
     old, new = read_marks(before), read_marks(after)
     found: list[tuple[str, str, str, str]] = []
     for who in dict.fromkeys((*old, *new)):
@@ -167,14 +170,14 @@ def differences(before: bytes, after: bytes) -> list[tuple[str, str, str, str]]:
 def changed(
     who: str, old: Mapping[str, str], new: Mapping[str, str]
 ) -> Iterable[tuple[str, str, str, str]]:
-    """The cells of one student that are not the same; names and rows do not count."""
+    """The changed cells of one student, except name, group and row."""
     for column in dict.fromkeys((*old, *new)):
         if column not in ("row", "name", "group") and old.get(column, "") != new.get(column, ""):
             yield who, column, old.get(column, ""), new.get(column, "")
 
 
 def change_lines(table: bytes, words: Words) -> Iterable[str]:
-    """What a terminal shows of a difference list: how many students and cells, and the first."""
+    """The lines for a terminal: how many students and cells changed, and the first changes."""
     rows = list(csv.reader(io.StringIO(table.decode("utf-8-sig"), newline="")))[1:]
     if not rows:
         yield words("class.unchanged")
@@ -187,12 +190,11 @@ def change_lines(table: bytes, words: Words) -> Iterable[str]:
 
 
 def differences_table(found: Iterable[tuple[str, str, str, str]]) -> bytes:
-    """The difference list as CSV."""
     lines: list[Any] = [("id", "column", "before", "after"), *found]
     return csv_bytes(lines)
 
 
-# --- what grading writes: marks, tolerances, feedback for each student, the report on the class ---
+# --- the files of a report ------------------------------------------------------------------------
 
 
 MARKS, TOLERANCES, REPORT, CHANGES = (
@@ -202,16 +204,18 @@ MARKS, TOLERANCES, REPORT, CHANGES = (
     "differences.csv",
 )
 RETURNED = "feedback-moodle.zip"
-"""The feedback as Moodle takes it back."""
+"""The feedback file that Moodle takes back."""
 FEEDBACK = "feedback"
 """The folder with a page for each student."""
 
 
 class ReportSettings(Struct, frozen=True):
-    """What is told with the marks: the lab's title, the language of the report and of whoever has
-    none of the own, cells that cannot be read; the title in other languages; the scene, which tells
-    what the parameters are of; lines about what is not marked. ``refusals`` notes pages that cannot
-    be made.
+    """The settings of a report.
+
+    ``words`` is the language of the report, and of students without a language of their own.
+    ``titles`` are the lab's titles in other languages. ``scene`` says what the parameters mean.
+    ``unread`` are cells that cannot be read, ``refused`` lines about what is not marked.
+    ``refusals`` collects pages that cannot be made.
     """
 
     title: str
@@ -235,7 +239,7 @@ class ReportSettings(Struct, frozen=True):
 def report_files(
     found: Result, lab: Lab, told: ReportSettings, formats: Sequence[str], before: bytes = b""
 ) -> dict[str, bytes]:
-    """The files of a report by their names; with an earlier marks.csv also what changed."""
+    """The files of a report by name; with an earlier marks.csv, also the differences."""
     graded = found.graded
     marks = marks_table(found)
     files = {
@@ -251,7 +255,7 @@ def report_files(
 def feedback_files(
     graded: Sequence[Graded], lab: Lab, told: ReportSettings, formats: Sequence[str]
 ) -> dict[str, bytes]:
-    """A page for each student, named by the id as far as that is plain letters."""
+    """A page for each student, named by the id as far as it is plain letters."""
     students = [each.taker.student.id for each in graded]
     names = stems(students, [each.taker.code for each in graded])
     files: dict[str, bytes] = {}
@@ -269,7 +273,7 @@ def feedback_files(
 
 
 def gradebook_name(path: Path) -> str:
-    """The name of a filled gradebook: that of the export."""
+    """The file name of a filled gradebook."""
     return f"gradebook-{path.name}"
 
 
@@ -279,7 +283,7 @@ def returned(
     senders: Mapping[str, Sender],
     formats: Sequence[str],
 ) -> dict[str, bytes]:
-    """The ZIP file in which Moodle takes feedback back, where it was Moodle that sent answers."""
+    """Moodle's ZIP file of feedback; empty where the answers did not come from Moodle."""
     kind = next((kind for kind in ("pdf", "html") if kind in formats), "")
     backs = {who: sender.back for who, sender in senders.items() if sender.back}
     if not kind or not backs:
@@ -292,8 +296,9 @@ def returned(
 
 
 def points_by_id(found: Result, scale: Fraction | None = None) -> dict[str, Fraction]:
-    """The points of those who handed in and for whom nothing waits or is held, for a gradebook; on
-    a scale the share of all points that they are.
+    """The points for a gradebook, of students with nothing pending or held.
+
+    With a ``scale``, points are the earned share of all points, times the scale.
     """
     return {
         each.taker.student.id: each.earned if scale is None else each.earned * scale / each.points

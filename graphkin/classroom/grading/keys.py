@@ -1,8 +1,8 @@
-"""The keys of a class's variants side by side, and answers as they are held against them.
+"""The keys of a class's variants side by side, and answers to compare with them.
 
-The covariance of a variant's answers is that of the pencil in its construction, and of the ruler:
-a value beside its own segment is computed from that very reading, so that both are off together.
-Cranks that are laid off badly are left out of the pencil and kept apart.
+The covariance of a variant's answers comes from the pencil in its construction, and from the ruler.
+A value with a segment of its own is computed from the same reading, so both errors are correlated.
+Errors in setting cranks are kept apart from the pencil's.
 """
 
 from __future__ import annotations
@@ -21,15 +21,15 @@ from graphkin.classroom.grading.standard import Expectation
 from graphkin.numbers.arithmetic import np
 
 COMPUTED = 0.005
-"""Share by which a value may be off that is computed from a length as it was read."""
+"""The relative error of a value computed from a length as it was read."""
 
 
 class Keys(Struct, frozen=True):
     """The keys of all variants, a row for each: sizes, deviations of a drawing, covariances.
 
-    ``rulers`` are the deviations of a reading; ``beside`` the place of each field's own segment,
-    else of itself; ``plans`` tell of which plan's scale a value is computed: 1 of velocities, 2 of
-    accelerations, 0 for what is measured.
+    ``rulers`` are the deviations of a reading. ``beside`` is the index of each field's segment, or
+    of the field itself. ``plans`` says by which plan's scale a value is computed: 1 for velocities,
+    2 for accelerations, 0 for what is measured.
     """
 
     fields: tuple[str, ...]
@@ -43,7 +43,7 @@ class Keys(Struct, frozen=True):
 
     @classmethod
     def of(cls, standards: Sequence[Expectation]) -> Keys:
-        """Those of some variants."""
+        """The keys of some variants."""
         fields = tuple(standards[0].tolerance)
         places = np.array([standards[0].item[f].what == "place" for f in fields])
         at = {field: place for place, field in enumerate(fields)}
@@ -59,7 +59,7 @@ class Keys(Struct, frozen=True):
         return cls(fields, plans, places, beside, sizes, deviations, rulers, standards)
 
     def rows(self, which: Sequence[int]) -> Keys:
-        """Those of some of the variants."""
+        """The keys of some of the variants."""
         rows = list(which)
         return replace(
             self,
@@ -79,8 +79,10 @@ class Keys(Struct, frozen=True):
         return Key(sizes, spread, computed, standard.cranks[:, read], self.places[read])
 
     def reading(self, variant: int) -> Any:
-        """How far readings may be rounded: lengths to half a millimetre, as fine as a ruler is held
-        to tell, and to whole ones where a value is computed.
+        """The rounding allowed to readings, in the fields' units.
+
+        Lengths are rounded to half a millimetre, the finest that a ruler shows. A length from which
+        a value is computed is rounded to a whole one.
         """
         items = self.standards[variant].item
         lengths = [items[f].what in ("segment", "place") for f in self.fields]
@@ -92,7 +94,7 @@ class Keys(Struct, frozen=True):
 
 
 def distinct(standards: Sequence[Expectation]) -> tuple[list[Expectation], Mapping[int, int]]:
-    """The standards without doubles, and the place of each among them."""
+    """The standards without duplicates, and the index of each among them."""
     places: dict[int, int] = {}
     own: list[Expectation] = []
     for each in standards:
@@ -103,7 +105,7 @@ def distinct(standards: Sequence[Expectation]) -> tuple[list[Expectation], Mappi
 
 
 def read_of(graded: Graded, keys: Keys) -> tuple[Any, Any]:
-    """A student's answers as sizes, places with their sign, and how far each may be rounded."""
+    """A student's answers as sizes, and the rounding error of each; places keep their sign."""
     marks = {mark.item.field: mark for mark in graded.marks}
     given = [marks[field].answer for field in keys.fields]
     values = np.array([float("nan") if a.value is None else a.value for a in given])
@@ -112,8 +114,9 @@ def read_of(graded: Graded, keys: Keys) -> tuple[Any, Any]:
 
 
 def coarseness(answer: Answer) -> float:
-    """How far a number may be rounded, in parts of it; zeros at the end of a whole one may be no
-    digits of it: 50 may be 48.
+    """The relative rounding error of a number.
+
+    Trailing zeros of a whole number may not be significant: 50 may be 48.
     """
     found = NUMBER.match(answer.text.strip())
     digits = found["digits"] if found is not None else ""

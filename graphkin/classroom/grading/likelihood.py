@@ -1,8 +1,8 @@
-"""How likely answers are that somebody read off the drawing of given data.
+"""How likely answers are for a student who read them off the drawing of given data.
 
-The errors of a drawing go together as its construction says, and a crank that is laid off badly
-moves every answer. Nobody's pencil is known: fine ones and coarse ones are held equally likely.
-What no drawing of these data makes is a mistake, of any size.
+The errors of a drawing are correlated as its construction says, and a badly set crank moves every
+answer. The coarseness of a student's pencil is unknown: several are taken as equally likely. An
+answer that no drawing of these data gives is a mistake, of any size.
 """
 
 from __future__ import annotations
@@ -20,21 +20,21 @@ from graphkin.numbers.arithmetic import np
 MISTAKES = 0.1
 """The share of answers that are mistakes."""
 FAR = 5.0
-"""An answer so many deviations from the key is one where it is judged by itself."""
+"""The number of deviations from the key at which an answer alone counts as a mistake."""
 PENCILS = tuple(0.1 * 2.0**i for i in range(8))
-"""How much coarser pencils are than the one that is forgiven."""
+"""The coarseness of pencils, relative to the one that is forgiven."""
 SURELY = 1e-24
-"""No answer is surer than that, as a variance, however it is drawn and read."""
+"""The least variance of an answer, however it is drawn and read."""
 LAID_OFF = 5.0
-"""The deviation, in degrees, of cranks that are laid off badly."""
+"""The deviation, in degrees, of badly set cranks."""
 
 
 class Key(Struct, frozen=True):
-    """Right answers as sizes, places with their sign, and how drawings of them are off.
+    """Right answers as sizes, and the errors of drawings of them; places keep their sign.
 
-    ``spread`` is the covariance of the errors of the forgiven pencil and ruler, ``computed`` the
-    deviation of what is computed from a reading; ``cranks`` how far each crank moves them by a
-    degree.
+    ``spread`` is the covariance of the errors of the forgiven pencil and ruler. ``computed`` is the
+    deviation of values computed from a reading. ``cranks`` is the change of the answers with each
+    crank, per degree.
     """
 
     sizes: Any
@@ -45,8 +45,10 @@ class Key(Struct, frozen=True):
 
 
 class Fit(Struct, frozen=True):
-    """How likely answers are by a key, as a logarithm, which of them are no mistakes, and the
-    likeliest pencil, in times of the forgiven one.
+    """How likely answers are by a key, as a logarithm.
+
+    ``fits`` marks those that are no mistakes. ``pencil`` is the likeliest coarseness, relative to
+    the forgiven pencil.
     """
 
     likelihood: float
@@ -55,10 +57,10 @@ class Fit(Struct, frozen=True):
 
 
 def fit(answers: Any, rounding: Any, key: Key, *starts: Any) -> Fit:
-    """The likeliest reading of some answers, each rounded by so much: which of them are mistakes.
+    """The likeliest split of answers with rounding errors into drawn ones and mistakes.
 
-    The answer that is least like the others is taken for a mistake as long as that is likelier:
-    from all of them on, from those near the key, and from each of some ``starts``.
+    The answer that fits the others least is taken for a mistake as long as this is likelier. The
+    search starts from all answers, from those near the key, and from each of ``starts``.
     """
     noise = noise_of(rounding, key)
     off = answers - key.sizes
@@ -67,7 +69,7 @@ def fit(answers: Any, rounding: Any, key: Key, *starts: Any) -> Fit:
     seen: dict[bytes, tuple[Fit, int | None]] = {}
 
     def judge(fits: Any) -> tuple[Fit, int | None]:
-        told = fits.tobytes()  # one way often comes to where another began
+        told = fits.tobytes()  # different starts often meet
         if told not in seen:
             seen[told] = judged(off, key.spread, noise, astray, fits)
         return seen[told]
@@ -77,19 +79,19 @@ def fit(answers: Any, rounding: Any, key: Key, *starts: Any) -> Fit:
 
 
 def noise_of(rounding: Any, key: Key) -> Any:
-    """The covariance of what is no pencil's error: digits, computing, and badly laid-off cranks."""
+    """The covariance of errors other than the pencil's: rounding, computing, badly set cranks."""
     return np.diag(key.computed**2 + rounding**2 / 3) + LAID_OFF**2 * key.cranks.T @ key.cranks
 
 
 def likelihood_if_drawn(answers: Any, rounding: Any, key: Key, fits: Any) -> float:
-    """How likely answers are where just some of them are no mistakes, as a logarithm."""
+    """How likely answers are if exactly those of ``fits`` are drawn, as a logarithm."""
     astray = log(MISTAKES) + scattered(answers, key)
     noise = noise_of(rounding, key)
     return judged(answers - key.sizes, key.spread, noise, astray, fits)[0].likelihood
 
 
 def cleared(judge: Callable[[Any], tuple[Fit, int | None]], fits: Any) -> Fit:
-    """The fit without mistakes, which are taken out one by one."""
+    """The fit after removing mistakes one by one."""
     best, worst = judge(fits)
     while worst is not None:
         fewer = best.fits.copy()
@@ -102,7 +104,7 @@ def cleared(judge: Callable[[Any], tuple[Fit, int | None]], fits: Any) -> Fit:
 
 
 def judged(off: Any, spread: Any, noise: Any, astray: Any, fits: Any) -> tuple[Fit, int | None]:
-    """The fit where just these answers are drawn, and which of them is least like the others."""
+    """The fit if exactly these answers are drawn, and the answer that fits the others least."""
     places = np.flatnonzero(fits)
     lost = float(astray[~fits].sum())
     if not len(places):
@@ -130,7 +132,7 @@ def judged(off: Any, spread: Any, noise: Any, astray: Any, fits: Any) -> tuple[F
 
 
 def scattered(answers: Any, key: Key) -> Any:
-    """How densely mistakes lie, as a logarithm: half of them within a factor of two."""
+    """The density of mistakes, as a logarithm: half of them lie within a factor of two."""
     sizes = np.maximum(abs(answers), 1e-12 + 1e-6 * abs(key.sizes))
     apart = np.log(sizes / np.maximum(abs(key.sizes), 1e-12)) / HALF
     size = -np.log(pi * HALF * sizes * (1 + apart**2))
@@ -139,5 +141,5 @@ def scattered(answers: Any, key: Key) -> Any:
 
 
 def told_odds(logarithm: float) -> float:
-    """Odds as they are reported: no surer than any model of hands and pencils is."""
+    """Odds as reported: at most ``SURE``."""
     return min(exp(min(logarithm, log(SURE))), SURE)

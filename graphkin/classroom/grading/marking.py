@@ -1,4 +1,4 @@
-"""The marks of one student: by the key, by what follows from own values, by slips with a share."""
+"""The marks of one student: by the key, by follow-through, and by slips with a share."""
 
 from __future__ import annotations
 
@@ -24,13 +24,13 @@ from graphkin.classroom.roster.taker import Taker
 from graphkin.numbers.arithmetic import np
 
 FEW = 3
-"""Fewer values tell nothing of a drawing together."""
+"""The fewest values that can be judged together as one drawing."""
 
 
 def of_one_drawing(
     expected: Expectation, answers: Mapping[str, Answer], beyond: Sequence[str]
 ) -> tuple[str, ...]:
-    """Those of the fields ``beyond`` their tolerance that are right by all of the sheet."""
+    """The fields ``beyond`` their tolerance that are right, judged by the whole sheet."""
     found = tuple(field for field in beyond if is_near(expected, field, answers[field]))
     if not found:
         return ()
@@ -46,7 +46,7 @@ def of_one_drawing(
 
 
 def is_near(expected: Expectation, field: str, answer: Answer) -> bool:
-    """Whether a value lies where 99 of 100 careful drawings have it; a sense does so nowhere."""
+    """Whether a value is within the error of 99 of 100 careful drawings; False for a sense."""
     if field not in expected.tolerance:
         return False
     off = expected.item[field].off(float(answer.value or 0.0), expected.key[field])
@@ -54,9 +54,9 @@ def is_near(expected: Expectation, field: str, answer: Answer) -> bool:
 
 
 def is_one_drawing(off: Any, rounded: Any, key: Key) -> Any:
-    """Whether values lie off together as in 95 of 100 careful drawings, each rounded by so much.
+    """Whether the errors of values together are like those of 95 of 100 careful drawings.
 
-    ``off`` may hold a row for each of many sheets.
+    ``rounded`` are the rounding errors. ``off`` may hold a row for each of many sheets.
     """
     spread = key.spread + np.diag(key.computed**2 + rounded**2 / 3)
     scale, count = np.sqrt(np.diag(spread)), len(spread)
@@ -73,11 +73,11 @@ def is_one_drawing(off: Any, rounded: Any, key: Key) -> Any:
 
 NONE = Fraction()
 NEAR = 3.0
-"""So many times the key, or that part of it, an answer may be that is near it."""
+"""The largest factor, up or down, by which an answer near the key differs from it."""
 
 
 class Marker:
-    """Marks answer sets against one variant; its slips are worked out once, when one is wrong."""
+    """Marks answers against one variant, whose slips are worked out at the first wrong answer."""
 
     def __init__(self, standard: Standard) -> None:
         self.standard = standard
@@ -120,9 +120,9 @@ class Marker:
     def followed(
         self, answers: Mapping[str, Answer], wrong: tuple[str, ...], right: tuple[str, ...]
     ) -> dict[str, Following]:
-        """For each wrong field that follows from own values, from which; nothing in a circle.
+        """For each wrong field, the answers from which it follows; never in a circle.
 
-        A sense follows only where the size of the same rate does, from the same values.
+        A sense follows only where the size of its rate follows from the same values.
         """
         if not wrong or not self.standard.rubric.follow:
             return {}
@@ -146,15 +146,17 @@ class Marker:
         right: tuple[str, ...],
         followed: Mapping[str, Following],
     ) -> dict[str, Found]:
-        """For each wrong field the slip that explains it."""
+        """For each wrong field, the slip that explains it."""
         if not wrong:
             return {}
         sources = {field: each.sources for field, each in followed.items() if not each.drawn}
         return diagnosed(self.standard, self.slips, answers, wrong, right, sources)
 
     def worth(self, field: str, computed: tuple[str, ...]) -> Fraction:
-        """What a field is worth: a segment too short to be measured leaves its points to the value
-        that is computed."""
+        """The points of a field.
+
+        A segment too short to measure leaves its points to the value that is computed.
+        """
         item = self.standard.by_field[field].item
         return worth(item, self.standard.rubric.points, computed) or NONE
 
@@ -188,12 +190,14 @@ class Marker:
         paid: dict[str, str],
         compute: tuple[str, ...],
     ) -> EarnedMark:
-        """The share of a wrong answer: that of its slip, or of what follows, the larger.
+        """The mark of a wrong answer: the share of its slip, or of follow-through, the larger.
 
-        A slip is paid for once, at the first field with points that it explains; whatever else it
-        explains follows from it. A slip for which the rubric has no share earns nothing. ``paid``
-        gathers the field at which each was paid for. What only a drawing tells after own values of
-        the same slip is the slip's: nobody finds such a chain on the own paper.
+        A slip is paid for once, at the first field with points that it explains; the other fields
+        that it explains follow from it. A slip without a share in the rubric earns nothing.
+        ``paid`` maps each slip to the field where it was paid for.
+
+        An answer may follow on the drawing only from values with the same slip. Then the slip
+        counts: nobody finds such a chain on their own paper.
         """
         rubric, field = self.standard.rubric, mark.item.field
         found = slipped.get(field)
@@ -222,7 +226,7 @@ class Marker:
 
 
 def is_circular(found: Mapping[str, Following], following: Following) -> bool:
-    """Whether a value from which one would follow follows from that one itself."""
+    """Whether one of the sources follows from the field itself."""
     sources = list(following.sources)
     for source in sources:
         if source in found:
@@ -231,7 +235,7 @@ def is_circular(found: Mapping[str, Following], following: Following) -> bool:
 
 
 def with_senses(standard: Standard, answers: Mapping[str, Answer]) -> dict[str, Answer]:
-    """An answer for each field; a sense that is left blank is told by the sign of its value."""
+    """An answer for each field; a blank sense is taken from the sign of its value."""
     given = {item.field: answers.get(item.field, BLANK) for item in standard.items}
     for item in standard.items:
         value = given.get(item.sized, BLANK)
@@ -242,7 +246,10 @@ def with_senses(standard: Standard, answers: Mapping[str, Answer]) -> dict[str, 
 
 
 def asked_of_thousands(standard: Standard, answers: Mapping[str, Answer]) -> dict[str, Answer]:
-    """The answers; one that is near the key only if its point parts thousands cannot be read."""
+    """The answers, with ambiguous points and commas made unreadable.
+
+    These are answers that are near the key only if the point or comma separates thousands.
+    """
     found = dict(answers)
     for field, answer in answers.items():
         key = standard.key.get(field)
@@ -256,10 +263,10 @@ def asked_of_thousands(standard: Standard, answers: Mapping[str, Answer]) -> dic
 
 
 def is_torn(standard: Standard, field: str, answers: Mapping[str, Answer]) -> bool:
-    """Whether a sense says the contrary of the sign that is written before its own value.
+    """Whether a sense contradicts the sign written before its value.
 
-    Nobody can tell which of the two is meant, so the sense earns nothing; the value counts by its
-    size. Where no drawing tells the sense, none is asked.
+    It is unclear which of the two is meant, so the sense earns nothing; the value counts by its
+    size. Where no drawing determines the sense, there is no contradiction.
     """
     item = standard.by_field[field].item
     if item.what != "sense" or sense_is_open(standard, field):
@@ -269,7 +276,10 @@ def is_torn(standard: Standard, field: str, answers: Mapping[str, Answer]) -> bo
 
 
 def is_right(standard: Standard, field: str, answers: Mapping[str, Answer]) -> bool:
-    """Whether an answer is right by the key: a size within its tolerance, a sense as it is."""
+    """Whether an answer agrees with the key: a size within its tolerance, a sense exactly.
+
+    Where no drawing determines a sense, or the key of a place is NaN, every answer is right.
+    """
     item, right = standard.by_field[field].item, standard.key[field]
     value = float(answers[field].value or 0.0)
     if item.what == "sense":
@@ -279,7 +289,7 @@ def is_right(standard: Standard, field: str, answers: Mapping[str, Answer]) -> b
 
 
 def sense_is_open(standard: Standard, field: str) -> bool:
-    """Whether no drawing tells a sense: the value is nought within what a pencil makes of it."""
+    """Whether no drawing determines a sense: the value is zero within the error of a drawing."""
     sized = standard.by_field[field].item.sized
     if sized not in standard.tolerance:
         return standard.key[field] == 0

@@ -1,7 +1,7 @@
-"""How far apart variants are: what right values of one would earn on another's sheet.
+"""How far apart variants are: what right values of one variant earn on another's sheet.
 
-A neighbour's exact key is one set of answers, a neighbour's careful drawing a spread of them. Only
-what is right by the key counts, neither what follows nor slips: who copies sets nothing forth.
+A neighbour's values are the exact key, or a careful drawing with its scatter. Only answers right by
+the key count. Follow-through and slips do not, since copied answers do not build on one another.
 """
 
 from __future__ import annotations
@@ -24,15 +24,15 @@ from graphkin.numbers.arithmetic import np
 
 Array = Any
 Asked = tuple[Mapping[str, Fraction], tuple[str, ...]]
-"""The exact data of a variant, and the fields that are computed there."""
+"""The exact data of a variant, and its computed fields."""
 
 
 class Neighbours(Struct, frozen=True):
-    """What a neighbour's right values earn, as shares of all points: a row for each own sheet.
+    """The shares of all points that a neighbour's right values earn, a row for each sheet.
 
-    ``exact`` is of the neighbour's key, ``drawn`` what the neighbour's careful drawing earns in the
-    mean; NaN for a sheet beside itself. ``pencil`` is the largest error on each sheet that a pencil
-    makes of what earns points, in parts of the value.
+    ``exact`` is for the neighbour's key; ``drawn`` is the mean for the neighbour's careful drawing.
+    Both are NaN for a sheet compared with itself. ``pencil`` is the largest pencil error on each
+    sheet among fields that earn points, relative to the value.
     """
 
     exact: Array
@@ -40,8 +40,10 @@ class Neighbours(Struct, frozen=True):
     pencil: Array
 
     def closest(self) -> list[tuple[int, int]]:
-        """The sheets on which a neighbour's key earns most, each with that neighbour; of two sheets
-        on which the key of either earns so, the first."""
+        """The sheets on which a neighbour's key earns most, each with that neighbour.
+
+        Where both keys of a pair earn so much, only the first sheet is listed.
+        """
         rounded = np.round(self.exact, 9)
         most = np.argwhere(rounded == np.nanmax(rounded)).tolist()
         both = {(own, other) for own, other in most}
@@ -49,7 +51,7 @@ class Neighbours(Struct, frozen=True):
 
 
 def standards_of(lab: Lab, many: Sequence[Asked]) -> list[Standard]:
-    """What the answers to some variants are held against; those of the same data share one."""
+    """The standards of some variants; variants with the same data share one."""
     text = lab.scene.read_text(encoding="utf-8")
     every = [
         ({name: exact_text(value) for name, value in settings.items()}, computed)
@@ -64,8 +66,9 @@ def standards_of(lab: Lab, many: Sequence[Asked]) -> list[Standard]:
 
 
 def compared(found: Sequence[Standard]) -> Neighbours | None:
-    """What right values earn on other sheets, of some variants that can be drawn; None where there
-    is nobody to compare with, or nothing earns points.
+    """The shares that right values earn on other sheets, for variants that can be drawn.
+
+    None for fewer than two variants, or where nothing earns points.
     """
     if len(found) < 2 or not any(found[0].rubric.points.values()):
         return None
@@ -73,11 +76,11 @@ def compared(found: Sequence[Standard]) -> Neighbours | None:
 
 
 class RightValues(Struct, frozen=True):
-    """The right values of some variants, a row for each, and what they are worth on its sheet.
+    """The right values of some variants, a row for each, and their shares of all points.
 
-    Their sizes are equal within ``allowed``, or within ``most`` where all are one drawing by the
-    ``keys``; ``senses`` are signs, and those that no drawing tells are ``unclear``; ``points`` and
-    ``sense_points`` are shares of all points.
+    A size is right within ``allowed``, or within ``most`` where all sizes together are one drawing
+    by the ``keys``. ``senses`` are signs; those that no drawing determines are ``unclear``.
+    ``points`` and ``sense_points`` are shares of all points.
     """
 
     keys: Keys
@@ -90,7 +93,7 @@ class RightValues(Struct, frozen=True):
 
     @classmethod
     def of(cls, found: Sequence[Standard]) -> RightValues:
-        """Those of some standards of one form."""
+        """The right values of some standards of one form."""
         keys = Keys.of([each.expectation for each in found])
         senses = [item.field for item in found[0].items if item.what == "sense"]
         total = np.array([[sum(points_of(each, f) for f in each.key)] for each in found])
@@ -109,12 +112,12 @@ class RightValues(Struct, frozen=True):
         )
 
     def rows(self, which: Sequence[int]) -> RightValues:
-        """Those of some of the variants."""
+        """The right values of some of the variants."""
         parts = (self.allowed, self.most, self.points, self.senses, self.unclear, self.sense_points)
         return RightValues(self.keys.rows(which), *(part[list(which)] for part in parts))
 
     def by_key(self, other: RightValues) -> Array:
-        """What the exact values of others earn on each own sheet, a row for each sheet."""
+        """The shares that exact values of others earn, a row for each sheet."""
         shares = self.earned(other, is_within)
         for i, points in enumerate(self.points):
             away, read = other.keys.sizes - self.keys.sizes[i], self.keys.known(i)
@@ -126,8 +129,10 @@ class RightValues(Struct, frozen=True):
         return shares
 
     def earned(self, other: RightValues, chance: Callable[[Array, Array, Array], Array]) -> Array:
-        """What the right values of others earn, a row for each own sheet; ``chance`` says of how
-        far values lie, of what is allowed and of their deviations, how likely they are right.
+        """The shares that right values of others earn, a row for each sheet.
+
+        ``chance`` maps differences of values, tolerances and deviations to the probability of being
+        right.
         """
         shares = np.zeros((len(self.keys.sizes), len(other.keys.sizes)))
         for k in range(self.keys.sizes.shape[1]):
@@ -141,7 +146,7 @@ class RightValues(Struct, frozen=True):
 
 
 def neighbours(found: Sequence[Standard]) -> Neighbours:
-    """What each variant's right values earn on every other's sheet."""
+    """The shares that each variant's right values earn on every other sheet."""
     different, row_of = without_doubles(found)
     own = RightValues.of(different)
     rows = np.ix_(row_of, row_of)
@@ -153,16 +158,16 @@ def neighbours(found: Sequence[Standard]) -> Neighbours:
 
 
 def without_doubles(found: Sequence[Standard]) -> tuple[list[Standard], list[int]]:
-    """The standards that differ, and the place of each among them."""
+    """The distinct standards, and the index of each standard among them."""
     different = {id(each): each for each in found}
     places = {own: place for place, own in enumerate(different)}
     return list(different.values()), [places[id(each)] for each in found]
 
 
 def worst_drawn(standard: Standard) -> tuple[str, float]:
-    """The field that earns points of which a pencil makes the largest error in parts of its value.
+    """The field that earns points with the largest pencil error, relative to its value.
 
-    Places have no size of their own; what is zero has none, and what is computed is not drawn.
+    Places have no size, and zero values no relative error; computed fields are not drawn.
     """
     errors = {
         field: allowed.pencil / abs(standard.key[field])
@@ -174,8 +179,9 @@ def worst_drawn(standard: Standard) -> tuple[str, float]:
 
 
 def unsure_fields(standard: Standard) -> tuple[str, ...]:
-    """The fields that earn points of which a careful drawing is off by more than the rubric's cap
-    of the value: hardly any drawing tells them. What is computed is not drawn.
+    """The fields that earn points and that hardly any drawing determines.
+
+    Their error in a careful drawing exceeds the rubric's cap. Computed fields are not drawn.
     """
     return tuple(
         field
@@ -185,32 +191,37 @@ def unsure_fields(standard: Standard) -> tuple[str, ...]:
 
 
 def pencil_fault(lab: Lab, standard: Standard) -> Fault | None:
-    """The limit of a pencil's error where a variant does not keep it; None where it does, or where
-    the lab has none."""
+    """The fault where a variant exceeds the limit of the pencil's error.
+
+    None where the variant keeps the limit, or where the lab has none.
+    """
     field, error = worst_drawn(standard)
     limit = lab.fair.pencil
     return Fault("pencil", field, error, limit) if limit is not None and error > limit else None
 
 
 def pencil_faults(lab: Lab, many: Sequence[Asked]) -> list[Fault | None]:
-    """The same of some variants that can be drawn."""
+    """The pencil fault of each of some variants that can be drawn."""
     found = standards_of(lab, many) if many else []
     return [pencil_fault(lab, standard) for standard in found]
 
 
 def is_within(away: Array, limit: Array, spread: Array) -> Array:
-    """Whether a value lies within a limit: one that is known exactly."""
+    """Whether an exact value lies within a limit."""
     return abs(away) <= limit
 
 
 def points_of(standard: Standard, field: str) -> float:
-    """What a field is worth on a sheet."""
+    """The points of a field on a sheet."""
     item = standard.by_field[field].item
     return float(worth(item, standard.rubric.points, standard.computed) or 0)
 
 
 def comes_within(away: Array, limit: Array, spread: Array) -> Array:
-    """How likely a value whose mean is so far away comes to lie within a limit (normal errors)."""
+    """The probability that a value with normal errors lies within a limit.
+
+    ``away`` is the distance of its mean, ``spread`` its deviation.
+    """
     import math
 
     normal = np.vectorize(lambda x: 0.5 * (1.0 + math.erf(x / math.sqrt(2.0))), otypes=[float])
@@ -218,6 +229,6 @@ def comes_within(away: Array, limit: Array, spread: Array) -> Array:
     with np.errstate(all="ignore"):
         ends = [np.clip(np.nan_to_num((side - away) / wide), -9, 9) for side in (limit, -limit)]
     found = np.zeros(away.shape)
-    open_ones = ends[0] != ends[1]  # where both lie as far off, nothing comes between them
+    open_ones = ends[0] != ends[1]  # equal ends enclose nothing
     found[open_ones] = normal(ends[0][open_ones]) - normal(ends[1][open_ones])
     return found

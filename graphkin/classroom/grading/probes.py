@@ -22,8 +22,8 @@ from graphkin.text.errors import Problem, SceneError
 class Probe(Struct, frozen=True):
     """Reads one field: ``steps`` are the tail and tip of a vector, or the one step of a number.
 
-    A place is read from the first fixed pivot, ``steps`` being that and its own. ``plane`` is the
-    drawing whose scale turns a length into millimetres.
+    A place is read from the first fixed pivot; ``steps`` are the pivot's step and its own.
+    ``plane`` is the drawing whose scale converts a length to millimetres.
     """
 
     item: Item
@@ -37,9 +37,9 @@ class Probe(Struct, frozen=True):
         return self.steps[-1]
 
     def read(self, found: Mapping[int, Any], paper: Paper) -> Any:
-        """The value in the field's unit; the size of a vector, the rest with its sign.
+        """The value in the field's unit: the size of a vector, everything else with its sign.
 
-        An array where the construction holds arrays; nothing found gives NaN.
+        The result is an array where the construction holds arrays, and NaN where a step is missing.
         """
         if any(step not in found for step in self.steps):
             return float("nan")
@@ -53,12 +53,12 @@ class Probe(Struct, frozen=True):
         return size / mm if self.item.what == "segment" else size
 
     def error(self, found: Mapping[int, Any], paper: Paper, exact: Any) -> Any:
-        """How far the value lies from the exact one in some drawings; a size has no sign."""
+        """The errors of the value in some drawings; a size is compared without its sign."""
         return self.item.off(self.read(found, paper), exact)
 
 
 def placed(value: Any) -> Any:
-    """A centre as a point; not a number where it is at infinity."""
+    """A centre as a point; NaN where it is at infinity."""
     if not isinstance(value, Ratio):
         return value
     if not hasattr(value.size, "shape") and value.size == 0:
@@ -67,7 +67,7 @@ def placed(value: Any) -> Any:
 
 
 def probes(mechanism: Mechanism, items: Iterable[Item]) -> tuple[Probe, ...]:
-    """The probe of each item. Raises SceneError for all that the construction does not give."""
+    """The probe of each item. Raises SceneError for all items that are not constructed."""
     found: list[Probe] = []
     problems: list[Problem] = []
     for item in items:
@@ -83,7 +83,7 @@ def probes(mechanism: Mechanism, items: Iterable[Item]) -> tuple[Probe, ...]:
 
 
 def probe_of(mechanism: Mechanism, item: Item) -> Probe | None:
-    """The probe of one item; None where the construction does not give it."""
+    """The probe of one item; None where it is not constructed."""
     program = mechanism.program
     if item.what == "place":
         number = program.targets.get((item.quantity, item.of))
@@ -98,13 +98,16 @@ def probe_of(mechanism: Mechanism, item: Item) -> Probe | None:
 
 
 def plane_of(item: Item) -> Plane | None:
-    """The plan in which a field's vector lies; None where it is no vector."""
+    """The plan with a field's vector; None where the field is no vector."""
     quantity = motion_of(item)
     return quantity.plane if quantity in VECTORS else None
 
 
 def vector_ends(mechanism: Mechanism, item: Item) -> tuple[int, ...] | None:
-    """Tail and tip of a vector: of a point's own from the pole, else of the arrow of its symbol."""
+    """The tail and tip of a vector; None where it is not constructed.
+
+    The vector of a point starts at the pole. Any other vector is the arrow with its symbol.
+    """
     program = mechanism.program
     if item.vector is not None:
         arrow = arrow_steps(program).get(item.of)
@@ -119,7 +122,7 @@ def vector_ends(mechanism: Mechanism, item: Item) -> tuple[int, ...] | None:
 
 
 def targets_of(mechanism: Mechanism, items: Iterable[Item]) -> tuple[Target, ...]:
-    """What a construction must hold for its items to be read: all that is asked, and theirs."""
+    """The targets that a construction needs for its items: all that is asked, and theirs."""
     wanted = dict.fromkeys(mechanism.asked())
     program = mechanism.program
     at_step = {number: target for target, number in program.targets.items()}

@@ -1,12 +1,16 @@
-"""Which slips explain a student's wrong answers better than chance does.
+"""Finds the slips that explain a student's wrong answers better than chance does.
 
-Most wrong answers lie near the right one, some far off: in logarithms they are spread as Cauchy's
-curve, half of them within a factor of two. An answer that a slip's value hits within its tolerance
-is so much likelier by the slip as its tolerance is narrow beside that; what is reckoned from an own
-segment is held against that segment. The odds of a slip are its share among mistakes, times this
-for each answer that it hits, less for each wrong or right answer that it should have changed
-otherwise. The more wrong answers no slip explains, the likelier a single hit is chance: so much
-better it must be to be named. Places are spread likewise, in millimetres.
+Most wrong answers lie near the right one, some far off. Their logarithms follow a Cauchy
+distribution, with half of them within a factor of two. Places are distributed likewise, in
+millimetres.
+
+The narrower the tolerance around a slip's value, the more an answer within it speaks for the
+slip. A value computed from the student's segment is compared with that segment.
+
+The odds of a slip are its share among mistakes, times a ratio for each answer that it hits: how
+much likelier the slip makes the answer than chance does. The odds drop for each wrong or right
+answer that the slip should have changed otherwise. The more wrong answers no slip explains, the
+likelier a single hit is chance, and the better it must be to be named.
 """
 
 from __future__ import annotations
@@ -29,30 +33,33 @@ from graphkin.construction.core.program import Plane
 HALF = log(2.0)
 """Half of all wrong answers lie within this of the right one, in natural logarithms."""
 ASTRAY = 10.0
-"""Half of all wrong places lie within so many mm of the right one, along either axis."""
+"""Half of all wrong places lie within this many mm of the right one, along either axis."""
 SHARE = 1 / 20
 """The share of each slip among mistakes."""
 RARER = {"power_of_ten": 1 / 3, "wrong_scale": 1 / 2}
-"""Slips that can be made in several ways: the part of a share that each way has."""
+"""The part of a share for each way of making a slip that can be made in several ways."""
 PARTLY = 1 / 2
-"""The same for a unit that is taken wrong in some fields only."""
+"""The part of a share for a wrong unit in some fields only."""
 MISSED = 0.4
-"""How much a wrong answer speaks against a slip of the construction that does not hit it."""
+"""The factor on the odds for a wrong answer that a slip of the construction does not hit."""
 UNTOUCHED = 0.15
-"""How much a right answer does that it should have made wrong."""
+"""The factor on the odds for a right answer that the slip should have made wrong."""
 RECKONED = 2 * ROUNDED
-"""Share by which what was reckoned from an own segment may be off."""
+"""The relative tolerance of a value computed from the student's segment."""
 WIDEST = 0.9
-"""No slip is told more roughly than this, in parts of what it tells."""
+"""The largest relative tolerance of a slip's value."""
 ELSEWISE = 0.3
-"""How often a value is reckoned from something else than the segment that was handed in."""
+"""How often a value is computed from something else than the segment handed in."""
 LIKELY = 1.5
-"""Odds from which a slip is named where nothing else is wrong."""
+"""The least odds at which a slip is named where nothing else is wrong."""
 SENSE = 6.0
-"""How much likelier a reversed sense is where a slip reverses it: else it seldom is wrong."""
+"""How much likelier a reversed sense is by a slip that reverses it.
+
+Otherwise a sense is seldom wrong.
+"""
 
 AGAINST = 0.1
-"""How likely a sense is that is contrary to what a slip tells."""
+"""How likely a sense is that contradicts the slip."""
 Sources = Mapping[str, tuple[str, ...]]
 NOTHING: Sources = {}
 
@@ -73,9 +80,9 @@ def diagnosed(
     right: tuple[str, ...],
     sources: Sources = NOTHING,
 ) -> dict[str, Found]:
-    """For each wrong field the likeliest slip that explains it, if one does better than chance.
+    """For each wrong field the likeliest slip that explains it, where one is better than chance.
 
-    ``sources`` are the own values from which wrong fields are computed.
+    ``sources`` are the student's values from which wrong fields are computed.
     """
     tried = [judged(standard, slip, answers, wrong, right, sources) for slip in every]
     tried += own_scales(standard, answers, wrong, right, sources)
@@ -90,7 +97,7 @@ def diagnosed(
 def without_chance(
     standard: Standard, best: Mapping[str, Found], wrong: tuple[str, ...]
 ) -> dict[str, Found]:
-    """What is left of the slips when those go whose hits chance explains as well."""
+    """The slips whose hits chance does not explain as well."""
     numbers = [field for field in wrong if standard.by_field[field].item.what != "sense"]
     kept = dict(best)
     while True:
@@ -106,7 +113,7 @@ def without_chance(
 
 
 def rank(found: Found) -> tuple[float, int]:
-    """The likelier first, then in the order of names."""
+    """A sort key: by odds, then by the order of names."""
     return found.odds, -NAMES.index(found.slip.name)
 
 
@@ -119,8 +126,9 @@ def judged(
     sources: Sources = NOTHING,
     given: tuple[str, ...] = (),
 ) -> Found:
-    """What a slip explains, and how well; what is computed from that, or from what is ``given``
-    as explained, is no further evidence.
+    """The fields that a slip explains, and its odds.
+
+    A field computed from these, or from a field in ``given``, is no further evidence.
     """
     if slip.name == "sense_reversed":
         fields = tuple(field for field in wrong if field in slip.values)
@@ -148,7 +156,7 @@ def share(slip: Slip) -> float:
 
 
 def likelihood(standard: Standard, slip: Slip, field: str, answers: Mapping[str, Answer]) -> float:
-    """How much likelier an answer is by a slip than by chance; nought where it is not hit."""
+    """How much likelier an answer is by a slip than by chance; zero where the slip misses it."""
     told, answer = slip.values[field], float(answers[field].value or 0.0)
     item = standard.by_field[field].item
     if item.what == "sense":
@@ -173,21 +181,21 @@ def likelihood(standard: Standard, slip: Slip, field: str, answers: Mapping[str,
 
 
 def is_against(standard: Standard, slip: Slip, field: str, answers: Mapping[str, Answer]) -> bool:
-    """Whether the sense of a rate was stated contrary to what a slip leaves of it, or makes."""
+    """Whether the stated sense of a rate contradicts the sense that a slip gives or keeps."""
     sense = standard.by_field[field].item.beside("sense")
     stated = answers[sense].value if sense in answers else None
     return bool(stated) and stated == -slip.values.get(sense, standard.key[sense])
 
 
 def hit_ratio(answer: float, size: float, allowed: float, right: float) -> float:
-    """How much denser answers lie at one that is meant to be a size than by chance."""
+    """The density of answers aimed at ``size``, over their density by chance."""
     if size <= allowed:
         return 0.0
     return hit_density(answer - size, allowed) * size / by_chance(size, right)
 
 
 def hit_density(off: float, allowed: float) -> float:
-    """How densely answers lie that are meant to hit a value; nought beyond what is allowed."""
+    """The density of answers aimed at a value; zero beyond the tolerance."""
     if abs(off) > allowed:
         return 0.0
     deviation = allowed / STRAIGHT
@@ -195,8 +203,9 @@ def hit_density(off: float, allowed: float) -> float:
 
 
 def own_length(standard: Standard, field: str, answers: Mapping[str, Answer]) -> float:
-    """How many times as long as ours the own segment is from which a vector was reckoned; nought
-    where none was handed in.
+    """The student's segment from which a vector was computed, over the right segment.
+
+    Zero where no segment was handed in.
     """
     name = standard.by_field[field].item.segment
     segment = answers.get(name)
@@ -206,7 +215,7 @@ def own_length(standard: Standard, field: str, answers: Mapping[str, Answer]) ->
 
 
 def told_length(standard: Standard, slip: Slip, field: str) -> float:
-    """How many times as long as ours a segment is by a slip of the construction."""
+    """The segment by a slip of the construction, over the right segment."""
     name = standard.by_field[field].item.segment
     if not slip.whole or not slip.values.get(name):
         return 1.0
@@ -214,13 +223,13 @@ def told_length(standard: Standard, slip: Slip, field: str) -> float:
 
 
 def by_chance(size: float, right: float) -> float:
-    """How densely wrong answers lie at a size, in parts of it."""
+    """The density of wrong answers at a size, relative to the size."""
     apart = log(size / right) / HALF if right and size else 0.0
     return 1 / (pi * HALF * (1 + apart * apart))
 
 
 def slip_error(standard: Standard, slip: Slip, field: str, told: float) -> float:
-    """How far an answer may lie from what a slip tells."""
+    """The tolerance of an answer around the value of a slip."""
     item, right = standard.by_field[field].item, abs(standard.key[field])
     drawn = drawing_error(standard, field, told) if slip.whole else 0.0
     if item.unit == "mm" and slip.whole:
@@ -231,7 +240,7 @@ def slip_error(standard: Standard, slip: Slip, field: str, told: float) -> float
     return max(drawn, abs(told) * min(part, WIDEST))
 
 
-# --- a scale of one's own -----------------------------------------------------------------------
+# --- an unlisted scale --------------------------------------------------------------------------
 
 
 def own_scales(
@@ -241,9 +250,10 @@ def own_scales(
     right: tuple[str, ...],
     sources: Sources,
 ) -> Iterator[Found]:
-    """Scales that nobody foresaw: several values off by the same factor, accelerations perhaps by
-    its square. A value beside its own segment, which is right, gives the factor and speaks for
-    nothing; others must hit.
+    """Slips of a scale that is on no list: several values off by one factor.
+
+    Accelerations may be off by its square. A value with a right segment sets the factor and is no
+    evidence; the other values must agree.
     """
     values = [field for field in wrong if is_scaled(standard, field, right)]
     roots = [field for field in values if not set(values).intersection(sources.get(field, ()))]
@@ -261,15 +271,16 @@ def own_scales(
 
 
 def is_scaled(standard: Standard, field: str, right: tuple[str, ...]) -> bool:
-    """Whether a field is a value that may have been read with a wrong scale off a right segment."""
+    """Whether a field is a value that may be read with a wrong scale off a right segment."""
     segment = standard.by_field[field].item.segment
     drawn = segment not in standard.key or segment in right
     return standard.by_field[field].item.what == "value" and drawn and standard.key[field] != 0
 
 
 def factor_of(standard: Standard, field: str, answers: Mapping[str, Answer]) -> float:
-    """How many times too large a value is beside the own segment; nought where it just follows from
-    that, or none was handed in.
+    """The factor by which a value is too large for the student's segment.
+
+    Zero where the value follows from the segment, or where no segment was handed in.
     """
     own = own_length(standard, field, answers)
     if not own:
@@ -284,5 +295,5 @@ def is_velocity(standard: Standard, field: str) -> bool:
 
 
 def scaled_by(standard: Standard, field: str, factor: float, power: int) -> float:
-    """A value as many times too large; that of an acceleration by a power of the factor."""
+    """A right value times a factor; for an acceleration, times a power of the factor."""
     return abs(standard.key[field]) * factor ** (1 if is_velocity(standard, field) else power)

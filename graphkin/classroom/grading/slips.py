@@ -1,4 +1,4 @@
-"""Slips by name: known ways of going wrong, and what each field would then be."""
+"""Slips by name: known mistakes, and the value that each field then takes."""
 
 from __future__ import annotations
 
@@ -26,17 +26,17 @@ RATIOS = {
     "rpm_as_rad": 30 / pi,
     "turns_as_rad": 1 / (2 * pi),
 }
-"""How many times too fast a crank turns whose rev/min, or rev/s, are taken for rad/s."""
+"""The factor on a crank's speed where rev/min, or rev/s, are taken for rad/s."""
 AS_RPM = pi / 30
-"""The same where rad/s are taken for rev/min."""
+"""The factor on a crank's speed where rad/s are taken for rev/min."""
 UNITS_TAKEN = (*RATIOS, "rad_as_rpm")
-"""The slips of a speed's unit."""
+"""The slips in a speed's unit."""
 
 
 class Slip(Struct, frozen=True):
-    """A slip by name, and what each field that it changes would then be.
+    """A slip by name, and the value of each field that it changes.
 
-    ``whole`` tells that it is one of the construction, which goes through all that follows.
+    ``whole`` says that the slip is in the construction and changes everything that follows.
     """
 
     name: str
@@ -45,13 +45,13 @@ class Slip(Struct, frozen=True):
 
 
 def unit_ratios(standard: Standard) -> Mapping[str, float]:
-    """How many times too fast a crank turns whose speed is taken in the wrong unit, by slip."""
+    """The factor on a crank's speed for each slip in its unit."""
     in_turns = standard.mechanism.scene.units.get("speed") == "rev/min"
     return RATIOS if in_turns else {"rad_as_rpm": AS_RPM}
 
 
 def differs(standard: Standard, field: str, value: float) -> bool:
-    """Whether a field is told otherwise than by the key, by more than it may be off."""
+    """Whether a value differs from the key by more than the tolerance; False for NaN."""
     if isnan(value):
         return False
     item, right = standard.by_field[field].item, standard.key[field]
@@ -64,13 +64,14 @@ def differs(standard: Standard, field: str, value: float) -> bool:
 
 
 OTHER = {"ν": "τ", "τ": "ν"}
-"""The component that is taken for another."""
+"""The component mistaken for another."""
 POWERS = (10.0, 100.0, 1000.0, 0.1, 0.01, 0.001)
 
 
 def of_fields(standard: Standard) -> Iterator[Slip]:
-    """What wrong scales, units and formulas make of single fields: one slip for each way in which
-    it can be made, with all fields in which it can be made so.
+    """Slips of single fields: wrong scales, units and formulas.
+
+    There is one slip for each way of making it, with all fields in which it can be made so.
     """
     gathered: dict[tuple[str, str], dict[str, float]] = {}
     for probe in standard.layout.probes:
@@ -83,7 +84,7 @@ def of_fields(standard: Standard) -> Iterator[Slip]:
 
 
 Way = tuple[str, str, float]
-"""A slip of a field: its name, the way in which it is made, and what the field would be."""
+"""A slip of a field: its name, the way in which it is made, and the value of the field."""
 
 
 def of_field(standard: Standard, field: str) -> Iterator[Way]:
@@ -108,7 +109,7 @@ def of_field(standard: Standard, field: str) -> Iterator[Way]:
 
 
 def of_segment(standard: Standard, field: str) -> Iterator[Way]:
-    """A length that is not measured on paper: of the other plan's scale, or of the real thing."""
+    """A length not measured on paper: in the plan's units, or of the real thing."""
     probe, paper = standard.by_field[field], standard.paper
     own = paper.millimetre(probe.plane)
     length = standard.key[field]
@@ -130,7 +131,7 @@ def of_vector(standard: Standard, field: str) -> Iterator[Way]:
 
 
 def of_rate(standard: Standard, field: str) -> Iterator[Way]:
-    """A rate over a bar measured on paper, of the wrong vector, or in the wrong unit."""
+    """A rate with the bar measured on paper, from the wrong vector, or in the wrong unit."""
     right, number = abs(standard.key[field]), standard.by_field[field].step
     yield "length_not_scaled", "", right * standard.paper.mechanism
     yield "wrong_scale", "without lengths", right / standard.paper.mechanism
@@ -141,9 +142,10 @@ def of_rate(standard: Standard, field: str) -> Iterator[Way]:
 
 
 def of_unit(standard: Standard, field: str) -> Iterator[Way]:
-    """A velocity or acceleration after a driver's speed in the wrong unit, only in this field.
+    """A velocity or acceleration from a driver's speed in the wrong unit, in this field only.
 
-    Accelerations go with the square of the speed, or with the speed where only one factor is wrong.
+    Accelerations scale with the square of the speed, or with the speed where only one factor is
+    wrong.
     """
     right, plane = abs(standard.key[field]), standard.by_field[field].plane
     for name, ratio in unit_ratios(standard).items():
@@ -153,7 +155,7 @@ def of_unit(standard: Standard, field: str) -> Iterator[Way]:
 
 
 def rates_of(standard: Standard, number: int) -> Iterator[Way]:
-    """Rates that are reckoned from another vector than the one that is square to the bar."""
+    """Rates computed from another vector than the one perpendicular to the bar."""
     step, values = standard.mechanism.program.steps[number], standard.exact.trace.values
     if not isinstance(step.of, TurningOfLink):
         return
@@ -169,7 +171,7 @@ def rates_of(standard: Standard, number: int) -> Iterator[Way]:
 
 
 def of_place(standard: Standard, field: str) -> Iterator[Way]:
-    """A coordinate of the other axis, or counted the other way."""
+    """A coordinate of the other axis, or with the opposite sign."""
     item = standard.by_field[field].item
     other = item.beside("place", "y" if item.axis == "x" else "x")
     if other in standard.key:
@@ -178,7 +180,7 @@ def of_place(standard: Standard, field: str) -> Iterator[Way]:
 
 
 def swapped(standard: Standard, field: str) -> Iterator[Way]:
-    """The component along the bar in the place of that across it, and the other way round."""
+    """The component along the bar in place of the one perpendicular to it, or the reverse."""
     item = standard.by_field[field].item
     if item.vector is None or item.vector.sign not in OTHER:
         return
@@ -192,7 +194,7 @@ def swapped(standard: Standard, field: str) -> Iterator[Way]:
 
 
 def constructions(standard: Standard) -> Iterator[Slip]:
-    """Slips after which everything is constructed rightly from something wrong."""
+    """Slips after which everything is constructed correctly from something wrong."""
     for name, told in (
         *of_drivers(standard),
         *of_cranks(standard),
@@ -205,7 +207,7 @@ def constructions(standard: Standard) -> Iterator[Slip]:
 
 
 def of_drivers(standard: Standard) -> Iterator[tuple[str, dict[str, float]]]:
-    """A driver's speed in the wrong unit or sense, its angle misread, its acceleration left out."""
+    """A driver's speed in the wrong unit or sense, its angle misread, no acceleration."""
     program, values = standard.mechanism.program, standard.exact.trace.values
     every = list(zip(standard.mechanism.scene.drivers, program.drives, strict=True))
     turning = [drive for driver, drive in every if driver.kind == "turn"]
@@ -229,9 +231,9 @@ def of_drivers(standard: Standard) -> Iterator[tuple[str, dict[str, float]]]:
 
 
 def scaled(standard: Standard, ratio: float) -> Paper:
-    """The scale factors that follow from a crank as many times faster: its plan stays the same.
+    """The scale factors that follow from a crank ``ratio`` times as fast; its plan keeps its size.
 
-    Where no crank says them, they stay as the sheet states them.
+    Where the crank does not set them, they stay as stated on the sheet.
     """
     paper = standard.paper
     if not standard.scales.of_crank:
@@ -240,7 +242,7 @@ def scaled(standard: Standard, ratio: float) -> Paper:
 
 
 def in_degrees(standard: Standard, every: list[tuple[Driver, Any]]) -> dict[int, Any]:
-    """The directions of cranks whose angle in degrees was given to a cosine in radians."""
+    """The directions of cranks whose angle in degrees was taken for radians in a cosine."""
     values = standard.mechanism.scene.values
     found: dict[int, Any] = {}
     for driver, drive in every:
@@ -253,7 +255,7 @@ def in_degrees(standard: Standard, every: list[tuple[Driver, Any]]) -> dict[int,
 
 
 def of_cranks(standard: Standard) -> Iterator[tuple[str, dict[str, float]]]:
-    """Cranks drawn twice as long, or half: a diameter for a radius."""
+    """Cranks drawn twice or half as long: a diameter for a radius, or the reverse."""
     program, values = standard.mechanism.program, standard.exact.trace.values
     from graphkin.construction.core.bases import crank_tip
 
@@ -270,7 +272,7 @@ def of_cranks(standard: Standard) -> Iterator[tuple[str, dict[str, float]]]:
 
 
 def of_sides(standard: Standard) -> Iterator[tuple[str, dict[str, float]]]:
-    """A pin drawn where the arcs meet on the other side."""
+    """A pin drawn at the other intersection of the arcs."""
     program = standard.mechanism.program
     for number in standard.layout.needed:
         step = program.steps[number]
@@ -282,7 +284,7 @@ def of_sides(standard: Standard) -> Iterator[tuple[str, dict[str, float]]]:
 
 
 def of_components(standard: Standard) -> Iterator[tuple[str, dict[str, float]]]:
-    """Components left out, or laid off the wrong way round."""
+    """Components left out, or laid off in the wrong direction."""
     values, program = standard.exact.trace.values, standard.mechanism.program
     for kind in reversed(COMPONENTS):
         found = [n for n in standard.layout.needed if isinstance(component_of(program, n), kind)]

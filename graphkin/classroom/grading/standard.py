@@ -1,4 +1,4 @@
-"""What a student's answers are held against: the key of the own variant, and its tolerances."""
+"""The standard for a student's answers: the key of the student's variant, and its tolerances."""
 
 from __future__ import annotations
 
@@ -25,18 +25,21 @@ from graphkin.mechanism import Mechanism
 from graphkin.numbers.arithmetic import FLOAT, np, turn_by
 
 FINE = 0.5
-"""A fine drawing has half the error that is forgiven: no cap takes its marks."""
+"""The error of a fine drawing, relative to the forgiven one.
+
+No cap takes marks from a fine drawing.
+"""
 RARE = 2.5758293035489004 / STRAIGHT
-"""How many times as far as 95 of 100 drawings 99 of 100 are off, at most."""
+"""The error that 99 of 100 drawings keep to, relative to that of 95 of 100."""
 
 
 class Tolerance(Struct, frozen=True):
-    """How far a field may be off, in its unit, and of what that is made.
+    """The largest accepted error of a field, in its unit, and its parts.
 
-    ``pencil`` and ``ruler`` are the errors of drawing and reading, which 95 of 100 drawings keep
-    to; ``unsure`` tells that together they are larger than the rubric's cap, so that the drawing
-    hardly tells the field. ``most`` is how far it may be off where all of a sheet is one careful
-    drawing: what 99 of 100 keep to.
+    ``pencil`` and ``ruler`` are the errors of drawing and reading that 95 of 100 drawings keep to.
+    ``unsure`` says that together they exceed the rubric's cap, so that a drawing hardly determines
+    the field. ``most`` is the tolerance where the whole sheet is one careful drawing: the error
+    that 99 of 100 keep to.
     """
 
     value: float
@@ -47,19 +50,19 @@ class Tolerance(Struct, frozen=True):
 
 
 class Reading(Struct, frozen=True):
-    """A field of one construction, as the forecast of the pencil wants an answer."""
+    """A field of one construction, in the form of an answer for the pencil forecast."""
 
     probe: Probe
     exact: Original
     value: float
 
     def error(self, found: Mapping[int, Any]) -> Any:
-        """How far the field lies from the key in some drawings."""
+        """The errors of the field in some drawings."""
         return self.probe.error(found, self.exact.paper, self.value)
 
 
 class Errors(NamedTuple):
-    """The pencil's error of each field, and the covariance of all of them in one drawing."""
+    """The pencil's error of each field, and the covariance of all fields in one drawing."""
 
     each: tuple[float, ...]
     together: Any
@@ -71,8 +74,9 @@ def tolerances(
     rubric: Rubric,
     computed: Collection[str] = (),
 ) -> dict[str, Tolerance]:
-    """The tolerance of each field from the pencil's error of it; never above the cap where a field
-    is computed instead of measured.
+    """The tolerance of each field, from the pencil's error of the field.
+
+    A ``computed`` field is never allowed more than the cap.
     """
     if not readings:
         return {}
@@ -86,8 +90,9 @@ def tolerances(
 
 
 def pencil_errors(variants: Sequence[Sequence[Reading]], pencil: Pencil) -> list[Errors]:
-    """The 95th percentile of the error of each field over drawings with a pencil, of variants that
-    draw the same; a single one is a batch of one.
+    """The 95th percentile of each field's error over drawings with a pencil.
+
+    All variants draw the same; a single variant is a batch of one.
     """
     fields = variants[0]
     if not fields:
@@ -111,9 +116,9 @@ def pencil_errors(variants: Sequence[Sequence[Reading]], pencil: Pencil) -> list
 
 
 def covariance(off: Any, errors: Any, bent: Any) -> Any:
-    """How the errors of fields go together in one drawing, from single errors at both their nodes.
+    """The covariance of the fields' errors in one drawing, from single errors at both their nodes.
 
-    Fields whose errors do not just add up are held to go with no other.
+    Fields whose errors do not simply add are taken as uncorrelated with all others.
     """
     parts = np.where(np.asarray(bent)[..., None, None], 0.0, off)
     mean = WEIGHT * parts.sum(axis=-1)
@@ -126,10 +131,11 @@ def covariance(off: Any, errors: Any, bent: Any) -> Any:
 
 
 def added(off: Any) -> tuple[Any, Any]:
-    """The 95th percentile of each field from single errors at both their nodes, which the last two
-    axes hold; and where errors do not just add up, or a drawing does not close.
+    """The 95th percentile of each field from single errors at both their nodes, the last two axes.
 
-    A scaled chi-square of the same mean and variance stands for the square, as in the forecast.
+    The second result says where errors do not simply add, or a drawing does not close. The square
+    of the error is approximated by a scaled chi-square of the same mean and variance, as in the
+    forecast.
     """
     with np.errstate(all="ignore"):
         mean = WEIGHT * off.sum(axis=-1)
@@ -143,7 +149,7 @@ def added(off: Any) -> tuple[Any, Any]:
 
 
 def joint_errors(readings: Sequence[Reading], pencil: Pencil) -> list[float]:
-    """The same from drawings in which every mark is off."""
+    """The same percentiles from drawings in which every mark is off."""
     drawings = joint_drawings(readings[0].exact, pencil, JOINT, SEED)
     found = []
     for reading in readings:
@@ -154,7 +160,10 @@ def joint_errors(readings: Sequence[Reading], pencil: Pencil) -> list[float]:
 
 
 def joint_drawings(exact: Original, pencil: Pencil, count: int, seed: int) -> dict[int, Any]:
-    """Every value of so many drawings in which every mark is off; the same for the same seed."""
+    """The values of ``count`` drawings in which every mark is off.
+
+    The same ``seed`` gives the same values.
+    """
 
     def errors(number: int, mark: PencilMark) -> Any:
         stream = np.random.Generator(np.random.PCG64([seed, number]))
@@ -166,10 +175,10 @@ def joint_drawings(exact: Original, pencil: Pencil, count: int, seed: int) -> di
 def combined(
     reading: Reading, error: float, rubric: Rubric, size: float, *, drawn: bool
 ) -> Tolerance:
-    """Pencil and ruler together, not less than the floor nor more than the cap of the value.
+    """Pencil and ruler errors together, between the floor and the cap of the value.
 
-    For a place the cap is of the mechanism's size. What is ``drawn`` is never held to less than
-    the ruler tells, nor to less than a fine drawing misses.
+    The cap of a place is relative to the mechanism's size. What is ``drawn`` is always allowed the
+    ruler's error and the error of a fine drawing.
     """
     ruler = rubric.ruler * ruler_unit(reading)
     is_place = reading.probe.item.what == "place"
@@ -188,7 +197,7 @@ def combined(
 
 
 def ruler_unit(reading: Reading) -> float:
-    """What a millimetre on the ruler is worth in the field's unit."""
+    """A millimetre on the ruler in the field's unit."""
     probe, exact = reading.probe, reading.exact
     if probe.item.unit == "mm":
         return 1.0
@@ -199,7 +208,7 @@ def ruler_unit(reading: Reading) -> float:
 
 
 def extent(exact: Original) -> float:
-    """The size of the mechanism on paper, in mm: the larger side of the box round its points."""
+    """The size of the mechanism on paper, in mm: the larger side of its points' bounding box."""
     targets = exact.program.targets
     found = [
         exact.trace.values[number]
@@ -212,7 +221,7 @@ def extent(exact: Original) -> float:
     return float(max(wide, high)) / mm
 
 
-# --- what a student's answers are held against: the key of the own variant, and its tolerances ----
+# --- the standard of one variant ------------------------------------------------------------------
 
 
 NOTHING: Mapping[int, Any] = {}
@@ -220,15 +229,15 @@ NOTHING: Mapping[int, Any] = {}
 
 @dataclass(frozen=True)
 class Expectation:
-    """What is expected of a form, without the construction from which it comes."""
+    """The expected values of a form, without the construction they come from."""
 
     items: tuple[Item, ...]
     key: Mapping[str, float]
     tolerance: Mapping[str, Tolerance]
     spread: Any = field(default=None, compare=False)
-    """The covariance of the pencil's errors of the fields that have a tolerance, in their order."""
+    """The covariance of the pencil's errors of the fields with a tolerance, in their order."""
     cranks: Any = field(default=None, compare=False)
-    """How far the same fields go for each crank that is laid off by a degree too much."""
+    """The change of the same fields for each crank set a degree too far."""
 
     @cached_property
     def item(self) -> Mapping[str, Item]:
@@ -237,9 +246,9 @@ class Expectation:
 
 
 class FormLayout(Struct, frozen=True, dict=True):
-    """How the fields of a form are read off a construction; all variants of a program share it.
+    """How the fields of a form are read off a construction; variants of a program share it.
 
-    ``targets`` are what must be constructed for that.
+    ``targets`` are what must be constructed for these fields.
     """
 
     program: Program
@@ -254,16 +263,16 @@ class FormLayout(Struct, frozen=True, dict=True):
 
     @cached_property
     def needed(self) -> tuple[int, ...]:
-        """The steps from which the fields follow, composite ones by value."""
+        """The steps that the fields depend on, composite ones by value."""
         return self.program.behind(step for probe in self.probes for step in probe.steps)
 
     @cached_property
     def followers(self) -> dict[int, frozenset[int]]:
-        """The steps that hang on each step, itself included, as far as it was asked for."""
+        """A cache of the steps that depend on each step, the step included."""
         return {}
 
     def below(self, number: int) -> frozenset[int]:
-        """The steps that hang on a step, itself included."""
+        """The steps that depend on a step, the step included."""
         if number not in self.followers:
             self.followers[number] = self.program.descendants(number)
         return self.followers[number]
@@ -277,9 +286,9 @@ def layout(mechanism: Mechanism, items: Iterable[Item]) -> FormLayout:
 
 
 class Standard(Struct, frozen=True, dict=True):
-    """One variant: its construction by hand without errors at the scales of its sheets, its form.
+    """One variant: its construction by hand without errors, at its sheets' scales, and its form.
 
-    ``errors`` are those of the pencil for each field but senses, where they were worked out for
+    ``errors`` are the pencil's errors for each field except senses, where they were worked out for
     many variants at once.
     """
 
@@ -289,7 +298,7 @@ class Standard(Struct, frozen=True, dict=True):
     exact: Original
     rubric: Rubric
     computed: tuple[str, ...] = ()
-    """The fields that are too small to be measured."""
+    """The fields that are too small to measure."""
     errors: Errors | None = None
 
     @property
@@ -309,7 +318,7 @@ class Standard(Struct, frozen=True, dict=True):
 
     @cached_property
     def readings(self) -> list[Reading]:
-        """The fields but senses, each with its key."""
+        """The fields except senses, each with its key."""
         return [
             Reading(probe, self.exact, self.key[probe.item.field])
             for probe in self.layout.probes
@@ -318,12 +327,12 @@ class Standard(Struct, frozen=True, dict=True):
 
     @cached_property
     def tolerance(self) -> Mapping[str, Tolerance]:
-        """How far each field but senses may be off."""
+        """The tolerance of each field except senses."""
         return tolerances(self.readings, self.pencil.each, self.rubric, self.computed)
 
     @cached_property
     def pencil(self) -> Errors:
-        """What a pencil makes of the fields but senses."""
+        """The pencil's errors of the fields except senses."""
         if self.errors is not None:
             return self.errors
         (found,) = pencil_errors([self.readings], Pencil(self.rubric.point, self.rubric.line))
@@ -331,13 +340,14 @@ class Standard(Struct, frozen=True, dict=True):
 
     @cached_property
     def expectation(self) -> Expectation:
-        """What is expected, for reports."""
+        """The expected values, for reports."""
         return Expectation(self.items, self.key, self.tolerance, self.pencil.together, self.cranks)
 
     @property
     def cranks(self) -> Any:
-        """How far each field but senses goes where a crank is laid off by a degree too much, a row
-        for each that turns; sizes, as they are marked.
+        """The change of each field except senses for a crank set a degree too far.
+
+        There is a row for each crank that turns. Sizes are compared without sign, as in marking.
         """
         values, rows = self.exact.trace.values, []
         for drive in self.layout.program.drives:
@@ -347,17 +357,17 @@ class Standard(Struct, frozen=True, dict=True):
         return np.array(rows).reshape(len(rows), len(self.tolerance))
 
     def moved(self, field: str, told: Mapping[str, float]) -> float:
-        """How far a field lies from the key as it is told; zero where nothing is."""
+        """The difference between a value and the key; zero where there is no finite value."""
         off = self.by_field[field].item.off(told.get(field, nan), self.key[field])
         return off if isfinite(off) else 0.0
 
     @property
     def paper(self) -> Paper:
-        """What a metre of paper stands for."""
+        """The scales of the paper: the real size of a metre of paper."""
         return self.exact.paper
 
     def read(self, found: Mapping[int, Any], paper: Paper | None = None) -> dict[str, float]:
-        """Every field as a construction tells it."""
+        """Every field as read off a construction."""
         return {
             probe.item.field: sign_of(probe, probe.read(found, paper or self.paper))
             for probe in self.layout.probes
@@ -366,8 +376,9 @@ class Standard(Struct, frozen=True, dict=True):
     def rerun(
         self, overrides: Mapping[int, Any], program: Program | None = None
     ) -> Mapping[int, Any]:
-        """The construction with some values put in place of its own, or with other steps in its
-        program; nothing if it fails. What hangs on none of these stays as it is.
+        """The construction run again with some values or steps replaced; empty if it fails.
+
+        Values that depend on no replacement are kept.
         """
         written = program or self.layout.program
         exact = self.exact.trace.values
@@ -385,7 +396,7 @@ class Standard(Struct, frozen=True, dict=True):
         return {**exact, **told.values}
 
     def changed(self, overrides: Mapping[int, Any], program: Program) -> frozenset[int]:
-        """The steps that hang on a value put in place of another, or on another step."""
+        """The steps that depend on a replaced value or a replaced step."""
         own = self.layout.program.steps
         other = () if program is self.layout.program else range(len(own))
         roots = [*overrides, *(n for n in other if program.steps[n] is not own[n])]
@@ -397,13 +408,13 @@ class Standard(Struct, frozen=True, dict=True):
         program: Program | None = None,
         paper: Paper | None = None,
     ) -> dict[str, float]:
-        """Every field as the construction tells it with some values put in place of its own."""
+        """Every field as read off the construction with some values replaced; empty if it fails."""
         found = self.rerun(overrides, program)
         return self.read(found, paper) if found else {}
 
 
 def turned(values: Mapping[int, Any], drive: Drive, angle: float) -> dict[int, Any]:
-    """The direction of a crank that is laid off too far by an angle, in radians."""
+    """The direction of a crank that is set too far by an angle in radians."""
     found = {drive.position: values[drive.position] * turn_by(angle)}
     if drive.angle is not None:
         found[drive.angle] = values[drive.angle] + angle
@@ -411,7 +422,7 @@ def turned(values: Mapping[int, Any], drive: Drive, angle: float) -> dict[int, A
 
 
 def sign_of(probe: Probe, value: float) -> float:
-    """A sense is a sign; everything else stays what it is."""
+    """The sign of a sense; any other value unchanged."""
     if probe.item.what != "sense":
         return float(value)
     return float((value > 0) - (value < 0))
@@ -420,7 +431,7 @@ def sign_of(probe: Probe, value: float) -> float:
 def standard(
     mechanism: Mechanism, items: Iterable[Item], rubric: Rubric, computed: Iterable[str] = ()
 ) -> Standard:
-    """What the answers to a variant are held against, at the scales of its sheets."""
+    """The standard for the answers to a variant, at the scales of its sheets."""
     chosen, form = scales(mechanism), layout(mechanism, items)
     exact = original(mechanism, chosen, form.targets)
     return Standard(mechanism, chosen, form, exact, rubric, tuple(computed))

@@ -1,9 +1,9 @@
-"""Score sheets that students save from "your turn" on their pages: evidence beside answers.
+"""Score sheets that students save from "your turn" on their pages, as further evidence.
 
-A page says how it was drawn: which steps alone, with a hint or by the page, and after how many
-wrong turns. It is sealed with the opaque code of the student's variant, so that a file which was
-changed, or saved from another's page, is told. Whoever reads the page can make such a seal: the
-sheets earn nothing and prove nothing.
+A page says how each step was drawn: alone, with a hint or by the page, and after how many wrong
+turns. The sheet is sealed with the opaque code of the student's variant. The seal shows that a file
+was changed, or saved from another student's page. Anyone who reads the page can make such a seal:
+the sheets earn nothing and prove nothing.
 """
 
 from __future__ import annotations
@@ -22,12 +22,12 @@ from graphkin.scene.findings import visible
 from graphkin.text.errors import Problem, Refusals, RosterError
 
 TURNS = "turns.csv"
-"""The table of a report that lists them."""
+"""The table of a report that lists score sheets."""
 ENDING = ".json"
 SAVED_AS = "-turn"
-"""What stands behind a student's id in the name of such a file."""
+"""The text after a student's id in the name of a score sheet."""
 MOST = 1 << 20
-"""Bytes of a file that are read."""
+"""The most bytes of a file that are read."""
 HEAD = ("id", "from_step", "steps", "alone", "hint", "drawn_by_page", "wrong", "left", "seal")
 
 Count = Annotated[int, Meta(ge=0, le=100_000)]
@@ -36,7 +36,7 @@ Seal = Literal["right", "broken", "none"]
 
 
 class TurnFile(Struct, forbid_unknown_fields=True, rename={"start": "from"}):
-    """What a page saves: each step with how it was drawn and the wrong turns before it."""
+    """The file that a page saves: each step, how it was drawn, and the wrong turns before it."""
 
     graphkin_turn: Literal[1]
     id: str
@@ -47,7 +47,7 @@ class TurnFile(Struct, forbid_unknown_fields=True, rename={"start": "from"}):
 
 
 class TurnScore(Struct, frozen=True):
-    """A student's score sheet; its ``seal`` is right, broken, or missing."""
+    """A student's score sheet; its ``seal`` is right, broken or none."""
 
     who: str
     file: str
@@ -55,7 +55,7 @@ class TurnScore(Struct, frozen=True):
     seal: Seal
 
     def row(self) -> tuple[object, ...]:
-        """Its line in the table."""
+        """The row of the table."""
         how = [way for _, way, _ in self.told.steps]
         counts = (how.count(way) for way in ("alone", "hint", "help"))
         wrong = sum(turns for _, _, turns in self.told.steps)
@@ -72,10 +72,10 @@ class TurnScore(Struct, frozen=True):
 
 
 def read_turns(path: Path, codes: Mapping[str, str], refusals: Refusals) -> list[TurnScore]:
-    """The score sheets in a folder of answers; ``codes`` has the opaque code of each student by id.
+    """The score sheets in a folder of answers; ``codes`` maps ids to opaque codes.
 
-    Files that are none, or no student's of the class, are noted. Of several of one student that
-    counts whose seal is right; where that is none or not the only one, none does.
+    Files that are no score sheets, or of no student in the class, are noted in ``refusals``. Of
+    several sheets of one student, the only one with a right seal counts; otherwise none does.
     """
     files = sorted(path.glob(f"*{ENDING}")) if path.is_dir() else []
     found: dict[str, list[TurnScore]] = {}
@@ -97,14 +97,14 @@ def read_turns(path: Path, codes: Mapping[str, str], refusals: Refusals) -> list
 
 
 def only(every: Sequence[TurnScore]) -> Sequence[TurnScore]:
-    """The one of a student's score sheets that counts, if there is one."""
+    """The score sheet of a student that counts, if there is one."""
     right = [each for each in every if each.seal == "right"]
     counts = every if len(every) == 1 else right
     return counts if len(counts) == 1 else ()
 
 
 def turn_file(file: Path) -> TurnFile:
-    """A score sheet. Raises RosterError for a file that is none."""
+    """Read a score sheet. Raises RosterError for any other file."""
     expected = "a score sheet as a page saves it"
     hint = "take the file out of the folder, or save it anew from the page"
     try:
@@ -115,19 +115,18 @@ def turn_file(file: Path) -> TurnFile:
 
 
 def seal_of(code: str, told: TurnFile) -> str:
-    """The seal of a score sheet under a student's opaque code, as the page makes it."""
+    """The seal of a score sheet for a student's opaque code, as the page makes it."""
     content = [told.id, told.start, told.steps, told.left]
     text = json.dumps(content, ensure_ascii=False, separators=(",", ":"))
     return sha256(f"{code}\n{text}".encode("utf-8", "replace")).hexdigest()
 
 
 def state_of(code: str, told: TurnFile) -> Seal:
-    """Whether a score sheet has the seal that it is to have under a student's opaque code."""
+    """Whether the seal of a score sheet is right for a student's opaque code."""
     if not told.seal:
         return "none"
     return "right" if told.seal == seal_of(code, told) else "broken"
 
 
 def turns_table(turns: Sequence[TurnScore]) -> bytes:
-    """The table of the score sheets."""
     return csv_bytes([(*HEAD, "file"), *(turn.row() for turn in turns)])

@@ -1,1 +1,1 @@
-"""A lab: a scene, the rule that gives each student other data, what is fair, what earns marks."""
+"""Labs: a scene, the rule for each student's data, the limits of fairness, and the rubric."""

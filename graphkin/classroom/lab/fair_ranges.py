@@ -1,8 +1,9 @@
-"""Where in the space of its parameters a lab is fair: a design of draws, and the widest ranges.
+"""Finds where in its parameter space a lab is fair, by sampling, and the widest fair ranges.
 
-The draws fill the space evenly (Halton 1960), or are all that there are. Ranges are found by
-peeling: from the whole box the thin slice goes whose loss makes the rest fairest (Friedman and
-Fisher 1999, patient rule induction), until all inside is fair; new draws inside must be fair, too.
+The draws fill the space evenly (Halton 1960), or are all points there are. Ranges are found by
+peeling (Friedman and Fisher 1999, patient rule induction). From the whole box, the thin slice whose
+loss leaves the largest fair share is removed, until everything inside is fair. New draws inside
+must be fair too.
 """
 
 from __future__ import annotations
@@ -27,21 +28,21 @@ from graphkin.text.errors import Problem, SceneError
 
 Array = Any
 DRAWS = 4000
-"""Draws of a design."""
+"""The number of draws of a design."""
 FINE = 50
-"""Steps of a parameter for which the scene states none."""
+"""The number of steps of a parameter for which the scene states none."""
 PEEL = 0.04
-"""The slice that is peeled off, in parts of what is left of a range."""
+"""The thickness of a peeled slice, relative to what is left of a range."""
 PENCILLED = 200
-"""Draws of a design of which it is tried how exactly a pencil draws them."""
+"""The number of draws on which the accuracy of a pencil is tried."""
 LEFT = 300
-"""Different data that are left at least where a pencil is exact enough."""
+"""The fewest different data to keep where a pencil is accurate enough."""
 AGAIN = 12
-"""How often ranges are tried with new draws."""
+"""The most times that ranges are tried with new draws."""
 SHARES = (0.75, 0.5, 0.25, 0.0)
-"""How much of the way from what peeling left to the whole space is tried."""
+"""The tried positions between what peeling left (0) and the whole space (1)."""
 PRIMES = (2, 3, 5, 7, 11, 13, 17, 19, 23, 29, 31, 37)
-"""Bases of the design, one for each parameter."""
+"""The bases of the design, one for each parameter."""
 
 
 class Tried(Struct, frozen=True):
@@ -58,7 +59,7 @@ class Tried(Struct, frozen=True):
         return float(self.fairness.fair.mean())
 
     def by_value(self, name: str, bins: int = 12) -> list[tuple[Fraction, Fraction, float, int]]:
-        """For each part of a parameter's values: its first, its last, the fair share, the draws."""
+        """For each part of a parameter's values: first and last value, fair share, draws."""
         values, column = self.space[name], [*self.space].index(name)
         edges = np.linspace(0, len(values), min(bins, len(values)) + 1).astype(int)
         found = []
@@ -71,8 +72,10 @@ class Tried(Struct, frozen=True):
         return found
 
     def guilt(self, name: str) -> float:
-        """How much of what is fair a parameter decides: the spread of its fair shares, squared and
-        weighed, over that of all draws (correlation ratio)."""
+        """How much a parameter decides what is fair: the correlation ratio.
+
+        This is the weighted variance of its fair shares, over the variance of all draws.
+        """
         share = self.share
         if share in (0.0, 1.0):
             return 0.0
@@ -82,19 +85,19 @@ class Tried(Struct, frozen=True):
         return spread / (share * (1 - share))
 
     def reasons(self) -> list[tuple[str, int]]:
-        """Which limits are broken, and how often."""
+        """The limits that are broken, and how often, the most frequent first."""
         unfair = (i for i, fair in enumerate(self.fairness.fair) if not fair)
         every = (fault for i in unfair for fault in self.fairness.faults(i))
         return Counter(f"{fault.limit} {fault.where}".strip() for fault in every).most_common()
 
 
 class FairRanges(Struct, frozen=True):
-    """A lab's space as it was tried, and the ranges of it in which all that was tried is fair.
+    """The parameter space of a lab as it was tried, and the ranges in which all draws were fair.
 
-    ``ranges`` is None where there are none; ``left_alone`` are parameters without min and max. Of
-    the first fair draws, as many as ``exact`` has, it tells where a pencil is as exact as the lab
-    demands; it is empty where the lab demands nothing. ``exact_inside`` is the share of draws from
-    the ranges where it is.
+    ``ranges`` is None where there are none. ``left_alone`` are parameters without min and max.
+    ``exact`` says of the first fair draws whether a pencil is as accurate as the lab demands; it is
+    empty where the lab demands nothing. ``exact_inside`` is the share of draws from the ranges
+    where it is.
     """
 
     tried: Tried
@@ -110,7 +113,7 @@ class FairRanges(Struct, frozen=True):
 
 
 def fair_ranges(lab: Lab) -> FairRanges:
-    """Try the whole space of a scene's parameters, and find where in it all is fair.
+    """Try the whole space of a scene's parameters, and find the ranges in which all is fair.
 
     Raises SceneError where no parameter of the scene has both ends.
     """
@@ -138,9 +141,9 @@ def fair_ranges(lab: Lab) -> FairRanges:
 
 
 def space_of(scene: Scene) -> dict[str, Range]:
-    """All values that a scene allows to its parameters, of those that have both ends.
+    """All values that a scene allows to its parameters with both ends.
 
-    Raises SceneError where none has.
+    Raises SceneError where no parameter has both ends.
     """
     every = {name: ends(each) for name, each in scene.parameters.items()}
     space = {name: values for name, values in every.items() if values is not None}
@@ -151,7 +154,7 @@ def space_of(scene: Scene) -> dict[str, Range]:
 
 
 def between(whole: Box, peeled: Box | None) -> Iterator[Box]:
-    """The whole box, that which peeling left, and some between the two."""
+    """The whole box, the box that peeling left, and some between the two."""
     yield whole
     for share in SHARES if peeled is not None else ():
         yield [
@@ -163,7 +166,11 @@ def between(whole: Box, peeled: Box | None) -> Iterator[Box]:
 def in_box(
     lab: Lab, space: Mapping[str, Range], box: Box, worst: str, fair: bool
 ) -> dict[str, Range | ValueList] | None:
-    """The ranges of a box, that of the parameter that decides most as far as all there is fair."""
+    """The ranges of a box; the parameter ``worst`` is restricted to its fair values.
+
+    With ``fair``, everything in the space is fair and nothing is restricted. None where nothing is
+    left.
+    """
     ranges: dict[str, Range | ValueList] = {
         name: cut(values, *box[k]) for k, (name, values) in enumerate(space.items())
     }
@@ -188,7 +195,7 @@ def ends(parameter: Parameter) -> Range | None:
 
 
 def round_step(span: Fraction) -> Fraction:
-    """A step of 1, 2 or 5 in its first digit, of which some fifty make a span."""
+    """A step with the first digit 1, 2 or 5 that divides a span into about ``FINE`` parts."""
     rough, power = span / FINE, Fraction(1)
     while power > rough:
         power /= 10
@@ -203,12 +210,12 @@ Box = list[tuple[int, int]]
 
 
 def whole_box(space: Space) -> Box:
-    """All indices."""
+    """The box of all indices."""
     return [(0, len(values) - 1) for values in space.values()]
 
 
 def drawn_within(lab: Lab, space: Mapping[str, Range], box: Box, start: int = 1) -> Tried:
-    """Draws within a box: all that there are, or as many as a design has from a start on."""
+    """Draws within a box: all points there are, or a design from number ``start`` on."""
     places = draws(box, DRAWS, start)
     many = [settings_at(space, row) for row in places]
     complete = prod(high - low + 1 for low, high in box) <= DRAWS
@@ -216,7 +223,7 @@ def drawn_within(lab: Lab, space: Mapping[str, Range], box: Box, start: int = 1)
 
 
 def draws(box: Box, count: int, start: int) -> Array:
-    """The indices of draws within a box: all that there are, or as many of a design."""
+    """The indices of draws within a box: all points there are, or ``count`` points of a design."""
     sizes = [high - low + 1 for low, high in box]
     if prod(sizes) <= count:
         found = np.array([*product(*map(range, sizes))])
@@ -247,7 +254,10 @@ def halton(dimensions: int, count: int, start: int) -> Array:
 
 
 def runs_of(values: Range, fair: Sequence[bool]) -> Range | ValueList | None:
-    """The fair values of one parameter: a range, or a list of ranges and single values."""
+    """The fair values of one parameter: a range, or a list of ranges and values.
+
+    None where there are none.
+    """
     runs: list[Range] = []
     begun = None
     for index, good in enumerate([*fair, False]):
@@ -278,7 +288,7 @@ def part_of(values: Range | ValueList, low: int, high: int) -> Range | ValueList
 
 
 def peeled(lab: Lab, tried: Tried) -> Box | None:
-    """The box that peeling leaves, all of whose draws are fair; None where nothing is left."""
+    """The box that peeling leaves, with fair draws only; None where nothing is left."""
     box, places, fair = whole_box(tried.space), tried.places, tried.fairness.fair
     for turn in range(AGAIN):
         found = peel(box, places, fair)
@@ -294,7 +304,10 @@ def peeled(lab: Lab, tried: Tried) -> Box | None:
 
 
 def peel(box: Box, places: Array, fair: Array) -> Box | None:
-    """Take the slice off whose loss leaves the largest fair share, until all inside is fair."""
+    """Peel slices off a box until all draws inside are fair; None where nothing is left.
+
+    Each slice is the one whose loss leaves the largest fair share.
+    """
 
     inside = within(box, places)
     while not fair[inside].all():
@@ -312,7 +325,7 @@ def peel(box: Box, places: Array, fair: Array) -> Box | None:
 
 
 def pasted(box: Box, whole: Box, places: Array, fair: Array) -> Box:
-    """The box, grown again by slices at each end as long as no draw in it is unfair."""
+    """The box, extended by slices at each end as long as all draws in it are fair."""
     grown = True
     while grown:
         grown = False
@@ -327,7 +340,7 @@ def pasted(box: Box, whole: Box, places: Array, fair: Array) -> Box:
 
 
 def all_runs(lab: Lab, space: Mapping[str, Range], box: Box, name: str) -> Range | ValueList | None:
-    """All values of one parameter that are fair with whatever the box holds of the others."""
+    """All values of one parameter that are fair with any values of the others in the box."""
     values, column = space[name], [*space].index(name)
     low, high = box[column] if len(values) > DRAWS // 8 else (0, len(values) - 1)
     good = np.zeros(len(values), dtype=bool)
@@ -367,7 +380,7 @@ def within(box: Box, places: Array) -> Array:
 
 
 def drawn_exactly(lab: Lab, space: Space, places: Array) -> Sequence[bool]:
-    """Of which fair draws a pencil makes everything as exact as the lab demands."""
+    """Whether a pencil draws everything as accurately as the lab demands, for each fair draw."""
     many = [settings_at(space, row) for row in places]
     fairness = judged(lab, many)
     asked = [(each, fairness.computed(i)) for i, each in enumerate(many)]
@@ -375,11 +388,12 @@ def drawn_exactly(lab: Lab, space: Space, places: Array) -> Sequence[bool]:
 
 
 def pencilled(lab: Lab, ranges: Space) -> tuple[Space, float]:
-    """The part of fair ranges in which a pencil was exact enough in all draws, and 1.
+    """The part of fair ranges in which a pencil was accurate enough in all draws, and 1.
 
-    It is peeled off as the space is, by fewer draws, for each is drawn with a pencil by itself.
-    Where too little would be left for a class the ranges stay whole, with the share of their draws
-    in which a pencil is exact enough: the others are drawn again.
+    The part is found by peeling, with fewer draws than for the space, since each needs drawings
+    with a pencil. Where too few data for a class would be left, the ranges stay whole. The second
+    result is then the share of draws in which a pencil is accurate enough; the other draws will be
+    repeated.
     """
     box: Box | None = whole_box(ranges)
     places, good, share = np.empty((0, len(ranges)), dtype=int), np.empty(0, dtype=bool), 1.0

@@ -1,4 +1,4 @@
-"""Pictures of where a lab is fair: the share by each parameter's values, and maps of pairs."""
+"""Draws where a lab is fair: the share by each parameter's values, and maps of pairs."""
 
 from __future__ import annotations
 
@@ -22,13 +22,13 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
 MAPPED = 4
-"""Parameters of which maps are drawn: those that decide most."""
+"""The number of parameters in the maps: those that decide most."""
 BINS = 24
-"""Parts of a parameter's values."""
+"""The number of parts of a parameter's values."""
 
 
 def pictures(found: FairRanges, name: str, title: str) -> Iterator[tuple[str, bytes]]:
-    """The files of the pictures, by their names."""
+    """The files of the pictures, with their names."""
     tried = found.tried
     worst = sorted(tried.space, key=tried.guilt, reverse=True)
     with look():
@@ -41,7 +41,7 @@ def pictures(found: FairRanges, name: str, title: str) -> Iterator[tuple[str, by
 
 
 def by_parameter(tried: Tried, title: str) -> Figure:
-    """The fair share by the values of each parameter, one panel below the other."""
+    """Draw the fair share by the values of each parameter, one panel below the other."""
     figure = new_figure(7.2, 0.6 + 1.7 * len(tried.space))
     figure_title(figure, title)
     panels = figure.subplots(len(tried.space), 1, squeeze=False)[:, 0]
@@ -57,7 +57,7 @@ def by_parameter(tried: Tried, title: str) -> Figure:
 
 
 def by_pairs(tried: Tried, names: list[str], title: str) -> Figure:
-    """For each two parameters a map of the fair share."""
+    """Draw a map of the fair share for each pair of parameters."""
     pairs = [*combinations(names, 2)]
     across = min(3, len(pairs))
     down = -(-len(pairs) // across)
@@ -72,7 +72,7 @@ def by_pairs(tried: Tried, names: list[str], title: str) -> Figure:
 
 
 def fair_map(axes: Axes, tried: Tried, across: str, up: str) -> None:
-    """The fair share over two parameters, from red (none) to blue (all)."""
+    """Draw the fair share over two parameters, from red (none) to blue (all)."""
     x, y = values_of(tried, across), values_of(tried, up)
     edges = [np.linspace(v.min(), v.max(), min(BINS, len(set(v))) + 1) for v in (x, y)]
     every, _, _ = np.histogram2d(x, y, bins=edges)

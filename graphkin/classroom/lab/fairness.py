@@ -1,8 +1,9 @@
-"""How fair variants are to their students: a class as one batch, at the scales of its sheets.
+"""Judges how fair variants are to their students: a class as one batch, at its sheets' scales.
 
-A variant is fair that closes, fits its page, and asks of the hand no crossing flatter, no segment
-shorter and no triangle narrower or longer than the lab allows. A centre or pole that its
-sheet does not hold, or whose rays cross flatter than that, spoils nothing else: it is computed.
+A variant is fair if it closes, fits its page, and keeps the lab's limits. These limit how flat a
+crossing is, how short a segment is, and how narrow or long a triangle is. A centre or pole is
+computed where its sheet does not hold it, or where its rays cross too flat; this spoils nothing
+else.
 """
 
 from __future__ import annotations
@@ -37,9 +38,10 @@ Array = Any
 
 
 def crossing_angles(sheet: VariantSheet) -> Iterator[tuple[str, Array]]:
-    """The angle in degrees at which lines cross for each point that answers hang on.
+    """The angle in degrees at which lines cross, for each point that answers depend on.
 
-    What only the hand's way of a plate or a triangle needs has another way, or its own limit.
+    Steps that only the hand's construction of a plate or triangle needs are left out: there is
+    another way, or they have a limit of their own.
     """
     program = sheet.trace.program
     for number, sine in sheet.trace.margins.items():
@@ -53,7 +55,7 @@ def crossing_angles(sheet: VariantSheet) -> Iterator[tuple[str, Array]]:
 def segment_lengths(
     sheet: VariantSheet, form: Sequence[Item], scale: Array
 ) -> Iterator[tuple[str, Array]]:
-    """How long, in mm, the segment is that each field of the form is measured by, on its sheet."""
+    """The length in mm of the segment measured for each field of the form, on its sheet."""
     for item in form:
         size = measured(sheet, item)
         if size is not None:
@@ -63,7 +65,7 @@ def segment_lengths(
 def measured(sheet: VariantSheet, item: Item) -> Array | None:
     """The vector of a plan by which a field is measured; None where this sheet has none.
 
-    A rate is read by the relative velocity, or its tangential acceleration, over the bar.
+    A rate is measured by the relative velocity, or by the tangential acceleration, over the bar.
     """
     trace, program = sheet.trace, sheet.trace.program
     quantity = BY_TARGET.get(item.quantity)
@@ -105,7 +107,7 @@ def ray_angles(sheet: VariantSheet, form: Sequence[Item]) -> Iterator[tuple[str,
             yield item.field, np.degrees(np.arcsin(np.clip(sine, 0.0, 1.0)))
 
 
-# --- centres and poles of many variants that their sheets hold ------------------------------------
+# --- centres and poles on the sheets of many variants ---------------------------------------------
 
 
 PARTS = {"velocity": Part.CENTRE, "acceleration": Part.POLE}
@@ -114,7 +116,7 @@ PARTS = {"velocity": Part.CENTRE, "acceleration": Part.POLE}
 def held(
     sheets: Sequence[VariantSheet], sheet: VariantSheet, form: Sequence[Item], scales: Scales
 ) -> Iterator[tuple[str, Array]]:
-    """Whether the mechanism's field holds each place of the form on a sheet; scales are arrays."""
+    """Whether a sheet's mechanism field holds each place of the form; scales are arrays."""
     asked = [item for item in form if item.what == "place"]
     targets = sheet.trace.program.targets
     places = {
@@ -148,17 +150,17 @@ def poles_of(sheet: VariantSheet) -> Iterator[Array]:
 
 
 def placed(sheet: VariantSheet, value: Ratio) -> Array:
-    """The point of a centre or pole; NaN at infinity, or as far away as makes no odds."""
+    """The point of a centre or pole; NaN at infinity, or too far away to matter."""
     with np.errstate(all="ignore"):
         near = np.abs(value.size) * ENDLESS * sheet.reach > np.abs(value.shift)
         return np.where(near, value.start + value.shift / value.size, np.nan + 0j)
 
 
-# --- how fair variants are to their students: a class as one batch, at the scales of its sheets ---
+# --- the fairness of a batch ----------------------------------------------------------------------
 
 
 BLOCK = 4096
-"""Variants judged at once, so that memory stays small."""
+"""The most variants judged at once, which keeps memory small."""
 WORDS = {
     "closes": "does not close",
     "page": "does not fit the page",
@@ -168,11 +170,10 @@ WORDS = {
     "pencil": "is drawn less exactly than the limit",
     "apart": "earns more with another's right values than the limit",
 }
-"""The limits by name, in words."""
 
 
 class Fault(Struct, frozen=True):
-    """A limit that a variant does not keep: which, where, its value and the bound, in its unit."""
+    """A limit that a variant breaks: which, where, the value and the bound, in the limit's unit."""
 
     limit: str
     where: str = ""
@@ -180,7 +181,7 @@ class Fault(Struct, frozen=True):
     bound: float = float("nan")
 
     def __str__(self) -> str:
-        """Read as ``segment a_D 0.4 mm, at least 3``."""
+        """The fault as text, such as ``segment a_D 0.4 mm, at least 3 mm``."""
         match self.limit:
             case "crossing":
                 return f"crossing {self.where} {self.value:.1f}°, at least {self.bound:g}°"
@@ -199,12 +200,14 @@ class Fault(Struct, frozen=True):
 
 
 class Fairness(Struct, dict=True):
-    """What the drawings of many variants demand of a hand, an array for each thing drawn.
+    """What drawing many variants demands of a hand, an array for each thing drawn.
 
-    ``form`` names the fields; ``crossings`` are in degrees by the letter of the point, ``lengths``
-    in mm and ``rays`` in degrees by the field, ``triangles`` as v/l by the relative velocity,
-    ``on_page`` for fields of places; ``kL`` is the sheets' own scale, NaN where nothing fits, and
-    ``larger`` and ``larger_still`` how many times as large the plans are drawn.
+    ``form`` are the fields. ``crossings`` are in degrees, by the letter of the point. ``lengths``
+    are in mm, and ``rays`` in degrees, by the field. ``triangles`` are v/l, by the relative
+    velocity. ``on_page`` says for each place whether its sheet holds it.
+
+    ``kL`` is the scale of the sheets, NaN where nothing fits. ``larger`` and ``larger_still`` are
+    the enlargements of the plans.
     """
 
     limits: Fair
@@ -221,24 +224,24 @@ class Fairness(Struct, dict=True):
     on_page: dict[str, Array] = field(default_factory=dict)
 
     def __len__(self) -> int:
-        """How many variants there are."""
         return len(self.closes)
 
     @cached_property
     def flattest(self) -> Array:
-        """The smallest angle of a crossing in degrees, 90 where nothing crosses; rays to centres
-        and poles are told by themselves.
+        """The smallest crossing angle in degrees, 90 where nothing crosses.
+
+        Rays to centres and poles are listed in ``flattest_rays``.
         """
         return least_of(self.crossings, len(self), 90.0)
 
     @cached_property
     def flattest_rays(self) -> Array:
-        """The smallest angle in degrees of rays to a centre or pole; infinite where none is."""
+        """The smallest angle in degrees of rays to a centre or pole, infinite without any."""
         return least_of(self.rays, len(self), float("inf"))
 
     @cached_property
     def shortest(self) -> Array:
-        """The shortest segment to be measured in mm; infinite where none is."""
+        """The shortest segment to measure, in mm; infinite where there is none."""
         return least_of(self.lengths, len(self), float("inf"))
 
     @cached_property
@@ -252,11 +255,11 @@ class Fairness(Struct, dict=True):
         return good
 
     def faults(self, index: int) -> tuple[Fault, ...]:
-        """The limits that one variant does not keep, each thing drawn by itself."""
+        """The limits that one variant breaks, with each thing drawn by itself."""
         return () if self.fair[index] else tuple(self.all_faults(index))
 
     def all_faults(self, index: int) -> Iterator[Fault]:
-        """As faults; what does not close or fit has no other."""
+        """The limits that one variant breaks. One that does not close or fit has no other fault."""
         if not self.closes[index]:
             yield Fault("closes")
             return
@@ -277,7 +280,7 @@ class Fairness(Struct, dict=True):
                 yield Fault("triangle", name, float(ratios[index]), bound)
 
     def computed(self, index: int) -> tuple[str, ...]:
-        """The fields that one variant cannot measure, and so computes."""
+        """The fields that one variant cannot measure, and therefore computes."""
         if not (self.closes[index] and self.fits[index]):
             return ()
         small = [n for n, mm in self.lengths.items() if not mm[index] >= self.limits.segment]
@@ -303,7 +306,7 @@ def judged(lab: Lab, many: Sequence[Settings]) -> Fairness:
 def judge(
     found: Fairness, lab: Lab, block: Sequence[Settings], values: Mapping[str, Any], start: int
 ) -> None:
-    """Judge as many variants as go into one block, put at their places from a start on."""
+    """Judge a block of variants and write the results from index ``start`` on."""
     mechanism, where = lab.mechanism, slice(start, start + len(block))
     closes = found.closes[where] = closing(mechanism, values, len(block))
     scaled = scaling(mechanism, values, len(block), lambda i: lab.variant(block[i]), closes)
@@ -327,7 +330,7 @@ def judge(
 
 
 def closing(mechanism: Mechanism, values: Mapping[str, Any], count: int) -> Array:
-    """Which variants can be constructed: all that is asked is finite, no crossing is singular."""
+    """Which variants can be constructed: all values asked are finite, no crossing is singular."""
     given = {name: value for name, value in values.items() if hasattr(value, "shape")}
     asked = mechanism.run_many(given, asked=True, kind="float64")
     motions: list[PointMotion | LinkMotion | SlideMotion] = [*asked.points.values()]
@@ -341,7 +344,7 @@ def closing(mechanism: Mechanism, values: Mapping[str, Any], count: int) -> Arra
 
 
 def put_drawn(found: Fairness, drawn: Sequence[VariantSheet], scales: Scales, which: Array) -> None:
-    """What is drawn on the sheets of some variants, put at their places; scales are arrays."""
+    """Write what is drawn on the sheets of some variants at their indices; scales are arrays."""
     form = found.form
     for sheet in drawn:
         lengths = segment_lengths(sheet, form, scales.kL / scales.metres(sheet.kind))
@@ -355,7 +358,10 @@ def put_drawn(found: Fairness, drawn: Sequence[VariantSheet], scales: Scales, wh
 def put(
     room: dict[str, Array], found: Iterator[tuple[str, Array]], which: Array, size: int
 ) -> None:
-    """Put arrays of some variants at their places; of two under one name the smaller stays."""
+    """Write arrays of some variants at their indices.
+
+    Of two arrays with one name, the smaller values are kept.
+    """
     for name, value in found:
         empty = np.zeros(size, dtype=bool) if np.asarray(value).dtype == bool else None
         array = room.setdefault(name, np.full(size, np.nan) if empty is None else empty)
@@ -363,7 +369,7 @@ def put(
 
 
 def least_of(room: Mapping[str, Array], size: int, default: float) -> Array:
-    """The least of several arrays for each variant; NaN, where something is not drawn, as none."""
+    """The least of several arrays for each variant; the default where all are NaN."""
     least = np.full(size, np.nan)
     for array in room.values():
         least = np.fmin(least, array)

@@ -1,4 +1,4 @@
-"""What is said of the fairness of variants: which limits are broken, by whom, and the spread."""
+"""Describes the fairness of variants: which limits are broken, by whom, and the spread."""
 
 from __future__ import annotations
 
@@ -15,14 +15,14 @@ from graphkin.drawing.scale import ratio
 from graphkin.text.plain_table import labelled, listed, table
 
 SHOWN = 6
-"""Names that are told of one limit."""
+"""The most names listed for one limit."""
 SCALES = 8
-"""Scales that are listed."""
+"""The most scales listed."""
 SPREAD = ("", "least", "quarter", "half", "three quarters", "most")
 
 
 def trial_lines(outcome: LabTrial) -> Iterator[str]:
-    """The whole report on a lab that was tried."""
+    """The whole report on the trial of a lab."""
     lab, fairness = outcome.lab, outcome.fairness
     count = len(outcome.many)
     yield from labelled("rule", [rule_words(lab)])
@@ -56,7 +56,7 @@ def trial_lines(outcome: LabTrial) -> Iterator[str]:
 
 
 def again_words(rule: LabRule, unfair: float) -> str:
-    """How many of a class will keep unfair data though they are drawn again, as a forecast."""
+    """A forecast of how many students keep unfair data after repeated draws."""
     left = 100 * unfair**rule.tries
     tries = f"after {rule.tries} draws at most"
     if left < 0.1:
@@ -76,12 +76,12 @@ def rule_words(lab: Lab) -> str:
 
 
 def data_words(settings: Settings) -> str:
-    """The data of a variant: phi = 44, n = 1/3."""
+    """The data of a variant, such as ``phi = 44, n = 1/3``."""
     return ", ".join(f"{name} = {exact_text(value)}" for name, value in settings.items())
 
 
 def pencil_lines(neighbours: Neighbours | None) -> list[str]:
-    """What a careful pencil makes of the field of each sheet that it draws least exactly."""
+    """The spread of the error of a careful pencil in the least accurate field of each sheet."""
     if neighbours is None:
         return ["nothing to compare"]
     row = (f"{100 * value:.1f}" for value in quantiles(neighbours.pencil))
@@ -99,7 +99,7 @@ def draw_words(values: Range | ValueList) -> str:
 
 
 def limit_words(fair: Fair) -> str:
-    """The limits in words."""
+    """The limits of fairness in words."""
     low, high = fair.triangle
     more = ""
     if fair.apart is not None:
@@ -113,7 +113,7 @@ def limit_words(fair: Fair) -> str:
 
 
 def scale_lines(fairness: Fairness, names: Sequence[str], who: str) -> list[str]:
-    """At which scales the sheets are drawn, and how many students have which, the most first."""
+    """The scales of the sheets, and how many students have each, the most frequent first."""
     found: dict[tuple[float, float, float], list[str]] = {}
     columns = (fairness.kL, fairness.larger, fairness.larger_still)
     for i in (fairness.closes & fairness.fits).nonzero()[0]:
@@ -138,9 +138,9 @@ def scale_words(scales: tuple[float, float, float]) -> tuple[str, str, str]:
 
 
 def apart_lines(neighbours: Neighbours | None, names: Sequence[str], who: str) -> list[str]:
-    """What right values of one student would earn on another's sheet: spread, who are closest.
+    """What right values of one student earn on another's sheet: the spread, and the closest pairs.
 
-    ``names`` are numbers or ids, ``who`` says which.
+    ``names`` are numbers or ids; ``who`` says which.
     """
     if neighbours is None:
         return ["nothing to compare"]
@@ -162,7 +162,7 @@ def apart_lines(neighbours: Neighbours | None, names: Sequence[str], who: str) -
 
 
 def broken_lines(named: Iterable[tuple[str, Sequence[Fault]]], who: str = "") -> Iterator[str]:
-    """For each limit that is broken somewhere: where, how often, by whom, and the worst."""
+    """A row for each broken limit: where, how often, by whom, and the worst value."""
     found: dict[tuple[str, str], list[tuple[str, Fault]]] = {}
     for name, faults in named:
         for fault in faults:
@@ -187,7 +187,7 @@ def worst_words(worst: tuple[str, Fault]) -> str:
 
 
 def fields_by_whom(many: Iterable[tuple[str, Sequence[str]]], who: str) -> Iterator[str]:
-    """The fields that are named for some students or numbers, and whose they are."""
+    """A row for each field that is listed for some student or number, and for whom."""
     found: dict[str, list[str]] = {}
     for name, fields in many:
         for field in fields:
@@ -197,15 +197,17 @@ def fields_by_whom(many: Iterable[tuple[str, Sequence[str]]], who: str) -> Itera
 
 
 def some(names: Sequence[str]) -> str:
-    """The first of many names."""
+    """The first ``SHOWN`` names."""
     return ", ".join(names[:SHOWN]) + (", …" if len(names) > SHOWN else "")
 
 
 def spread_lines(
     flattest: Sequence[float], shortest: Sequence[float], rays: Sequence[float]
 ) -> list[str]:
-    """How much the difficulty differs from variant to variant; crossings on which answers hang,
-    and those of the rays to centres and poles, which cross flatter and spoil nothing else.
+    """How much the difficulty differs from variant to variant.
+
+    Rays to centres and poles have a row of their own, since they cross flatter and spoil nothing
+    else.
     """
     rows = [
         (words, *(f"{value:.1f}" for value in found))
@@ -220,7 +222,7 @@ def spread_lines(
 
 
 def mark_lines(outcome: LabTrial) -> Iterator[str]:
-    """The points in all, what earns none, and what no sheet draws."""
+    """The total of the points, what earns none, and what no sheet draws."""
     points = outcome.lab.rubric.points
     total = exact_text(sum(points.values(), Fraction(0)))
     yield f"{total} points for {len(points)} fields"

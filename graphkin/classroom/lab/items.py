@@ -1,9 +1,9 @@
-"""The fields of a lab's form: what a student reads off the drawing, reckons, and says the sense of.
+"""The fields of a lab's form: what a student reads off the drawing, computes, and gives a sense to.
 
-Every field of a scene has a name in plain letters, by which files and rubrics call it: v_D_mm is
-the segment that is measured in the plan, v_D the velocity in m/s, omega_3 in rad/s, omega_3_sense
-a sense, J_3_x_mm a place on paper from the first fixed pivot, to the right and up. The components
-ν, τ and c are written nu, tau and cor.
+Every field has a name in plain letters, for files and rubrics. v_D_mm is the segment measured in
+the plan, and v_D the velocity in m/s. omega_3 is in rad/s, and omega_3_sense its sense. J_3_x_mm is
+a place on paper, measured to the right and up from the first fixed pivot. The components ν, τ and c
+are written nu, tau and cor.
 """
 
 from __future__ import annotations
@@ -33,12 +33,12 @@ from graphkin.scene.link_points import lettered
 
 GREEK = {"ν": "nu", "τ": "tau", "c": "cor"}
 ARROW = "arrow"
-"""The quantity of a field that is an arrow of a plan, known by its symbol (Item.of)."""
+"""The quantity of a field that is an arrow of a plan, identified by its symbol (``Item.of``)."""
 UNITS = {each.plane: each.unit for each in VECTORS}
 
 
 def items(mechanism: Mechanism, lab: Lab) -> tuple[Item, ...]:
-    """The fields of a lab's form: what the scene asks, then what the rubric names beside it."""
+    """The fields of a lab's form: what the scene asks, then what else the rubric names."""
     asked = asked_fields(mechanism)
     more = {name: item for name, item in all_fields(mechanism).items() if name not in asked}
     return (*asked.values(), *(more[name] for name in more if name in lab.rubric.points))
@@ -55,13 +55,17 @@ def all_fields(mechanism: Mechanism) -> dict[str, Item]:
 
 
 def named(found: Iterable[Item]) -> dict[str, Item]:
-    """Items by their fields; the same field twice is one, another of the same name gets a tail."""
+    """Items by their fields.
+
+    A repeated field is kept once. Another quantity with the same name gets a tail, except an arrow,
+    which is then dropped.
+    """
     fields: dict[str, Item] = {}
     for item in found:
         own, tail = item, 1
         while own.field in fields and meant(fields[own.field]) != meant(item):
             if item.quantity == ARROW:
-                break  # the arrow of a vector that is there already
+                break  # the vector itself is already a field
             tail += 1
             own = replace(item, tail=f"_{tail}")
         fields.setdefault(own.field, own)
@@ -69,12 +73,12 @@ def named(found: Iterable[Item]) -> dict[str, Item]:
 
 
 def meant(item: Item) -> tuple[str, str]:
-    """What an item is of."""
+    """The quantity of an item, and its point or link."""
     return item.quantity, item.of
 
 
 def asked(mechanism: Mechanism) -> Iterator[Item]:
-    """The items that the scene asks for; everything that it can ask where it asks nothing."""
+    """The items that the scene asks for; everything it can ask where it asks nothing."""
     ask, scene = mechanism.scene.ask, mechanism.scene
     nothing = not ask.anything
     for quantity in VECTORS:
@@ -105,7 +109,7 @@ def moving(mechanism: Mechanism) -> Iterator[Item]:
 
 
 def motion_of(item: Item) -> MotionQuantity:
-    """The quantity that an item is of; of an arrow that of its plan."""
+    """The quantity of an item; for an arrow, the quantity of its plan."""
     if item.vector is None:
         return BY_TARGET[item.quantity]
     return next(each for each in VECTORS if each.letter == item.vector.letter)
@@ -119,7 +123,7 @@ def moving_points(mechanism: Mechanism) -> list[str]:
 
 
 def arrows(program: Program) -> Iterator[Item]:
-    """The vectors of the plans, components too, by their symbols."""
+    """The vectors of the plans, with components, by their symbols."""
     for step in program.steps:
         vector = plan_vector(step)
         if vector is not None and step.plane in UNITS:
@@ -136,7 +140,7 @@ def arrow_items(vector: PlanVector, unit: str) -> Iterator[Item]:
 
 
 def arrow_steps(program: Program) -> Mapping[str, int]:
-    """The number of the arrow that bears each symbol; the first where several do."""
+    """The step of the arrow with each symbol; the first where there are several."""
     found: dict[str, int] = {}
     for number, step in enumerate(program.steps):
         vector = plan_vector(step)
@@ -183,26 +187,25 @@ def place_items(quantity: MotionQuantity, link: str) -> Iterator[Item]:
 
 
 def plain(name: str) -> str:
-    """A name as part of a field: A@3 is A3 where the two cannot be mistaken, else A_3."""
+    """A name as part of a field: A@3 becomes A3 where this is unambiguous, else A_3."""
     joined = lettered(name)
     return re.sub(r"\W+", "_", joined, flags=re.ASCII).strip("_") or "x"
 
 
-# --- what one student's form asks, and its worth: a segment that is too short is not measured -----
+# --- one student's form: a segment that is too short is not measured ------------------------------
 
 
 def is_left_out(item: Item, points: Mapping[str, Fraction], compute: Collection[str]) -> bool:
-    """Whether only the value is asked of a vector: its segment is too short to be measured, and the
-    value, which is computed, is worth points of its own."""
+    """Whether a segment is not asked, since it is too short to measure.
+
+    Its value is computed, and must be worth points of its own.
+    """
     left = item.what == "segment" and item.field in compute
     return left and bool(points.get(item.beside("value")))
 
 
 def worth(item: Item, points: Mapping[str, Fraction], compute: Collection[str]) -> Fraction | None:
-    """The points of a field; a segment that is left out leaves its own to the value.
-
-    None where the rubric gives none at all.
-    """
+    """The points of a field, with those of a segment left out; None where the rubric gives none."""
     if is_left_out(item, points, compute):
         return None
     own = points.get(item.field)
@@ -213,7 +216,7 @@ def worth(item: Item, points: Mapping[str, Fraction], compute: Collection[str]) 
 def asked_of(
     form: Iterable[Item], points: Mapping[str, Fraction], compute: Collection[str]
 ) -> tuple[tuple[Item, ...], dict[str, Fraction]]:
-    """The fields that one student's form has, and the points of those that are worth any."""
+    """The fields of one student's form, and the points of those that are worth any."""
     items = tuple(item for item in form if not is_left_out(item, points, compute))
     worths = {item.field: worth(item, points, compute) for item in items}
     return items, {field: found for field, found in worths.items() if found is not None}

@@ -1,4 +1,4 @@
-"""What a lab states: its rule, its limits of fairness and its rubric, as plain records."""
+"""Plain records of what a lab states: its rule, its limits of fairness and its rubric."""
 
 from __future__ import annotations
 
@@ -16,23 +16,22 @@ from graphkin.scene.quantity import Quantity
 from graphkin.scene.read_scene import read_scene
 
 NUMBER = "number"
-"""The name under which a formula knows the student's number."""
+"""The name of the student's number in a formula."""
 What = Literal["segment", "value", "sense", "place"]
 
 
 class Range(Struct, frozen=True):
-    """From a least to a most, in steps counted from the least."""
+    """Values from a least to a most, in steps counted from the least."""
 
     least: Fraction
     most: Fraction
     step: Fraction
 
     def __len__(self) -> int:
-        """How many values there are."""
         return int((self.most - self.least) / self.step) + 1
 
     def value(self, index: int) -> Fraction:
-        """The value of an index from nought."""
+        """The value at an index, counted from zero."""
         return self.least + index * self.step
 
 
@@ -42,11 +41,10 @@ class ValueList(Struct, frozen=True):
     parts: tuple[Range, ...]
 
     def __len__(self) -> int:
-        """How many values there are."""
         return sum(map(len, self.parts))
 
     def value(self, index: int) -> Fraction:
-        """The value of an index from nought, counted on from range to range."""
+        """The value at an index, counted from zero through all ranges."""
         for part in self.parts:
             if index < len(part):
                 return part.value(index)
@@ -55,10 +53,10 @@ class ValueList(Struct, frozen=True):
 
 
 class LabRule(Struct, frozen=True):
-    """What gives each student other data.
+    """The rule that gives each student's data.
 
-    ``draws`` are ranges of parameters, from which a hash of course, lab and student picks; what is
-    unfair is drawn again, at most ``tries`` times. ``settings`` gives parameters as expressions in
+    ``draws`` are ranges of parameters, from which a hash of course, lab and student picks. Unfair
+    data are drawn again, at most ``tries`` times. ``settings`` gives parameters as expressions in
     ``number``; where nothing is drawn, the same number always gets the same data.
     """
 
@@ -74,17 +72,17 @@ class LabRule(Struct, frozen=True):
 
     @property
     def attempts(self) -> int:
-        """How often a student's data are tried, at most: formulas give the same again."""
+        """The most attempts at a student's data. Formulas give the same again, so they have one."""
         return self.tries if self.draws else 1
 
 
 class Fair(Struct, frozen=True):
-    """What a variant must keep to be fair to its student.
+    """The limits that a variant must keep to be fair to its student.
 
-    ``crossing``: the flattest angle of a crossing in degrees; ``segment``: the shortest length to
-    be measured, in mm; ``triangle``: between which v/l a triangle can be drawn; ``apart``:
-    the largest share of the points that another's right values may earn on the own sheet;
-    ``pencil``: the largest error of a careful drawing in what earns points, in parts of the value.
+    ``crossing`` is the smallest angle of a crossing, in degrees. ``segment`` is the shortest length
+    to measure, in mm. ``triangle`` is the range of v/l in which a triangle can be drawn. ``apart``
+    is the largest share of the points that another student's right values may earn. ``pencil`` is
+    the largest error of a careful drawing in what earns points, relative to the value.
     """
 
     crossing: float = 15.0
@@ -95,18 +93,20 @@ class Fair(Struct, frozen=True):
 
     @property
     def needs_keys(self) -> bool:
-        """Whether only the keys of variants tell that they keep all limits."""
+        """Whether some limits need the keys of variants."""
         return self.apart is not None or self.pencil is not None
 
 
 class Rubric(Struct, frozen=True):
-    """What earns marks: points of each field of the form, and how they are given.
+    """The points of each field of the form, and how they are given.
 
-    ``follow`` is the share for what follows rightly from the student's own earlier values;
-    ``slips`` the share for each slip by name; ``point`` and ``line`` the drawing error that is
-    forgiven (mm, degrees); ``ruler`` the error of reading (mm); ``floor`` and ``cap`` the least
-    and the most tolerance, in parts of the value. ``hold`` keeps back the marks of students whose
-    answers seem to be another's, until the lecturer has decided.
+    ``follow`` is the share for what follows correctly from the student's own earlier values.
+    ``slips`` has the share for each slip by name. ``point`` and ``line`` are the forgiven drawing
+    errors, in mm and degrees. ``ruler`` is the reading error, in mm. ``floor`` and ``cap`` are the
+    least and the largest tolerance, relative to the value.
+
+    ``hold`` keeps back the marks of students whose answers seem to be another's, until the lecturer
+    has decided.
     """
 
     points: Mapping[str, Fraction] = field(default_factory=dict)
@@ -121,9 +121,9 @@ class Rubric(Struct, frozen=True):
 
 
 class Lab(Struct, frozen=True, dict=True):
-    """A lab's folder, its scene as a file, and what ``lab.toml`` states.
+    """A lab: its folder, its scene file, and what ``lab.toml`` states.
 
-    ``text`` is the very text of lab.toml, for the manifest's hash.
+    ``text`` is the exact text of lab.toml, for the manifest's hash.
     """
 
     name: str
@@ -136,7 +136,7 @@ class Lab(Struct, frozen=True, dict=True):
 
     @cached_property
     def mechanism(self) -> Mechanism:
-        """The mechanism of its scene as that is written."""
+        """The mechanism of its scene, with the scene's own values."""
         return self.variant({})
 
     def variant(self, settings: Mapping[str, Fraction]) -> Mechanism:
@@ -145,13 +145,15 @@ class Lab(Struct, frozen=True, dict=True):
 
 
 class Item(Struct, frozen=True, dict=True):
-    """One field of the form: what a student reads off or reckons.
+    """One field of the form, which a student reads off or computes.
 
-    ``name`` is that of its quantity in files (v_D, omega_3, J_3), by which all fields of that are
-    called (v_D_mm, v_D, omega_3, omega_3_sense, J_3_x_mm), with a ``tail`` where another has it;
-    ``symbol`` its markup; ``unit`` in which it is asked (empty for a sense). ``of`` is the point or
-    link, ``quantity`` the program's name of the quantity (velocity, omega, …). What is of an arrow
-    of a plan has its ``vector``, a coordinate its ``axis``: x or y.
+    ``name`` is the name of its quantity in files: v_D, omega_3, J_3. All fields of the quantity
+    start with it: v_D_mm, v_D, omega_3, omega_3_sense, J_3_x_mm. A ``tail`` is added where another
+    quantity has the name.
+
+    ``symbol`` is markup. ``unit`` is that of the answer, empty for a sense. ``of`` is the point or
+    link; ``quantity`` is the program's name of the quantity, such as velocity or omega. A field of
+    an arrow of a plan has a ``vector``; a coordinate has an ``axis``, x or y.
     """
 
     name: str
@@ -166,30 +168,31 @@ class Item(Struct, frozen=True, dict=True):
 
     @cached_property
     def field(self) -> str:
-        """Its name in files."""
+        """The name of the field in files."""
         return self.beside(self.what)
 
     def beside(self, what: What, axis: str = "") -> str:
-        """The name of what another field asks of the same quantity."""
+        """The name of another field of the same quantity."""
         ends = {"segment": "_mm", "sense": "_sense", "place": f"_{axis or self.axis}_mm"}
         return f"{self.name}{ends.get(what, '')}{self.tail}"
 
     def size(self, value: float) -> float:
-        """A value as it is marked: the sizes of vectors and rates, whose senses are fields of their
-        own, have no sign.
+        """A value as it is marked.
+
+        The sizes of vectors and rates have no sign, since their senses are fields of their own.
         """
         return abs(value) if self.what in ("segment", "value") else value
 
     def off(self, value: float, right: float) -> float:
-        """How far a value, or each of an array, lies from the right one."""
+        """The difference between a value, or each value of an array, and the right one."""
         return self.size(value) - self.size(right)
 
     @cached_property
     def sized(self) -> str:
-        """The field whose sense it is; itself where it is none."""
+        """For a sense, the field of its value; otherwise the field itself."""
         return self.beside("value") if self.what == "sense" else self.field
 
     @cached_property
     def segment(self) -> str:
-        """The field of the segment off which a value is read; empty for all that is no value."""
+        """The field of the segment from which a value is read; empty for any other field."""
         return self.beside("segment") if self.what == "value" else ""

@@ -1,4 +1,4 @@
-"""A lab tried on a thousand variants: how many are fair, what spoils the others, the spread."""
+"""Tries a lab on a thousand variants: how many are fair, what spoils the others, the spread."""
 
 from __future__ import annotations
 
@@ -17,24 +17,25 @@ from graphkin.numbers.arithmetic import np
 from graphkin.text.errors import Problem, SceneError
 
 TRIED = 1000
-"""Variants that are tried."""
+"""The number of variants tried."""
 CLASS = 30
-"""Variants that are compared with one another."""
+"""The number of variants compared with one another."""
 PENCILLED = 300
-"""Fair variants of which it is tried how exactly a pencil draws them, where a lab limits that."""
+"""The most fair variants on which the accuracy of a pencil is tried, where a lab limits it."""
 SHARES = (0.0, 0.25, 0.5, 0.75, 1.0)
-"""The quantiles by which a spread is told."""
+"""The quantiles that describe a spread."""
 
 
 class LabTrial(Struct, frozen=True):
-    """A lab with the variants on which it was tried: who they are, their data, how fair they are.
+    """The variants on which a lab was tried, their data, and how fair they are.
 
     ``names`` are numbers of students, or ids. ``unasked`` are fields of the rubric that no sheet
-    draws, ``unmarked`` fields that are asked and earn nothing. ``compared`` are those of one class,
-    as far as they can be drawn, with the data that such a class would get, ``neighbours`` what they
-    have in common. ``coarse`` are those of the first ``pencilled`` fair variants of which a pencil
-    draws something less exactly than the lab allows, by name. ``symbols`` are the markup of fields,
-    with their units.
+    draws; ``unmarked`` are fields that are asked and earn nothing.
+
+    ``compared`` are the students of one class whose variants can be drawn, with the data that the
+    class would get. ``neighbours`` compares these variants. ``coarse`` maps names to faults, for
+    those of the first ``pencilled`` fair variants that a pencil draws less accurately than the lab
+    allows. ``symbols`` are the markup of fields with their units.
     """
 
     lab: Lab
@@ -56,13 +57,13 @@ class LabTrial(Struct, frozen=True):
 
     @property
     def spoiled_share(self) -> float:
-        """The share of variants that break a limit, that of the pencil as well."""
+        """The share of variants that break a limit, including the pencil's."""
         fair = 1 - self.unfair / len(self.many)
         return 1 - fair * (1 - len(self.coarse) / self.pencilled) if self.pencilled else 1 - fair
 
     @property
     def by_keys(self) -> list[tuple[str, Fault]]:
-        """Who of the class breaks a limit that only keys tell, though ranges were drawn again."""
+        """The students of the class who break a limit that needs keys, after repeated draws."""
         return [
             (each.student.id, fault)
             for each in self.compared
@@ -71,14 +72,18 @@ class LabTrial(Struct, frozen=True):
         ]
 
     def faults(self) -> list[tuple[str, Sequence[Fault]]]:
-        """Each variant with the limits that it breaks, those that only keys tell as well."""
+        """Each variant with the limits that it breaks, including those that need keys."""
         told = [(name, fault) for name, fault in self.by_keys if name not in self.coarse]
         every = [(name, self.fairness.faults(i)) for i, name in enumerate(self.names)]
         return [*every, *((name, (fault,)) for name, fault in (*self.coarse.items(), *told))]
 
     @property
     def spoilt(self) -> bool:
-        """Whether students would get unfair data: some by a formula, all that ranges can give."""
+        """Whether students would get unfair data.
+
+        A formula must be fair to all; ranges are unfair where every draw is. In both cases, no
+        field may be missing on the sheets, and no limit that needs keys may be broken.
+        """
         by_formula = not self.lab.rule.draws
         unfair = bool(self.unfair or self.coarse) if by_formula else self.unfair == len(self.many)
         return bool(self.unasked or self.by_keys) or unfair
@@ -92,7 +97,7 @@ class LabTrial(Struct, frozen=True):
 def tried(lab: Lab, count: int = TRIED) -> LabTrial:
     """A lab tried on the numbers from 1 that its scene allows, or on as many drawn variants.
 
-    Raises SceneError where the formula suits no number.
+    Raises SceneError where the formula gives no allowed data for number 1.
     """
     students = students_of(lab, count)
     names = tuple(each.id for each in students)
@@ -124,7 +129,7 @@ def tried(lab: Lab, count: int = TRIED) -> LabTrial:
 def drawn_coarsely(
     lab: Lab, names: Sequence[str], many: Sequence[Settings], fairness: Fairness
 ) -> tuple[int, dict[str, Fault]]:
-    """How many fair variants a pencil was tried on, and which it draws too inexactly."""
+    """The number of fair variants tried with a pencil, and those drawn too inaccurately."""
     if lab.fair.pencil is None:
         return 0, {}
     which = [int(i) for i in fairness.fair.nonzero()[0][:PENCILLED]]
@@ -134,8 +139,10 @@ def drawn_coarsely(
 
 
 def students_of(lab: Lab, count: int) -> list[Student]:
-    """As many students as a rule has variants for, up to some: with the numbers from 1 up to the
-    last that the scene allows, or with ids.
+    """At most ``count`` students for whom a rule has variants.
+
+    They have ids, or numbers from 1 up to the last that the scene allows. Raises SceneError where
+    the scene does not allow number 1.
     """
     if not lab.rule.counts:
         return [Student(i, f"{i:04d}") for i in range(1, count + 1)]
@@ -158,7 +165,7 @@ def students_of(lab: Lab, count: int) -> list[Student]:
 
 
 def quantiles(values: Sequence[float]) -> list[float]:
-    """The least, the quartiles and the most of some values that are finite."""
+    """The least, the quartiles and the most of the finite values; empty where there are none."""
     finite = np.asarray(values, dtype=float)
     finite = finite[np.isfinite(finite)]
     return [float(q) for q in np.quantile(finite, SHARES)] if len(finite) else []

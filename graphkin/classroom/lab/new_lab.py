@@ -1,4 +1,4 @@
-"""A lab to start from: a sound scene and rule, with a word beside each key, field and slip."""
+"""Makes a lab to start from: a sound scene and rule, with each key, field and slip explained."""
 
 from __future__ import annotations
 
@@ -39,26 +39,25 @@ QUANTITY = {
     "slide acceleration": "acceleration of block {of} along its guide",
     **{each.target: f"{each.words} of link {{of}}" for each in CENTRES},
 }
-"""What each quantity is of which a form asks."""
+"""The name of each quantity that a form asks for."""
 COMPONENT = {kind.sign: words("en")(kind.legend).partition(":")[0] for kind in COMPONENTS}
-"""What each component of an acceleration is called, by its sign."""
+"""The name of each component of an acceleration, by its sign."""
 SHEET = {sheet[0]: sheet for sheet in SHEETS}
-"""The sheet with whose letter an arrow's symbol begins."""
+"""The sheet for the first letter of an arrow's symbol."""
 
 
 def fields_of(mechanism: Mechanism) -> Mapping[str, str]:
-    """Every field that a rubric of a mechanism may name, with what it means."""
+    """Every field that a rubric of a mechanism may name, with its meaning."""
     return {name: meaning(item) for name, item in all_fields(mechanism).items()}
 
 
 def kinds() -> Mapping[str, str]:
-    """Every kind of field, by the names that it has for point B, link 3 and block 2, with what it
-    means."""
+    """Every kind of field with its meaning, by its names for point B, link 3 and block 2."""
     return {item.field: meaning(item) for item in examples()}
 
 
 def examples() -> Iterator[Item]:
-    """A field of each kind."""
+    """A field of each kind, for point B, link 3 and block 2."""
     for vector in VECTORS:
         yield from vector_items(vector, "B")
     for rate in RATES:
@@ -72,7 +71,7 @@ def examples() -> Iterator[Item]:
 
 
 def meaning(item: Item) -> str:
-    """What a field means, in a few words."""
+    """The meaning of a field, in a few words."""
     of = thing(item)
     if item.what == "sense":
         ways = "counter-clockwise or clockwise"
@@ -87,7 +86,7 @@ def meaning(item: Item) -> str:
 
 
 def thing(item: Item) -> str:
-    """What a field is of: a quantity, or an arrow of a plan by its letters."""
+    """The object of a field: a quantity, or an arrow of a plan by its letters."""
     vector = item.vector
     if vector is None:
         return QUANTITY[item.quantity].format(of=item.of)
@@ -108,9 +107,10 @@ NAME = re.compile(r"[A-Za-z0-9][A-Za-z0-9_-]{0,59}")
 
 
 def new_lab(name: str, folder: Path, *, force: bool = False) -> list[Path]:
-    """Make the folder of a new lab within another, and tell which files it has.
+    """Make the folder of a new lab within another folder, and return the files in it.
 
-    Raises SceneError for a name that makes no folder everywhere, PageError for files in the way.
+    Raises SceneError for a name that is no folder name on some system, and PageError for files in
+    the way.
     """
     if not NAME.fullmatch(name) or name.upper() in RESERVED:
         expected = "letters, digits, - and _, at most 60, such as crank-lab"
@@ -125,10 +125,10 @@ def new_lab(name: str, folder: Path, *, force: bool = False) -> list[Path]:
 
 
 def rules_for(mechanism: Mechanism) -> str:
-    """Rules to start from for any scene: data from all that its parameters allow, the usual limits,
-    a point for each field that is asked.
+    """The text of a lab.toml to start from, for any scene.
 
-    Raises SceneError where no parameter of the scene has both ends.
+    It draws from all that the parameters allow, with the usual limits and a point for each asked
+    field. Raises SceneError where no parameter of the scene has both ends.
     """
     start = (START / "lab.toml").read_text(encoding="utf-8")
     limits, rubric = start.index("[fair]"), start.index("[marks]")
@@ -140,7 +140,7 @@ def rules_for(mechanism: Mechanism) -> str:
 
 
 def explained(text: str, mechanism: Mechanism) -> str:
-    """A rubric with every field of a mechanism and every slip, and what each means."""
+    """The text of a lab.toml with all fields of a mechanism and all slips, and their meanings."""
     fields = fields_of(mechanism)
     stated = {line.partition(" =")[0] for line in text.splitlines()}
     lines = []
@@ -157,5 +157,4 @@ def explained(text: str, mechanism: Mechanism) -> str:
 
 
 def beside(line: str, told: str) -> str:
-    """A line with what it means beside it."""
     return f"{line:32} # {told}"

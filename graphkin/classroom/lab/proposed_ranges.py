@@ -1,4 +1,4 @@
-"""What is proposed to a lab: ranges in which all is fair, and what mends a formula."""
+"""Proposes ranges in which a lab is fair to all, and a change that mends a formula."""
 
 from __future__ import annotations
 
@@ -24,20 +24,23 @@ from graphkin.text.errors import GraphkinError
 from graphkin.text.plain_table import labelled, table
 
 CHANGES = (1, 2, 3, 5, 8, 12)
-"""Changes in percent that are tried, the smallest first, up before down."""
+"""The changes tried, in percent: the smallest first, up before down."""
 NUMBER = re.compile(r"(?<![\w.\"-])\d+(?:\.\d+)?(?![\w.])")
 SECTION = re.compile(r"\s*\[+\s*(\w+)")
 CHANGED = ("frame", "links", "drivers")
 """The tables whose numbers are lengths, places and laws of the driver."""
 VALUE = re.compile(r"\s*(?:\{\s*value\s*=\s*)?[\d.]+")
-"""The value of a parameter as far as it is a plain number."""
+"""The value of a parameter where it is a plain number."""
 FIXED = re.compile(rf"\s*({'|'.join(('on', 'against', *DRIVEN, *JOINED))})\s*=")
 """Keys whose numbers name links, or count teeth."""
 
 
 class Mending(Struct, frozen=True):
-    """A number of a scene in its line, from 1, and column, from 0, what it may become, and by how
-    many percent that differs."""
+    """A number of a scene, and what to change it to.
+
+    ``line`` counts from 1 and ``column`` from zero. ``percent`` is the change from ``old`` to
+    ``new``.
+    """
 
     line: int
     column: int
@@ -48,9 +51,9 @@ class Mending(Struct, frozen=True):
 
 
 def mended(lab: Lab, outcome: LabTrial) -> Mending | None:
-    """The smallest change that is fair to all numbers that were tried; None where none was found.
+    """The smallest change that is fair to all numbers tried; None where none was found.
 
-    One number is changed by some percent at a time, rounded to three digits.
+    One number is changed at a time, by some percent, and rounded to three digits.
     """
     text = lab.scene.read_text(encoding="utf-8")
     with TemporaryDirectory() as folder:
@@ -64,7 +67,7 @@ def mended(lab: Lab, outcome: LabTrial) -> Mending | None:
 
 
 def is_fair(lab: Lab, outcome: LabTrial) -> bool:
-    """Whether a scene is fair to all of the variants on which a lab was tried."""
+    """Whether a scene is fair to all variants on which a lab was tried."""
     try:
         return bool(judged(lab, outcome.many).fair.all())
     except GraphkinError:
@@ -74,8 +77,10 @@ def is_fair(lab: Lab, outcome: LabTrial) -> bool:
 def candidates(
     text: str, change: float, given: Collection[str] = ()
 ) -> Iterator[tuple[Mending, str]]:
-    """Every scene with one of its numbers larger or smaller by some percent; also of parameters
-    that are not ``given`` to each student the value that all have.
+    """Every scene with one of its numbers larger or smaller by some percent.
+
+    A parameter's value is changed too, unless the parameter is in ``given``, which each student
+    gets.
     """
     lines, section = text.split("\n"), ""
     for row, line in enumerate(lines):
@@ -101,20 +106,23 @@ def candidates(
                 yield mending, "\n".join([*lines[:row], changed, *lines[row + 1 :]])
 
 
-# --- what is proposed to a lab: ranges in which all is fair, and what mends a formula -------------
+# --- proposals ------------------------------------------------------------------------------------
 
 
 CLASS = 60
-"""Students of the class on which a proposal is tried."""
+"""The number of students in the class on which a proposal is tried."""
 APART = 0.5
-"""Most that another's right values may earn, where the lab says nothing."""
+"""The largest share that another's right values may earn, where the lab states none."""
 COURSE = "mechanics 2026"
-"""The course for which data are drawn, where the lab says nothing."""
+"""The course for which data are drawn, where the lab states none."""
 
 
 class ProposedRanges(Struct, frozen=True):
-    """Ranges to draw from for a course: how many different data they give, and how many of a class
-    they keep apart at a limit; ``exact`` is the share of them that a pencil draws exactly enough.
+    """Ranges to draw from for a course.
+
+    ``count`` is the number of different data. ``kept`` is the number of students with fair data, in
+    a class of ``of``, at the limit ``apart``. ``exact`` is the share of data that a pencil draws
+    accurately enough.
     """
 
     ranges: Mapping[str, Range | ValueList]
@@ -127,7 +135,7 @@ class ProposedRanges(Struct, frozen=True):
 
 
 def proposed_ranges(lab: Lab, found: FairRanges) -> ProposedRanges | None:
-    """The ranges that were found, tried on a class; None where none were."""
+    """The ranges that were found, tried on a class; None where there are none."""
     if found.ranges is None:
         return None
     course = lab.rule.course or COURSE
@@ -139,14 +147,14 @@ def proposed_ranges(lab: Lab, found: FairRanges) -> ProposedRanges | None:
 
 
 class FormulaFaults(Struct, frozen=True):
-    """The numbers to which a formula is unfair, with why, and the change that mends it, if any."""
+    """The numbers to which a formula is unfair, with reasons, and a change that mends it."""
 
     unfair: Mapping[str, str]
     mending: Mending | None = None
 
 
 def formula_faults(lab: Lab) -> FormulaFaults:
-    """To which numbers a lab's formula is unfair, why, and the smallest change that mends that."""
+    """The faults of a lab's formula, and the smallest change that mends them."""
     outcome = tried(lab)
     unfair = {
         number: "; ".join(map(str, outcome.fairness.faults(i)))
@@ -156,13 +164,13 @@ def formula_faults(lab: Lab) -> FormulaFaults:
     return FormulaFaults(unfair, mended(lab, outcome) if unfair else None)
 
 
-# --- what is said of the ranges in which a lab is fair, and the text to be put into lab.toml ------
+# --- the report on fair ranges, and the text for lab.toml -----------------------------------------
 
 
 SHOWN = 6
-"""Limits that are listed."""
+"""The most limits listed."""
 NUMBERS = 12
-"""Numbers of which it is told why a formula is unfair to them."""
+"""The most numbers for which the faults of a formula are listed."""
 
 
 def range_lines(lab: Lab, found: FairRanges) -> Iterator[str]:
@@ -204,13 +212,13 @@ def value_lines(found: FairRanges, name: str) -> list[str]:
 
 
 def variants_lines(ranges: Mapping[str, Range | ValueList], course: str) -> list[str]:
-    """``[variants]`` that draws from some ranges."""
+    """The table ``[variants]`` that draws from some ranges."""
     lines = ["[variants]", f'course = "{course}"', "[variants.draw]"]
     return lines + [f"{name} = {listed_alone(values)}" for name, values in ranges.items()]
 
 
 def listed_alone(values: Range | ValueList) -> str:
-    """The same, a single value as a list of one: alone it is no rule to draw by."""
+    """The values as TOML, a single value as a list: alone, it is no rule to draw by."""
     text = as_toml(values)
     return f"[{text}]" if isinstance(values, Range) and len(values) == 1 else text
 
@@ -226,13 +234,13 @@ def as_toml(values: Range | ValueList) -> str:
 
 
 def number_text(value: Fraction) -> str:
-    """An exact number as TOML: one that has no finite decimals in quotes."""
+    """An exact number as TOML; in quotes where its decimals are infinite."""
     text = exact_text(value)
     return f'"{text}"' if "/" in text else text
 
 
 def mending_lines(unfair: Mapping[str, str], mending: Mending | None) -> list[str]:
-    """Which numbers a formula is unfair to, why, and what one change would mend."""
+    """The numbers to which a formula is unfair, why, and the change that mends it."""
     if not unfair:
         return ["the formula is fair to every number"]
     lines = [f"number {number}: {why}" for number, why in [*unfair.items()][:NUMBERS]]

@@ -1,4 +1,7 @@
-"""A lab from its folder: scene.toml and lab.toml, with every mistake in the latter told at once."""
+"""Reads a lab from scene.toml and lab.toml in its folder.
+
+All problems of lab.toml are reported at once.
+"""
 
 from __future__ import annotations
 
@@ -35,17 +38,18 @@ from graphkin.text.errors import Mend, Problem, SceneError
 LAB, SCENE = scene_files.LAB, scene_files.SCENE
 USUAL, LIMITS = Rubric(), Fair()
 OPEN = -1.0
-"""No limit is written."""
+"""The value of a limit that is not written."""
 MOST_TRIES = 10_000
 MOST_VALUES = 10**9
-"""Values of a range."""
+"""The most values of a range."""
 
 
 def read_lab(name: str | Path, called: str = "") -> Lab:
-    """The lab of a shipped lab's name, a folder with lab.toml, or that file itself.
+    """The lab of a shipped lab's name, of a folder with lab.toml, or of that file.
 
-    It is named after its folder unless ``called`` says how, as for the copy beside a class. Raises
-    SceneError with every problem of lab.toml, and those of its scene before them.
+    It is named after its folder, unless ``called`` gives a name, as for a copy stored with a class.
+    Raises SceneError with the problems of the scene or, where it has none, with every problem of
+    lab.toml.
     """
     folder = find(name)
     scene = read_scene_of(folder)
@@ -58,7 +62,7 @@ def read_lab(name: str | Path, called: str = "") -> Lab:
 
 
 def read_scene_of(folder: Path) -> Mechanism:
-    """The mechanism of a lab's scene, whose mistakes name its file."""
+    """The mechanism of a lab's scene. Raises SceneError, with the file in each problem."""
     try:
         return Mechanism(read_scene(folder / SCENE))
     except SceneError as error:
@@ -88,12 +92,12 @@ def with_rules() -> list[str]:
 
 
 def placed(problem: Problem, file: str = LAB) -> Problem:
-    """A problem with its file before its place."""
+    """The problem, with its file."""
     return replace(problem, file=file)
 
 
 def lab_of(text: str, folder: Path, mechanism: Mechanism, name: str) -> Lab:
-    """The lab that a text states beside a scene; SceneError with every problem found."""
+    """The lab that a text states for a scene. Raises SceneError with every problem found."""
     findings = Findings()
     top = Table("", tables_of(text, findings), findings)
     if not top.raw:
@@ -108,7 +112,7 @@ def lab_of(text: str, folder: Path, mechanism: Mechanism, name: str) -> Lab:
 
 
 def read_rule(table: Table, scene: Scene) -> LabRule:
-    """The rule that gives each student other data."""
+    """The rule that gives each student's data."""
     both = "set = { … } with formulas of the number, course = … and draw = { … } with ranges"
     if "set" not in table and "draw" not in table:
         table.findings.add(table.place, "no rule", f"{both}, or both")
@@ -124,7 +128,7 @@ def read_rule(table: Table, scene: Scene) -> LabRule:
 
 
 def read_formula(table: Table, scene: Scene) -> LabRule:
-    """Each parameter as an expression in the student's number."""
+    """Read each parameter as an expression in the student's number."""
     inner = table.table("set")
     settings = read_settings(inner, scene)
     uses = any(NUMBER in read.uses() for read in settings.values())
@@ -135,7 +139,7 @@ def read_formula(table: Table, scene: Scene) -> LabRule:
 
 
 def read_settings(table: Table, scene: Scene) -> dict[str, Quantity]:
-    """Parameters as numbers or expressions in the student's number, as far as they can be read."""
+    """Parameters as numbers or expressions in the student's number, where readable."""
     read = {
         name: formula(table.at(name), table.raw[name], table.findings)
         for name in known_parameters(table, scene)
@@ -144,7 +148,7 @@ def read_settings(table: Table, scene: Scene) -> dict[str, Quantity]:
 
 
 def formula(place: str, raw: object, findings: Findings) -> Quantity | None:
-    """A number or an expression in the student's number; None, with a problem, for another."""
+    """A number, or an expression in the student's number; None, with a problem noted, otherwise."""
     try:
         if isinstance(raw, str) and not isinstance(raw, FloatText):
             read = expression(raw, "", place, counting=True)
@@ -161,7 +165,7 @@ def formula(place: str, raw: object, findings: Findings) -> Quantity | None:
 
 
 def read_ranges(table: Table, scene: Scene) -> LabRule:
-    """Each parameter from a range, and the course whose name goes into the hash."""
+    """Read each parameter as a range, and the course, whose name goes into the hash."""
     course = table.text("course").strip()
     if not course and not table.findings.inside(table.at("course")):
         expected = 'a text, such as course = "mechanics 2026", to draw anew each year'
@@ -189,7 +193,10 @@ def read_ranges(table: Table, scene: Scene) -> LabRule:
 
 
 def known_parameters(table: Table, scene: Scene) -> list[str]:
-    """The keys that are parameters of the scene; the others are noted, and so is none at all."""
+    """The keys that are parameters of the scene.
+
+    Other keys are noted as problems, and so is an empty table.
+    """
     for name in table.raw:
         if name not in scene.parameters:
             expected = listed(scene.parameters) or "a parameter, and the scene has none"
@@ -202,7 +209,7 @@ def known_parameters(table: Table, scene: Scene) -> list[str]:
 
 
 def read_choice(table: Table, name: str, parameter: Parameter) -> ValueList | None:
-    """A list of values and ranges that lie apart, so that none is drawn more often than others."""
+    """Read a list of values and ranges without overlap, so that all values are equally likely."""
     parts: list[Range] = []
     raw, place = cast("list[object]", table.take(name)), table.at(name)
     for i, part in enumerate(raw):
@@ -235,7 +242,7 @@ def read_value(place: str, raw: object, parameter: Parameter, findings: Findings
 
 
 def read_range(table: Table, parameter: Parameter) -> Range | None:
-    """From a least to a most in steps, within what the scene allows."""
+    """Read a range with min, max and step, within what the scene allows."""
     ends = {key: optional(table, key) for key in ("min", "max", "step")}
     missing = [key for key in ends if key not in table]
     for key in missing:
@@ -291,7 +298,7 @@ def read_fair(table: Table) -> Fair:
 
 
 def read_rubric(marks: Table, marking: Table, mechanism: Mechanism) -> Rubric:
-    """What earns marks, by the fields of the form, and how marks are given."""
+    """Read the points by the fields of the form, and how marks are given."""
     points: dict[str, Fraction] = {}
     known = all_fields(mechanism) if marks.raw else {}
     for name, raw in marks.raw.items():
@@ -330,7 +337,7 @@ def read_rubric(marks: Table, marking: Table, mechanism: Mechanism) -> Rubric:
 
 
 def number(table: Table, key: str, default: float, least: float, most: float) -> float:
-    """A number between two bounds; the default where it is not written or wrong."""
+    """A number between two bounds; the default where it is missing or wrong."""
     raw = table.take(key)
     if raw is None:
         return default
@@ -345,7 +352,7 @@ def number(table: Table, key: str, default: float, least: float, most: float) ->
 
 
 def whole(table: Table, key: str, default: int, least: int, most: int) -> int:
-    """A whole number between two bounds; the default where it is not written or wrong."""
+    """A whole number between two bounds; the default where it is missing or wrong."""
     value = number(table, key, default, least, most)
     if value != int(value):
         table.findings.add(table.at(key), f"{value:g}", "a whole number")

@@ -1,11 +1,14 @@
-"""The data of each student by the rule of a lab, so that anyone can derive them again.
+"""Derives the data of each student from the rule of a lab, so that anyone can repeat it.
 
-A formula is reckoned exactly in the student's number; ``number mod 30`` is the rest. A range is
-drawn by one hash for each parameter, so that another parameter changes none of the others: SHA-256
-over the UTF-8 bytes of the JSON list [course, lab, id, attempt, parameter], written without blanks
-and with letters as they are; the hash as a whole number, divided by the number of values of the
-range, leaves the index of the value, counted from the least, in a list in its order. Attempt 0 is
-the first; what is unfair is drawn again with 1, 2, … In a shell::
+A formula is evaluated exactly at the student's number; ``number mod 30`` is the remainder.
+
+A value of a range is drawn by a separate hash for each parameter, so that adding a parameter
+changes no other. The hash is SHA-256 over the UTF-8 bytes of the JSON list [course, lab, id,
+attempt, parameter], written without spaces and with unescaped letters. The hash as an integer,
+modulo the number of values, is the index of the value. Indices count from the least value; in a
+list, they follow its order.
+
+Attempt 0 is the first; unfair data are drawn again with 1, 2, … In a shell::
 
     printf '%s' '["mechanics 2026","pump","0042",0,"n"]' | sha256sum
 """
@@ -25,13 +28,13 @@ from graphkin.scene.quantity import shortest
 from graphkin.text.errors import Problem, SceneError
 
 Settings = dict[str, Fraction]
-"""Exact values of parameters by their names."""
+"""Exact values of parameters by name."""
 
 
 def settings(lab: Lab, student: Student, attempt: int = 0) -> Settings:
-    """The exact data of one student; ``attempt`` counts what was drawn before.
+    """The exact data of one student; ``attempt`` is the number of earlier draws.
 
-    Raises SceneError where a formula has no number to reckon with, or gives none.
+    Raises SceneError where a formula needs a number that is missing, or gives no rational value.
     """
     found = by_formula(lab.rule, student)
     for name, values in lab.rule.draws.items():
@@ -40,7 +43,10 @@ def settings(lab: Lab, student: Student, attempt: int = 0) -> Settings:
 
 
 def by_formula(rule: LabRule, student: Student) -> Settings:
-    """The value of each formula at the student's number."""
+    """The value of each formula at the student's number.
+
+    Raises SceneError where the number is missing, or a value is not rational.
+    """
     if rule.counts and student.number is None:
         raise SceneError(Problem("", "has no number, and the lab's formula needs one"))
     found: Settings = {}
@@ -56,12 +62,12 @@ def by_formula(rule: LabRule, student: Student) -> Settings:
 def drawn(
     values: Range | ValueList, course: str, lab: str, student: str, attempt: int, parameter: str
 ) -> Fraction:
-    """The value of a range that a hash of all the rest picks."""
+    """The value of a range that the hash of all other arguments picks."""
     return values.value(picked(course, lab, student, attempt, parameter) % len(values))
 
 
 def picked(course: str, lab: str, student: str, attempt: int, parameter: str) -> int:
-    """The hash that picks a value, as a whole number of 256 bits."""
+    """The hash that picks a value, as an integer of 256 bits."""
     words = json.dumps(
         [course, lab, student, attempt, parameter], ensure_ascii=False, separators=(",", ":")
     )
@@ -69,7 +75,7 @@ def picked(course: str, lab: str, student: str, attempt: int, parameter: str) ->
 
 
 def outside(parameters: Mapping[str, Parameter], given: Settings) -> list[Problem]:
-    """What of some data the scene does not allow: out of its range, or off its steps."""
+    """The problems of data that the scene does not allow: out of range, or off the steps."""
     return [
         problem
         for name, value in given.items()
@@ -78,6 +84,6 @@ def outside(parameters: Mapping[str, Parameter], given: Settings) -> list[Proble
 
 
 def exact_text(value: Fraction) -> str:
-    """An exact number as text that a scene reads back as the same: 44, 0.25, 1/3."""
+    """An exact number as text that a scene reads back unchanged: 44, 0.25, 1/3."""
     text = shortest(value)
     return text if Fraction(text) == value else f"{value.numerator}/{value.denominator}"

@@ -1,4 +1,4 @@
-"""The names of known slips, by which a rubric gives them shares of the points."""
+"""The names of known slips, which rubrics use to give them shares of the points."""
 
 from graphkin.construction.registry import COMPONENTS
 
@@ -29,4 +29,4 @@ NAMES = (
     "axes_swapped",
     "opposite",
 )
-"""All slips, in the order in which equally good ones are named."""
+"""All slips. Of equally good explanations, the first in this order is named."""

@@ -1,8 +1,8 @@
-"""The scale factors of the sheets of many variants: for each those of its own sheet.
+"""The scale factors of the sheets of many variants, each the same as for its own sheet.
 
-The searches of all variants run side by side: what they ask for is reckoned in arrays, for those at
-once that ask alike. Mechanisms of pins and guides that one crank drives can be reckoned so; others
-go through scaling.scales, one variant after the other.
+The searches of all variants run side by side; drafts that are alike are computed together, in
+arrays. This works for mechanisms of pins and guides driven by one crank. Other variants go through
+:func:`graphkin.documents.scaling.scales`, one by one.
 """
 
 from __future__ import annotations
@@ -31,14 +31,15 @@ ON_MECHANISM = {
     "velocity": (Part.POSITION, Part.VELOCITY),
     "acceleration": (Part.POSITION, Part.NORMAL, Part.ACCELERATION),
 }
-"""The parts of the work that each sheet draws on the mechanism, but centres and poles."""
+"""The parts that each sheet draws on the mechanism, except centres and poles."""
 Array = Any
 
 
 class VariantSheet(Struct, frozen=True, dict=True):
-    """The material of one sheet of many variants: the steps that it draws, and their values.
+    """The content of one sheet for many variants: the steps that it draws, and their values.
 
-    ``seconds`` is the time of each variant in which velocities are set on the mechanism as ways.
+    ``seconds`` is the time of each variant by which velocities are drawn on the mechanism as
+    lengths.
     """
 
     mechanism: Mechanism
@@ -69,15 +70,15 @@ class VariantSheet(Struct, frozen=True, dict=True):
 
     @cached_property
     def plan_box(self) -> Extent:
-        """The box of the plan once as large as its vectors on the mechanism, in metres."""
+        """The box of the plan, with its vectors as long as on the mechanism, in metres."""
         scale = self.plan_seconds
-        with np.errstate(all="ignore"):  # what does not close has no plan
+        with np.errstate(all="ignore"):  # a variant that does not close has no plan
             points = [p * scale for _, v in self.steps(PLANES[self.kind]) for p in ends(v)]
         return boxes(points, len(self.seconds))
 
     @property
     def plan_seconds(self) -> Array:
-        """What makes a value of the plan a length of the mechanism."""
+        """The factor that converts a value of the plan to a length of the mechanism."""
         return self.seconds if self.kind == "velocity" else self.seconds**2
 
     @cached_property
@@ -87,7 +88,7 @@ class VariantSheet(Struct, frozen=True, dict=True):
 
     @cached_property
     def largest(self) -> Array:
-        """The largest vector of the plan as it is set on the mechanism, in metres."""
+        """The largest vector of the plan, as long as on the mechanism, in metres."""
         vectors = [
             abs(value.tip - value.tail)
             for step, value in self.steps(PLANES[self.kind])
@@ -99,7 +100,7 @@ class VariantSheet(Struct, frozen=True, dict=True):
         return longest * self.plan_seconds
 
     def positions(self) -> Iterator[Array]:
-        """Where the points that links own stand."""
+        """The positions of the points that belong to links."""
         scene = self.mechanism.scene
         owned = {p for link in (scene.frame, *scene.links.values()) for p in link.points}
         for (quantity, of), number in self.trace.program.targets.items():
@@ -108,7 +109,7 @@ class VariantSheet(Struct, frozen=True, dict=True):
 
 
 def ends(value: Any) -> tuple[Any, ...]:
-    """The points that a drawn value takes up by itself; lines and arcs take up none."""
+    """The points that a drawn value occupies; lines and arcs occupy none."""
     if isinstance(value, Vector):
         return value.tail, value.tip
     if isinstance(value, Line | Circle | Ratio | tuple):
@@ -132,7 +133,7 @@ def boxes(points: Sequence[Array], size: int) -> Extent:
 def drawn_steps(
     mechanism: Mechanism, targets: Sequence[Target], *, triangles: bool
 ) -> tuple[int, ...]:
-    """The steps of a sheet, with or without the triangles that may give way."""
+    """The steps of a sheet, with or without the triangles that may be left out."""
     program = mechanism.program
     needed = program.needed(targets, by_hand=True)
     trace = Trace(program, dict.fromkeys(needed), {})
@@ -148,9 +149,10 @@ def sketches(
     rates: Mapping[int, Any] | None = None,
     margins: bool = False,
 ) -> list[VariantSheet]:
-    """The sheets of many variants, by the ``seconds`` in which velocities are set on each as ways.
+    """The sheets of many variants, by the ``seconds`` that scale velocities on each mechanism.
 
-    ``values`` are the scene's parameters as arrays; ``rates`` what the hand tries.
+    ``values`` are the scene's parameters as arrays; ``rates`` are the trial rates of auxiliary
+    plans.
     """
     program = mechanism.program
     found = []
@@ -168,7 +170,7 @@ def sketches(
 
 
 def needs_of(drafts: Sequence[VariantSheet]) -> list[Needs | None]:
-    """The boxes of the drafts of each variant, as in documents.scaling; None for no number."""
+    """The boxes of each variant's drafts, as in documents.scaling; None where they are infinite."""
     bare, whole = (
         Extent(
             *(np.min([getattr(box, side) for box in some], axis=0) for side in ("left", "bottom")),
@@ -192,28 +194,29 @@ def rows(box: Extent) -> list[Extent]:
     return [Extent(*map(float, sides)) for sides in columns]
 
 
-# --- the scale factors of the sheets of many variants: for each those of its own sheet ------------
+# --- scale factors --------------------------------------------------------------------------------
 
 
 Values = Mapping[str, Any]
 Loader = Callable[[int], Mechanism]
-"""What makes the mechanism of one variant, by its place in the batch."""
+"""A function that makes the mechanism of one variant, by its index in the batch."""
 
 
 NOWHERE = Scales(nan, nan, nan, nan, nan)
-"""What stands for the scale factors of a variant that fits nowhere."""
+"""The scale factors of a variant that fits no sheet."""
 
 
 class Scaling(Struct):
-    """The scale factors of each variant, None where nothing fits; ``rates`` is what the hand tries
-    in auxiliary plans, an array by the step.
+    """The scale factors of each variant, None where nothing fits.
+
+    ``rates`` are the trial rates of auxiliary plans: an array for each step.
     """
 
     own: list[Scales | None]
     rates: dict[int, Array] = field(default_factory=dict)
 
     def together(self, which: Iterable[int]) -> Scales:
-        """Those of some variants, of which each factor is an array; NaN where nothing fits."""
+        """The scale factors of some variants, each an array; NaN where nothing fits."""
         some, names = [self.own[i] or NOWHERE for i in which], Scales.__struct_fields__
         factors: list[Any] = [np.array([getattr(each, name) for each in some]) for name in names]
         return Scales(*factors)
@@ -222,10 +225,10 @@ class Scaling(Struct):
 def scaling(
     mechanism: Mechanism, values: Values, count: int, load: Loader, closes: Array = True
 ) -> Scaling:
-    """The scale factors of each of ``count`` variants, whose parameters are arrays or shared.
+    """The scale factors of ``count`` variants, whose parameters are arrays or shared.
 
-    ``load`` makes one variant's mechanism, for those that are not reckoned in arrays; only those
-    that ``closes`` names are tried.
+    ``load`` makes the mechanism of a variant that is not computed in arrays. Variants outside
+    ``closes`` are not tried one by one.
     """
     found = Scaling([None] * count)
     done = np.zeros(count, dtype=bool)
@@ -237,7 +240,7 @@ def scaling(
 
 
 def by_arrays(mechanism: Mechanism) -> bool:
-    """Whether one crank drives a mechanism of pins and guides, and no curve is drawn with it."""
+    """Whether arrays can be used: pins and guides, one driving crank, no curves."""
     scene = mechanism.scene
     ask, links = scene.ask, (scene.frame, *scene.links.values())
     steps = mechanism.program.steps
@@ -252,7 +255,7 @@ def by_arrays(mechanism: Mechanism) -> bool:
 
 
 def scaled(mechanism: Mechanism, values: Values, found: Scaling) -> Array:
-    """Scale what a crank drives that turns; the result says which variants that are."""
+    """Find the scale factors of variants with a turning crank; the result marks these variants."""
     size = len(found.own)
     speed = np.broadcast_to(np.abs(mechanism.scene.drivers[0].speed.si(values, batch_kind())), size)
     turning = np.flatnonzero(np.asarray(speed, dtype=float) > 0)
@@ -269,7 +272,7 @@ def scaled(mechanism: Mechanism, values: Values, found: Scaling) -> Array:
 def side_by_side(
     mechanism: Mechanism, values: Values, speed: Array, said: Sequence[Stated]
 ) -> list[Scales | None]:
-    """What the search of each variant ends in; None where nothing fits."""
+    """The result of each variant's search; None where nothing fits."""
     found: list[Scales | None] = [None] * len(said)
     gives_way = may_give_way(mechanism.program)
     asking: list[Search] = [
@@ -295,7 +298,7 @@ def side_by_side(
 
 
 def one_by_one(load: Loader, index: int, found: Scaling) -> None:
-    """The scale factors of one variant by its own sheet, if it has some."""
+    """Find the scale factors of one variant by its sheet, if it has any."""
     try:
         one = load(index)
         own = scales(one)
