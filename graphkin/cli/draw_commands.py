@@ -65,11 +65,11 @@ def sheet(
 ) -> None:
     """Draw the velocity and acceleration sheets and the calculations.
 
-    Writes A3 drawings (SVG and PDF) and A4 calculation pages (PDF), named after the scene and
-    what is set: pump-n7-velocity-key.pdf. Files that exist are kept unless --force is given.
+    Writes A3 drawings (SVG and PDF) and A4 calculation pages (PDF), named after the scene and its
+    settings: pump-n7-velocity-key.pdf. Existing files are kept unless you give --force.
 
-    With --format html it writes one page for a browser, pump-n7-key.html, with all drawings, every
-    step and the results inside; it needs no network.
+    With --format html, writes one page for a browser, pump-n7-key.html, with all drawings, every
+    step and the results. The page needs no network.
 
     \b
     Examples:
@@ -133,12 +133,13 @@ def cycle(
 ) -> None:
     """Move the driver through a whole turn, or as far as it can go.
 
-    Tells its range, its dead points and change points by name, how far the followers go, and what
-    the lengths say of a single loop. Writes a table (CSV, SI units), curves of all motions, paths
-    of points, centrodes, and the circle of the driven pin against what the rest can reach.
+    Prints the driver's range, the dead points and change points by name, how far the followers go,
+    and what the lengths of a single loop mean. Writes a table (CSV, SI units) and curves of all
+    motions, paths of points, centrodes, and the circle of the driven pin with the region that the
+    other links can reach.
 
-    Several drivers, and laws of time, are moved by the time: one turn of the first, once to and
-    fro where a law never makes one, or --from and --to seconds.
+    Several drivers, and laws of time, are moved by the time: for one turn of the first driver, for
+    one cycle to and fro if its law never makes a turn, or from --from to --to seconds.
 
     \b
     Examples:
@@ -201,13 +202,13 @@ def accuracy(
 ) -> None:
     """Measure what accuracy costs in time.
 
-    Holds every method against certified answers. Runs the same positions in doubles one by one and
-    in batches, in single and extended precision, in decimals of up to 120 digits, in balls that
-    prove their radius, by Newton's method on the loop equations and by central differences, and
-    foretells what a pencil makes of them. Writes a table (CSV) and three pictures: error against
-    time; error towards a dead point; cost by what is asked. Ends with what you wait for (load,
-    solve, check, page) and with how sure a drawing and the numbers are. It takes about half a
-    minute; groups of class III and higher some minutes.
+    Compares every method with certified answers. Runs the same positions in doubles one by one and
+    in batches, in single and extended precision, in decimals of up to 120 digits, and in balls that
+    prove their radius. Also runs Newton's method on the loop equations and central differences, and
+    predicts the errors of a pencil. Writes a table (CSV) and three pictures: error against time;
+    error towards a dead point; cost by what is asked. Ends with the times that you wait (load,
+    solve, check, page) and the accuracy of a drawing and of the numbers. The command takes about
+    half a minute; groups of class III and higher take some minutes.
 
     \b
     Examples:
@@ -237,7 +238,7 @@ def accuracy(
 
 
 def scales_if_any(mechanism: Mechanism) -> Scales | None:
-    """The scale factors of the sheets; None, and a message, where they cannot be drawn."""
+    """The scale factors of the sheets; None, with a message, if the sheets cannot be drawn."""
     from graphkin.text.errors import GraphkinError
 
     try:
@@ -249,7 +250,7 @@ def scales_if_any(mechanism: Mechanism) -> Scales | None:
 
 
 def progress() -> Callable[[str], None]:
-    """What shows on a terminal, on one line, what is being done; elsewhere it is silent."""
+    """A function that shows the current task on one line of a terminal, and is silent elsewhere."""
     import sys
 
     def say(words: str) -> None:
