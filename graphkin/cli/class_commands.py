@@ -50,8 +50,9 @@ def new(context: click.Context) -> None:
 )
 @force_option
 def new_lab(name: str, folder: Path, force: bool) -> None:
-    """Make a lab: a folder NAME with a scene and the rule of its variants, for you to change.
+    """Make a lab: a folder with a scene and a rule.
 
+    The folder is called NAME and holds a scene and the rule of its variants, for you to change.
     Both files have a comment at each key, and graphkin check accepts them unchanged.
 
     \b
@@ -235,7 +236,7 @@ def quiz(
 @click.option("-o", "--output", "folder", metavar="DIR", type=FolderType(path_type=Path))
 @force_option
 def ranges(name: str, folder: Path | None, force: bool) -> None:
-    """Find the ranges of a lab's parameters in which every variant is fair.
+    """Find the parameter ranges in which every variant is fair.
 
     LAB is the name of a shipped lab or a folder with scene.toml and lab.toml. The search covers the
     scene's parameters from min to max, with the limits of [fair]. Prints the fair share by the

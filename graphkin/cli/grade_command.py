@@ -142,13 +142,14 @@ def grade(  # noqa: PLR0915
     points the mark stays; "?" records a student's request that is not yet decided. Mark again with
     --force to update feedback, report and gradebook.
 
-    Score sheets that students save from "your turn" on their pages (ID-turn.json, in the same
-    folder as their answers) are listed in turns.csv. They earn nothing and prove nothing.
+    Students can save score sheets from "your turn" on their pages, as ID-turn.json in the same
+    folder as their answers. These sheets are listed in turns.csv; they earn nothing and prove
+    nothing.
 
     If lab.toml has hold = true in [marking], some students get no mark until you decide: those
-    whose answers fit another student's data, or are identical to another student's answers. To
-    decide, add a row to decisions.csv, or mark again with --force and --release ID. The report
-    remembers the released students for every later marking, until --hold ID.
+    whose answers fit another student's data or are another student's answers. To decide, add a row
+    to decisions.csv, or mark again with --force and --release ID. The report remembers the released
+    students for every later marking, until --hold ID.
 
     \b
     Examples:

@@ -18,7 +18,7 @@ from graphkin.text.errors import Problem, SceneError
 POINT = 0.5
 """The distance in mm within which 95 of 100 marks of a fair drawing lie."""
 RADIAL = sqrt(-2 * log(0.05))
-"""The radius, in standard deviations of a coordinate, that holds 95 of 100 plane points."""
+"""The radius, in standard deviations of a coordinate, that holds 95 of 100 marks."""
 STRAIGHT = 1.959963984540054
 """The two-sided limit, in standard deviations, that holds 95 of 100 numbers."""
 
