@@ -29,7 +29,7 @@ class Pencil(Struct, frozen=True):
     - ``point`` (mm): 95 of 100 marks lie within this distance of their true place, evenly in all
       directions. A compass opening errs as a mark does along one axis.
     - ``line`` (degrees): 95 of 100 lines have a direction within this angle of theirs. The default
-      is a degree for each mm of ``point``: the end of a line as long as a hand errs about as a mark.
+      is a degree for each mm of ``point``: a line as long as a hand then ends about ``point`` off.
     - ``grid`` (mm): marks are rounded to this grid, if it is not zero.
 
     Errors are Gaussian and independent.
