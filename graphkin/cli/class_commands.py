@@ -70,9 +70,7 @@ def new_lab(name: str, folder: Path, force: bool) -> None:
 @click.argument("roster", metavar="ROSTER", type=click.Path(path_type=Path))
 @folder_option("Folder of the class, made if it is missing.", required=True)
 @lang_option("Language of the class, kept for print, read and grade; the scene's by default.")
-@click.option(
-    "--force", is_flag=True, help="Replace a class that stands there; it keeps its codes."
-)
+@click.option("--force", is_flag=True, help="Replace an existing class; it keeps its codes.")
 def variants(name: str, roster: Path, folder: Path, lang: str | None, force: bool) -> None:
     """Give each student of a class data of their own.
 
@@ -162,7 +160,7 @@ SHOWN = 5
     type=click.IntRange(1, 1000),
     default=30,
     show_default=True,
-    help="Variants at most.",
+    help="Largest number of variants.",
 )
 @jobs_option()
 @force_option

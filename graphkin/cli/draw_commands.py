@@ -40,17 +40,17 @@ if TYPE_CHECKING:
     default="key",
     show_default=True,
     help="key: everything drawn; task: what the student is given; steps: pages that grow sentence"
-    " by sentence; overlay: the key alone, to be laid over a drawing.",
+    " by sentence; overlay: the key alone, to lay over a drawing.",
 )
 @language_option
 @ink_option
 @formats_option(
     "svg,pdf,html,dxf,pmks",
     "svg,pdf",
-    "Kinds of file to write; calculations come as PDF only. html: one page for a browser,"
-    " which draws itself step by step (key and steps alike), or holds the task. dxf: the drawings"
-    " at true scale for a CAD program, a layer for each class of line; needs the extra [cad]. pmks:"
-    " the mechanism for PMKS+, where it has only pins, blocks on fixed guides and one crank.",
+    "Kinds of file to write; calculations are PDF only. html: one page for a browser, which"
+    " draws itself step by step (key and steps alike), or holds the task. dxf: the drawings at"
+    " true scale for a CAD program, a layer for each class of line; needs the extra [cad]. pmks:"
+    " the mechanism for PMKS+, if it has only pins, blocks on fixed guides and one crank.",
 )
 @force_option
 def sheet(
@@ -97,7 +97,7 @@ def sheet(
     "--driver",
     metavar="N",
     type=int,
-    help="Of several drivers move only this one, counted from 1, while the others stand still.",
+    help="Move only this one of several drivers, counted from 1; the others stay still.",
 )
 @click.option(
     "--steps",
@@ -108,15 +108,19 @@ def sheet(
     help="Positions in a whole turn, in a range, or in the time shown.",
 )
 @click.option(
-    "--from", "low", metavar="NUMBER", type=float, help="Begin here, not at the start of the range."
+    "--from",
+    "low",
+    metavar="NUMBER",
+    type=float,
+    help="Start here instead of at the start of the range.",
 )
 @click.option("--to", "high", metavar="NUMBER", type=float, help="End here (degrees, lengths, s).")
 @language_option
 @formats_option(
     "svg,png,gif,html",
     "svg,png",
-    "Kinds of picture to write; the table comes as CSV. gif, html: mechanism and plans as they"
-    " move, a picture and a page.",
+    "Kinds of picture to write; the table is CSV. gif, html: mechanism and plans in motion, as"
+    " a picture and as a page.",
 )
 @force_option
 def cycle(
@@ -188,13 +192,13 @@ def cycle(
 @click.option(
     "--quick",
     is_flag=True,
-    help="A few positions, decimals and balls timed at one, the pencil at four on the way: "
-    "to see what comes.",
+    help="Use few positions for a first look: time decimals and balls at one, the pencil at four"
+    " towards a dead point.",
 )
 @formats_option(
     "svg,png",
     "svg,png",
-    "Kinds of picture to write; the table comes as CSV.",
+    "Kinds of picture to write; the table is CSV.",
 )
 @force_option
 def accuracy(

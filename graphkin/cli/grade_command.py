@@ -52,8 +52,8 @@ SHOWN = 10
     help="Folder to write into, made if it is missing; DIR/report by default.",
 )
 @lang_option(
-    "Language of the report, and of the feedback to those for whom the class list names none"
-    " (language, limba, lingua); by default that of the class. The terminal speaks English."
+    "Language of the report, and of the feedback to students without one in the class list"
+    " (language, limba, lingua); by default that of the class. Messages are in English."
 )
 @formats_option("html,pdf", "html,pdf", "Kinds of feedback page to write for each student.")
 @click.option(
@@ -62,39 +62,41 @@ SHOWN = 10
     metavar="FILE",
     multiple=True,
     type=click.Path(path_type=Path),
-    help="An export of your own from Moodle or Canvas (CSV or XLSX), to be filled in; repeatable.",
+    help="An export of your own from Moodle or Canvas (CSV or XLSX) to fill in; repeatable.",
 )
 @click.option(
-    "--column", metavar="NAME", help="The column of the gradebook for the points; the empty one."
+    "--column",
+    metavar="NAME",
+    help="The gradebook column for the points; by default the empty one.",
 )
 @click.option(
     "--scale",
     metavar="N",
-    help="What full marks are in the gradebooks, such as 10 or 100; the lab's points by default.",
+    help="Full marks in the gradebooks, such as 10 or 100; the lab's points by default.",
 )
 @click.option(
     "--match",
     type=click.Choice(["id", "email"]),
-    help="By what students are found in tables of answers and in gradebooks; by default their ids"
-    " or, where a table has none, the e-mail addresses of the class list.",
+    help="How to identify students in tables of answers and gradebooks; by default by id or, if a"
+    " table has no ids, by the e-mail addresses of the class list.",
 )
 @jobs_option(
-    "Processes that mark at once; by default one, all cores for more than a hundred variants."
+    "Processes that mark at once; by default one, or all cores for over a hundred variants."
 )
 @click.option(
     "--release",
     "released",
     metavar="ID",
     multiple=True,
-    help="A student whose mark is given although the lab holds it (hold = true), now and whenever"
-    " this report is marked again; repeatable.",
+    help="A student who gets a mark although the lab holds it (hold = true), now and whenever this"
+    " report is marked again; repeatable.",
 )
 @click.option(
     "--hold",
     "held",
     metavar="ID",
     multiple=True,
-    help="A student who was released, and is held again; repeatable.",
+    help="A released student to hold again; repeatable.",
 )
 @click.option("--force", is_flag=True, help="Replace an earlier report, and list what changed.")
 @click.pass_context

@@ -163,19 +163,21 @@ def explain(name: str, settings: tuple[str, ...], as_json: bool) -> None:
 
 @app.command()
 @scene_argument
-@click.option("--asked", is_flag=True, help="Compute and report only what [ask] in the scene asks.")
+@click.option(
+    "--asked", is_flag=True, help="Compute and report only what [ask] in the scene asks for."
+)
 @click.option("--json", "as_json", is_flag=True, help="Print JSON, full precision, SI units.")
 @click.option(
     "--pencil",
     metavar="MM",
     type=click.FloatRange(0, 100),
-    help="Foretell the errors of a drawing whose marks lie within so many mm of where they belong.",
+    help="Predict the errors of a drawing whose marks lie within MM millimetres of their place.",
 )
 @click.option(
     "--digits",
     metavar="N",
     type=click.IntRange(1, 1000),
-    help="Print N significant digits of each number, every one of them proved.",
+    help="Print N significant digits of each number, all of them proved.",
 )
 def solve(
     name: str,

@@ -269,7 +269,7 @@ def scene_argument(command: Any) -> Any:
         "settings",
         metavar="NAME=VALUE",
         multiple=True,
-        help="Give a parameter of the scene another value, such as n=7. May be repeated.",
+        help="Set a parameter of the scene, such as n=7; repeatable.",
     )(command)
     return click.argument("name", metavar="SCENE")(command)
 
@@ -282,7 +282,7 @@ def formats_option(metavar: str, default: str, help: str) -> Option:
 
 
 def jobs_option(
-    help: str = "Processes that draw at once; as many as there are cores by default.",
+    help: str = "Processes that draw at once; by default one for each core.",
 ) -> Option:
     """The option --jobs: how many processes work at once."""
     return click.option("--jobs", metavar="N", type=click.IntRange(1, 1024), help=help)
@@ -300,9 +300,9 @@ ink_option = click.option(
     type=click.Choice(["colour", "black"]),
     default="colour",
     show_default=True,
-    help="black: for printers without colour; the kinds of line tell vectors apart.",
+    help="black: for printers without colour; line styles distinguish the vectors.",
 )
-force_option = click.option("--force", is_flag=True, help="Replace files that exist.")
+force_option = click.option("--force", is_flag=True, help="Replace existing files.")
 
 
 def option_words(option: str, text: str, known: tuple[str, ...]) -> tuple[str, ...]:

@@ -40,18 +40,18 @@ TENTHS = 10
     metavar="task,key,overlay,steps",
     default="task,key",
     show_default=True,
-    help="What to print of each student; a task comes with its A4 form.",
+    help="Views to print for each student; a task includes its A4 form.",
 )
 @lang_option(
-    "Language of the pages; by default that of the class, as variants or the first print with"
-    " --lang was told (with --force any), else the scene's."
+    "Language of the pages. Default: that of the class, set by variants or by the first print"
+    " with --lang (later only with --force), else the scene's."
 )
 @ink_option
 @formats_option(
     "pdf,svg,html",
     "pdf",
-    "Kinds of file to write for each student; the files for the printer are PDF. html: a page"
-    " for a browser, the task with a form that saves the answers.",
+    "Kinds of file to write for each student; the merged files are PDF. html: a page for a"
+    " browser; the task has a form that saves the answers.",
 )
 @jobs_option()
 @click.option(
@@ -59,9 +59,9 @@ TENTHS = 10
     "cluster",
     metavar="dask://HOST:PORT",
     default="",
-    help="Draw on the Dask cluster with its scheduler there (graphkin[cluster]).",
+    help="Draw on the Dask cluster with this scheduler; needs the extra [cluster].",
 )
-@click.option("--force", is_flag=True, help="Replace files that were printed otherwise.")
+@click.option("--force", is_flag=True, help="Replace files printed with other settings.")
 @click.pass_context
 def print_sheets(
     context: click.Context,

@@ -34,18 +34,20 @@ MOST_PLACES = 10_000
 )
 @folder_option("Folder of the readings, made if it is missing.", "READ", "out", required=True)
 @click.option(
-    "--json", "as_json", is_flag=True, help="Also write NAME.points.json beside each picture."
+    "--json", "as_json", is_flag=True, help="Also write NAME.points.json next to each picture."
 )
 @click.option(
     "--grid",
     metavar="FILE",
     type=click.Path(path_type=Path),
-    help='JSON, {"x": [mm, …], "y": [mm, …]}: places of the paper whose pixels are wanted.',
+    help='JSON, {"x": [mm, …], "y": [mm, …]}: report the pixels of these places on the paper.',
 )
 @click.option(
-    "--by-hand", is_flag=True, help="Only flatten; the points that marks need are clicked."
+    "--by-hand",
+    is_flag=True,
+    help="Only flatten the pictures; you click the points that the marks need.",
 )
-@jobs_option("Processes; all cores by default.")
+@jobs_option("Processes; by default one for each core.")
 @click.pass_context
 def read(
     context: click.Context,

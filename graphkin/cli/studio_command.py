@@ -20,11 +20,11 @@ port_option = click.option(
     metavar="N",
     type=click.IntRange(0, 65535),
     default=0,
-    help="Port to listen at; a free one by default.",
+    help="Port to listen on; a free one by default.",
 )
 """The option for the port of a local page."""
 browser_option = click.option(
-    "--no-browser", is_flag=True, help="Only print the address, open no browser."
+    "--no-browser", is_flag=True, help="Only print the address; open no browser."
 )
 """The option to open no browser."""
 
@@ -67,7 +67,7 @@ NEEDED = ("bottle", "tomlkit", "waitress")
 @click.argument("name", metavar="[SCENE]", required=False, default="")
 @port_option
 @browser_option
-@lang_option("Language to begin with; the scene's by default. The page lets another be chosen.")
+@lang_option("Initial language; the scene's by default. You can change it on the page.")
 def studio(name: str, port: int, no_browser: bool, lang: str | None) -> None:
     """Write, move and view a scene in a browser.
 
