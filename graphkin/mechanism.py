@@ -243,7 +243,7 @@ class Mechanism(Struct, frozen=True, dict=True):
         """The verdict of the independent check on a solution of this scene.
 
         Without ``numbered`` it does not count all closures of groups of class III and higher. The
-        count tells whether the stated closure is drawn, and takes longer than everything else.
+        count shows whether the stated closure is drawn, and takes longer than everything else.
         """
         return self.check.compare(solution, numbered=numbered)
 

@@ -385,7 +385,6 @@ class Study(Struct, frozen=True, eq=False):
     scopes: tuple[Scope, ...]
 
     def row(self, method: str) -> MethodRow:
-        """The row of a method."""
         return next(row for row in self.rows if row.method == method)
 
 

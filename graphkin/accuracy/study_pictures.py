@@ -154,7 +154,6 @@ def put(ax: Axes, name: PointName, shift: tuple[float, float]) -> None:
 
 
 def around(x: float, y: float, half: float) -> Box:
-    """The square around a point."""
     return x - half, y - half, x + half, y + half
 
 
@@ -431,7 +430,6 @@ def label(row: MethodRow) -> str:
 
 
 def ink(row: MethodRow) -> str:
-    """The colour of a method."""
     return FAMILIES.get(row.family, (INK, "o"))[0]
 
 

@@ -139,8 +139,8 @@ def cycle(
 
     Prints the driver's range, the dead points and change points by name, how far the followers go,
     and what the lengths of a single loop mean. Writes a table (CSV, SI units) and curves of all
-    motions, paths of points, centrodes, and the circle of the driven pin with the region that the
-    other links can reach.
+    motions, paths of points and centrodes. Also draws the path of the driven pin with the region
+    that the other links can reach.
 
     Several drivers, and laws of time, are moved by the time: for one turn of the first driver, for
     one cycle to and fro if its law never makes a turn, or from --from to --to seconds.
@@ -206,13 +206,15 @@ def accuracy(
 ) -> None:
     """Measure what accuracy costs in time.
 
-    Compares every method with certified answers. Runs the same positions in doubles one by one and
-    in batches, in single and extended precision, in decimals of up to 120 digits, and in balls that
-    prove their radius. Also runs Newton's method on the loop equations and central differences, and
-    predicts the errors of a pencil. Writes a table (CSV) and three pictures: error against time;
-    error towards a dead point; cost by what is asked. Ends with the times that you wait (load,
-    solve, check, page) and the accuracy of a drawing and of the numbers. The command takes about
-    half a minute; groups of class III and higher take some minutes.
+    Runs the same positions with every method and compares the results with certified answers. The
+    methods are doubles one by one and in batches, single and extended precision, decimals of up to
+    120 digits, and balls that prove their radius. Newton's method on the loop equations, central
+    differences and a pencil are compared too.
+
+    Writes a table (CSV) and three pictures: error against time; error towards a dead point; cost by
+    what is asked. Ends with the times that you wait (load, solve, check, page) and the accuracy of
+    a drawing and of the numbers. The command takes about half a minute; groups of class III and
+    higher take some minutes.
 
     \b
     Examples:

@@ -336,7 +336,7 @@ def scales_of(mechanism: Mechanism) -> Scales:
 
 
 def pairs_of(settings: tuple[str, ...]) -> dict[str, str]:
-    """The names and values of NAME=VALUE; a name may be set once."""
+    """The names and values of NAME=VALUE; raises UsageError for a name set twice."""
     found: dict[str, str] = {}
     wrong: list[str] = []
     for setting in settings:
@@ -352,17 +352,14 @@ def pairs_of(settings: tuple[str, ...]) -> dict[str, str]:
 
 
 def current() -> click.Context:
-    """The context of the running command."""
     return click.get_current_context()
 
 
 def leave(status: int) -> None:
-    """End the command with a status."""
     current().exit(status)
 
 
 def tell(lines: Iterable[str]) -> None:
-    """Print lines."""
     for line in lines:
         say(line)
 

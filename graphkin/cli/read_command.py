@@ -65,10 +65,10 @@ def read(
     (PDF), or folders of them. Each shows one A3 sheet, with the whole QR code and most of the
     frame.
 
-    The command identifies each sheet by its code, flattens it to millimetres of paper by its frame,
-    and reads the points one after the other, each expected from the student's own earlier points. A
-    point that is surely right, or surely follows from the student's own mistake, is decided. Every
-    mistake and every doubt is left to you: graphkin desk READ shows them one by one.
+    The command identifies each sheet by its code and flattens it to millimetres of paper by its
+    frame. It reads the points one after the other, and expects each from the student's own earlier
+    points. A point that is surely right, or surely follows from the student's own mistake, is
+    decided. Every mistake and every doubt is left to you: graphkin desk READ shows them one by one.
 
     Then graphkin grade CLASS READ -o report marks the lengths and places that were read. Pictures
     are kept in READ without the camera's metadata. Run the same command again to continue a run

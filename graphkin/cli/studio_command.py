@@ -72,13 +72,16 @@ def studio(name: str, port: int, no_browser: bool, lang: str | None) -> None:
     """Write, move and view a scene in a browser.
 
     Opens a page that only this computer can reach. It shows the text of SCENE with its mistakes
-    marked in place, a slider for each parameter, the mechanism, both plans, results, flattest
-    crossings and the independent check. Everything follows what you write and move. For a lab, the
-    page also shows its lab.toml below the scene, and how fair the lab is to a class. Scenes and
-    sheets are saved into the current folder; nothing outside it is read or written. Without SCENE,
-    the page first offers pictures of the labs and of the scenes in the folder, or an empty field.
+    marked in place, and a slider for each parameter. It draws the mechanism and both plans, and
+    lists results, flattest crossings and the independent check. Everything follows what you write
+    and move. For a lab, the page also shows its lab.toml below the scene, and how fair the lab is
+    to a class.
 
-    The page's address holds a secret token and ends with this command (Ctrl+C).
+    Scenes and sheets are saved into the current folder; nothing outside it is read or written.
+    Without SCENE, the page first offers pictures of the labs and of the scenes in the folder, or an
+    empty field.
+
+    The page's address holds a secret token. The page ends with this command (Ctrl+C).
 
     \b
     Examples:
@@ -95,5 +98,5 @@ def studio(name: str, port: int, no_browser: bool, lang: str | None) -> None:
     session = Session(Folder(Path()), lang)
     first = session.address_of(name) or {"gallery": "yes"}
     gc.collect()
-    gc.freeze()  # garbage collection during a move then skips what is loaded
+    gc.freeze()  # garbage collection during a move then skips the loaded modules
     show(lambda known: serve(session, port, first, known), no_browser=no_browser)

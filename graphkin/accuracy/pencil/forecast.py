@@ -85,12 +85,10 @@ class Forecast(Struct, frozen=True, dict=True):
     expected: tuple[Expected, ...]
 
     def __getitem__(self, target: Target) -> Expected:
-        """The expected error of a target."""
         return self.index[target]
 
     @cached_property
     def index(self) -> Mapping[Target, Expected]:
-        """The expected error of each target."""
         return {found.answer.target: found for found in self.expected}
 
 

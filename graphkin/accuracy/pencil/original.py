@@ -34,7 +34,6 @@ class Original(Struct, frozen=True, dict=True):
 
     @property
     def program(self) -> Program:
-        """The steps of the construction."""
         return self.trace.program
 
     @cached_property

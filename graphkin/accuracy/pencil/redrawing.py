@@ -148,12 +148,10 @@ class Drawn(Struct, frozen=True, dict=True):
     values: tuple[Any, ...]
 
     def __getitem__(self, target: Target) -> Any:
-        """The values of a target."""
         return self.values[self.index[target]]
 
     @cached_property
     def index(self) -> dict[Target, int]:
-        """The index of each target."""
         return {answer.target: i for i, answer in enumerate(self.answers)}
 
     def error(self, target: Target, percent: float = COMMON) -> float:

@@ -117,7 +117,6 @@ def boxes(mark: Mark) -> Iterator[Rect]:
 
 
 def overlap(one: Rect, other: Rect) -> bool:
-    """Whether two upright boxes overlap."""
     return one[0] < other[2] and other[0] < one[2] and one[1] < other[3] and other[1] < one[3]
 
 

@@ -204,7 +204,6 @@ def question(order: PrintOrder, book: Book, each: Assigned, code: str) -> Questi
 
 
 def said(what: str, words: Words) -> str:
-    """The label of a field next to its symbol."""
     return words(KINDS[what]) if what in KINDS else words("table.sense")
 
 

@@ -85,12 +85,12 @@ def assigned(lab: Lab, students: Sequence[Student], roster: str = "roster") -> l
 
 
 def spaced(lab: Lab, every: list[Assigned]) -> list[Assigned]:
-    """The same data, also limited in how much pencil error and neighbours' answers matter.
+    """The data of each student, drawn again where pencil errors or a neighbour's answers matter.
 
-    A pencil must draw everything as exactly as the limit demands, and no student's correct values
-    may earn too much on the sheet of an earlier student. Data from ranges that exceed these limits
-    are drawn again until many draws find room for nobody. The data that still exceed a limit get
-    that fault.
+    A pencil must draw everything as exactly as the limit demands. No student's correct values may
+    earn too much on the sheet of an earlier student. Data from ranges that exceed these limits are
+    drawn again until many draws find room for nobody. Data that still exceed a limit get that
+    fault.
     """
     kept: list[tuple[Assigned, Standard]] = []
     known: dict[object, Standard] = {}

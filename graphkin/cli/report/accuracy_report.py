@@ -202,7 +202,7 @@ def goal_words(found: Flattening, length: str) -> str:
 
 
 def scope_lines(study: Study) -> Iterator[str]:
-    """The steps and times of each scope of what is asked."""
+    """The steps and times of each scope."""
     rows = [
         (each.name, str(each.steps), micro(each.single.median), micro(each.batch.median))
         for each in study.scopes

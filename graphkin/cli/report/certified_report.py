@@ -84,7 +84,6 @@ class Printer(Struct):
 
     @property
     def targets(self) -> Mapping[Target, int]:
-        """All targets that the program constructs."""
         return self.balls.trace.program.targets
 
     def real(self, path: str, ball: Any, target: Target) -> str | None:

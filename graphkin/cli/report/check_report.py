@@ -301,7 +301,6 @@ def driver_turn(loop: Loop, driver: Driver) -> str:
 
 
 def ring(loop: Loop) -> str:
-    """The links of a loop in order."""
     return "–".join(loop.links)
 
 
@@ -330,7 +329,6 @@ def driver_words(scene: Scene, driver: Driver) -> str:
 
 
 def group_lines(groups: tuple[Group, ...]) -> list[str]:
-    """The groups in the order of construction."""
     return [f"{i}. {group.words}" for i, group in enumerate(groups, 1)]
 
 
@@ -577,8 +575,8 @@ NEAR = 1e-9
 def fallen_together(scene: Scene, trace: Trace) -> list[str]:
     """A sentence for each two pins that coincide though no link keeps them together.
 
-    Such a closure is seldom the intended one, because a bar then lies on another. Or the scene has
-    two names for one pin, which leaves its links unconnected.
+    This closure is seldom the intended one, because a bar then lies on another. It also occurs
+    where the scene has two names for one pin, so that its links are not joined.
     """
     places = pin_places(scene, trace)
     size = max((abs(p - q) for p, q in combinations(places.values(), 2)), default=0.0)

@@ -48,7 +48,7 @@ def drawn_name(program: Program, number: int) -> str:
 
 
 def point_words(program: Program, name: str) -> str:
-    """The point whose letter, or whose image in a plan, is ``name``; another name is unchanged."""
+    """The point that has ``name`` as its letter or image in a plan; else ``name`` itself."""
     for quantity, point in program.targets:
         if quantity == "position" and name in (letter(point), image(point), second_image(point)):
             own, link = ends_of(point)

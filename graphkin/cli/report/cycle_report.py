@@ -287,9 +287,10 @@ def range_words(cycle: Cycle) -> list[str]:
 
 
 def beyond_words(sweep: Sweep, low: Event, high: Event) -> str:
-    """What lies beyond the ends of a slide's or wheel's range that are not dead points.
+    """Whether the motion continues beyond the ends of a range that are not dead points.
 
-    If nothing has stopped it where all lengths together no longer reach, nothing stops it at all.
+    The range is that of a slide or a wheel. If nothing has stopped the driver where all lengths
+    together no longer reach, nothing stops it at all.
     """
     from graphkin.motion.driving import reach_of
 

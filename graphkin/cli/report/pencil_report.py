@@ -39,7 +39,7 @@ DRAWN_IN = {
 
 
 def pencil_record(found: Forecast) -> dict[str, Any]:
-    """The effect of a pencil on what is asked, in SI units; infinite errors are null."""
+    """The effect of a pencil on the requested quantities, in SI units; infinite errors are null."""
     crossed = crossings(found.original.trace)
     worst = flattest(crossed)
     return {
@@ -79,7 +79,7 @@ def crossing_record(found: Forecast, crossing: Crossing) -> dict[str, Any]:
 
 
 def pencil_lines(found: Forecast) -> Iterator[str]:
-    """The errors of what is asked, the crossings, and the worst crossing in words."""
+    """The errors of the requested quantities, the crossings, and the worst crossing in words."""
     pencil = found.pencil
     if not found.expected:
         yield "pencil   nothing that is asked is read off a drawing"

@@ -77,7 +77,7 @@ def waits_of(new: Callable[[], Mechanism], watch: Stopwatch = USUAL) -> Waits:
 
 
 def solved_anew(mechanism: Mechanism) -> object:
-    """Solve what is asked, without anything kept from earlier drawings."""
+    """Solve the requested quantities, without anything kept from earlier drawings."""
     mechanism.drawings.clear()
     return mechanism.solve(asked=True)
 
@@ -121,7 +121,7 @@ def waits_lines(found: Waits) -> Iterator[str]:
 
 
 def sheet_words(found: Waits) -> str:
-    """The accuracy of a lab sheet: of a drawing of what is asked, and the number of sure digits."""
+    """The accuracy of a lab sheet: the error of a drawing, and the number of sure digits."""
     by_hand = f"a drawing with marks within {found.point:g} mm"
     if found.drawing is None:
         drawn = "nothing that is asked is read off a drawing"
