@@ -1,4 +1,4 @@
-"""Velocity and acceleration plans of planar mechanisms, constructed as a hand does it on paper."""
+"""Velocity and acceleration plans of planar mechanisms, constructed as by hand on paper."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ register(
 
 
 def __getattr__(name: str) -> Any:
-    """Import the public names where they are first used, so that the import stays light."""
+    """Import the public names on first use, so that importing the package stays fast."""
     if name in __all__:
         from graphkin import mechanism
 

@@ -1,4 +1,4 @@
-"""``graphkin``, and ``python -m graphkin``: the command line."""
+"""The command line: ``graphkin`` and ``python -m graphkin``."""
 
 from __future__ import annotations
 
@@ -6,14 +6,17 @@ import gc
 import os
 
 GARBAGE = 50_000
-"""New objects after which garbage is looked for: at 700, as usual, that takes a seventh of the time
-of ``graphkin solve pump``, some of it before a command is known."""
+"""The number of new objects between garbage collections.
+
+With the default of 700, collections take a seventh of the time of ``graphkin solve pump``, partly
+before the command is known.
+"""
 
 
 def main() -> None:
-    """Run the command line and leave with its status."""
+    """Run the command line and exit with its status."""
     gc.set_threshold(GARBAGE)
-    os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")  # our matrices are small, its threads slow
+    os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")  # small matrices: threads are slower
     from graphkin.cli.main import app
     from graphkin.cli.options import end
 

@@ -1,4 +1,4 @@
-"""A mechanism ready to be constructed: its scene, groups and program, and how to run them."""
+"""A mechanism ready to construct: its scene, groups and program, and how to run them."""
 
 from __future__ import annotations
 
@@ -46,32 +46,35 @@ if TYPE_CHECKING:
 K = TypeVar("K")
 V = TypeVar("V")
 Which = Literal["mechanism", "velocity", "acceleration"]
-"""The drawings of a mechanism that can be put into axes."""
+"""The drawings of a mechanism that can be plotted into axes."""
 
 DECIDED = 1e-6
-"""Sine of a crossing below which it is decided without rounding whether there is one."""
+"""The sine of a crossing below which its existence is decided without rounding."""
 
 LOSSY = 1e-11
-"""Square of the product of all sines and the evenness, times the smallest sine, below which
-rounding may take every digit: in hundreds of hard scenes it was 1e-16 and less wherever it did."""
+"""The limit of (product of all sines × evenness)² × smallest sine for rounding errors.
+
+Below this limit rounding may take every digit. In hundreds of hard scenes the value was 1e-16 or
+less wherever rounding did so.
+"""
 
 EXAMINED = 4096
-"""Variants that the independent route examines at once."""
+"""The number of variants that the independent check examines at once."""
 
 STREAMED = 65_536
-"""Variants of a stream that are run at once."""
+"""The number of variants of a stream that are run at once."""
 
 
 def load(name: str | Path, /, **settings: object) -> Mechanism:
     """The mechanism of a shipped lab or a scene file, with parameters set: load("pump", n=7).
 
-    Raises SceneError or StructureError with everything that is wrong.
+    Raises SceneError or StructureError with all mistakes.
     """
     return Mechanism(read_scene(scene_files.find(str(name)), settings))
 
 
 def wrong_with_structure(scene: Scene) -> tuple[Problem, ...]:
-    """Everything that keeps the links of a scene from being put together; nothing if they can."""
+    """The problems that keep the links of a scene from being put together; empty if none."""
     try:
         write(scene, Mechanism(scene).groups)
     except GraphkinError as error:
@@ -80,18 +83,18 @@ def wrong_with_structure(scene: Scene) -> tuple[Problem, ...]:
 
 
 LAST = 6
-"""How many slices and drawings a mechanism keeps."""
+"""The number of slices and of drawings that a mechanism keeps."""
 
 
 def kept(memory: dict[K, V], key: K, value: V) -> None:
-    """Keep a value, and forget the oldest of too many."""
+    """Store a value, and remove the oldest if there are too many."""
     memory[key] = value
     if len(memory) > LAST:
         del memory[next(iter(memory))]
 
 
 class Mechanism(Struct, frozen=True, dict=True):
-    """A scene with what follows from it; lengths in m, angles in rad, times in s."""
+    """A scene with its derived data; lengths in m, angles in rad, times in s."""
 
     scene: Scene
 
@@ -104,7 +107,7 @@ class Mechanism(Struct, frozen=True, dict=True):
 
     @cached_property
     def laid(self) -> Laid:
-        """The groups as they are drawn where the mechanism stands, and their construction."""
+        """The groups as they are drawn in the scene's position, and their construction."""
         return laid(self.scene, self.groups)
 
     @cached_property
@@ -114,19 +117,19 @@ class Mechanism(Struct, frozen=True, dict=True):
 
     @cached_property
     def press(self) -> BatchRunner:
-        """What runs the program on many variants at once."""
+        """The runner of the program for many variants at once."""
         from graphkin.construction.tape.batch_runner import BatchRunner
 
         return BatchRunner(self.program)
 
     @cached_property
     def is_of_higher_class(self) -> bool:
-        """Whether a group is closed by trying: what knows of that is loaded for it alone."""
+        """Whether a group is closed by trial; only then the code for such groups is loaded."""
         return any(isinstance(group, CoupledTrain | Higher) for group in self.groups)
 
     @cached_property
     def trial_rates(self) -> Mapping[int, float]:
-        """What the hand tries in the auxiliary plans of groups of higher class, by the step."""
+        """The trial rates in the auxiliary plans of groups of higher class, by step."""
         if not self.is_of_higher_class:
             return {}
         from graphkin.construction.higher_class.trial_rates import trial_rates
@@ -135,35 +138,35 @@ class Mechanism(Struct, frozen=True, dict=True):
 
     @cached_property
     def check(self) -> Check:
-        """The independent route, with its loops written once."""
+        """The independent check, whose loop equations are written only once."""
         from graphkin.loops.witness import Check
 
         return Check(self.scene)
 
     @cached_property
     def sliced(self) -> dict[tuple[tuple[Target, ...], bool], tuple[int, ...]]:
-        """The steps that targets need, of those that were asked for last."""
+        """The steps needed by the targets requested last, by targets and ``by_hand``."""
         return {}
 
     @cached_property
     def drawings(self) -> dict[tuple[int, ...], Trace]:
-        """What was run last of some steps, at one scale of velocities or another."""
+        """The last traces, by their steps, each at its own scale of velocities."""
         return {}
 
     def steps_of(self, targets: tuple[Target, ...], by_hand: bool) -> tuple[int, ...]:
-        """The steps that targets need, sliced once."""
+        """The steps that targets need, computed once."""
         key = targets, by_hand
         if key not in self.sliced:
             kept(self.sliced, key, self.program.needed(targets, by_hand=by_hand))
         return self.sliced[key]
 
     def spoken(self, language: str | None) -> Mechanism:
-        """The same with its links called as in a language; in the scene's own if None."""
+        """The mechanism with its links named in a language; in the scene's own if None."""
         scene = in_language(self.scene, language or self.scene.sheet.language)
         return self if scene is self.scene else Mechanism(scene)
 
     def asked(self) -> tuple[Target, ...]:
-        """What the scene asks for, as targets of the program; everything when it asks nothing."""
+        """The targets that the scene asks for; all targets if it asks for nothing."""
         wanted = [
             (quantity.target, point_of(self.scene, name))
             for key, some in ASKED.items()
@@ -173,7 +176,7 @@ class Mechanism(Struct, frozen=True, dict=True):
         return tuple(target for target in wanted or self.program.answers if self.gives(target))
 
     def gives(self, target: Target) -> bool:
-        """True when the program constructs a quantity."""
+        """Whether the program constructs a quantity."""
         return target in self.program.targets
 
     def trace(
@@ -184,11 +187,11 @@ class Mechanism(Struct, frozen=True, dict=True):
         seconds: float | None = None,
         kind: Kind = FLOAT,
     ) -> Trace:
-        """Every value that the targets need (all targets if None), on this one scene.
+        """Every value that the targets need (all targets if None), for this one scene.
 
-        ``by_hand`` runs the drawn steps too, with velocities set on the mechanism at the scale
-        ``seconds`` = kL/kv; ``kind`` is that of the numbers (see kinds). Raises
-        ClosureError for a step that cannot be drawn.
+        ``by_hand`` runs the drawn steps too, with velocities drawn on the mechanism at the scale
+        ``seconds`` = kL/kv. ``kind`` is the kind of numbers (see kinds). Raises ClosureError for a
+        step that cannot be drawn.
         """
         program = self.program
         wanted = program.answers if targets is None else tuple(targets)
@@ -212,8 +215,11 @@ class Mechanism(Struct, frozen=True, dict=True):
     def in_doubles(
         self, needed: tuple[int, ...], overrides: Mapping[int, Any], by_hand: bool
     ) -> Trace:
-        """The values of some steps in doubles, begun with what was drawn last: where a group is
-        closed by trying, with the same steps drawn by hand alone. Raises StepFailed."""
+        """The values of some steps in doubles, starting from the last drawing.
+
+        For groups closed by trial, only a drawing of the same steps by hand is reused. Raises
+        StepFailed.
+        """
         program, begun = self.program, self.drawings.get(needed)
         if not self.is_of_higher_class:
             begun = begun or next(reversed(self.drawings.values()), None)
@@ -234,10 +240,10 @@ class Mechanism(Struct, frozen=True, dict=True):
         return gathered(trace, self.scene.links)
 
     def witness(self, solution: Solution, *, numbered: bool = True) -> Verdict:
-        """The judgement of the independent route on a solution of this scene.
+        """The verdict of the independent check on a solution of this scene.
 
-        Without ``numbered`` it does not count all closures of groups of class III and higher to
-        tell whether the stated one is drawn, which takes longer than all else.
+        Without ``numbered`` it does not count all closures of groups of class III and higher. The
+        count shows whether the stated closure is drawn, and takes longer than everything else.
         """
         return self.check.compare(solution, numbered=numbered)
 
@@ -250,14 +256,14 @@ class Mechanism(Struct, frozen=True, dict=True):
     ) -> Solution:
         """The motion of many variants at once, each parameter a number or an array of one length.
 
-        What cannot be drawn is NaN, and so is a variant in which two loci touch, with a smallest
-        sine of crossing below 8·sqrt(eps), for there no digit of a velocity is right. Of float64
-        every quantity of which flat crossings leave no digit sure is NaN too, by the same judgement
-        as in ``witness``. Values between a parameter's steps are allowed, to sweep it. ``kind``
-        names the numbers: float32, float64 or longdouble.
+        The solution has NaN where a mechanism does not close, and where two loci only touch: below
+        a sine of crossing of 8·sqrt(eps) no digit of a velocity is correct. In float64 it also has
+        NaN for every quantity of which flat crossings leave no digit sure, by the same check as
+        ``witness``. Values between a parameter's steps are allowed, for sweeps. ``kind`` names the
+        numbers: float32, float64 or longdouble.
 
         Raises SceneError for a name that is no parameter of the scene, for values outside a
-        parameter's range, and for arrays of several dimensions or lengths.
+        parameter's range, and for arrays of several dimensions or different lengths.
         """
         return self.run_many(self.entered(parameters), asked, kind)
 
@@ -269,9 +275,10 @@ class Mechanism(Struct, frozen=True, dict=True):
         block: int = STREAMED,
         **parameters: Any,
     ) -> Iterator[Solution]:
-        """As batch, so many variants at a time: for what is summed up as it comes.
+        """As ``batch``, but in blocks of ``block`` variants, for results that are summed up.
 
-        Only one block is held, however many variants there are. Raises as batch before the first.
+        Only one block is held in memory, however many variants there are. Raises as ``batch`` does,
+        before the first block.
         """
         given = self.entered(parameters)
         size = max((len(array) for array in given.values()), default=1)
@@ -285,7 +292,7 @@ class Mechanism(Struct, frozen=True, dict=True):
         )
 
     def entered(self, parameters: Mapping[str, Any]) -> dict[str, Any]:
-        """Parameters as arrays of floats of one length. Raises SceneError as batch does."""
+        """Parameters as arrays of floats of one length. Raises SceneError as ``batch`` does."""
         strangers = sorted(set(parameters) - set(self.scene.values))
         if strangers:
             known = ", ".join(self.scene.values) or "none: the scene has no parameters"
@@ -324,10 +331,10 @@ class Mechanism(Struct, frozen=True, dict=True):
         return self.sure(solution, values, product_of_sines(trace))
 
     def sure(self, solution: Solution, values: Mapping[str, Any], sines: Any) -> Solution:
-        """A batch with NaN where no digit of a quantity is sure, by the independent route.
+        """A batch with NaN where no digit of a quantity is sure, by the independent check.
 
-        It looks where crossings are so flat (``sines`` is the product of their sines), or lengths
-        of the scene so unequal, that rounding may take every digit.
+        The check runs only where rounding may take every digit: where crossings are very flat
+        (``sines`` is the product of their sines), or the lengths of the scene very unequal.
         """
         count = max(np.size(value) for value in values.values()) if values else 1
         with np.errstate(all="ignore"):
@@ -347,7 +354,7 @@ class Mechanism(Struct, frozen=True, dict=True):
 
     @cached_property
     def evenness(self) -> float:
-        """The shortest length of the mechanism in parts of its longest."""
+        """The shortest length of the mechanism divided by its longest."""
         from graphkin.loops.witness.differences import evenness
 
         return evenness(self.scene)
@@ -358,12 +365,12 @@ class Mechanism(Struct, frozen=True, dict=True):
         return drawn
 
     def _repr_svg_(self) -> str:
-        """The first sheet, as a notebook shows it."""
+        """The first sheet as SVG, for a notebook."""
         return str(service("picture")(self))
 
 
 def point_of(scene: Scene, name: str) -> str:
-    """The name under which a point's motion is found: A for A@3 where link 3 owns A."""
+    """The name under which a point's motion is found: A for A@3 if link 3 owns A."""
     point, link = ends_of(name)
     return point if link and point in scene.link(link).points else name
 
@@ -387,7 +394,7 @@ def refuse_shapes(arrays: Mapping[str, NDArray[Any]]) -> None:
 
 
 def refuse_out_of_range(scene: Scene, given: Mapping[str, Any]) -> None:
-    """Raise SceneError for every parameter with values outside the range that the scene states."""
+    """Raise SceneError for every parameter with values outside the scene's range."""
     problems = []
     for name, array in given.items():
         parameter = scene.parameters.get(name)

@@ -1,1 +1,1 @@
-"""What accuracy costs: the same positions by every kind of number and route."""
+"""The cost of accuracy: the same positions computed with every kind of number and method."""

@@ -1,8 +1,8 @@
-"""Certified numbers: a scene run in balls, and the decimals of which every digit is proved.
+"""Certified numbers: a scene run in balls, and decimals of which every digit is proved.
 
-A ball surely holds the true value. Where both its ends round to the same digits, these are the
-digits of the true value; else the run is repeated with more bits. What a ball cannot tell at any
-precision, such as whether a number is nought, is said and not printed.
+A ball surely contains the true value. If both its ends round to the same digits, these are the
+digits of the true value; else the run is repeated with more bits. If no precision decides a number,
+such as whether it is zero, the result says so instead of printing digits.
 """
 
 from __future__ import annotations
@@ -27,19 +27,21 @@ from graphkin.scene.model import Scene
 from graphkin.text.errors import SceneError
 
 SPARE = 64
-"""Bits beyond those of the digits at the first attempt."""
+"""The bits beyond those of the digits at the first attempt."""
 DOUBLINGS = 3
 """How often the bits are doubled before a number counts as not decided."""
 IRRATIONAL = (ArithmeticError, TypeError, ValueError, AttributeError, SceneError)
-"""What an action raises on formal numbers: nothing to divide by, no order, no function."""
+"""The errors of an action on formal numbers: a zero divisor, no order, no such function."""
 
 
 # --- runs in balls -------------------------------------------------------------------------------
 
 
 def precisions(digits: int) -> Iterator[tuple[int, bool]]:
-    """The bits that are tried one after the other for so many significant digits, and whether
-    formal numbers narrow the balls: these take longer, and most scenes do without."""
+    """The bits to try in turn for ``digits`` digits, and whether formal numbers narrow the balls.
+
+    Formal numbers take longer, and most scenes do not need them.
+    """
     bits = ceil(digits * log2(10)) + SPARE
     yield bits, False
     for doublings in range(DOUBLINGS + 1):
@@ -47,8 +49,7 @@ def precisions(digits: int) -> Iterator[tuple[int, bool]]:
 
 
 class Certifier(Struct, frozen=True):
-    """A mechanism to be run in balls: the steps that are needed, and their values in formal
-    numbers as they are found."""
+    """A mechanism to run in balls: the steps needed, and their values in formal numbers so far."""
 
     mechanism: Mechanism
     needed: tuple[int, ...]
@@ -56,15 +57,15 @@ class Certifier(Struct, frozen=True):
 
     @classmethod
     def of(cls, mechanism: Mechanism, targets: Iterable[Target] | None = None) -> Certifier:
-        """Ready for some targets, or for all that can be asked."""
+        """A certifier for some targets, or for everything that can be asked."""
         program = mechanism.program
         needed = program.needed(program.answers if targets is None else targets)
         return cls(mechanism, needed)
 
     def run(self, bits: int, narrowed: bool = True) -> Balls:
-        """All that can be drawn in balls of so many bits, narrowed to what is formally known.
+        """A run in balls of ``bits`` bits, narrowed to what is formally known.
 
-        A step that fails takes with it only what follows from it.
+        A step that fails affects only the steps that depend on it.
         """
         kind, program = ball_kind(bits), self.mechanism.program
         found: dict[int, Any] = {}
@@ -92,21 +93,21 @@ class Certifier(Struct, frozen=True):
 
 
 class Balls(Struct, frozen=True):
-    """A run in balls: what was found, and for every other step the failure that it hangs on."""
+    """A run in balls: the values found, and the failure that prevents each other step."""
 
     trace: Trace
     blame: Mapping[int, StepFailed]
     formal: Mapping[int, Any]
 
     def failure(self, target: Target) -> StepFailed | None:
-        """Why a target was not found; the first failure of all for what is no target itself."""
+        """Why a target was not found; the first failure if the target is not in the program."""
         number = self.trace.program.targets.get(target)
         if number is None or number not in self.blame:
             return next(iter(self.blame.values()), None)
         return self.blame[number]
 
     def narrowed(self, place: Any, target: Target) -> Any:
-        """The place of a centre as narrow as what is formally known of it allows."""
+        """The place of a centre, as narrow as its formal value allows."""
         ratio = self.formal.get(self.trace.program.targets.get(target, -1))
         if ratio is None or not ratio.size.terms:
             return place
@@ -132,9 +133,9 @@ def nearest(value: Any) -> Any:
 def trace_by_balls(
     mechanism: Mechanism, digits: int, targets: Iterable[Target] | None
 ) -> Trace | None:
-    """What balls find of some targets, in doubles, where rounding leaves doubles without any.
+    """The values of some targets found by balls, in doubles, where doubles alone find none.
 
-    None where balls do not find every position either, as at a dead point itself.
+    None if balls do not find every position either, as at a dead point itself.
     """
     certifier = Certifier.of(mechanism, targets)
     for bits, narrowed in precisions(digits):
@@ -144,18 +145,18 @@ def trace_by_balls(
     return None
 
 
-# --- what the scene states, and what follows from it whatever the numbers are --------------------
+# --- formal values: what follows from the scene whatever the numbers are --------------------------
 
 
 def fractions(scene: Scene) -> dict[str, Any]:
-    """The parameters of a scene, and its moment where that is a fraction."""
+    """The parameters of a scene, and its time if that is a fraction."""
     given = {name: value for name, value in scene.values.items() if name != TIME}
     moment = scene.time.number(given) if scene.time is not None else None
     return given | {TIME: moment} if isinstance(moment, Fraction) else given
 
 
 def formal_value(step: Step, args: Iterable[Any], values: Mapping[str, Any], ball: Any) -> Any:
-    """The value of a step in formal numbers; letters for what is none, in the make of its ball."""
+    """The value of a step in formal numbers, or letters in the form of its ball if it has none."""
     try:
         if step.given is not None:
             return as_formal(step.given.value(values, FORMAL))
@@ -167,14 +168,14 @@ def formal_value(step: Step, args: Iterable[Any], values: Mapping[str, Any], bal
 
 
 def as_formal(value: Any) -> Any:
-    """A value with Python's own numbers, and those of lines and circles, as formal ones."""
+    """A value made of Python's numbers as formal numbers, also within lines and circles."""
     if isinstance(value, tuple):
         return by_parts(as_formal, value)
     return Formal.of(value)
 
 
 def unknown(ball: Any) -> Any:
-    """A value of the make of a ball of which nothing is known."""
+    """An unknown formal value in the form of a ball."""
     if isinstance(ball, tuple):
         return by_parts(unknown, ball)
     if not is_ball(ball):
@@ -183,7 +184,7 @@ def unknown(ball: Any) -> Any:
 
 
 def sharpened(value: Any, formal: Any) -> Any:
-    """A ball as narrow as what is formally known allows: of no width where that ends in binary."""
+    """A ball narrowed to its formal value: of zero width if that is a finite binary fraction."""
     if isinstance(value, tuple):
         return by_parts(sharpened, value, formal)
     if not is_ball(value):
@@ -196,7 +197,7 @@ def sharpened(value: Any, formal: Any) -> Any:
 
 
 def narrowed(ball: Any, formal: Formal) -> Any:
-    """A real ball, or the fraction that it holds."""
+    """A real ball, or the fraction that it is known to be."""
     from flint import arb, fmpq
 
     if (known := formal.constant) is None:
@@ -210,14 +211,14 @@ def narrowed(ball: Any, formal: Formal) -> Any:
 
 
 class Decimals(Struct, frozen=True):
-    """How a real ball prints: ``text`` where its digits are proved, else ``doubt`` says why not."""
+    """The printed form of a real ball: ``text`` if its digits are proved, else ``doubt``."""
 
     text: str | None
     doubt: str = ""
 
 
 def decimals(ball: Any, digits: int) -> Decimals:
-    """The significant digits to which both ends of a ball round; a tie goes to the even digit."""
+    """The significant digits to which both ends of a ball round; ties go to the even digit."""
     low, high = ends(ball)
     if low == high == 0:
         return Decimals("0")
@@ -230,7 +231,7 @@ def decimals(ball: Any, digits: int) -> Decimals:
 
 
 def ends(ball: Any) -> tuple[Fraction, Fraction]:
-    """Both ends of a real ball, without rounding; a number of Python's is its own ball."""
+    """Both ends of a real ball, without rounding; a Python number is its own ball."""
     if not is_ball(ball):
         return Fraction(ball), Fraction(ball)
     if ball.is_exact():
@@ -240,14 +241,13 @@ def ends(ball: Any) -> tuple[Fraction, Fraction]:
 
 
 def dyadic(number: Any) -> Fraction:
-    """A ball of no width as a fraction."""
+    """A ball of zero width as a fraction."""
     mantissa, exponent = (int(part) for part in number.man_exp())
     return Fraction(mantissa) * Fraction(2) ** exponent
 
 
 def rounded(value: Fraction, digits: int) -> tuple[int, int]:
-    """A number other than nought as a whole number of so many digits, and the power of ten of its
-    first digit."""
+    """A nonzero number as a whole number of ``digits`` digits, and its leading power of ten."""
     power = power_below(abs(value))
     whole = round(value / Fraction(10) ** (power - digits + 1))
     if abs(whole) == 10**digits:
@@ -265,13 +265,13 @@ def power_below(size: Fraction) -> int:
 
 
 def next_power(size: Fraction) -> str:
-    """The power of ten that is no smaller than a positive number, such as 1e-60."""
+    """The least power of ten not below a positive number, such as 1e-60."""
     power = power_below(size)
     return f"1e{power if Fraction(10) ** power == size else power + 1}"
 
 
 def written(whole: int, power: int, digits: int) -> str:
-    """So many digits with their point; with a power of ten where noughts would not be digits."""
+    """The digits with their point; with a power of ten where zeros would not be digits."""
     sign, text = "-" if whole < 0 else "", str(abs(whole))
     if 0 <= power < digits:
         before, after = text[: power + 1], text[power + 1 :]

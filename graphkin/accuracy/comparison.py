@@ -1,4 +1,4 @@
-"""What is compared, at which positions, and how far methods are from the reference."""
+"""The quantities and positions of a comparison, and the errors against a certified reference."""
 
 from __future__ import annotations
 
@@ -26,22 +26,25 @@ from graphkin.structure.pairs import is_in_scene
 from graphkin.text.errors import ClosureError, GraphkinError, Problem, WitnessError
 
 AROUND = {"turn": 60.0}
-"""How far to both sides of the scene's own position a driver is moved: degrees."""
+"""The distance, in degrees, that a turning driver is moved from the scene's position."""
 SHARE = 0.25
 """The same for a driver along a line, and for the time: a share of its range."""
 TRIED = 240
-"""Positions tried on the way to both sides."""
+"""The number of positions tried to each side."""
 STEEP = 0.1
-"""Sine of crossing below which a position belongs to the picture of dead points."""
+"""The sine of crossing below which a position belongs to the picture of dead points."""
 FIRST = 0.3
-"""Share of the way from the scene to the end of its range at which the approach begins."""
+"""The share of the way from the scene to the end of its range at which the approach begins."""
 ULPS = 64
-"""Units in the last place of a driver's position that are left at the end of an approach."""
+"""The least distance from the end of an approach, in units in the last place."""
 SURELY = 1e-8
-"""The distance of the last positions, in parts of that of the first, at change points, where a sine
-falls as the distance and not as its root, and where an end is known to few digits."""
+"""The distance of the last positions at change points, as a share of the first distance.
+
+At a change point a sine falls as the distance and not as its root. The share also holds where an
+end is known only to few digits.
+"""
 APART = 0.2
-"""How far the positions of one distance lie apart, as a share of that distance."""
+"""The spread of the positions of one distance, as a share of that distance."""
 
 End = Literal["dead", "change", "range"]
 
@@ -49,8 +52,8 @@ End = Literal["dead", "change", "range"]
 class ComparedPositions(Struct, frozen=True, eq=False):
     """Positions that one choice of closures reaches, with every driver's motion there.
 
-    ``at`` (P,) is the driver's position in degrees or metres, or the time in seconds; ``values``
-    holds arrays (P,) for what differs between them, exact numbers for what does not.
+    ``at`` (P,) is the driver's position in degrees or metres, or the time in seconds. ``values``
+    holds arrays (P,) for inputs that differ between positions, exact numbers for the others.
     """
 
     course: Course
@@ -67,7 +70,7 @@ class ComparedPositions(Struct, frozen=True, eq=False):
         return ComparedPositions(self.course, self.at[rows], cut)
 
     def repeated(self, count: int) -> dict[str, Any]:
-        """The values as arrays of a length, the positions over and over."""
+        """The values as arrays of length ``count``, with the positions repeated."""
         return {
             name: np.resize(value, count) if hasattr(value, "shape") else value
             for name, value in self.values.items()
@@ -75,14 +78,14 @@ class ComparedPositions(Struct, frozen=True, eq=False):
 
 
 def exact(value: Any, number: int) -> Any:
-    """The exact number that a value of one position is."""
+    """The exact value at one position."""
     if hasattr(value, "shape"):
         return Fraction(float(value[number]))
     return Fraction(value) if isinstance(value, float) else value
 
 
 class Ground(Struct, frozen=True, eq=False):
-    """A scene's sweep with its reachable ranges, and where on it the scene stands."""
+    """A scene's sweep with its reachable ranges, and the scene's own place on it."""
 
     sweep: Sweep
     path: Path
@@ -90,12 +93,12 @@ class Ground(Struct, frozen=True, eq=False):
 
     @property
     def piece(self) -> Piece:
-        """The piece of the scene's own range in which it stands, or the nearest."""
+        """The piece of the range that contains the scene's place, or the nearest piece."""
         return min(self.path.ranges[0], key=lambda piece: outside(piece, self.centre))
 
 
 def ground_of(scene: Scene) -> Ground:
-    """Where a scene can move; raises ClosureError where it closes nowhere."""
+    """The sweep of a scene; raises ClosureError if the scene does not close."""
     sweep = sweep_of(scene)
     centre = sweep.stands
     path = reachable_ranges(sweep)
@@ -106,7 +109,7 @@ def ground_of(scene: Scene) -> Ground:
 
 
 def outside(piece: Piece, place: float) -> float:
-    """How far a place lies from a piece; nought within it."""
+    """The distance of a place from a piece; zero within it."""
     return max(piece.low.at - place, place - piece.high.at, 0.0)
 
 
@@ -120,7 +123,7 @@ def placed(course: Course, at: Reals, *, single: bool = True) -> ComparedPositio
 
 
 def in_single(value: Any) -> Any:
-    """The number of single precision next to a double, as a double again."""
+    """The single-precision number next to a double, as a double again."""
     near = np.float32(value).astype(float)
     return near if hasattr(value, "shape") else float(near)
 
@@ -128,8 +131,8 @@ def in_single(value: Any) -> Any:
 def places_around(ground: Ground, count: int) -> ComparedPositions:
     """Evenly spread positions around the scene's own, where no crossing is flat.
 
-    Within 60 degrees or a quarter of the range to both sides, within the piece of the range that
-    has the scene's closures, as far as every crossing keeps a sine of 0.1, or half its own.
+    They lie within 60 degrees or a quarter of the range to each side, and within the piece of the
+    range that has the scene's closures. Every crossing keeps a sine of 0.1, or half its own.
     """
     piece, centre = ground.piece, ground.centre
     wide = piece.high.at - piece.low.at
@@ -141,7 +144,7 @@ def places_around(ground: Ground, count: int) -> ComparedPositions:
 
 
 def walked(course: Course, start: float, end: float) -> float:
-    """How far one can go from a start to an end before a crossing is too flat."""
+    """The farthest place from ``start`` towards ``end`` before a crossing is too flat."""
     way = np.linspace(start, end, TRIED + 1)
     sines = np.asarray(course.margins(way).min(axis=0))
     least = min(STEEP, sines[0] / 2) if np.isfinite(sines[0]) else STEEP
@@ -152,8 +155,8 @@ def walked(course: Course, start: float, end: float) -> float:
 class Approach(Struct, frozen=True, eq=False):
     """Positions on the way to a dead point or change point, in groups of equal distance.
 
-    ``end`` says to what; "range" where there is neither, and the places run through the range.
-    ``goal`` is its place on the sweep, None without one.
+    ``end`` is the kind of end; "range" means neither, and the positions cover the range. ``goal``
+    is the place of the end on the sweep, or None.
     """
 
     places: ComparedPositions
@@ -165,8 +168,8 @@ class Approach(Struct, frozen=True, eq=False):
 def approach(ground: Ground, groups: int, each: int, share: float = 0.0) -> Approach:
     """The way to the nearest dead point of the scene's range, or else to a change point.
 
-    The distances fall evenly in their logarithm down to a ``share`` of the first of them, or to
-    the last digits of a double. Raises ClosureError where the driver cannot move.
+    The distances decrease evenly in their logarithm, down to a ``share`` of the first or to the
+    last digits of a double. Raises ClosureError if the driver cannot move.
     """
     kinds: tuple[End, ...] = ("dead", "change")
     for kind in kinds:
@@ -189,7 +192,7 @@ def approach(ground: Ground, groups: int, each: int, share: float = 0.0) -> Appr
 
 
 class EndSearch(NamedTuple):
-    """A piece with the end that is sought, the sense away from it, and where to stop."""
+    """A piece with the end to approach, the sense away from it, and the share at which to stop."""
 
     piece: Piece
     goal: float
@@ -198,7 +201,7 @@ class EndSearch(NamedTuple):
 
 
 def towards(way: EndSearch, groups: int, each: int, kind: End) -> Approach:
-    """Places of a piece at ever smaller distances from its end, so many at each."""
+    """Places of a piece at ever smaller distances from its end, ``each`` at every distance."""
     piece, goal = way.piece, way.goal
     far = FIRST * (piece.high.at - piece.low.at)
     share = max(way.share, SURELY if kind == "change" or piece.course.is_searched else 0.0)
@@ -214,11 +217,11 @@ def towards(way: EndSearch, groups: int, each: int, kind: End) -> Approach:
 
 
 BITS = 640
-"""Bits of the reference: some two hundred more than any method has."""
+"""The bits of the reference, some two hundred more than any method has."""
 ROOM = 64
 """Further bits for the differences."""
 STILL = 1e-3
-"""Share of v²/L below which the largest acceleration is not taken seriously as a scale."""
+"""The share of v²/L below which the largest acceleration is too small to be a scale."""
 
 Found = Mapping[Target, Any]
 """Values by target, of one position."""
@@ -231,16 +234,15 @@ class ComparedTargets(Struct, frozen=True):
 
     @property
     def every(self) -> tuple[Target, ...]:
-        """All of them."""
         return tuple(target for some in self.targets for target in some)
 
 
 def answers_of(scene: Scene, program: Program) -> ComparedTargets:
     """All named points and blocks that have all three quantities.
 
-    Equivalent linkages of cams are left out: other routes know nothing of them.
-    A point of one link under another's (A@3) is left out: it is another one at every instant, so
-    that its velocity is not the derivative of a position.
+    Equivalent linkages of cams are left out, because other methods do not have them. A point of one
+    link under another's (A@3) is left out too: it is a different point at every instant, so that
+    its velocity is not the derivative of a position.
     """
     known = program.targets
     found: list[tuple[Target, ...]] = []
@@ -265,12 +267,12 @@ def of_all(known: Mapping[Target, int], quantities: Sequence[str]) -> list[str]:
 
 
 class Reference(Struct, frozen=True, eq=False, dict=True):
-    """Certified answers at every position, and what errors are counted in.
+    """Certified answers at every position, and the scales of their errors.
 
-    ``sizes`` and ``radii`` have the shape (P, 3): largest distance of two points, largest speed,
-    largest acceleration, and the largest radius of a ball of each. ``sines`` (P,) are those of the
-    flattest crossing of the positions. ``places`` are those that could be certified, ``kept`` their
-    numbers among those that were asked.
+    ``sizes`` and ``radii`` have the shape (P, 3): the largest distance of two points, the largest
+    speed and the largest acceleration, and the largest radius of a ball of each. ``sines`` (P,) are
+    those of the flattest crossing. ``places`` are the positions that could be certified, ``kept``
+    their indices among the requested ones.
     """
 
     places: ComparedPositions
@@ -294,7 +296,8 @@ class Reference(Struct, frozen=True, eq=False, dict=True):
     def missed(self, found: Sequence[Found]) -> Reals:
         """The largest error of each quantity at each position, (P, 3).
 
-        Each is an upper bound: the reference's own radius is in it. NaN where an answer is missing.
+        Each is an upper bound, including the reference's own radius. NaN where an answer is
+        missing.
         """
         from flint import ctx
 
@@ -311,7 +314,7 @@ class Reference(Struct, frozen=True, eq=False, dict=True):
 
     @property
     def scales(self) -> Reals:
-        """The largest of each quantity over all positions (3,); 1 for what is nought throughout."""
+        """The largest of each quantity over all positions (3,); 1 for one that is always zero."""
         return sizeable(self.sizes.max(axis=0))
 
     @property
@@ -326,7 +329,7 @@ class Reference(Struct, frozen=True, eq=False, dict=True):
 
 
 def sizeable(size: Reals) -> Reals:
-    """Sizes (…, 3) to divide by: an acceleration beside v²/L counts at least a little of that."""
+    """Sizes (…, 3) to divide by: at least STILL·v²/L for an acceleration, and never zero."""
     length, speed, acceleration = (size[..., n] for n in range(3))
     length = np.where(length > 0, length, 1.0)
     acceleration = np.maximum(acceleration, STILL * speed**2 / length)
@@ -337,9 +340,9 @@ def sizeable(size: Reals) -> Reals:
 def reference_of(
     places: ComparedPositions, answers: ComparedTargets, bits: int = BITS
 ) -> Reference:
-    """The answers in balls; positions where a ball does not tell the step are left out.
+    """The answers in balls; positions where a ball cannot decide a step are left out.
 
-    Raises WitnessError where none is left.
+    Raises WitnessError if no position is left.
     """
     program = places.course.program
     needed = program.needed(answers.every)
@@ -396,7 +399,10 @@ def radii_of(found: Found, answers: ComparedTargets) -> list[float]:
 
 
 def radius(value: Any) -> float:
-    """The radius of a ball, of a complex one that of the circle about its box; inf for no ball."""
+    """The radius of a ball; the circumscribed radius for a complex one; zero if not a ball.
+
+    A ball that is not finite has an infinite radius.
+    """
     if not is_ball(value):
         return 0.0
     if not value.is_finite():
@@ -406,7 +412,7 @@ def radius(value: Any) -> float:
 
 
 def error(value: Any, sure: Any) -> float:
-    """The most by which a number can differ from what a ball holds; NaN for no number."""
+    """The largest possible difference of a number from the value in a ball; NaN for no number."""
     ball = None if value is None else as_ball(value)
     if ball is None:
         return float("nan")
@@ -414,7 +420,7 @@ def error(value: Any, sure: Any) -> float:
 
 
 def as_ball(value: Any) -> Any:
-    """A number of any kind, exactly; None for one that is not finite."""
+    """A number of any kind as an exact ball; None if it is not finite."""
     from flint import acb, arb, fmpq
 
     if is_ball(value):
@@ -435,7 +441,7 @@ def as_ball(value: Any) -> Any:
 
 
 def rows_of(columns: Mapping[Target, Any], count: int) -> list[Found]:
-    """The values of single positions from arrays, or from what all positions share."""
+    """The values of single positions, from arrays or from values that all positions share."""
     arrays = {
         target: v if getattr(v, "shape", ()) else np.full(count, v) for target, v in columns.items()
     }

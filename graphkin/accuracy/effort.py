@@ -1,4 +1,4 @@
-"""How much is measured of what accuracy costs."""
+"""The extent of a study: how many positions, rounds and variants are measured."""
 
 from __future__ import annotations
 
@@ -15,13 +15,13 @@ from graphkin.construction.core.timing import Clock, Stopwatch
 
 
 class Effort(Struct, frozen=True):
-    """How much is measured: positions compared, rounds of a time, variants of a batch.
+    """The extent of a study: positions compared, rounds of a time, variants of a batch.
 
-    ``timed`` are the positions at which decimals and balls are timed, ``drawn`` those on the way to
-    a dead point at which a drawing is foretold.
+    ``timed`` is the number of positions at which decimals and balls are timed. ``drawn`` is the
+    number of positions towards a dead point at which a drawing is predicted.
 
-    ``least`` is the time in seconds that a round lasts at least, ``patience`` what all rounds of
-    one method may take together; ``groups`` and ``each`` part the way to a dead point.
+    ``least`` is the least time of a round and ``patience`` the most time for all rounds of one
+    method, in seconds. ``groups`` and ``each`` divide the way to a dead point.
     """
 
     places: int = 32
@@ -36,7 +36,7 @@ class Effort(Struct, frozen=True):
     compiled: bool = True
 
     def watch(self, clock: Clock, say: Callable[[str], None]) -> Stopwatch:
-        """What measures times with this effort."""
+        """The stopwatch for this effort."""
         return Stopwatch(self.rounds, self.least, self.patience, clock=clock, say=say)
 
 
@@ -52,18 +52,18 @@ QUICK = Effort(
     drawn=4,
     compiled=False,
 )
-"""A few positions, hardly any timing: to try the command, and for its tests."""
+"""A few positions with hardly any timing: to try the command, and for its tests."""
 
 
 # --- the machine on which something was timed, in words -------------------------------------------
 
 
 LIBRARIES = ("numpy", "numba", "mpmath", "python-flint")
-"""Libraries whose speed is measured."""
+"""The libraries whose speed is measured."""
 
 
 def machine_words() -> str:
-    """Processor, system, and the versions of Python and of the libraries that reckon."""
+    """Processor, system, and the versions of Python and of the numerical libraries."""
     cores = os.cpu_count() or 1
     parts = [
         f"{processor()}, {cores} core{'s' if cores > 1 else ''}",
@@ -74,7 +74,7 @@ def machine_words() -> str:
 
 
 def processor(listing: Path = Path("/proc/cpuinfo")) -> str:
-    """The name of the processor, as well as the system tells it."""
+    """The name of the processor, as far as the system reports it."""
     try:
         for line in listing.read_text(encoding="utf-8", errors="replace").splitlines():
             if line.startswith("model name"):
@@ -85,7 +85,7 @@ def processor(listing: Path = Path("/proc/cpuinfo")) -> str:
 
 
 def version_of(name: str) -> str:
-    """The version of a library; empty where it is not installed."""
+    """The version of a library; empty if it is not installed."""
     try:
         return version(name)
     except PackageNotFoundError:

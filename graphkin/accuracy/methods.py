@@ -1,4 +1,4 @@
-"""The program's own ways: Python floats, batches, decimals and balls, all on the same steps."""
+"""The methods compared: floats, batches, decimals and balls on the same steps, and two others."""
 
 from __future__ import annotations
 
@@ -34,16 +34,16 @@ from graphkin.text.errors import GraphkinError
 DIGITS = (15, 30, 60, 120)
 BITS = (53, 106, 212, 400)
 FEW = 1_000
-"""Variants of a batch with a group of higher class, each of which is a search."""
+"""The most variants of a batch with a group of higher class, because each is a search."""
 
 
 class MethodRow(Struct, frozen=True):
-    """A method: its largest errors in parts of the largest of each quantity, and its time.
+    """A method: its largest errors as shares of the largest of each quantity, and its time.
 
-    An error is None for what a method does not give, inf where it fails at some position.
-    ``variants`` are the positions of one run; ``certified`` marks errors that the method itself
-    proves, so that they are radii; ``time`` is of one position, in seconds, None where the method
-    is not timed. ``key`` is the short name on pictures.
+    An error is None for a quantity that the method does not give, infinite if the method fails at
+    some position. ``variants`` is the number of positions of one run. ``certified`` marks errors
+    that the method itself proves, so that they are radii. ``time`` is that of one position, in
+    seconds, None if the method is not timed. ``key`` is the short name on pictures.
     """
 
     family: str
@@ -57,7 +57,7 @@ class MethodRow(Struct, frozen=True):
 
 
 class Method(Struct, frozen=True):
-    """A row still without its time, and the work on so many positions that is to be timed."""
+    """A row without its time, and the work on ``positions`` positions that is to be timed."""
 
     row: MethodRow
     work: Work | None = None
@@ -65,7 +65,7 @@ class Method(Struct, frozen=True):
 
 
 def own_methods(reference: Reference, effort: Effort) -> Iterator[Method]:
-    """Every kind of number on the same program, one position after the other or in batches."""
+    """Every kind of number with the same program, one position after the other or in batches."""
     yield one_by_one(reference, effort, FLOAT, "float64", "float64, one by one", "one by one")
     yield from batches(reference, effort)
     for digits in DIGITS:
@@ -88,7 +88,7 @@ def one_by_one(
     *,
     certified: bool = False,
 ) -> Method:
-    """A method that takes one position after the other."""
+    """A method that computes one position after the other."""
     found = found_singly(reference, kind)
     missed = radii_in(found, reference) if certified else reference.missed(found)
     some = afforded(reference, kind, effort)
@@ -102,9 +102,9 @@ def one_by_one(
 
 
 def afforded(reference: Reference, kind: Kind, effort: Effort) -> Sequence[int]:
-    """The positions that are timed: all, or evenly spread ones where each takes long.
+    """The positions that are timed: all, or evenly spread ones if each takes long.
 
-    Of decimals and balls as many as the effort says, a quarter of them where each is a search.
+    For decimals and balls the effort sets their number, and a quarter of it if each is a search.
     """
     count = len(reference.places.at)
     if reference.places.course.is_searched:
@@ -115,7 +115,7 @@ def afforded(reference: Reference, kind: Kind, effort: Effort) -> Sequence[int]:
 
 
 def singly(reference: Reference, kind: Kind, number: int) -> Found | None:
-    """The answers at one position in a kind; None where a step cannot be drawn."""
+    """The answers at one position in a kind of number; None if a step cannot be drawn."""
     program, answers = reference.places.course.program, reference.answers
     try:
         with kind.working():
@@ -127,18 +127,18 @@ def singly(reference: Reference, kind: Kind, number: int) -> Found | None:
 
 
 def found_singly(reference: Reference, kind: Kind) -> list[Found]:
-    """The answers at every position in a kind; none where a step cannot be drawn."""
+    """The answers at every position in a kind of number; empty where a step cannot be drawn."""
     return [singly(reference, kind, n) or {} for n in range(len(reference.places.at))]
 
 
 def radii_in(found: Sequence[Found], reference: Reference) -> Any:
-    """The radii that balls claim at every position, (P, 3); inf where there is none."""
+    """The radii that balls claim at every position, (P, 3); infinite where there is none."""
     nowhere = [np.inf] * 3
     return np.array([radii_of(each, reference.answers) if each else nowhere for each in found])
 
 
 def batches(reference: Reference, effort: Effort) -> Iterator[Method]:
-    """Arrays of three lengths; doubles by steps, by emitted numpy, and compiled."""
+    """Arrays of three precisions; doubles by steps, by emitted numpy code, and compiled."""
     ways: list[tuple[str, Way, str, str]] = [
         ("float64", "steps", "float64 batch, by steps", "batch, by steps"),
         ("float64", "numpy", "float64 batch, emitted numpy", "batch, emitted"),
@@ -154,14 +154,14 @@ def batches(reference: Reference, effort: Effort) -> Iterator[Method]:
 
 
 def variants_of(reference: Reference, effort: Effort) -> int:
-    """How many variants a batch has: fewer where each is a search."""
+    """The number of variants of a batch: fewer if each is a search."""
     most = FEW if reference.places.course.is_searched else effort.variants
     wanted = min(effort.variants, most)
     return max(wanted, len(reference.places.at))
 
 
 def batch(reference: Reference, effort: Effort, kind: str, way: Way, name: str, key: str) -> Method:
-    """A method that takes many positions at once; those of the reference come over and over."""
+    """A method that computes many positions at once; the reference's positions are repeated."""
     count, positions = variants_of(reference, effort), len(reference.places.at)
     values = reference.places.repeated(count)
     work = batch_work(reference.places.course.program, reference.answers.every, values, kind, way)
@@ -172,14 +172,14 @@ def batch(reference: Reference, effort: Effort, kind: str, way: Way, name: str, 
 
 
 def head_of(value: Any, count: int) -> Any:
-    """The first values of an array; what all share as it is."""
+    """The first values of an array; a value that all share is unchanged."""
     return value[:count] if getattr(value, "shape", ()) else value
 
 
 def batch_work(
     program: Program, targets: Sequence[Target], values: dict[str, Any], kind: str, way: Way
 ) -> Callable[[], dict[Target, Any]]:
-    """What runs the targets on arrays of values in a kind and a way, and gives them by name."""
+    """The work that runs targets on arrays of values in a kind of number and a way."""
     needed = program.needed(targets)
     keep = [program.targets[target] for target in targets]
     press = BatchRunner(program)
@@ -196,7 +196,7 @@ def batch_work(
 
 
 def can_be_emitted(reference: Reference) -> bool:
-    """Whether source can follow the program."""
+    """Whether the program can be emitted as source code."""
     from graphkin.construction.tape.batch_runner import BatchRequest
 
     program, answers = reference.places.course.program, reference.answers
@@ -205,18 +205,18 @@ def can_be_emitted(reference: Reference) -> bool:
     return BatchRunner(program).emitted(order) is not None
 
 
-# --- two other ways to the same answers: Newton's method on the loop equations, and differences ---
+# --- two other methods: Newton's method on the loop equations, and differences --------------------
 
 
 TOLERANCES = (1e-3, 1e-6, 1e-12)
 STEPS = (1e-2, 1e-4, 1e-6)
 WARM = 1e-2
-"""How long before its position Newton's method starts, in natural times."""
+"""The distance of Newton's starting point before its position, in natural times."""
 MOST = 2_000
-"""Variants of a batch that Newton's method takes: each is some matrices."""
+"""The most variants of a batch for Newton's method, because each needs several matrices."""
 
 NOTHING = (None, None, None)
-"""The errors of a method that gives none."""
+"""The errors of a method that gives no answers."""
 
 Values = Mapping[str, Any]
 
@@ -238,9 +238,9 @@ def other_methods(reference: Reference, effort: Effort) -> Iterator[Method]:
 
 
 def natural_time(scene: Scene, values: Values, length: float) -> float:
-    """The time in which a driver turns by a radian or slides by a length, the shortest there is.
+    """The shortest time in which a driver turns by a radian or slides by a length.
 
-    From rest it is that of the acceleration; 0 where every driver stands.
+    For a driver at rest it follows from the acceleration; 0 if no driver moves.
     """
     rates = [0.0]
     for number, driver in enumerate(scene.drivers, 1):
@@ -251,7 +251,7 @@ def natural_time(scene: Scene, values: Values, length: float) -> float:
 
 
 def moved(scene: Scene, values: Values, time: float) -> dict[str, Any]:
-    """The values a time later, every driver moved by its speed and acceleration."""
+    """The values after a time, every driver moved by its speed and acceleration."""
     found = dict(values)
     for number, driver in enumerate(scene.drivers, 1):
         name, rate, push = names(number)
@@ -261,12 +261,12 @@ def moved(scene: Scene, values: Values, time: float) -> dict[str, Any]:
 
 
 def in_floats(values: Values) -> dict[str, Any]:
-    """Values as doubles and arrays of them."""
+    """Values as doubles and arrays of doubles."""
     return {n: v if hasattr(v, "shape") else float(v) for n, v in values.items()}
 
 
 def newton_rows(reference: Reference, effort: Effort) -> Iterator[Method]:
-    """Newton's method to each tolerance; where the loops are not solvable so, it gives none."""
+    """Newton's method to each tolerance; without errors where it cannot solve the loops."""
     count = min(variants_of(reference, effort), MOST)
     for tolerance in TOLERANCES:
         name, key = f"Newton, to {plain(tolerance)}", f"to {power(tolerance)}"
@@ -286,7 +286,7 @@ def newton_rows(reference: Reference, effort: Effort) -> Iterator[Method]:
 def newton_work(
     reference: Reference, count: int, tolerance: float
 ) -> Callable[[], dict[Target, Any]]:
-    """What closes the loops from a neighbouring position and derives them, for many variants."""
+    """The work that closes the loops from a neighbouring position and derives the motion."""
     places = reference.places
     scene, values = places.course.scene, in_floats(places.repeated(count))
     time = natural_time(scene, values, float(reference.scales[0])) or 0.0
@@ -318,7 +318,7 @@ def start_before(reference: Reference, scene: Scene, before: Values) -> Reals:
 
 
 def columns_of(motion: Motion | Rounding, reference: Reference) -> dict[Target, Any]:
-    """The answers as arrays, from the motion that the loops give, or their bounds."""
+    """The answers as arrays, from the motion that the loops give, or from its bounds."""
     found: dict[Target, Any] = {}
     for targets in reference.answers.targets:
         for what, name in targets:
@@ -331,7 +331,7 @@ def columns_of(motion: Motion | Rounding, reference: Reference) -> dict[Target, 
 
 
 def difference_rows(reference: Reference, effort: Effort) -> Iterator[Method]:
-    """Central differences of positions, where anything moves."""
+    """Central differences of positions, if anything moves."""
     places = reference.places
     scene = places.course.scene
     count = variants_of(reference, effort)
@@ -355,7 +355,7 @@ def difference_rows(reference: Reference, effort: Effort) -> Iterator[Method]:
 def difference_work(
     reference: Reference, values: Values, time: float, way: Way
 ) -> Callable[[], dict[Target, Any]]:
-    """What takes the positions before, now and after, and their differences."""
+    """The work that computes the positions before, now and after, and their differences."""
     places, answers = reference.places, reference.answers
     program, scene = places.course.program, places.course.scene
     targets = answers.targets[0]

@@ -1,4 +1,4 @@
-"""The whole comparison of one scene: rows of methods, the way to a dead point, cost by scope."""
+"""The whole comparison for one scene: methods, the way to a dead point, cost by scope."""
 
 from __future__ import annotations
 
@@ -54,16 +54,16 @@ from graphkin.numbers.kinds import ball_kind
 from graphkin.text.errors import GraphkinError
 
 DOUBLE = 53
-"""Bits of a ball that has as many as a double."""
+"""The bits of a ball with the precision of a double."""
 
 
 class Agreement(Struct, frozen=True):
-    """How doubles and balls of as many bits stand to the certified answers.
+    """How doubles, and balls of as many bits, compare with the certified answers.
 
-    ``bound`` is the largest bound of a double's error over the largest of its quantity, ``single``
-    and ``batch`` the largest errors over their bounds. Of ``answers`` balls ``bounded`` have a
-    radius, the largest of which is ``tightness`` over its bound, and ``contained`` of these hold
-    the truth.
+    ``bound`` is the largest bound of a double's error over the largest of its quantity. ``single``
+    and ``batch`` are the largest errors over their bounds. Of ``answers`` balls, ``bounded`` have a
+    finite radius and ``contained`` of these contain the true value; ``tightness`` is their largest
+    radius over its bound.
     """
 
     bound: float
@@ -76,7 +76,7 @@ class Agreement(Struct, frozen=True):
 
 
 def agreement(reference: Reference) -> Agreement:
-    """Hold doubles one by one, doubles in a batch and balls against the reference."""
+    """Compare doubles one by one, doubles in a batch, and balls with the reference."""
     places, targets = reference.places, reference.answers.every
     count = len(places.at)
     columns = batch_work(
@@ -98,13 +98,13 @@ def agreement(reference: Reference) -> Agreement:
 
 
 def in_parts(errors: Reals, of: Reals) -> Reals:
-    """Errors in parts of other numbers; nothing of nothing, as of the velocities of what rests."""
+    """Errors divided by other numbers; 0/0 is 0, as for the velocities of points at rest."""
     with np.errstate(divide="ignore", invalid="ignore"):
         return np.asarray(np.where(errors == 0, 0.0, errors / of))
 
 
 def bounds_of(reference: Reference) -> Reals:
-    """The largest bound of each quantity at each position, (P, 3), as the witness has it."""
+    """The largest bound of each quantity at each position, (P, 3), from the loop equations."""
     places = reference.places
     scene, values = places.course.scene, in_floats(places.repeated(len(places.at)))
     start = start_before(reference, scene, values)
@@ -115,7 +115,7 @@ def bounds_of(reference: Reference) -> Reals:
 
 
 def contained(balls: Sequence[Found], reference: Reference) -> tuple[int, int]:
-    """How many balls hold the balls of the reference whole, of how many that have a radius."""
+    """The number of balls that contain the reference's ball, and of those with a finite radius."""
     pairs = [
         (ball, sure[target])
         for found, sure in zip(balls, reference.found, strict=True)
@@ -125,18 +125,19 @@ def contained(balls: Sequence[Found], reference: Reference) -> tuple[int, int]:
     return sum(bool(ball.contains(sure)) for ball, sure in pairs), len(pairs)
 
 
-# --- what is asked decides what it costs ----------------------------------------------------------
+# --- the cost of each scope
+# ------------------------------------------------------------------------
 
 
 SCOPES = dict(zip(KINDS, ("position", "+ velocity", "+ acceleration"), strict=True))
-"""What each derivative adds to those before it."""
+"""The scope of each kind of quantity, which includes the scopes before it."""
 CENTRES = "+ centres, poles"
-"""What is added last: the places in links."""
+"""The last scope: centres and poles in links."""
 ASKED = "asked only"
 
 
 class Scope(Struct, frozen=True):
-    """What is wanted, how many steps that needs, and the time of a position in both ways."""
+    """A scope, the number of steps it needs, and the time of a position in both ways."""
 
     name: str
     steps: int
@@ -147,9 +148,9 @@ class Scope(Struct, frozen=True):
 def scopes(
     mechanism: Mechanism, reference: Reference, effort: Effort, watch: Stopwatch
 ) -> tuple[Scope, ...]:
-    """The cost of each scope, one position after the other and in a batch; of what is asked last.
+    """The cost of each scope, one position after the other and in a batch; the asked one is last.
 
-    A scope that adds nothing, in a mechanism without centres, is left out.
+    A scope that adds nothing is left out, as for a mechanism without centres.
     """
     program = reference.places.course.program
     wanted: list[Target] = []
@@ -170,7 +171,7 @@ def scopes(
 
 
 def scope_of(target: Target) -> str | None:
-    """The scope that adds a target; None for what is no quantity of a motion."""
+    """The scope that adds a target; None if the target is not a quantity of a motion."""
     quantity = BY_TARGET.get(target[0])
     if quantity is None:
         return None
@@ -181,7 +182,7 @@ def scope_of(target: Target) -> str | None:
 def ways(
     targets: Sequence[Target], reference: Reference, effort: Effort
 ) -> Iterator[tuple[Work, int]]:
-    """What runs some targets one position after the other, and what runs them in a batch."""
+    """The work that runs some targets one position after the other, and the work in a batch."""
     places = reference.places
     program = places.course.program
     needed = program.needed(targets)
@@ -197,24 +198,24 @@ def ways(
 
 
 LAW = (-1.0, -2.0, -3.0)
-"""The slopes of the three errors."""
+"""The theoretical slopes of the errors in position, velocity and acceleration."""
 UNIT = {"float64": 2.0**-52, "float32": 2.0**-23}
-"""Relative distance of neighbouring numbers of each kind."""
+"""The relative distance of neighbouring numbers of each kind."""
 TAKES_HOLD = 0.2
-"""Sine of crossing from which the law is seen."""
+"""The sine of crossing below which the errors follow the law."""
 ABOVE = 10.0
-"""A slope is measured down to so many times the root of the unit, where nothing is left."""
+"""A slope is measured above this multiple of the unit's root; below, no digit is left."""
 FALLEN = 0.1
-"""A crossing whose sine falls to less than so much of its largest grows flat."""
+"""A crossing grows flat if its sine falls below this share of its largest."""
 LOST = 0.1
-"""An error from which it is no longer one of rounding, but an answer lost."""
+"""An error above this is not rounding: the answer is lost."""
 
 
 class Flattening(Struct, frozen=True, eq=False):
     """Errors (G, 3) in groups of equal sines (G,), by kind of number; NaN where a kind fails.
 
-    ``reference`` are the positions. ``roots`` (G,) are the roots of the distances from the end, in
-    parts of the farthest: at a dead point a sine falls as they do.
+    ``reference`` holds the positions. ``roots`` (G,) are the roots of the distances from the end,
+    as shares of the farthest: at a dead point a sine falls as the root does.
     """
 
     approach: Approach
@@ -227,17 +228,17 @@ class Flattening(Struct, frozen=True, eq=False):
     def falls(self) -> bool:
         """Whether the flattest crossing really grows flat at the end.
 
-        A group of higher class may reach its dead point without that.
+        A group of higher class may reach its dead point without a flat crossing.
         """
         return bool(self.sines.min() < FALLEN * self.sines.max())
 
     @property
     def measure(self) -> Reals:
-        """Against what errors are shown and slopes measured: the sine, or else the root (G,)."""
+        """The variable against which errors are plotted: the sine, or else the root (G,)."""
         return self.sines if self.falls else self.roots
 
     def slopes(self, kind: str) -> tuple[float | None, ...]:
-        """The slope of each error of a kind over the sine, in logarithms; None where unknown."""
+        """The logarithmic slope of each error of a kind over the measure; None if unknown."""
         least = ABOVE * UNIT[kind] ** 0.5
         return tuple(slope(self.measure, self.errors[kind][:, n], least) for n in range(3))
 
@@ -259,7 +260,10 @@ def flattened(approach: Approach, answers: ComparedTargets) -> Flattening:
 
 
 def roots_of(approach: Approach, reference: Reference) -> Reals:
-    """The root of each position's distance from the end, in parts of the farthest; 1 without."""
+    """The root of each position's distance from the end, as a share of the farthest.
+
+    All ones if there is no end.
+    """
     if approach.goal is None:
         return np.ones(len(reference.places.at))
     far = np.abs(approach.places.at - approach.goal)
@@ -274,31 +278,31 @@ def units_of(sizes: Reals) -> Reals:
 
 
 def in_groups(rows: Reals, group: Reals, of: Callable[..., Reals] = np.max) -> Reals:
-    """One row for each group: the largest, or what else is made of its rows."""
+    """One row for each group: the largest of its rows, or the result of ``of``."""
     return np.array([of(rows[group == each], axis=0) for each in np.unique(group)])
 
 
 def slope(sines: Reals, errors: Reals, least: float) -> float | None:
-    """The slope of errors over sines above the least, in logarithms; None for too few."""
+    """The logarithmic slope of errors over sines above ``least``; None for too few points."""
     sure = (sines > least) & (sines < TAKES_HOLD) & (errors > 0) & (errors < LOST)
     if np.count_nonzero(sure) < 4 or np.ptp(np.log10(sines[sure])) < 1:
         return None
     return float(np.polyfit(np.log10(sines[sure]), np.log10(errors[sure]), 1)[0])
 
 
-# --- the pencil beside the numbers ----------------------------------------------------------------
+# --- the pencil compared with the numbers ---------------------------------------------------------
 
 
 PENCILS = (0.5, 0.25, 0.1)
-"""Millimetres within which 95 of 100 marks lie."""
+"""The distances in mm within which 95 of 100 marks lie."""
 FINE = 0.25
-"""The pencil that is shown where a crossing grows flat."""
+"""The pencil shown where a crossing grows flat, in mm."""
 NEAREST = 1e-3
-"""The distance of the last of them, in parts of that of the first."""
+"""The distance of the last position of that pencil, as a share of the first."""
 
 
 def pencil_rows(mechanism: Mechanism, reference: Reference, scales: Scales) -> Iterator[MethodRow]:
-    """Three pencils on the scene's own position, at the scales of its sheets."""
+    """Three pencils at the scene's own position, at the scales of its sheets."""
     note = "95 of 100 drawings of the scene's own position are off by less; a person's hour"
     for point in PENCILS:
         name, key = f"pencil, {point:g} mm", f"{point:g} mm"
@@ -315,7 +319,7 @@ def pencil_rows(mechanism: Mechanism, reference: Reference, scales: Scales) -> I
 
 
 def worst_of(found: Forecast, answers: ComparedTargets) -> Reals:
-    """The largest expected error of each quantity, in SI (3,); nought where nothing is drawn."""
+    """The largest expected error of each quantity, in SI (3,); zero if nothing is drawn."""
     known = found.index
     return np.array(
         [
@@ -332,12 +336,11 @@ def pencilled(
     flattening: Flattening,
     drawn: int,
 ) -> tuple[Reals, Reals]:
-    """Measures (G,) and errors (G, 3) of a fine pencil at ``drawn`` places to a dead point.
+    """Measures (G,) and errors (G, 3) of a fine pencil at ``drawn`` places towards a dead point.
 
-    A measure is what the flattening is shown against, or the driver's position over a range.
-
-    The plans are drawn as large as at the first position: as velocities grow so does kv. An error
-    is inf from where more than one in twenty drawings do not close.
+    A measure is that of the flattening, or the driver's position over a range. The velocity plan is
+    drawn as large as at the first position: kv grows with the velocities. An error is infinite
+    where more than one in twenty drawings do not close.
     """
     way = approach(ground, drawn, 1, NEAREST)
     reference = reference_of(way.places, answers)
@@ -360,17 +363,17 @@ def pencilled(
     return np.array(measures), np.array(errors).reshape(-1, 3)
 
 
-# --- the whole comparison of one scene: rows of methods, the way to a dead point, cost by scope ---
+# --- the whole comparison ------------------------------------------------------------------------
 
 
 Say = Callable[[str], None]
 
 
 class Study(Struct, frozen=True, eq=False):
-    """What was found of a scene.
+    """The results for a scene.
 
-    ``flattening`` is None where the driver cannot move, or nothing on the way can be certified;
-    ``pencil`` are measures (G,) and errors (G, 3) of a pencil on that way.
+    ``flattening`` is None if the driver cannot move, or nothing on the way can be certified.
+    ``pencil`` holds measures (G,) and errors (G, 3) of a pencil on that way.
     """
 
     mechanism: Mechanism
@@ -382,7 +385,6 @@ class Study(Struct, frozen=True, eq=False):
     scopes: tuple[Scope, ...]
 
     def row(self, method: str) -> MethodRow:
-        """The row of a method."""
         return next(row for row in self.rows if row.method == method)
 
 
@@ -394,10 +396,10 @@ def study(
     say: Say = lambda words: None,
     clock: Clock = perf_counter,
 ) -> Study:
-    """Compare every method on one scene; ``say`` is told what is being measured.
+    """Compare every method on one scene; ``say`` receives the name of each task.
 
-    ``scales`` are those of the scene's sheets, for the pencil; without them it is left out. Raises
-    ClosureError where the scene closes nowhere, WitnessError where nothing can be certified.
+    ``scales`` are those of the scene's sheets, for the pencil, which is left out without them.
+    Raises ClosureError if the scene does not close, WitnessError if nothing can be certified.
     """
     effort = effort or Effort()
     watch = effort.watch(clock, say)

@@ -33,23 +33,23 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
 GREY = "#56646f"
-"""Ink of notes."""
+"""The colour of notes."""
 RINGS = (9.0, 15.0, 24.0, 36.0, 50.0, 66.0, 84.0)
-"""Distances from a point to its name that are tried, in points of print."""
+"""The distances tried between a point and its name, in points of print."""
 TURNS = (0, 180, 90, 270, 35, 145, 325, 215, 60, 120, 300, 240)
-"""Directions that are tried, the best first, in degrees."""
+"""The directions tried, the best first, in degrees."""
 LED = 12.0
-"""Distance from which a thin line leads to the point."""
+"""The distance in points from which a thin line joins a name to its point."""
 AIR = 2.0
-"""Free space around a name and a point, in points of print."""
+"""The clearance around a name and a point, in points of print."""
 DOT = 4.0
-"""Half the size of a point."""
+"""Half the size of a point's mark, in points of print."""
 
 Box = tuple[float, float, float, float]
 
 
 class PointName(Struct, frozen=True):
-    """A name that belongs to a point in the axes' own numbers."""
+    """The name of a point, at coordinates of the axes."""
 
     x: float
     y: float
@@ -66,9 +66,9 @@ def name_points(
     points: Sequence[tuple[float, float]] = (),
     lines: Sequence[Sequence[tuple[float, float]]] = (),
 ) -> list[Box]:
-    """Write names beside their points; further ``points`` and ``lines`` are left free.
+    """Write names near their points and return their boxes in pixels.
 
-    Gives the boxes of the names in pixels.
+    Further ``points`` and ``lines`` are kept clear.
     """
     figure.draw_without_rendering()
     dot = figure.dpi / 72
@@ -115,7 +115,7 @@ def size_of(figure: Figure, name: PointName) -> tuple[float, float]:
 def places(
     spot: tuple[Any, ...], width: float, height: float, dot: float
 ) -> Iterator[tuple[tuple[float, float], Box]]:
-    """Where the middle of a name may lie, from its point, in points of print; and its box."""
+    """Candidate offsets of a name's middle from its point, in points of print, with the boxes."""
     for ring in RINGS:
         for turn in TURNS:
             across, up = cos(radians(turn)), sin(radians(turn))
@@ -133,7 +133,7 @@ def places(
 
 
 def put(ax: Axes, name: PointName, shift: tuple[float, float]) -> None:
-    """Write a name, with a thin line to its point where it lies apart."""
+    """Write a name, with a thin line to its point if the name is far from it."""
     far = abs(shift[1]) > LED * 1.6 or abs(shift[0]) > 400
     text = ax.annotate(
         name.text,
@@ -154,12 +154,11 @@ def put(ax: Axes, name: PointName, shift: tuple[float, float]) -> None:
 
 
 def around(x: float, y: float, half: float) -> Box:
-    """The square around a point."""
     return x - half, y - half, x + half, y + half
 
 
 def overlap(box: Box, others: Any) -> float:
-    """The area that a box shares with others (N, 4), summed one after the other."""
+    """The total area that a box shares with each of the others (N, 4), summed in order."""
     others = np.asarray(others, dtype=np.float64).reshape(-1, 4)
     wide = np.minimum(box[2], others[:, 2]) - np.maximum(box[0], others[:, 0])
     high = np.minimum(box[3], others[:, 3]) - np.maximum(box[1], others[:, 1])
@@ -173,11 +172,11 @@ def outside(box: Box, room: Any) -> float:
     return whole - overlap(box, [(room.x0, room.y0, room.x1, room.y1)])
 
 
-# --- the third picture: what a position costs by what is asked ------------------------------------
+# --- the third picture: the cost of a position by what is asked -----------------------------------
 
 
 def bars(study: Study, machine: str) -> Figure:
-    """Time of one position by what is wanted, one by one and in a batch, with quartiles."""
+    """The time of one position by scope, one by one and in a batch, with quartiles."""
     figure = new_figure(11.2, 4.6)
     left, right = figure.subplots(1, 2, sharey=True)
     scopes = study.scopes
@@ -227,16 +226,16 @@ def scope_panel(
     ax.grid(False, axis="y")
 
 
-# --- the first picture: error against time of every method, a hand's drawing beside them ----------
+# --- the first picture: error against time of every method, with a drawing by hand ----------------
 
 
 A4 = (11.2, 7.4)
-"""Size of a picture in inches: an A4 page across, less its margins."""
+"""The size of a picture in inches: an A4 page in landscape, less its margins."""
 HOUR = 3600.0
 BY_HAND = (HOUR / 3, 3 * HOUR)
-"""The time in which a person draws one position: an estimate, not measured."""
+"""The range of times in which a person draws one position, in s: an estimate, not measured."""
 LEAST = 1e-21
-"""The smallest error of the enlarged part."""
+"""The smallest error shown in the enlarged part."""
 FAMILIES = {
     "float64": (COLOURS[0], "o"),
     "float32": (COLOURS[5], "v"),
@@ -247,9 +246,9 @@ FAMILIES = {
     "differences": (COLOURS[6], "X"),
     "pencil": (COLOURS[4], "*"),
 }
-"""Ink and mark of each family of methods."""
+"""Colour and mark of each family of methods."""
 JOINED = ("mpmath", "Arb", "Newton", "differences")
-"""Families whose members are joined by a line, for they differ by one number."""
+"""The families whose members are joined by a line, because they differ by one number."""
 TICKS = {
     1e-9: "1 ns",
     1e-8: "10 ns",
@@ -277,7 +276,7 @@ class MethodSpot(Struct, frozen=True):
 
 
 def ladder(study: Study, machine: str) -> Figure:
-    """Error against time, all of it at the left, that of doubles enlarged at the right."""
+    """Error against time: everything on the left, the range of doubles enlarged on the right."""
     figure = new_figure(*A4)
     which = max((n for n in range(3) if any(row.errors[n] for row in study.rows)), default=0)
     spots = [spot for row in study.rows if (spot := spot_of(row, which)) is not None]
@@ -295,7 +294,7 @@ def ladder(study: Study, machine: str) -> Figure:
 
 
 def spot_of(row: MethodRow, which: int) -> MethodSpot | None:
-    """Where a method stands; None where it gives no error, none that is finite, or no time."""
+    """The place of a method; None without a time, or without a finite positive error."""
     error = row.errors[which]
     if error is None or not isfinite(error) or error <= 0:
         return None
@@ -307,7 +306,7 @@ def spot_of(row: MethodRow, which: int) -> MethodSpot | None:
 
 
 def footnote(figure: Figure, study: Study, which: int, machine: str) -> None:
-    """How it was measured, below the panels."""
+    """Write the conditions of the measurement below the panels."""
     reference = study.reference
     words = (
         f"Error: the largest {KINDS[which]} error of all points over "
@@ -325,7 +324,7 @@ def pencil_words(pencils: Sequence[MethodSpot]) -> str:
 
 
 def whole(figure: Figure, ax: Axes, spots: Sequence[MethodSpot]) -> None:
-    """Every method and the hand."""
+    """Draw every method and the drawing by hand."""
     from matplotlib.ticker import LogLocator
 
     axes_of(ax, spots)
@@ -361,7 +360,7 @@ def whole(figure: Figure, ax: Axes, spots: Sequence[MethodSpot]) -> None:
 
 
 def enlarged(figure: Figure, ax: Axes, spots: Sequence[MethodSpot]) -> None:
-    """The part of doubles, with the differences and Newton's method; a pencil's error as a band."""
+    """Draw the range of doubles, differences and Newton's method; a pencil's error is a band."""
     near = [s for s in spots if s.error > LEAST and s.row.family != "pencil"]
     pencils = [s.error for s in spots if s.row.family == "pencil"]
     axes_of(ax, near)
@@ -393,7 +392,7 @@ def lines_of(spots: Sequence[MethodSpot]) -> list[list[tuple[float, float]]]:
 
 
 def axes_of(ax: Axes, spots: Sequence[MethodSpot]) -> None:
-    """Logarithmic axes with times as people say them."""
+    """Set logarithmic axes with times in everyday units."""
     ax.set_xscale("log")
     ax.set_yscale("log")
     low, high = min(s.seconds for s in spots), max(s.seconds for s in spots)
@@ -410,7 +409,7 @@ def axes_of(ax: Axes, spots: Sequence[MethodSpot]) -> None:
 
 
 def draw(ax: Axes, spots: Sequence[MethodSpot]) -> None:
-    """The marks, with quartiles as thin bars, and lines between those of a family."""
+    """Draw the marks, with quartiles as thin bars, and lines between those of a family."""
     for family in JOINED:
         line = [s for s in spots if s.row.family == family]
         ax.plot([s.seconds for s in line], [s.error for s in line], color=FAMILIES[family][0],
@@ -425,18 +424,17 @@ def draw(ax: Axes, spots: Sequence[MethodSpot]) -> None:
 
 
 def label(row: MethodRow) -> str:
-    """The short name of a method with what it belongs to."""
+    """The short name of a method with its family."""
     names = {"float64": "", "float32": "", "longdouble": "", "differences": "differences, "}
     return names.get(row.family, f"{row.family}, ") + row.key
 
 
 def ink(row: MethodRow) -> str:
-    """The colour of a method."""
     return FAMILIES.get(row.family, (INK, "o"))[0]
 
 
 def digits_words(spots: Sequence[MethodSpot]) -> str:
-    """The lesson of the whole: what more digits cost."""
+    """The conclusion of the left panel: the cost of more digits."""
     balls = [s for s in spots if s.row.family == "Arb"]
     if len(balls) < 2:
         return "Every kind of number, and a hand"
@@ -449,7 +447,7 @@ def digits_words(spots: Sequence[MethodSpot]) -> str:
 
 
 def batch_words(spots: Sequence[MethodSpot]) -> str:
-    """The lesson of the enlarged part: differences lose digits, batches lose none."""
+    """The conclusion of the right panel: differences lose digits, batches lose none."""
     doubles = [s for s in spots if s.row.family == "float64"]
     single = [s for s in doubles if s.row.variants == 1]
     if not single or len(doubles) < 2:
@@ -476,12 +474,12 @@ COUNTED = (
 )
 TITLES = ("Position: 1/s", "Velocity: 1/s²", "Acceleration: 1/s³")
 MOST = 3.0
-"""The largest error shown: beyond, nothing is left of an answer."""
+"""The largest error shown; beyond it no digit is left."""
 LEAST_BY_SINE = 1e-19
 
 
 def slopes(study: Study, machine: str) -> Figure | None:
-    """Errors towards a dead point in three panels; None where there is nothing to see."""
+    """Errors towards a dead point in three panels; None if the study has none."""
     found = study.flattening
     if found is None:
         return None
@@ -516,7 +514,7 @@ def slopes(study: Study, machine: str) -> Figure | None:
 
 
 def along_words(found: Flattening) -> str:
-    """What errors are shown against."""
+    """The label of the horizontal axis."""
     sweep = found.approach.places.course.sweep
     if found.approach.end == "range":
         if sweep.driver is None:
@@ -528,7 +526,7 @@ def along_words(found: Flattening) -> str:
 
 
 def told(study: Study, n: int) -> str:
-    """In what an error is counted, and the slope that was measured."""
+    """The unit of an error, and the measured slope."""
     assert study.flattening is not None
     slope = study.flattening.slopes("float64")[n]
     if slope is None or study.flattening.approach.end == "range":
@@ -537,7 +535,7 @@ def told(study: Study, n: int) -> str:
 
 
 def title_of(study: Study) -> str:
-    """The lesson, with the end that was approached."""
+    """The conclusion, with the kind of end that was approached."""
     found, title = study.flattening, study.mechanism.scene.title
     assert found is not None
     match found.approach.end:
@@ -549,9 +547,9 @@ def title_of(study: Study) -> str:
 
 
 def sine_panel(ax: Axes, study: Study, n: int) -> tuple[list[PointName], list[tuple[float, float]]]:
-    """One quantity: doubles, single precision, a pencil, and the law through the doubles.
+    """Draw one quantity: doubles, single precision, a pencil, and the law through the doubles.
 
-    Gives the names that its lines are to have, and the points that these may not cover.
+    Returns the names for its lines, and the points that the names may not cover.
     """
     names: list[PointName] = []
     points: list[tuple[float, float]] = []
@@ -594,7 +592,7 @@ def sine_panel(ax: Axes, study: Study, n: int) -> tuple[list[PointName], list[tu
 
 
 def guides(ax: Axes, sines: Reals, errors: Reals, n: int) -> None:
-    """The law of a quantity as a thin line through its errors in doubles."""
+    """Draw the law of a quantity as a thin line through its errors in doubles."""
     seen = (errors > 0) & (errors < LOST) & (sines < 0.2) & (sines > 1e-7)
     if np.count_nonzero(seen) < 3:
         return

@@ -1,8 +1,8 @@
-"""The form of a lab on a page: what a student fills in, saved as the file that is marked.
+"""The answer form of a lab for a web page: a student fills it in and saves the file to grade.
 
-Nothing is sent anywhere and nothing of the key is in it; a browser keeps what was written, and a
-button saves it as the CSV file that ``graphkin grade`` reads. The markup holds neither scripts nor
-styles of its own: a page puts these where its policy lets them be.
+The form sends nothing anywhere and contains nothing of the key. The browser keeps what was typed,
+and a button saves it as the CSV file that ``graphkin grade`` reads. The markup contains no scripts
+and no styles: the page adds both where its security policy allows them.
 """
 
 from __future__ import annotations
@@ -35,10 +35,11 @@ from graphkin.writers.templates import from_template
 
 
 class Identity(Struct, frozen=True):
-    """Whose a form is: the id as the class list has it, and the name that is shown beside it.
+    """The student a form belongs to: the id from the class list, and the name shown with the id.
 
-    Without an id the student writes it in. ``stem`` begins the name of the saved file; ``memory``
-    tells this form from others that the same browser keeps, copies elsewhere by their addresses.
+    Without an id, the student types one in. ``stem`` begins the name of the saved file. ``memory``
+    identifies this form among those that the same browser stores; their addresses distinguish
+    copies of one form.
     """
 
     stem: str
@@ -48,9 +49,9 @@ class Identity(Struct, frozen=True):
 
 
 KINDS = {"segment": "answers.measured", "value": "answers.computed", "place": "answers.placed"}
-"""What is said beside the symbol of each kind of field."""
+"""The key of the sentence next to the symbol, for each kind of field."""
 TURNING, ALONG = ("ccw", "cw"), ("forward", "backward")
-"""How a file says the senses of a turning link and of a block, the positive one first."""
+"""The senses of a turning link and of a block as the file writes them, the positive one first."""
 SAID = (
     "answers.saved",
     "answers.empty",
@@ -70,9 +71,9 @@ SAID = (
     "answers.kept",
     "answers.lost",
 )
-"""The sentences that the script says."""
+"""The keys of the sentences that the script shows."""
 LARGEST = 200
-"""Characters that a field takes; what is longer than a number is told, not cut."""
+"""The number of characters a field accepts. A longer number gets a message and is not cut."""
 
 
 def form_fragment(
@@ -83,11 +84,10 @@ def form_fragment(
     identity: Identity,
     pivot: str = "",
 ) -> Form:
-    """The form, its rules and its script: a labelled field for every item, those in ``compute`` to
-    be reckoned.
+    """The form, its styles and its script: a labelled field for every item.
 
-    ``points`` are shown where the rubric gives any; ``pivot`` is the first fixed one, from which
-    places are measured.
+    Fields in ``compute`` are marked as computed. ``points`` are shown where the rubric gives any.
+    ``pivot`` is the first fixed point, from which places are measured.
     """
     sheets = []
     for sheet in SHEETS:
@@ -110,7 +110,7 @@ def form_fragment(
 
 
 def settings(items: Sequence[Item], words: Words, identity: Identity) -> dict[str, object]:
-    """What the script has to know: whose form it is, how numbers are read, what it says."""
+    """The settings of the script: the form's owner, how it reads numbers, and its sentences."""
     return {
         "id": identity.id,
         "stem": identity.stem,
@@ -128,12 +128,12 @@ def settings(items: Sequence[Item], words: Words, identity: Identity) -> dict[st
 
 
 def kind_of(item: Item) -> tuple[str, str]:
-    """What stands together on the form: what is asked of one thing."""
+    """The key by which fields are grouped on the form: the quantity, and its point or link."""
     return item.quantity, item.of
 
 
 class FormField(Struct, frozen=True):
-    """One field: its item, what is said of it, its points, and the senses to choose from."""
+    """One field of the form: its item, label, hint, points, and the senses to choose from."""
 
     item: Item
     said: str
@@ -143,7 +143,7 @@ class FormField(Struct, frozen=True):
 
 
 def field(item: Item, worth: Fraction | None, computed: bool, words: Words) -> FormField:
-    """How an item is asked for."""
+    """The field that asks for an item."""
     asks_sense, turning = item.what == "sense", BY_TARGET.get(item.quantity) in RATES
     keys = ("anticlockwise", "clockwise") if turning else ("forward", "backward")
     return FormField(
@@ -156,11 +156,11 @@ def field(item: Item, worth: Fraction | None, computed: bool, words: Words) -> F
 
 
 def lab_form(mechanism: Mechanism, lab: Lab, words: Words, identity: Identity) -> Form:
-    """The form of a lab's own scene, with whatever data it is set; nobody's own in particular."""
+    """The form of a lab for its scene with the current data, not assigned to any student."""
     fields, points = fields_of(mechanism, lab), lab.rubric.points
     return form_fragment(fields, points, (), words, identity, first_pivot(mechanism))
 
 
 def first_pivot(mechanism: Mechanism) -> str:
-    """The fixed point from which places are measured; empty where there is none."""
+    """The fixed point from which places are measured; empty if the scene has none."""
     return next(iter(mechanism.scene.frame.points), "")

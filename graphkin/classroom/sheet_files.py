@@ -1,4 +1,4 @@
-"""The files of a scene's sheets, in every form in which these are handed out."""
+"""The files of a scene's sheets, in every format."""
 
 from __future__ import annotations
 
@@ -22,10 +22,10 @@ def sheet_files(
     kinds: Collection[str],
     ink: Ink = "colour",
 ) -> tuple[dict[str, bytes], list[str]]:
-    """The files by name, and notes of what is asked and cannot be read off.
+    """The files by name, and notes on quantities that are asked for but cannot be read off.
 
-    ``name`` is that of the scene's lab or file, ``stem`` begins the names of its files; ``kinds``
-    are svg, pdf, dxf, html and pmks. Raises as hand_out, hand_out_page and pmks_file do.
+    ``name`` is the name of the scene's lab or file; ``stem`` begins the names of the new files.
+    ``kinds`` are svg, pdf, dxf, html and pmks. Raises as hand_out, hand_out_page and pmks_file do.
     """
     files: dict[str, bytes] = {}
     notes: list[str] = []
@@ -40,7 +40,7 @@ def sheet_files(
         from graphkin.documents.sheet_documents import hand_out
         from graphkin.writers.files import rendered
 
-        notes.clear()  # those of the paper are the same
+        notes.clear()  # the notes of the page, which hand_out repeats
         for part in hand_out(mechanism, view=view, language=language):
             notes += part.unread
             own, steps = f"{stem}-{part.kind}-{view}", view == "steps"
@@ -48,7 +48,7 @@ def sheet_files(
     return files, notes
 
 
-# --- the page of a scene that is handed out, by view: as it draws itself, or as a task ------------
+# --- the web page of a scene, by view: it draws itself step by step, or it is a task --------------
 
 
 def hand_out_page(
@@ -60,10 +60,11 @@ def hand_out_page(
     ink: Ink = "colour",
     tell: Tell = silent,
 ) -> str:
-    """The page of a scene; ``name`` is that of its lab or file, ``stem`` begins that of its files.
+    """The web page of a scene.
 
-    ``tell`` hears what is asked and cannot be read off. The task of a lab holds the form for
-    answers. Raises as hand_out does, and SceneError for an overlay, which is laid on paper.
+    ``name`` is the name of its lab or file, ``stem`` begins the names of its files. ``tell``
+    receives notes on what is asked for but cannot be read off. The task of a lab contains the form
+    for answers. Raises as hand_out does, and SceneError for an overlay, which is for paper.
     """
     if view == "overlay":
         raise SceneError(
@@ -80,7 +81,7 @@ def hand_out_page(
 
 
 def answer_form(mechanism: Mechanism, name: str, stem: str, language: str | None) -> Form | None:
-    """The form of a lab with a scene's data; None for a scene that is no lab."""
+    """The form of a lab with a scene's data; None for a scene that is not a lab."""
     folder = scene_files.folder(name)
     if folder is None:
         return None

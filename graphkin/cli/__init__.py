@@ -1,1 +1,1 @@
-"""The commands, and what they share."""
+"""The commands of the command line, and what they share."""

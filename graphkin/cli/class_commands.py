@@ -1,4 +1,4 @@
-"""The commands for a whole class: new, variants; and what check says of a lab."""
+"""The commands for a class: new, variants, quiz, ranges; and the part of check about a lab."""
 
 from __future__ import annotations
 
@@ -33,7 +33,7 @@ if TYPE_CHECKING:
 @click.group(invoke_without_command=True)
 @click.pass_context
 def new(context: click.Context) -> None:
-    """Make something to start from: a lab.
+    """Make a lab to start from.
 
     \b
     Example:
@@ -50,9 +50,10 @@ def new(context: click.Context) -> None:
 )
 @force_option
 def new_lab(name: str, folder: Path, force: bool) -> None:
-    """Make a lab: a folder NAME with a scene and the rule of its variants, to be changed.
+    """Make a lab: a folder with a scene and a rule.
 
-    Both files have a word beside each key, and graphkin check passes them as they are.
+    The folder is called NAME and holds a scene and the rule of its variants, for you to change.
+    Both files have a comment at each key, and graphkin check accepts them unchanged.
 
     \b
     Example:
@@ -69,19 +70,17 @@ def new_lab(name: str, folder: Path, force: bool) -> None:
 @click.argument("roster", metavar="ROSTER", type=click.Path(path_type=Path))
 @folder_option("Folder of the class, made if it is missing.", required=True)
 @lang_option("Language of the class, kept for print, read and grade; the scene's by default.")
-@click.option(
-    "--force", is_flag=True, help="Replace a class that stands there; it keeps its codes."
-)
+@click.option("--force", is_flag=True, help="Replace an existing class; it keeps its codes.")
 def variants(name: str, roster: Path, folder: Path, lang: str | None, force: bool) -> None:
     """Give each student of a class data of their own.
 
     LAB is the name of a shipped lab or a folder with scene.toml and lab.toml. ROSTER is a class
-    list, CSV or XLSX, whose first row names its columns in English, Romanian or Italian: an id for
-    each student, the number where the lab's formula needs one, name and group if there are any.
+    list, CSV or XLSX, whose first row names its columns in English, Romanian or Italian. It needs
+    an id for each student, and a number if the lab's formula uses one; name and group are optional.
 
-    Tells how fair the data are. Writes variants.csv, manifest.json, from which every sheet can be
-    derived again, and a copy of the lab. Data by a formula that are unfair are told and written all
-    the same, and the status is 1; data from ranges are drawn again until they are fair.
+    Reports how fair the data are. Writes variants.csv, manifest.json, from which every sheet can be
+    derived again, and a copy of the lab. Unfair data from a formula are reported and still written,
+    and the exit status is 1. Unfair data from ranges are drawn again until they are fair.
 
     \b
     Example:
@@ -103,7 +102,7 @@ def variants(name: str, roster: Path, folder: Path, lang: str | None, force: boo
 
 
 def warn_of_languages(roster: str, students: list[Student]) -> None:
-    """Say which languages of a class list are none of the pages'."""
+    """Warn of languages in a class list that the pages do not have."""
     from graphkin.classroom.roster.language_names import named_languages, unknown_lines
 
     for line in unknown_lines(named_languages(roster, students)):
@@ -111,7 +110,7 @@ def warn_of_languages(roster: str, students: list[Student]) -> None:
 
 
 def warn_of(found: list[Assigned]) -> None:
-    """Say, on the other channel, how many data are unfair, and leave with the status for it."""
+    """Warn of unfair data on standard error, and end with the status for them."""
     unfair = sum(not each.fair for each in found)
     if unfair:
         students = "student has" if unfair == 1 else "students have"
@@ -120,9 +119,9 @@ def warn_of(found: list[Assigned]) -> None:
 
 
 def check_lab(name: str) -> None:
-    """What check says of a lab after its scene: a thousand variants tried.
+    """The part of check about a lab, after its scene: a thousand variants are tried.
 
-    Mistakes of the lab name its own files, no longer the scene that was called.
+    Errors in the lab name its own files, not the scene given on the command line.
     """
     from graphkin.classroom.lab.fairness_words import trial_lines
     from graphkin.classroom.lab.lab_trial import tried
@@ -148,7 +147,7 @@ def check_lab(name: str) -> None:
 
 
 SHOWN = 5
-"""Variants that are left out, of which it is told one by one."""
+"""The most unfair variants that are listed."""
 
 
 @click.command("quiz")
@@ -161,7 +160,7 @@ SHOWN = 5
     type=click.IntRange(1, 1000),
     default=30,
     show_default=True,
-    help="Variants at most.",
+    help="Largest number of variants.",
 )
 @jobs_option()
 @force_option
@@ -177,14 +176,14 @@ def quiz(
 ) -> None:
     """Write a lab as a bank of questions for Moodle.
 
-    LAB is the name of a shipped lab or a folder with scene.toml and lab.toml; or the folder of a
-    class, for its lab in its language.
+    LAB is the name of a shipped lab or a folder with scene.toml and lab.toml. It may also be a
+    class folder, for its lab in its language.
 
-    Writes LAB-moodle.xml (question bank, import, Moodle XML): a category for each fair variant,
-    and in it one question with embedded answers: the task as pictures and as a PDF to be printed at
-    100 %, a gap for each field with the tolerance of that variant's own drawing, and what slips
-    would give, with their share (lab.toml) and a sentence. What follows from own wrong values only
-    graphkin grade can tell.
+    Writes LAB-moodle.xml (question bank, import, Moodle XML) with a category for each fair variant.
+    A category has one question with embedded answers: the task as pictures and as a PDF to print at
+    100 %, and a gap for each field, with the tolerance of that variant's own drawing. A gap also
+    accepts the results of slips, each with its share of the points (lab.toml) and a sentence of
+    feedback. Only graphkin grade can recognise what follows from a student's own wrong values.
 
     \b
     Example:
@@ -235,13 +234,14 @@ def quiz(
 @click.option("-o", "--output", "folder", metavar="DIR", type=FolderType(path_type=Path))
 @force_option
 def ranges(name: str, folder: Path | None, force: bool) -> None:
-    """Find the ranges of a lab's parameters in which every variant is fair.
+    """Find the parameter ranges in which every variant is fair.
 
-    LAB is the name of a shipped lab or a folder with scene.toml and lab.toml; the space is what the
-    scene's parameters allow from min to max, the limits are those of [fair]. Tells what is fair by
-    the values of each parameter, which parameter decides, and proposes [variants] to be pasted; of
-    a formula to which numbers it is unfair, why, and the smallest change that mends it. With -o
-    pictures of the fair share, by parameter and by pairs.
+    LAB is the name of a shipped lab or a folder with scene.toml and lab.toml. The search covers the
+    scene's parameters from min to max, with the limits of [fair]. Prints the fair share by the
+    values of each parameter and the parameter that matters most, and proposes [variants] for you to
+    paste. For a formula, prints the numbers for which it is unfair, the reasons, and the smallest
+    change that makes it fair. With -o, writes pictures of the fair share, by parameter and by
+    pairs.
 
     \b
     Example:
@@ -269,7 +269,7 @@ def ranges(name: str, folder: Path | None, force: bool) -> None:
 
 
 def formula_lines(lab: Lab) -> list[str]:
-    """To which numbers a formula is unfair, why, and what mends that."""
+    """The numbers for which a formula is unfair, the reasons, and the change that helps."""
     from graphkin.classroom.lab.proposed_ranges import formula_faults, mending_lines
 
     found = formula_faults(lab)
@@ -277,7 +277,7 @@ def formula_lines(lab: Lab) -> list[str]:
 
 
 def proposed(lab: Lab, found: FairRanges) -> list[str]:
-    """The ranges as text, and how many students they keep apart."""
+    """The proposed ranges as text, with how many students get different data."""
     from graphkin.classroom.lab.proposed_ranges import proposed_ranges, variants_lines
 
     new = proposed_ranges(lab, found)

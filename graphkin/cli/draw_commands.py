@@ -40,17 +40,17 @@ if TYPE_CHECKING:
     default="key",
     show_default=True,
     help="key: everything drawn; task: what the student is given; steps: pages that grow sentence"
-    " by sentence; overlay: the key alone, to be laid over a drawing.",
+    " by sentence; overlay: the key alone, to lay over a drawing.",
 )
 @language_option
 @ink_option
 @formats_option(
     "svg,pdf,html,dxf,pmks",
     "svg,pdf",
-    "Kinds of file to write; calculations come as PDF only. html: one page for a browser,"
-    " which draws itself step by step (key and steps alike), or holds the task. dxf: the drawings"
-    " at true scale for a CAD program, a layer for each class of line; needs the extra [cad]. pmks:"
-    " the mechanism for PMKS+, where it has only pins, blocks on fixed guides and one crank.",
+    "Kinds of file to write; calculations are PDF only. html: one page for a browser, which"
+    " draws itself step by step (key and steps alike), or holds the task. dxf: the drawings at"
+    " true scale for a CAD program, a layer for each class of line; needs the extra [cad]. pmks:"
+    " the mechanism for PMKS+, if it has only pins, blocks on fixed guides and one crank.",
 )
 @force_option
 def sheet(
@@ -65,11 +65,11 @@ def sheet(
 ) -> None:
     """Draw the velocity and acceleration sheets and the calculations.
 
-    Writes A3 drawings (SVG and PDF) and A4 calculation pages (PDF), named after the scene and
-    what is set: pump-n7-velocity-key.pdf. Files that exist are kept unless --force is given.
+    Writes A3 drawings (SVG and PDF) and A4 calculation pages (PDF), named after the scene and its
+    settings: pump-n7-velocity-key.pdf. Existing files are kept unless you give --force.
 
-    With --format html it writes one page for a browser, pump-n7-key.html, with all drawings, every
-    step and the results inside; it needs no network.
+    With --format html, writes one page for a browser, pump-n7-key.html, with all drawings, every
+    step and the results. The page needs no network.
 
     \b
     Examples:
@@ -97,7 +97,7 @@ def sheet(
     "--driver",
     metavar="N",
     type=int,
-    help="Of several drivers move only this one, counted from 1, while the others stand still.",
+    help="Move only this one of several drivers, counted from 1; the others stay still.",
 )
 @click.option(
     "--steps",
@@ -108,15 +108,19 @@ def sheet(
     help="Positions in a whole turn, in a range, or in the time shown.",
 )
 @click.option(
-    "--from", "low", metavar="NUMBER", type=float, help="Begin here, not at the start of the range."
+    "--from",
+    "low",
+    metavar="NUMBER",
+    type=float,
+    help="Start here instead of at the start of the range.",
 )
 @click.option("--to", "high", metavar="NUMBER", type=float, help="End here (degrees, lengths, s).")
 @language_option
 @formats_option(
     "svg,png,gif,html",
     "svg,png",
-    "Kinds of picture to write; the table comes as CSV. gif, html: mechanism and plans as they"
-    " move, a picture and a page.",
+    "Kinds of picture to write; the table is CSV. gif, html: mechanism and plans in motion, as"
+    " a picture and as a page.",
 )
 @force_option
 def cycle(
@@ -133,12 +137,13 @@ def cycle(
 ) -> None:
     """Move the driver through a whole turn, or as far as it can go.
 
-    Tells its range, its dead points and change points by name, how far the followers go, and what
-    the lengths say of a single loop. Writes a table (CSV, SI units), curves of all motions, paths
-    of points, centrodes, and the circle of the driven pin against what the rest can reach.
+    Prints the driver's range, the dead points and change points by name, how far the followers go,
+    and what the lengths of a single loop mean. Writes a table (CSV, SI units) and curves of all
+    motions, paths of points and centrodes. Also draws the path of the driven pin with the region
+    that the other links can reach.
 
-    Several drivers, and laws of time, are moved by the time: one turn of the first, once to and
-    fro where a law never makes one, or --from and --to seconds.
+    Several drivers, and laws of time, are moved by the time: for one turn of the first driver, for
+    one cycle to and fro if its law never makes a turn, or from --from to --to seconds.
 
     \b
     Examples:
@@ -187,13 +192,13 @@ def cycle(
 @click.option(
     "--quick",
     is_flag=True,
-    help="A few positions, decimals and balls timed at one, the pencil at four on the way: "
-    "to see what comes.",
+    help="Use few positions for a first look: time decimals and balls at one, the pencil at four"
+    " towards a dead point.",
 )
 @formats_option(
     "svg,png",
     "svg,png",
-    "Kinds of picture to write; the table comes as CSV.",
+    "Kinds of picture to write; the table is CSV.",
 )
 @force_option
 def accuracy(
@@ -201,13 +206,15 @@ def accuracy(
 ) -> None:
     """Measure what accuracy costs in time.
 
-    Holds every method against certified answers. Runs the same positions in doubles one by one and
-    in batches, in single and extended precision, in decimals of up to 120 digits, in balls that
-    prove their radius, by Newton's method on the loop equations and by central differences, and
-    foretells what a pencil makes of them. Writes a table (CSV) and three pictures: error against
-    time; error towards a dead point; cost by what is asked. Ends with what you wait for (load,
-    solve, check, page) and with how sure a drawing and the numbers are. It takes about half a
-    minute; groups of class III and higher some minutes.
+    Runs the same positions with every method and compares the results with certified answers. The
+    methods are doubles one by one and in batches, single and extended precision, decimals of up to
+    120 digits, and balls that prove their radius. Newton's method on the loop equations, central
+    differences and a pencil are compared too.
+
+    Writes a table (CSV) and three pictures: error against time; error towards a dead point; cost by
+    what is asked. Ends with the times that you wait (load, solve, check, page) and the accuracy of
+    a drawing and of the numbers. The command takes about half a minute; groups of class III and
+    higher take some minutes.
 
     \b
     Examples:
@@ -237,7 +244,7 @@ def accuracy(
 
 
 def scales_if_any(mechanism: Mechanism) -> Scales | None:
-    """The scale factors of the sheets; None, and a message, where they cannot be drawn."""
+    """The scale factors of the sheets; None, with a message, if the sheets cannot be drawn."""
     from graphkin.text.errors import GraphkinError
 
     try:
@@ -249,7 +256,7 @@ def scales_if_any(mechanism: Mechanism) -> Scales | None:
 
 
 def progress() -> Callable[[str], None]:
-    """What shows on a terminal, on one line, what is being done; elsewhere it is silent."""
+    """A function that shows the current task on one line of a terminal, and is silent elsewhere."""
     import sys
 
     def say(words: str) -> None:

@@ -1,4 +1,4 @@
-"""The command ``grade``: the answers of a class, marked against each student's own drawing."""
+"""The command ``grade``: mark the answers of a class against each student's own drawing."""
 
 from __future__ import annotations
 
@@ -32,12 +32,12 @@ if TYPE_CHECKING:
 
 KINDS = ("html", "pdf")
 MANY = 100
-"""Different variants from which several processes pay for themselves."""
+"""The number of different variants above which several processes are faster."""
 TERMINAL = "en"
-"""What the terminal speaks, as all commands and all refusals do."""
+"""The language of the terminal, which all commands and all errors use."""
 AMOUNT = re.compile(r"[0-9]{1,6}(?:\.[0-9]{1,4})?", re.ASCII)
 SHOWN = 10
-"""Notes of one kind that are told one by one."""
+"""The most notes of one kind that are printed."""
 
 
 @click.command("grade")
@@ -52,8 +52,8 @@ SHOWN = 10
     help="Folder to write into, made if it is missing; DIR/report by default.",
 )
 @lang_option(
-    "Language of the report, and of the feedback to those for whom the class list names none"
-    " (language, limba, lingua); by default that of the class. The terminal speaks English."
+    "Language of the report, and of the feedback to students without one in the class list"
+    " (language, limba, lingua); by default that of the class. Messages are in English."
 )
 @formats_option("html,pdf", "html,pdf", "Kinds of feedback page to write for each student.")
 @click.option(
@@ -62,39 +62,41 @@ SHOWN = 10
     metavar="FILE",
     multiple=True,
     type=click.Path(path_type=Path),
-    help="An export of your own from Moodle or Canvas (CSV or XLSX), to be filled in; repeatable.",
+    help="An export of your own from Moodle or Canvas (CSV or XLSX) to fill in; repeatable.",
 )
 @click.option(
-    "--column", metavar="NAME", help="The column of the gradebook for the points; the empty one."
+    "--column",
+    metavar="NAME",
+    help="The gradebook column for the points; by default the empty one.",
 )
 @click.option(
     "--scale",
     metavar="N",
-    help="What full marks are in the gradebooks, such as 10 or 100; the lab's points by default.",
+    help="Full marks in the gradebooks, such as 10 or 100; the lab's points by default.",
 )
 @click.option(
     "--match",
     type=click.Choice(["id", "email"]),
-    help="By what students are found in tables of answers and in gradebooks; by default their ids"
-    " or, where a table has none, the e-mail addresses of the class list.",
+    help="How to identify students in tables of answers and gradebooks; by default by id or, if a"
+    " table has no ids, by the e-mail addresses of the class list.",
 )
 @jobs_option(
-    "Processes that mark at once; by default one, all cores for more than a hundred variants."
+    "Processes that mark at once; by default one, or all cores for over a hundred variants."
 )
 @click.option(
     "--release",
     "released",
     metavar="ID",
     multiple=True,
-    help="A student whose mark is given although the lab holds it (hold = true), now and whenever"
-    " this report is marked again; repeatable.",
+    help="A student who gets a mark although the lab holds it (hold = true), now and whenever this"
+    " report is marked again; repeatable.",
 )
 @click.option(
     "--hold",
     "held",
     metavar="ID",
     multiple=True,
-    help="A student who was released, and is held again; repeatable.",
+    help="A released student to hold again; repeatable.",
 )
 @click.option("--force", is_flag=True, help="Replace an earlier report, and list what changed.")
 @click.pass_context
@@ -116,36 +118,40 @@ def grade(  # noqa: PLR0915
 ) -> None:
     """Mark the answers of a class.
 
-    DIR is what graphkin variants wrote, ANSWERS a table, a folder or a ZIP file, or what graphkin
-    read wrote.
+    DIR is the folder that graphkin variants wrote. ANSWERS is a table, a folder, a ZIP file, or the
+    folder that graphkin read wrote.
 
-    ANSWERS is a CSV or XLSX file with a column id and one for each field of the form (v_D_mm,
-    v_D, omega_3, omega_3_sense, …), a row for each student; or a folder or a ZIP file with a file
-    for each, in folders of their own or not, as Moodle and Canvas deliver what was handed in.
-    Decimal comma or point; a unit may be written; a sense is + or -, ccw or cw, or said in English,
-    Romanian or Italian (în sens orar, anticlockwise); one that the sign of its own value
-    contradicts earns nothing. An empty cell is not answered, an empty row not handed in. A cell
-    that cannot be read is told: its points wait, and no gradebook gets the marks of that student
-    until it is mended and marked again. The same holds for a file or row that cannot be read, or
-    that is signed with the id of another student: the others are marked.
+    A table is a CSV or XLSX file with a column id, a column for each field of the form (v_D_mm,
+    v_D, omega_3, omega_3_sense, …), and a row for each student. A folder or a ZIP file holds one
+    file for each student, in a folder of its own or not, as Moodle and Canvas deliver submissions.
 
-    A value may be off by what a careful pencil makes of that student's own drawing (tolerances.csv
-    says how much). What is wrong by the key is held against what follows from the student's own
-    earlier values, and against slips known by name. Writes marks.csv, a feedback page for each
-    student, a report on the class, and fills in gradebooks.
+    Numbers may have a decimal comma or point, and a unit. A sense is + or -, ccw or cw, or words in
+    English, Romanian or Italian (în sens orar, anticlockwise). A sense that contradicts the sign of
+    its own value earns nothing. An empty cell is an unanswered field; an empty row is a form that
+    was not handed in.
 
-    You have the last word: REPORT/decisions.csv is yours, id;field;points;reason, and is never
-    overwritten. A row sets the points of a field, or of the whole form (total); without points the
-    mark stays; "?" keeps a student's request that is not decided. Mark again with --force, and
-    feedback, report and gradebook follow.
+    A cell that cannot be read is reported. Its points wait, and no gradebook gets the marks of that
+    student until you correct the cell and mark again. The same holds for a file or row that cannot
+    be read, or that is signed with the id of another student. All other answers are marked.
 
-    Score sheets that students save from "your turn" on their pages (ID-turn.json, in the same
-    folder as their answers) are listed in turns.csv, earn nothing, and prove nothing.
+    The tolerance of a value is the error of a careful pencil in that student's own drawing;
+    tolerances.csv lists the tolerances. A value that is wrong by the key is compared with what
+    follows from the student's own earlier values, and with slips known by name. Writes marks.csv, a
+    feedback page for each student and a report on the class, and fills in gradebooks.
 
-    Where lab.toml says hold = true in [marking], students whose answers fit another's data or are
-    another's get no mark until you decide: a row of theirs in decisions.csv, or mark again with
-    --force and --release ID. The report keeps whom you released, for every later marking, until
-    --hold ID.
+    You have the last word: REPORT/decisions.csv is yours and is never overwritten. Its columns are
+    id;field;points;reason. A row sets the points of a field, or of the whole form (total). Without
+    points the mark stays; "?" records a student's request that is not yet decided. Mark again with
+    --force to update feedback, report and gradebook.
+
+    Students can save score sheets from "your turn" on their pages, as ID-turn.json in the same
+    folder as their answers. These sheets are listed in turns.csv; they earn nothing and prove
+    nothing.
+
+    If lab.toml has hold = true in [marking], some students get no mark until you decide: those
+    whose answers fit another student's data or are another student's answers. To decide, add a row
+    to decisions.csv, or mark again with --force and --release ID. The report remembers the released
+    students for every later marking, until --hold ID.
 
     \b
     Examples:
@@ -157,7 +163,7 @@ def grade(  # noqa: PLR0915
       graphkin grade class answers.csv -o report --force --hold 0057
 
     \b
-    Exit status: 0; 1 when some cells, rows or files cannot be read; 2 when nothing was marked.
+    Exit status: 0 success; 1 some cells, rows or files cannot be read; 2 nothing was marked.
     """
     from graphkin.classroom.grading.answers import read_answers
     from graphkin.classroom.grading.class_marking import graded_class
@@ -246,7 +252,7 @@ def is_read(answers: Path) -> bool:
 
 
 def drawn_table(opened: Edition, folder: Path, refusals: Refusals) -> Path:
-    """Of a folder of readings the table of what was read and decided by now; else what it is."""
+    """The table of what was read and decided so far, for readings; else the path itself."""
     if not is_read(folder):
         return folder
     from graphkin.reading.drawn_answers import ANSWERS
@@ -257,7 +263,7 @@ def drawn_table(opened: Edition, folder: Path, refusals: Refusals) -> Path:
 
 
 def note_followed(opened: Edition, folder: Path, given: Answers, refusals: Refusals) -> None:
-    """Let the answers know what was found on the drawings to follow from own earlier points."""
+    """Flag answers that follow from a student's own earlier points in the drawing."""
     from msgspec.structs import replace
 
     from graphkin.reading.drawn_answers import drawn_rows
@@ -270,7 +276,7 @@ def note_followed(opened: Edition, folder: Path, given: Answers, refusals: Refus
 def marked_drawings(
     opened: Edition, folder: Path, words: Words, kinds: tuple[str, ...], refusals: Refusals
 ) -> dict[str, bytes]:
-    """The drawings of all who were read, with green and red over them."""
+    """The drawings of all students who were read, with marks in green and red."""
     from graphkin.classroom.grading.grading_files import FEEDBACK
     from graphkin.reading.marked_drawing import drawings_of_class
 
@@ -281,13 +287,13 @@ def marked_drawings(
 def refuse_strangers(
     context: click.Context, option: str, named: tuple[str, ...], ids: Collection[str]
 ) -> None:
-    """Raise UsageError for ids that are no student's."""
+    """Raise UsageError for ids that belong to no student."""
     if unknown := ", ".join(who for who in named if who not in ids):
         raise click.UsageError(f"{option}: {unknown} is no student of this class", context)
 
 
 def usual_jobs(opened: Edition) -> int:
-    """As many processes as pay for themselves."""
+    """The default number of processes: all cores if there are many different variants, else one."""
     from graphkin.classroom.printing.workers import cores
 
     variants = {tuple(sorted(taker.settings.items())) for taker in opened.takers}
@@ -295,7 +301,7 @@ def usual_jobs(opened: Edition) -> int:
 
 
 def kinds_of(text: str, context: click.Context) -> tuple[str, ...]:
-    """The kinds of feedback page named with commas between them; none at all is allowed."""
+    """The kinds of feedback page, given with commas between them; ``none`` is allowed."""
     kinds = tuple(dict.fromkeys(part.strip().lower() for part in text.split(",") if part.strip()))
     wrong = [kind for kind in kinds if kind not in (*KINDS, "none")]
     if wrong:
@@ -313,7 +319,7 @@ def all_files(
     report: Path,
     refusals: Refusals,
 ) -> dict[str, bytes]:
-    """The files of the report; with what changed since the marks that are there."""
+    """The files of the report, with the changes since the marks already in its folder."""
     from graphkin.classroom.grading.grading_files import (
         MARKS,
         ReportSettings,
@@ -333,7 +339,7 @@ def all_files(
 
 
 def scale_of(text: str | None, context: click.Context) -> Fraction | None:
-    """What full marks are; None where the points go in as they are."""
+    """The points of full marks; None if the points are used as they are."""
     from fractions import Fraction
 
     if text is None:
@@ -347,9 +353,7 @@ def scale_of(text: str | None, context: click.Context) -> Fraction | None:
 def tell_books(
     books: Mapping[Path, Filled], found: Result, words: Words, scale: Fraction | None
 ) -> None:
-    """What came of gradebooks that were written: how many marks, whose are not in them, and whose
-    rows are of nobody in the class.
-    """
+    """Report the gradebooks: the marks written, the students missing, and the unknown rows."""
     from graphkin.classroom.grading.answer_numbers import shown_cell
     from graphkin.classroom.grading.grading_files import number
 
@@ -380,7 +384,7 @@ def tell_books(
 
 
 def changes(files: dict[str, bytes], words: Words) -> None:
-    """Tell how much a new marking changed, and the first of it."""
+    """Print how much a new marking changed, and the first changes."""
     from graphkin.classroom.grading.grading_files import CHANGES, change_lines
 
     if CHANGES in files:
@@ -389,7 +393,7 @@ def changes(files: dict[str, bytes], words: Words) -> None:
 
 
 def told_paths(written: list[Path]) -> list[str]:
-    """The files that were written; feedback pages by their folder and number."""
+    """The paths written; feedback pages only as their folder and number."""
     from graphkin.classroom.grading.grading_files import FEEDBACK
 
     pages = [path for path in written if path.parent.name == FEEDBACK]
@@ -400,7 +404,7 @@ def told_paths(written: list[Path]) -> list[str]:
 def refused_lines(
     opened: Edition, given: Answers, refusals: Refusals, words: Words
 ) -> Iterator[str]:
-    """What is not marked, and whose points wait for that."""
+    """A line for everything that is not marked, and for the students whose points wait."""
     from graphkin.classroom.grading.answers import merged
 
     yield from map(str, merged("", given.refused))
@@ -412,8 +416,10 @@ def refused_lines(
 
 
 def notes(opened: Edition, given: Answers, refusals: Refusals, words: Words) -> None:
-    """What is told of the answers: columns that are no fields, files that are no tables, languages
-    that are none of the pages', cells that cannot be read, what is not marked.
+    """Print notes on the answers.
+
+    The notes are on columns that are no fields, files that are no tables, unknown languages, cells
+    that cannot be read, and answers that are not marked.
     """
     from graphkin.classroom.grading.class_report import language_lines, stranger_lines, unread_lines
 
@@ -434,7 +440,7 @@ def notes(opened: Edition, given: Answers, refusals: Refusals, words: Words) -> 
 
 
 def earning(opened: Edition) -> set[str]:
-    """The fields that earn points on somebody's form."""
+    """The fields that earn points on at least one student's form."""
     from graphkin.classroom.lab.items import asked_of
 
     form, points = opened.book.form, opened.book.lab.rubric.points
@@ -443,7 +449,7 @@ def earning(opened: Edition) -> set[str]:
 
 
 def tell_some(lines: list[str], words: Words) -> None:
-    """Tell some notes, and how many more there are."""
+    """Print the first notes, and how many more there are."""
     lines = list(dict.fromkeys(lines))
     for line in lines[:SHOWN]:
         complain(line)

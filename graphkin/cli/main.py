@@ -1,4 +1,4 @@
-"""The command line: the commands that speak, list, check, explain, solve; all others join them."""
+"""The command line: the commands list, check, explain and solve, and the group of all commands."""
 
 from __future__ import annotations
 
@@ -45,13 +45,13 @@ LATER = {
     "ranges": "graphkin.cli.class_commands:ranges",
     "studio": "graphkin.cli.studio_command:studio",
 }
-"""The commands of other modules and where they stand."""
+"""The commands of other modules, as ``module:function``."""
 HELP = {"help_option_names": ["-h", "--help"], "max_content_width": 96}
 VERSION = f"graphkin, version {__version__}"
 
 
 class Commands(CommandGroup):
-    """All commands."""
+    """The group of all commands."""
 
     later = LATER
 
@@ -64,23 +64,25 @@ class Commands(CommandGroup):
 )
 @click.pass_context
 def app(context: click.Context) -> None:
-    """Draw the velocity and acceleration plans of a planar mechanism to scale, step by step, as a
-    hand does with compass and ruler, and check them by an independent calculation.
+    """Draw the velocity and acceleration plans of a planar mechanism to scale.
+
+    The plans are drawn step by step, as by hand with compass and ruler, and are checked by an
+    independent calculation.
 
     SCENE is the name of a lab that comes with graphkin, or a .toml file that describes your own
     mechanism.
 
     \b
     Examples:
-      graphkin list                              which labs there are
+      graphkin list                              the labs that come with graphkin
       graphkin solve pump --set n=7              all numbers of student 7's pump
       graphkin sheet pump --set n=7 -o sheets    the drawings and calculations
-      graphkin cycle pump --set n=7 -o cycles    its motion from end to end, as curves
-      graphkin accuracy pump -o accuracy         what accuracy costs in time, as pictures
-      graphkin check mine.toml                   what is wrong with my own scene
+      graphkin cycle pump --set n=7 -o cycles    its motion over the whole range, as curves
+      graphkin accuracy pump -o accuracy         the time that accuracy costs, as pictures
+      graphkin check mine.toml                   the mistakes in my own scene
 
     \b
-    Exit status: 0 all is well; 1 the independent check disagrees, or something asked cannot
+    Exit status: 0 success; 1 the independent check disagrees, or something asked cannot
     be drawn fairly; 2 the scene or the command cannot be understood, drawn or written.
     """
     if context.invoked_subcommand is None:
@@ -91,8 +93,8 @@ def app(context: click.Context) -> None:
 def list_labs() -> None:
     """List the labs that come with graphkin.
 
-    Shows for each lab its title, the parameters that --set can change with their ranges, and what
-    it asks for.
+    Prints for each lab its title, the parameters that --set can change with their ranges, and the
+    quantities that the lab asks for.
     """
     from graphkin.cli.report.catalogue import labs_lines
 
@@ -104,11 +106,11 @@ def list_labs() -> None:
 def check(name: str, settings: tuple[str, ...]) -> None:
     """Check a scene and show how its mechanism is put together.
 
-    Tells every mistake at once. Then shows links, pairs and mobility, the groups in the order of
-    construction, both closures of each, the driver's range, and the flattest crossings.
+    Reports all mistakes at once. Then prints links, pairs and mobility, the groups in the order of
+    construction, both closures of each group, the driver's range, and the flattest crossings.
 
-    A lab, which has a lab.toml beside its scene, is then tried on a thousand variants: how many
-    are fair, which limits the others break, and how much the difficulty differs.
+    A lab, which has a lab.toml in the folder of its scene, is then tried on a thousand variants:
+    how many are fair, which limits the others exceed, and how much the difficulty differs.
 
     \b
     Examples:
@@ -138,10 +140,10 @@ def check(name: str, settings: tuple[str, ...]) -> None:
 def explain(name: str, settings: tuple[str, ...], as_json: bool) -> None:
     """Explain which effects of the motion the construction needs.
 
-    For what the scene asks: which effects are in (tangential components, an accelerated
-    driver, ...), which are out, why, how many steps each of them costs, and the time that those
-    steps alone take here and now. Then what you wait for (load, solve, check, page), and how sure a
-    drawing and the numbers are.
+    Lists the effects that the construction includes for what the scene asks (tangential components,
+    an accelerated driver, ...), those that it leaves out, and why. For each effect prints the
+    number of steps and the time that these steps take on this computer. Then prints the time you
+    wait for each task (load, solve, check, page), and how accurate a drawing and the numbers are.
 
     \b
     Examples:
@@ -161,19 +163,21 @@ def explain(name: str, settings: tuple[str, ...], as_json: bool) -> None:
 
 @app.command()
 @scene_argument
-@click.option("--asked", is_flag=True, help="Compute and report only what [ask] in the scene asks.")
+@click.option(
+    "--asked", is_flag=True, help="Compute and report only what [ask] in the scene asks for."
+)
 @click.option("--json", "as_json", is_flag=True, help="Print JSON, full precision, SI units.")
 @click.option(
     "--pencil",
     metavar="MM",
     type=click.FloatRange(0, 100),
-    help="Foretell the errors of a drawing whose marks lie within so many mm of where they belong.",
+    help="Predict the errors of a drawing whose marks lie within MM millimetres of their place.",
 )
 @click.option(
     "--digits",
     metavar="N",
     type=click.IntRange(1, 1000),
-    help="Print N significant digits of each number, every one of them proved.",
+    help="Print N significant digits of each number, all of them proved.",
 )
 def solve(
     name: str,
@@ -185,15 +189,17 @@ def solve(
 ) -> None:
     """Compute positions, velocities and accelerations, and check them.
 
-    Units are m, s and rad; x points right, y up; counter-clockwise is positive. With --asked no
-    step is run that what is asked does not need, neither here nor in the check, and scales of a
-    drawing are looked for with --json alone.
+    Units are m, s and rad; x points right, y up; counter-clockwise is positive. With --asked, the
+    construction and the check run only the steps that [ask] needs, and the scales of a drawing are
+    computed only for --json or --pencil.
 
-    With --digits every digit that is printed is proved, by balls of as many bits as that takes;
-    what no ball decides, such as whether a number is nought, is said instead, and the status is 1.
+    With --digits, every printed digit is proved by ball arithmetic of sufficient precision. Where
+    no ball decides, such as whether a number is zero, the command says so, and the exit status is
+    1.
 
-    With --pencil it shows how flat the lines cross and what 95 of 100 drawings of what is asked
-    will be off at most, where 95 of 100 marks lie within MM and lines within as many degrees.
+    With --pencil, prints how flat the lines cross, and the largest error of what is asked in 95 of
+    100 drawings. It assumes that 95 of 100 marks lie within MM millimetres and lines within as many
+    degrees.
 
     \b
     Examples:
@@ -239,7 +245,11 @@ def solve(
 def traced(
     mechanism: Mechanism, targets: Iterable[Target] | None, digits: int | None
 ) -> tuple[Trace, bool]:
-    """The construction, and whether doubles can draw it: where digits are asked balls decide."""
+    """The construction, and whether doubles can draw it.
+
+    If doubles cannot and ``digits`` are requested, the construction is done in balls. Raises
+    ClosureError where it does not close.
+    """
     from graphkin.text.errors import ClosureError
 
     try:
@@ -259,7 +269,7 @@ def traced(
 def by_pencil(
     mechanism: Mechanism, drawn_at: Scales, millimetres: float
 ) -> tuple[dict[str, Any], tuple[str, ...]]:
-    """What a pencil does to a drawing of what is asked, as a record and as lines; warns."""
+    """The errors of a drawing made with a pencil, as a record and as lines; prints warnings."""
     from graphkin.accuracy.pencil import Pencil, forecast, original
     from graphkin.cli.report.pencil_report import pencil_lines, pencil_record, warnings
 
@@ -270,7 +280,7 @@ def by_pencil(
 
 
 def verdict_on(mechanism: Mechanism, solution: Solution) -> Verdict | None:
-    """The judgement of the independent route; None, and a message, where it cannot judge."""
+    """The verdict of the independent check; None, with a message, if it cannot judge."""
     from graphkin.text.errors import StructureError, WitnessError
 
     try:
@@ -282,7 +292,7 @@ def verdict_on(mechanism: Mechanism, solution: Solution) -> Verdict | None:
 
 
 def motion_words(scene: Scene, solution: Solution, found: Record, verdict: Verdict | None) -> str:
-    """The text of solve, in certified digits where the record holds them."""
+    """The text of solve, in certified digits if the record has them."""
     if "digits" in found:
         from graphkin.cli.report.certified_report import certified_text
 
@@ -293,7 +303,7 @@ def motion_words(scene: Scene, solution: Solution, found: Record, verdict: Verdi
 
 
 def not_certified(found: Record) -> bool:
-    """Warn of numbers whose digits are not proved; True when there are any."""
+    """Warn of numbers whose digits are not proved; True if there are any."""
     undecided = found.get("undecided", {})
     if undecided:
         from graphkin.text.plain_table import listed
@@ -305,9 +315,9 @@ def not_certified(found: Record) -> bool:
 def doubts(
     scene: Scene, trace: Trace, solution: Solution, verdict: Verdict | None, *, proved: bool = False
 ) -> bool:
-    """Warn of a flat crossing, of what no digit is sure of, and of a witness that disagrees.
+    """Warn of a flat crossing, of numbers without a sure digit, and of a failed independent check.
 
-    True when there is any doubt. Digits that are ``proved`` are sure, whatever doubles lose.
+    True if there is any doubt. With ``proved``, the digits are sure whatever doubles lose.
     """
     from graphkin.cli.report.motion_report import (
         digits_words,

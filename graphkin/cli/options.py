@@ -1,4 +1,4 @@
-"""What the commands share: their options and arguments, and how they speak and end."""
+"""What the commands share: options and arguments, output, and exit statuses."""
 
 from __future__ import annotations
 
@@ -36,21 +36,22 @@ if TYPE_CHECKING:
     from graphkin.mechanism import Mechanism
 
 FAILED = 1
-"""Status when the witness disagrees or something asked is unfair."""
+"""The exit status when the independent check disagrees or something asked is unfair."""
 REFUSED = 2
-"""Status for bad input, a page that does not fit, a file that cannot be read or written."""
+"""The exit status for bad input, a page that does not fit, or a file that cannot be used."""
 STOPPED = 130
 BROKEN_PIPE = 141
 OBEYED = "[\x00-\x08\x0b-\x1f\x7f-\x9f\xad\u061c\u200b-\u200f\u2028-\u202e\u2060-\u206f\ufeff]"
-"""Characters that control a terminal or hide what is written; tabs and ends of lines do not."""
+"""Characters that control a terminal or hide text; tabs and line ends are harmless."""
 READING = "graphkin.scene"
-"""Where the context of a command keeps how its scene was called."""
+"""The key under which a command's context keeps the name of its scene."""
 
 
 class Command(click.Command):
-    """A command that says in English how to ask for help.
+    """A command whose help option is described in English.
 
-    The option that click adds looks for a translation, with all that knows of languages.
+    The help option that click adds looks for a translation, which loads all of its language
+    support.
     """
 
     def __init__(self, *args: Any, **kwargs: Any) -> None:
@@ -61,7 +62,7 @@ class Command(click.Command):
 
 
 def told_at_once(*names: str, help: str, what: Callable[[click.Context], str]) -> click.Option:
-    """An option that prints a text, whatever else is written, and ends the command."""
+    """An option that prints a text, whatever the other arguments, and ends the command."""
 
     def tell(context: click.Context, option: click.Parameter, asked: bool) -> None:
         if asked and not context.resilient_parsing:
@@ -79,29 +80,29 @@ def told_at_once(*names: str, help: str, what: Callable[[click.Context], str]) -
 
 
 class CommandGroup(Command, click.Group):
-    """A group of commands that never shows a traceback and knows mistyped commands.
+    """A group of commands that shows no traceback and suggests the nearest command.
 
-    ``later`` names the modules of commands that are imported when they are called.
+    ``later`` gives the modules of commands that are imported only when they are called.
     """
 
     command_class = Command
     later: ClassVar[Mapping[str, str]] = {}
 
     def main(self, *args: Any, **kwargs: Any) -> Any:
-        """Run a command and leave with its status."""
+        """Run a command and exit with its status."""
         speak_utf8()
         kwargs["standalone_mode"] = False
         sys.exit(guarded(lambda: super(CommandGroup, self).main(*args, **kwargs)))
 
     def make_context(self, *args: Any, **kwargs: Any) -> click.Context:
-        """The context of a command; help and version, which are printed here, may be cut short."""
+        """The context of a command; the reader of help or version may close the pipe."""
         try:
             return super().make_context(*args, **kwargs)
         except BrokenPipeError:
             cut_short()
 
     def invoke(self, ctx: click.Context) -> Any:
-        """Run the command; what is wrong with its scene is told with the name of the scene."""
+        """Run the command; problems of its scene get the name of the scene."""
         try:
             return super().invoke(ctx)
         except BrokenPipeError:
@@ -115,18 +116,18 @@ class CommandGroup(Command, click.Group):
     def resolve_command(
         self, ctx: click.Context, args: list[str]
     ) -> tuple[str | None, click.Command | None, list[str]]:
-        """The command that is meant; a mistyped one is answered with the nearest."""
+        """The command that is called; for an unknown one, the error suggests the nearest."""
         name, names = args[0], self.list_commands(ctx)
         if name not in names and not name.startswith("-"):
             ctx.fail(f"{name!r} is not a command; {nearest(name, names)}")
         return super().resolve_command(ctx, args)
 
     def list_commands(self, ctx: click.Context) -> list[str]:
-        """The commands in the order in which they are written, those of other modules last."""
+        """The commands in the order of their definition, those of other modules last."""
         return [*(name for name in self.commands if name not in self.later), *self.later]
 
     def get_command(self, ctx: click.Context, cmd_name: str) -> click.Command | None:
-        """The command of a name, imported when it is one of another module."""
+        """The command of a name, imported if it belongs to another module."""
         if cmd_name in self.later and cmd_name not in self.commands:
             module, _, name = self.later[cmd_name].partition(":")
             self.add_command(getattr(import_module(module), name), cmd_name)
@@ -134,7 +135,7 @@ class CommandGroup(Command, click.Group):
 
 
 def of_scene(scene: str, problem: Problem) -> Problem:
-    """A problem with the scene before its place, unless the place is the scene's file itself."""
+    """A problem with the scene's name before its place, unless the place is the scene's file."""
     return problem if problem.place == scene else replace(problem, file=scene)
 
 
@@ -145,14 +146,14 @@ def nearest(name: str, names: list[str]) -> str:
 
 
 def speak_utf8() -> None:
-    """Let every console and file have UTF-8; what cannot be written is replaced, not raised."""
+    """Use UTF-8 on every console and file; characters that cannot be written are replaced."""
     for stream in (sys.stdout, sys.stderr):
         if hasattr(stream, "reconfigure"):
             stream.reconfigure(encoding="utf-8", errors="replace")
 
 
 def guarded(work: Callable[[], Any]) -> int:
-    """Run a command; every failure becomes a message on standard error and a status."""
+    """Run a command; turn every failure into a message on standard error and a status."""
     try:
         status = work()
         if sys.stdout is not None:
@@ -185,12 +186,12 @@ def guarded(work: Callable[[], Any]) -> int:
 
 
 def status_of(found: object) -> int:
-    """A status that a command returned; nought when it returned nothing of the kind."""
+    """The status that a command returned; zero if it returned none."""
     return found if isinstance(found, int) else 0
 
 
 def misused(error: click.ClickException) -> int:
-    """Say what is wrong with the words of the command, and where its help is."""
+    """Report wrong arguments of a command and how to see its help."""
     complain(error.format_message())
     context = getattr(error, "ctx", None)
     if context is not None:
@@ -199,19 +200,21 @@ def misused(error: click.ClickException) -> int:
 
 
 def complain(text: str) -> None:
-    """One line on standard error."""
+    """Print a message as one line on standard error."""
     say_aside("graphkin: " + " ".join(text.split("\n")))
 
 
 def say_aside(text: str) -> None:
-    """A line on standard error, wherever that leads."""
+    """Print a line on standard error; ignore a closed stream."""
     with suppress(OSError):
         say(text, err=True)
 
 
 def say(text: str, *, err: bool = False) -> None:
-    """Print a line. Names of files and cells may hold anything: what a terminal would obey, or
-    what turns the order of letters, is printed as JSON writes it, \\u001b.
+    """Print a line.
+
+    File names and cells may contain anything. Characters that a terminal would obey, or that change
+    the order of letters, are printed as JSON writes them, \\u001b.
     """
     if not all(line.isprintable() for line in text.split("\n")):
         text = re.sub(OBEYED, lambda found: f"\\u{ord(found[0]):04x}", text)
@@ -219,7 +222,7 @@ def say(text: str, *, err: bool = False) -> None:
 
 
 def cut_short() -> NoReturn:
-    """Leave as one whose reader has left; click would leave with 1, which is our FAILED."""
+    """End as a command whose reader closed the pipe; click would use status 1, which is FAILED."""
     silence()
     raise Exit(BROKEN_PIPE)
 
@@ -227,8 +230,8 @@ def cut_short() -> NoReturn:
 def end(left: SystemExit) -> NoReturn:
     """End the process with the status of a command.
 
-    What is registered for the end is done, but what is left is not taken apart, object by object:
-    that takes a tenth of the time of ``graphkin solve pump``.
+    Registered exit functions run, but objects are not destroyed one by one: that would take a tenth
+    of the time of ``graphkin solve pump``.
     """
     if threading.active_count() > 1 or sys.gettrace() or sys.getprofile():
         raise left
@@ -240,73 +243,70 @@ def end(left: SystemExit) -> NoReturn:
 
 
 def silence() -> None:
-    """Send what standard output still holds nowhere, so that leaving does not fail again."""
+    """Discard what standard output still holds, so that the exit does not fail again."""
     with suppress(OSError, ValueError, AttributeError):
         stdout = sys.stdout.fileno()
         os.dup2(os.open(os.devnull, os.O_WRONLY), stdout)
 
 
-# --- what the commands share: their options and arguments, and how they speak and end -------------
+# --- shared options and arguments -----------------------------------------------------------------
 
 
 F = TypeVar("F", bound=Callable[..., Any] | click.Command)
 
 
 class Option(Protocol):
-    """What gives a command an option."""
+    """A decorator that adds an option to a command."""
 
     def __call__(self, command: F, /) -> F:
-        """The same command with it."""
+        """Return the command with the option."""
 
 
 def scene_argument(command: Any) -> Any:
-    """SCENE and --set, which every command but list takes."""
+    """Add SCENE and --set, which every command for a scene takes."""
     command = click.option(
         "--set",
         "settings",
         metavar="NAME=VALUE",
         multiple=True,
-        help="Give a parameter of the scene another value, such as n=7. May be repeated.",
+        help="Set a parameter of the scene, such as n=7; repeatable.",
     )(command)
     return click.argument("name", metavar="SCENE")(command)
 
 
 def formats_option(metavar: str, default: str, help: str) -> Option:
-    """--format, the kinds of file that a command writes."""
+    """The option --format: the kinds of file that a command writes."""
     return click.option(
         "--format", "formats", metavar=metavar, default=default, show_default=True, help=help
     )
 
 
 def jobs_option(
-    help: str = "Processes that draw at once; as many as there are cores by default.",
+    help: str = "Processes that draw at once; by default one for each core.",
 ) -> Option:
-    """--jobs, how many processes work at once."""
+    """The option --jobs: how many processes work at once."""
     return click.option("--jobs", metavar="N", type=click.IntRange(1, 1024), help=help)
 
 
 def lang_option(help: str, default: str | None = None) -> Option:
-    """--lang, a language of pages."""
+    """The option --lang: a language of pages."""
     kinds = click.Choice(["ro", "en", "it"])
     return click.option("--lang", type=kinds, default=default, help=help)
 
 
 language_option = lang_option("Language of the pages; the scene's by default.")
-"""The language of pages."""
 ink_option = click.option(
     "--ink",
     type=click.Choice(["colour", "black"]),
     default="colour",
     show_default=True,
-    help="black: for printers without colour; the kinds of line tell vectors apart.",
+    help="black: for printers without colour; line styles distinguish the vectors.",
 )
-"""The ink of pages."""
-force_option = click.option("--force", is_flag=True, help="Replace files that exist.")
-"""Leave to replace files."""
+force_option = click.option("--force", is_flag=True, help="Replace existing files.")
 
 
 def option_words(option: str, text: str, known: tuple[str, ...]) -> tuple[str, ...]:
-    """The words of an option with commas between them, in the order in which they are known."""
+    """The comma-separated words of an option, in the order of ``known``."""
     words = [word.strip().lower() for word in text.split(",") if word.strip()]
     wrong = [word for word in words if word not in known]
     if wrong or not words:
@@ -336,7 +336,7 @@ def scales_of(mechanism: Mechanism) -> Scales:
 
 
 def pairs_of(settings: tuple[str, ...]) -> dict[str, str]:
-    """Each NAME=VALUE in its two parts; a name may be set once."""
+    """The names and values of NAME=VALUE; raises UsageError for a name set twice."""
     found: dict[str, str] = {}
     wrong: list[str] = []
     for setting in settings:
@@ -352,17 +352,14 @@ def pairs_of(settings: tuple[str, ...]) -> dict[str, str]:
 
 
 def current() -> click.Context:
-    """The context of the command that runs."""
     return click.get_current_context()
 
 
 def leave(status: int) -> None:
-    """End the command with a status."""
     current().exit(status)
 
 
 def tell(lines: Iterable[str]) -> None:
-    """Print lines."""
     for line in lines:
         say(line)
 
@@ -371,10 +368,10 @@ def tell(lines: Iterable[str]) -> None:
 
 
 class FolderType(click.Path):
-    """A folder to write into; nothing at all is no folder."""
+    """A folder to write into; an empty name is refused."""
 
     def convert(self, value: Any, param: click.Parameter | None, ctx: click.Context | None) -> Any:
-        """The path of a folder."""
+        """The path of a folder; raises FileError if it is a file."""
         if not str(value).strip():
             self.fail("the name of the folder is empty; . is the current one", param, ctx)
         if Path(value).is_file():
@@ -384,7 +381,7 @@ class FolderType(click.Path):
 
 
 def folder_option(help: str, metavar: str = "DIR", name: str = "folder", **more: Any) -> Option:
-    """-o, the folder of a command that writes files."""
+    """The option -o: the folder of a command that writes files."""
     kind = FolderType(path_type=Path)
     return click.option("-o", "--output", name, metavar=metavar, type=kind, help=help, **more)
 
@@ -392,6 +389,6 @@ def folder_option(help: str, metavar: str = "DIR", name: str = "folder", **more:
 output_option = folder_option(
     "Folder to write into, made if it is missing; the current one by default.", default=Path()
 )
-"""The folder of a command that writes files, the current one if none is named."""
+"""The option -o, with the current folder as default."""
 class_argument = click.argument("folder", metavar="DIR", type=click.Path(path_type=Path))
-"""The folder of a class."""
+"""The argument DIR: the folder of a class."""

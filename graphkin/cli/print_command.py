@@ -1,4 +1,4 @@
-"""The command ``print``: a class folder as files for the printer and for each student."""
+"""The command ``print``: a class folder as merged files to print, and files for each student."""
 
 from __future__ import annotations
 
@@ -29,7 +29,7 @@ if TYPE_CHECKING:
     from graphkin.drawing.style import Ink
 
 TENTHS = 10
-"""How often a run tells how far it is where there is no terminal."""
+"""The number of progress lines of a run without a terminal."""
 
 
 @click.command("print")
@@ -40,18 +40,18 @@ TENTHS = 10
     metavar="task,key,overlay,steps",
     default="task,key",
     show_default=True,
-    help="What to print of each student; a task comes with its A4 form.",
+    help="Views to print for each student; a task includes its A4 form.",
 )
 @lang_option(
-    "Language of the pages; by default that of the class, as variants or the first print with"
-    " --lang was told (with --force any), else the scene's."
+    "Language of the pages. Default: that of the class, set by variants or by the first print"
+    " with --lang (later only with --force), else the scene's."
 )
 @ink_option
 @formats_option(
     "pdf,svg,html",
     "pdf",
-    "Kinds of file to write for each student; the files for the printer are PDF. html: a page"
-    " for a browser, the task with a form that saves the answers.",
+    "Kinds of file to write for each student; the merged files are PDF. html: a page for a"
+    " browser; the task has a form that saves the answers.",
 )
 @jobs_option()
 @click.option(
@@ -59,9 +59,9 @@ TENTHS = 10
     "cluster",
     metavar="dask://HOST:PORT",
     default="",
-    help="Draw on the Dask cluster with its scheduler there (graphkin[cluster]).",
+    help="Draw on the Dask cluster with this scheduler; needs the extra [cluster].",
 )
-@click.option("--force", is_flag=True, help="Replace files that were printed otherwise.")
+@click.option("--force", is_flag=True, help="Replace files printed with other settings.")
 @click.pass_context
 def print_sheets(
     context: click.Context,
@@ -76,16 +76,17 @@ def print_sheets(
 ) -> None:
     """Print the sheets of a class.
 
-    DIR is what graphkin variants wrote.
+    DIR is the folder that graphkin variants wrote.
 
-    Writes into DIR/print a task sheet (A3) and a form (A4) for every student, and what else
-    --view names; then one file of each view with all students in the order of the roster, for the
-    printer: class-task.pdf, class-key.pdf. Name, group and an opaque code stand on every sheet,
-    the code also as a QR square where it has room. A column language of the class list gives each
-    student's own; --lang is for those who have none.
+    Writes into DIR/print a task sheet (A3) and a form (A4) for every student, and the other views
+    that --view names. Then merges each view into one file to print, with all students in the order
+    of the roster: class-task.pdf, class-key.pdf. Every sheet shows name, group and an opaque code,
+    and a QR code where it fits. A column language of the class list sets each student's language;
+    --lang is for students without one.
 
-    A run that was stopped goes on where it was: the same command again makes what is missing, and
-    the same bytes come of it. Two runs into one folder are refused.
+    Run the same command again to continue a run that was stopped: it makes the missing files, and
+    the result is the same to the byte. A second run into the same folder is refused while one is
+    running.
 
     \b
     Examples:
@@ -119,7 +120,7 @@ def print_sheets(
 
 @contextmanager
 def progress(what: str = "students") -> Iterator[Tell]:
-    """What shows how many of them are done: a bar on a terminal, else a line for each tenth."""
+    """A progress display: a bar on a terminal, else a line for each tenth."""
     if sys.stderr is not None and sys.stderr.isatty():
         with click.progressbar(length=1, label=what, show_pos=True, file=sys.stderr) as bar:
 
@@ -142,7 +143,7 @@ def progress(what: str = "students") -> Iterator[Tell]:
 
 
 def lost_words(student: Student) -> str:
-    """What is said of a student with signs in the name or group that are not printed."""
+    """A message about a student whose name or group has signs that cannot be printed."""
     from graphkin.classroom.printing.personal import UNKNOWN, is_readable, lost
 
     whole = ", ".join(filter(None, (student.name, student.group)))
@@ -153,7 +154,7 @@ def lost_words(student: Student) -> str:
 
 
 def report(outcome: Outcome) -> None:
-    """Say what came of a run: the files for the printer, and who got none and why."""
+    """Report a run: the files to print, and the students without files, with the reasons."""
     if outcome.left:
         complain(f"an earlier run did not end ({outcome.left}); what it had finished was kept")
     for student in outcome.lost:

@@ -1,4 +1,4 @@
-"""The commands ``read`` and ``desk``: drawings marked from their photographs."""
+"""The commands ``read`` and ``desk``: mark drawings from photographs."""
 
 from __future__ import annotations
 
@@ -22,9 +22,9 @@ NEEDED = {
     "waitress": "waitress",
     "zxingcpp": "zxing-cpp",
 }
-"""The packages of the extra [read], by what they are imported as."""
+"""The packages of the extra [read], by the names of their modules."""
 MOST_PLACES = 10_000
-"""Places of a grid."""
+"""The most places of a grid."""
 
 
 @click.command("read")
@@ -34,18 +34,20 @@ MOST_PLACES = 10_000
 )
 @folder_option("Folder of the readings, made if it is missing.", "READ", "out", required=True)
 @click.option(
-    "--json", "as_json", is_flag=True, help="Also write NAME.points.json beside each picture."
+    "--json", "as_json", is_flag=True, help="Also write NAME.points.json next to each picture."
 )
 @click.option(
     "--grid",
     metavar="FILE",
     type=click.Path(path_type=Path),
-    help='JSON, {"x": [mm, …], "y": [mm, …]}: places of the paper whose pixels are wanted.',
+    help='JSON, {"x": [mm, …], "y": [mm, …]}: report the pixels of these places on the paper.',
 )
 @click.option(
-    "--by-hand", is_flag=True, help="Only flatten; the points that marks need are clicked."
+    "--by-hand",
+    is_flag=True,
+    help="Only flatten the pictures; you click the points that the marks need.",
 )
-@jobs_option("Processes; all cores by default.")
+@jobs_option("Processes; by default one for each core.")
 @click.pass_context
 def read(
     context: click.Context,
@@ -59,16 +61,18 @@ def read(
 ) -> None:
     """Read the drawings of a class from photographs.
 
-    CLASS is what graphkin variants wrote, PHOTOS are pictures (JPEG, PNG, HEIC), scans (PDF), or
-    folders of them: one A3 sheet in each, with its square seen whole and most of its frame.
+    CLASS is the folder that graphkin variants wrote. PHOTOS are pictures (JPEG, PNG, HEIC), scans
+    (PDF), or folders of them. Each shows one A3 sheet, with the whole QR code and most of the
+    frame.
 
-    Finds whose each sheet is by its code, flattens it to millimetres of paper by its own frame, and
-    reads the points one after the other, each expected from the student's own earlier ones. What
-    is surely right, or surely follows from an own mistake, is decided; every mistake, and every
-    doubt, is for you: graphkin desk READ shows them one by one.
+    The command identifies each sheet by its code and flattens it to millimetres of paper by its
+    frame. It reads the points one after the other, and expects each from the student's own earlier
+    points. A point that is surely right, or surely follows from the student's own mistake, is
+    decided. Every mistake and every doubt is left to you: graphkin desk READ shows them one by one.
 
     Then graphkin grade CLASS READ -o report marks the lengths and places that were read. Pictures
-    stay in READ, without what a camera writes beside them. A run that was stopped goes on.
+    are kept in READ without the camera's metadata. Run the same command again to continue a run
+    that was stopped.
 
     \b
     Examples:
@@ -77,7 +81,7 @@ def read(
       graphkin grade pump-2026 read -o report
 
     \b
-    Exit status: 0; 1 when some pictures were refused, each with its reason; 2 for bad input.
+    Exit status: 0 success; 1 some pictures were refused, each with its reason; 2 bad input.
     """
     refuse_without("read", "read", NEEDED.items())
     from graphkin.classroom.printing.edition import read_edition
@@ -107,7 +111,7 @@ def read(
 
 
 def read_grid(path: Path | None) -> Grid:
-    """The places of a grid file. Raises PageError for what is none."""
+    """The places of a grid file. Raises PageError for an invalid file."""
     import msgspec
 
     from graphkin.reading.read_sheet import Grid
@@ -133,14 +137,14 @@ def read_grid(path: Path | None) -> Grid:
 @browser_option
 @lang_option("Language of the page.", "en")
 def desk(folder: Path, port: int, no_browser: bool, lang: str) -> None:
-    """Decide what graphkin read asks, in a browser.
+    """Decide in a browser what graphkin read left open.
 
     READ is the folder that graphkin read wrote. The page shows one doubtful point after the other,
-    enlarged, with the key over the drawing: a key or a click settles it. Each decision is written
-    at once into READ/decisions.jsonl, and can be undone.
+    enlarged, with the key over the drawing; press a key or click to decide. Each decision is
+    written at once into READ/decisions.jsonl, and can be undone.
 
-    The page is for this computer alone, and its address holds a token that nobody else knows; it
-    ends with this command (Ctrl+C).
+    Only this computer can reach the page, and its address holds a secret token. The page ends with
+    this command (Ctrl+C).
 
     \b
     Examples:

@@ -1,4 +1,4 @@
-"""The command ``studio``: a page on this computer in which a scene is written and looked at."""
+"""The command ``studio``: a local web page to write and view a scene."""
 
 from __future__ import annotations
 
@@ -20,17 +20,17 @@ port_option = click.option(
     metavar="N",
     type=click.IntRange(0, 65535),
     default=0,
-    help="Port to listen at; a free one by default.",
+    help="Port to listen on; a free one by default.",
 )
-"""The port of a page on this computer."""
+"""The option for the port of a local page."""
 browser_option = click.option(
-    "--no-browser", is_flag=True, help="Only print the address, open no browser."
+    "--no-browser", is_flag=True, help="Only print the address; open no browser."
 )
-"""Leave to open no browser."""
+"""The option to open no browser."""
 
 
 def refuse_without(what: str, extra: str, needed: Iterable[tuple[str, str]]) -> None:
-    """Raise UsageError where an extra is not installed: modules, each with its package."""
+    """Raise UsageError if an extra is not installed: modules, each with its package."""
     if missing := [package for module, package in needed if not find_spec(module)]:
         raise click.UsageError(
             f"{what} needs {' and '.join(missing)}: pip install '.[{extra}]' where graphkin was "
@@ -40,9 +40,9 @@ def refuse_without(what: str, extra: str, needed: Iterable[tuple[str, str]]) -> 
 
 
 def show(listen: Callable[[Callable[[], None]], Served], *, no_browser: bool) -> None:
-    """Print the address of a page, open it, and serve it until the command ends.
+    """Print the address of a page, open the page, and serve it until the command ends.
 
-    ``listen`` begins to listen, and is told what to do when the page is asked for.
+    ``listen`` starts the server; it receives the function to call when the page is requested.
     """
     from graphkin.studio.redirect import Redirect
 
@@ -59,9 +59,6 @@ def show(listen: Callable[[Callable[[], None]], Served], *, no_browser: bool) ->
         redirect.remove()
 
 
-# --- the command ``studio``: a page on this computer in which a scene is written and looked at ----
-
-
 NEEDED = ("bottle", "tomlkit", "waitress")
 """The packages of the extra [studio]."""
 
@@ -70,19 +67,21 @@ NEEDED = ("bottle", "tomlkit", "waitress")
 @click.argument("name", metavar="[SCENE]", required=False, default="")
 @port_option
 @browser_option
-@lang_option("Language to begin with; the scene's by default. The page lets another be chosen.")
+@lang_option("Initial language; the scene's by default. You can change it on the page.")
 def studio(name: str, port: int, no_browser: bool, lang: str | None) -> None:
-    """Write, move and look at a scene in a browser.
+    """Write, move and view a scene in a browser.
 
-    Opens, for this computer alone, a page with the text of SCENE, its mistakes marked where they
-    stand, a slider for each parameter, the mechanism, both plans, results, flattest crossings and
-    the independent check; all of it follows what is written and moved. Of a lab, its lab.toml
-    stands below the scene, and how fair it is to a class is followed as well. Scenes and sheets are
-    saved into the current folder, and nothing outside it is read or written. Without SCENE it
-    begins with a choice of what to start from: pictures of the labs and of the scenes here, or an
+    Opens a page that only this computer can reach. It shows the text of SCENE with its mistakes
+    marked in place, and a slider for each parameter. It draws the mechanism and both plans, and
+    lists results, flattest crossings and the independent check. Everything follows what you write
+    and move. For a lab, the page also shows its lab.toml below the scene, and how fair the lab is
+    to a class.
+
+    Scenes and sheets are saved into the current folder; nothing outside it is read or written.
+    Without SCENE, the page first offers pictures of the labs and of the scenes in the folder, or an
     empty field.
 
-    The page's address holds a token that nobody else knows; it ends with this command (Ctrl+C).
+    The page's address holds a secret token. The page ends with this command (Ctrl+C).
 
     \b
     Examples:
@@ -99,5 +98,5 @@ def studio(name: str, port: int, no_browser: bool, lang: str | None) -> None:
     session = Session(Folder(Path()), lang)
     first = session.address_of(name) or {"gallery": "yes"}
     gc.collect()
-    gc.freeze()  # what is loaded stays: a search for garbage during a move passes it over
+    gc.freeze()  # garbage collection during a move then skips the loaded modules
     show(lambda known: serve(session, port, first, known), no_browser=no_browser)

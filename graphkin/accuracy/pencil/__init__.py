@@ -1,4 +1,4 @@
-"""What a pencil makes of a construction: many drawings of it, and the error that they will have."""
+"""The effect of a pencil on a construction: simulated drawings, and their expected errors."""
 
 from graphkin.accuracy.pencil.forecast import Forecast, forecast
 from graphkin.accuracy.pencil.original import Original, original

@@ -1,14 +1,14 @@
-"""The error that drawings will have, without making them: each error of each mark on its own.
+"""The expected error of drawings, predicted from the single errors of each mark.
 
 The rows of one batch are the sources: one error of one mark at a time, at plus and minus √3
-standard deviations, which with the exact drawing are the three points of Gauss and Hermite. They
-give mean and variance of every answer as far as errors of different marks do not work on each
-other. The 95th percentile follows from these by a scaled chi-square (Satterthwaite 1946) and its
-quantile by the cube root (Wilson and Hilferty 1931).
+standard deviations. With the exact drawing, these are the three points of Gauss and Hermite. They
+give mean and variance of every answer, as long as errors of different marks do not interact. The
+95th percentile follows from these by a scaled chi-square (Satterthwaite 1946) and its quantile by
+the cube root (Wilson and Hilferty 1931).
 
-Where a pencil is so coarse that answers bend with single errors, marks do work on each other; and
-some drawings close with one error but not with many. So some joint drawings are always made; where
-they tell otherwise, the error is read from more of them, the same at every run.
+If a pencil is so coarse that answers are not linear in single errors, marks do interact; and some
+drawings close with one error but not with many. Therefore some joint drawings are always made. If
+they disagree, the error is read from more of them, which are the same at every run.
 """
 
 from __future__ import annotations
@@ -29,29 +29,29 @@ from graphkin.construction.core.program import Target
 from graphkin.numbers.arithmetic import np
 
 NODE = sqrt(3)
-"""Where an error is tried, in standard deviations."""
+"""The size of a trial error, in standard deviations."""
 WEIGHT = 1 / 6
-"""The weight of each of the two errors that are tried; the exact drawing has the rest."""
+"""The weight of each of the two trial errors; the exact drawing has the rest."""
 BENT = 0.1
-"""The sum of all drifts of an answer, over its deviation, above which errors do not just add."""
+"""The ratio of an answer's total drift to its deviation above which errors do not just add."""
 TRIED = 500
-"""Joint drawings on which every forecast is tried."""
+"""The number of joint drawings that test every forecast."""
 ALIKE = 1.25
-"""Within this factor of what they tell a forecast is believed."""
+"""The factor within which a forecast must agree with the joint drawings."""
 JOINT = 4000
-"""Joint drawings from which the error is read where it is not."""
+"""The number of joint drawings from which the error is read if the forecast fails."""
 SEED = 95
-"""The seed of their errors."""
+"""The seed of the errors of joint drawings."""
 NORMAL_95 = 1.6448536269514722
-"""The number below which 95 of 100 standard normal numbers lie."""
+"""The 95th percentile of the standard normal distribution."""
 
 
 class Expected(Struct, frozen=True):
-    """What is expected of one answer: ``error`` is its 95th percentile in its own SI unit.
+    """The forecast for one answer; ``error`` is its 95th percentile in the answer's SI unit.
 
-    ``sources`` are the shares of its variance by the step whose mark is off, which add up to one;
-    ``joint`` tells that errors do not just add up, so that joint drawings were made. Where one in
-    twenty does not close, the error is infinite.
+    ``sources`` are the shares of its variance, which add up to one, by the step whose mark errs.
+    ``joint`` says that errors do not just add, so that joint drawings were made. The error is
+    infinite if one drawing in twenty does not close.
     """
 
     answer: DrawnQuantity
@@ -61,43 +61,42 @@ class Expected(Struct, frozen=True):
 
     @property
     def relative(self) -> float | None:
-        """The error beside the answer's size; None for a place, infinite for an answer nought."""
+        """The error over the answer's size; None for a place, infinite for a zero answer."""
         if self.answer.size is None:
             return None
         return self.error / self.answer.size if self.answer.size else inf
 
     @property
     def millimetres(self) -> float | None:
-        """The error in mm of the plan in which the answer is measured; None where it is in none."""
+        """The error in mm of the plan in which the answer is measured; None if it is in none."""
         return self.error / self.answer.millimetre if self.answer.millimetre else None
 
     @property
     def heaviest(self) -> int | None:
-        """The step whose mark weighs most; None where no mark is off."""
+        """The step whose mark contributes most to the error; None if no mark errs."""
         return max(self.sources, key=lambda number: self.sources[number], default=None)
 
 
 class Forecast(Struct, frozen=True, dict=True):
-    """What is expected of each answer of a drawing made with a pencil."""
+    """The expected error of each answer of a drawing made with a pencil."""
 
     original: Original
     pencil: Pencil
     expected: tuple[Expected, ...]
 
     def __getitem__(self, target: Target) -> Expected:
-        """What is expected of a target."""
         return self.index[target]
 
     @cached_property
     def index(self) -> Mapping[Target, Expected]:
-        """What is expected of each target."""
         return {found.answer.target: found for found in self.expected}
 
 
 def forecast(exact: Original, pencil: Pencil) -> Forecast:
-    """The 95th percentile of the error of each answer of an original, without drawing it often.
+    """The 95th percentile of the error of each answer, with few simulated drawings.
 
-    A grid rounds some marks and leaves others where they are: with one, joint drawings are made.
+    A grid rounds some marks and leaves others in place, so that a pencil with one needs joint
+    drawings.
     """
     owners, errors = sources(exact)
     found = redrawn(exact, replace(pencil, grid=0.0), errors)
@@ -117,7 +116,7 @@ def forecast(exact: Original, pencil: Pencil) -> Forecast:
 
 
 def is_alike(each: Expected, few: Drawn) -> bool:
-    """Whether joint drawings tell about the error that is foretold; nought is like nought."""
+    """Whether the joint drawings give about the forecast error; zero agrees with zero."""
     drawn = few.error(each.answer.target)
     return drawn / ALIKE <= each.error <= drawn * ALIKE
 
@@ -140,7 +139,7 @@ def sources(exact: Original) -> tuple[Any, Any]:
 
 
 def expected(answer: DrawnQuantity, found: Mapping[int, Any], owners: Any) -> Expected:
-    """What is expected of one answer, from the drawings with one error each."""
+    """The forecast for one answer, from the drawings with one error each."""
     with np.errstate(all="ignore"):
         off = np.broadcast_to(answer.error(found), 2 * len(owners)).reshape(-1, 2)
         parts = np.stack([off.real, off.imag]) if np.iscomplexobj(off) else off[None]
@@ -155,7 +154,7 @@ def expected(answer: DrawnQuantity, found: Mapping[int, Any], owners: Any) -> Ex
 
 
 def shares(owners: Any, variances: Any) -> Iterator[tuple[int, float]]:
-    """The share of each step in a variance; the sources of a step stand side by side."""
+    """The share of each step in a variance; the sources of a step are adjacent."""
     whole = float(variances.sum())
     if isfinite(whole) and whole > 0:
         first = np.flatnonzero(np.diff(owners, prepend=-1))
@@ -164,10 +163,11 @@ def shares(owners: Any, variances: Any) -> Iterator[tuple[int, float]]:
 
 
 def percentile(mean: Any, spread: Any) -> float:
-    """The 95th percentile of the length of a Gaussian vector, or size of a number.
+    """The 95th percentile of the length of a Gaussian vector, or of the size of a number.
 
-    Its square has the mean tr C + m·m and the variance 2 tr C² + 4 m·C·m; a scaled chi-square of
-    the same two stands for it. Infinite where they are not known.
+    The square of the length has the mean tr C + m·m and the variance 2 tr C² + 4 m·C·m. It is
+    replaced by a scaled chi-square with the same mean and variance. Infinite if these are not
+    finite.
     """
     size = float(np.trace(spread) + mean @ mean)
     if not isfinite(size):

@@ -1,4 +1,4 @@
-"""The drawing as it should be: exact values, scales, and which of its steps a pencil gets wrong."""
+"""The exact drawing: its values and scales, and the steps that a pencil gets wrong."""
 
 from __future__ import annotations
 
@@ -21,11 +21,11 @@ from graphkin.numbers.arithmetic import np
 from graphkin.numbers.plane import by_parts, cross
 
 SAME = 1e-9
-"""Share by which an arrow may differ from the vector that is read and still be it."""
+"""The share by which an arrow may differ from the vector that is read and count as the same."""
 
 
 class Original(Struct, frozen=True, dict=True):
-    """One construction by hand without errors: its trace at some scales, and what is read off."""
+    """One construction by hand without errors: its trace at some scales, and its targets."""
 
     trace: Trace
     paper: Paper
@@ -34,7 +34,6 @@ class Original(Struct, frozen=True, dict=True):
 
     @property
     def program(self) -> Program:
-        """The steps of the construction."""
         return self.trace.program
 
     @cached_property
@@ -52,12 +51,12 @@ class Original(Struct, frozen=True, dict=True):
 
     @cached_property
     def crowded(self) -> bool:
-        """Whether so many triangles would be drawn that all are computed."""
+        """Whether there are so many triangles that all of them are computed, not drawn."""
         return has_many_triangles(self.trace)
 
     @cached_property
     def order(self) -> tuple[int, ...]:
-        """The steps whose values a pencil changes, in an order in which each finds its own."""
+        """The steps whose values a pencil changes, each after the steps that it depends on."""
         moved: list[int] = []
         known: set[int] = set()
         for number in self.trace.values:
@@ -72,11 +71,11 @@ class Original(Struct, frozen=True, dict=True):
 
     @cached_property
     def skipped(self) -> frozenset[int]:
-        """Arrows, which only join what is there."""
+        """Arrows, which only join existing points."""
         return frozenset(n for n in self.trace.values if self.program.steps[n].arrow)
 
     def by_hand(self, number: int) -> int | None:
-        """The step that gives a composite one by hand, where the drawing has it."""
+        """The drawn step that replaces a composite one; None if the drawing has no such step."""
         component, hand = component_of(self.program, number), self.program.steps[number].by_hand
         if component and (self.crowded or (component.gives_way and not self.triangles)):
             return None
@@ -84,9 +83,9 @@ class Original(Struct, frozen=True, dict=True):
 
     @cached_property
     def tails(self) -> Mapping[int, int]:
-        """For each angular acceleration the step from which its tangential component is laid off.
+        """For each angular acceleration the step at which its tangential component begins.
 
-        A hand reads that arrow, not the whole relative vector, of which it is a part.
+        A hand reads the arrow of that component, which is a part of the relative vector.
         """
         found = {}
         for number, value in self.trace.values.items():
@@ -98,39 +97,38 @@ class Original(Struct, frozen=True, dict=True):
         return found
 
     def tangential_tails(self, tip: int) -> Iterable[int]:
-        """Where the tangential components begin that end in a point of the plan."""
+        """The steps at which tangential components begin that end at a point of the plan."""
         for number in self.skipped:
             step = self.program.steps[number]
             if sign_of(step) == "τ" and step.args[1] == tip:
                 yield step.args[0]
 
     def reads_alike(self, number: int, tail: int, value: float) -> bool:
-        """Whether an arrow to the end of a bar's image tells the same rate."""
+        """Whether an arrow to the end of a bar's image gives the same rate."""
         p, q, _, tip = (self.trace.values[arg] for arg in self.program.steps[number].args)
         read = cross(q - p, tip - self.trace.values[tail]) / abs(q - p) ** 2
         return bool(abs(read - value) <= SAME * max(abs(value), abs(tip) / abs(q - p)))
 
 
 class Originals(Original, frozen=True, kw_only=True, dict=True):
-    """The constructions of several variants that draw the same: each value holds a row for each
-    variant, or stands alone where all share it; ``like`` is the first of them.
+    """The constructions of several variants with the same drawing steps.
+
+    Each value has a row for each variant, or is a single one that all share. ``like`` is the first
+    variant.
     """
 
     like: Original
 
     @cached_property
     def marks(self) -> Mapping[int, PencilMark]:
-        """Those of the first."""
         return self.like.marks
 
     @cached_property
     def order(self) -> tuple[int, ...]:
-        """That of the first."""
         return self.like.order
 
     @cached_property
     def tails(self) -> Mapping[int, int]:
-        """Those of the first."""
         return self.like.tails
 
 
@@ -155,8 +153,10 @@ def together(every: Sequence[Original]) -> Original:
 
 
 def stacked(values: Sequence[Any]) -> Any:
-    """One value of each variant as a column, by the parts of a line or circle; what all share
-    stays alone."""
+    """The values of all variants as a column, by the parts of a line or circle.
+
+    A value that all variants share stays single.
+    """
     first = values[0]
     if isinstance(first, tuple):
         return by_parts(lambda *part: stacked(part), *values)

@@ -1,4 +1,4 @@
-"""A pencil: how far its marks and lines lie from where they belong, in millimetres of paper."""
+"""A pencil: the errors of its marks and lines, in millimetres of paper and degrees."""
 
 from __future__ import annotations
 
@@ -16,20 +16,23 @@ from graphkin.numbers.plane import Circle, Line, Ratio, Vector
 from graphkin.text.errors import Problem, SceneError
 
 POINT = 0.5
-"""Millimetres within which 95 of 100 marks of a fair drawing lie."""
+"""The distance in mm within which 95 of 100 marks of a fair drawing lie."""
 RADIAL = sqrt(-2 * log(0.05))
-"""Within so many standard deviations of either coordinate lie 95 of 100 points of the plane."""
+"""The radius, in standard deviations of a coordinate, that holds 95 of 100 marks."""
 STRAIGHT = 1.959963984540054
-"""Within so many standard deviations lie 95 of 100 numbers, to both sides."""
+"""The two-sided limit, in standard deviations, that holds 95 of 100 numbers."""
 
 
 class Pencil(Struct, frozen=True):
-    """Of 100 marks 95 lie within ``point`` mm of where they belong, evenly in all directions; of
-    100 lines 95 have a direction within ``line`` degrees of theirs.
+    """The errors of a pencil, by the limits that 95 of 100 marks and lines keep.
 
-    Errors are Gaussian and independent. A compass opening errs as a mark does along one axis.
-    ``line`` is a degree for each mm of ``point`` where it is not stated: a line a hand long ends
-    about a point's error off. Marks are rounded to a ``grid`` of so many mm, if there is one.
+    - ``point`` (mm): 95 of 100 marks lie within this distance of their true place, evenly in all
+      directions. A compass opening errs as a mark does along one axis.
+    - ``line`` (degrees): 95 of 100 lines have a direction within this angle of theirs. The default
+      is a degree for each mm of ``point``: a line as long as a hand then ends about ``point`` off.
+    - ``grid`` (mm): marks are rounded to this grid, if it is not zero.
+
+    Errors are Gaussian and independent.
     """
 
     point: float = POINT
@@ -51,7 +54,7 @@ class Pencil(Struct, frozen=True):
 
     @property
     def degrees(self) -> float:
-        """The angle within which 95 of 100 lines have their direction."""
+        """The angle, in degrees, within which 95 of 100 lines have their direction."""
         return self.point if self.line is None else self.line
 
     @property
@@ -65,11 +68,12 @@ class Pencil(Struct, frozen=True):
         return radians(self.degrees) / STRAIGHT
 
 
-# --- what of a step is drawn ----------------------------------------------------------------------
+# --- the mark of a step
+# ----------------------------------------------------------------------------
 
 
 class PencilMark(Enum):
-    """The kinds of marks a hand makes, each with the number of its independent errors."""
+    """The kinds of marks that a hand makes, each with the number of its independent errors."""
 
     POINT = "a point, pricked or crossed", 2
     ARROW = "a point laid off from another, along a line that is not drawn by itself", 3
@@ -83,7 +87,7 @@ class PencilMark(Enum):
 
 
 def mark_of(step: Step, value: Any) -> PencilMark | None:
-    """The mark that a step puts on paper; None where it puts none, or only joins what is there."""
+    """The mark that a step puts on paper; None if it puts none, or only joins existing points."""
     if closer_of(step) is not None:
         return PencilMark.CLOSING
     if step.plane is Plane.NUMBERS or isinstance(value, Vector):
@@ -106,14 +110,14 @@ def mark_of(step: Step, value: Any) -> PencilMark | None:
 
 
 class Paper(Struct, frozen=True):
-    """What a metre of paper stands for in each plan: m, m/s, m/s²."""
+    """The amount that a metre of paper represents in each plan: m, m/s, m/s²."""
 
     mechanism: float
     velocities: float
     accelerations: float
 
     def millimetre(self, plane: Plane) -> float:
-        """What a millimetre stands for in a plane; numbers are drawn nowhere."""
+        """The amount that a millimetre of paper represents in a plane."""
         match plane:
             case Plane.VELOCITIES:
                 return self.velocities / 1000
@@ -125,9 +129,10 @@ class Paper(Struct, frozen=True):
 def marked(
     mark: PencilMark, value: Any, start: Point, errors: Any, pencil: Pencil, mm: float
 ) -> Any:
-    """A value as the pencil leaves it: ``errors`` are columns in standard deviations.
+    """A value with the pencil's errors; ``errors`` are columns in standard deviations.
 
-    ``start`` is the point from which an arrow is laid off, ``mm`` what a millimetre stands for.
+    ``start`` is the point from which an arrow is laid off. ``mm`` is the amount that a millimetre
+    of paper represents.
     """
     if mark is PencilMark.LINE:
         return Line(value.point, value.along * turn_by(pencil.turn * errors[:, 0]))
@@ -145,7 +150,7 @@ def marked(
 
 
 def rounded(value: Real, pencil: Pencil, mm: float) -> Real:
-    """A length as a pencil with a grid leaves it."""
+    """A length rounded to the pencil's grid, if it has one."""
     if not pencil.grid:
         return value
     step = pencil.grid * mm
@@ -153,7 +158,7 @@ def rounded(value: Real, pencil: Pencil, mm: float) -> Real:
 
 
 def on_grid(point: Point, pencil: Pencil, mm: float) -> Point:
-    """A point as a pencil with a grid leaves it."""
+    """A point rounded to the pencil's grid, if it has one."""
     if not pencil.grid:
         return point
     return rounded(point.real, pencil, mm) + 1j * rounded(point.imag, pencil, mm)

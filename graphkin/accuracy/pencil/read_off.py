@@ -1,4 +1,4 @@
-"""What is read off a drawing: vectors, rates and places, their errors, their size on paper."""
+"""The answers read off a drawing: vectors, rates and places, their errors and scales."""
 
 from __future__ import annotations
 
@@ -14,14 +14,14 @@ from graphkin.construction.core.quantities import BY_TARGET, RATES, MotionQuanti
 from graphkin.numbers.plane import Ratio
 
 FAR = 10.0
-"""Metres of paper beyond which a centre counts as at infinity: no hand draws it."""
+"""Metres of paper beyond which a centre counts as at infinity, because no hand draws it."""
 
 
 class DrawnQuantity(Struct, frozen=True):
-    """One answer: its target, the step that carries it, its exact value and its scale.
+    """One answer: its target, the step that gives it, its exact value and its scale.
 
-    ``unit`` is the answer's own unit in SI, ``millimetre`` how much of it a millimetre of paper
-    stands for; nought where it is not drawn.
+    ``unit`` is the answer's SI unit. ``millimetre`` is the amount of it that a millimetre of paper
+    represents, zero if the answer is not drawn.
     """
 
     target: Target
@@ -33,7 +33,7 @@ class DrawnQuantity(Struct, frozen=True):
 
     @property
     def size(self) -> float | None:
-        """What an error is compared with, in percent; None for a place, whose size says nothing."""
+        """The size that a relative error refers to; None for a place, whose size has no meaning."""
         return None if self.sort == "place" else abs(self.value)
 
     def of(self, found: Mapping[int, Any]) -> Any:
@@ -42,15 +42,15 @@ class DrawnQuantity(Struct, frozen=True):
         return placed(value) if self.sort == "place" else value
 
     def error(self, found: Mapping[int, Any]) -> Any:
-        """How far the answer lies from the exact one in some drawings, as a difference."""
+        """The difference of the answer from the exact one in some drawings."""
         return self.of(found) - self.value
 
 
 def answers(original: Original) -> Iterator[DrawnQuantity]:
-    """The answers that hang on what is drawn, in the order asked; places at infinity are left out.
+    """The answers that depend on the drawing, in the order asked, without places at infinity.
 
-    A rate that is given, or nought because nothing turns, is no answer of the drawing, nor is what
-    the program finds for others, such as the angle through which a wheel has turned.
+    A rate that is given, or zero because nothing turns, is not an answer of the drawing. Nor is an
+    auxiliary result, such as the angle through which a wheel has turned.
     """
     moved = frozenset(original.order)
     for target in original.targets:
@@ -79,7 +79,7 @@ def answer(
 
 
 def bar_of(original: Original, step: Step) -> float:
-    """The length of the bar whose relative vector tells a rate; infinite where no bar does."""
+    """The length of the bar from whose relative vector a rate is read; infinite without a bar."""
     if len(step.args) == 4:
         p, q = (original.trace.values[arg] for arg in step.args[:2])
         return abs(q - p) if isinstance(p, complex) and isinstance(q, complex) else float("inf")

@@ -1,4 +1,4 @@
-"""Many drawings at once: the hand's way of every step, each mark with its own errors."""
+"""Many drawings at once: every step is drawn by hand, each mark with its own errors."""
 
 from __future__ import annotations
 
@@ -27,9 +27,9 @@ Errors = Callable[[int, PencilMark], Any]
 
 
 def redrawn(original: Original, pencil: Pencil, errors: Errors) -> dict[int, Any]:
-    """Every value of the drawing as the pencil leaves it, arrays with an element for each drawing.
+    """Every value of the drawing with the pencil's errors, an array element for each drawing.
 
-    What no error reaches stays the one exact value; what cannot be drawn is NaN.
+    A value that no error affects stays the single exact value; a value that cannot be drawn is NaN.
     """
     found = dict(original.trace.values)
     with np.errstate(all="ignore"):
@@ -58,7 +58,7 @@ def step_drawn(
 
 
 def unmarked(original: Original, number: int, found: Mapping[int, Any]) -> Any:
-    """The value of a step from the values before it: given, by hand, read off, or as it follows."""
+    """The value of a step from earlier values: given, drawn by hand, read off, or computed."""
     step, hand = original.program.steps[number], original.by_hand(number)
     if hand is not None:
         return found[hand]
@@ -71,9 +71,9 @@ def unmarked(original: Original, number: int, found: Mapping[int, Any]) -> Any:
 
 
 def read_off(original: Original, number: int, found: Mapping[int, Any]) -> Any:
-    """A rate as a hand reads it: a length of the plan over the length of the bar, which is known.
+    """An angular rate as read by hand: a length in the plan over the known length of the bar.
 
-    Of an acceleration it reads the tangential component where that is drawn.
+    For an acceleration the hand reads the tangential component, if it is drawn.
     """
     step = original.program.steps[number]
     p, q, start, tip = step.args
@@ -84,7 +84,7 @@ def read_off(original: Original, number: int, found: Mapping[int, Any]) -> Any:
 
 
 def closed(original: Original, number: int, found: Mapping[int, Any], shift: Any) -> Any:
-    """What closes a group of higher class in each drawing."""
+    """The closing value of a group of higher class in each drawing."""
     step = original.program.steps[number]
     known = [found[arg] for arg in step.args]
     exact = original.trace.values[number]
@@ -94,9 +94,9 @@ def closed(original: Original, number: int, found: Mapping[int, Any], shift: Any
 
 
 ROUNDS = 6
-"""Steps of Newton's method; errors of a drawing are small, so that three would do."""
+"""The number of Newton steps; three would do, because errors of a drawing are small."""
 SMALL = 1e-6
-"""Half the step of the difference that gives its slope, in radians or in parts of the reach."""
+"""Half the step of the difference quotient, in radians or as a share of the reach."""
 
 
 def followed(
@@ -104,7 +104,7 @@ def followed(
 ) -> tuple[Any, ...]:
     """The closure (tried value, signs, sine) for drawn known values, one for each drawing.
 
-    ``shift`` (m) is how far what was cut is missed: the error of the mark at the crossing.
+    ``shift`` (m) is the error of the mark at the crossing, by which the locus is missed.
     """
     trying = closer.trying
     count = len(trying.unknowns)
@@ -128,13 +128,13 @@ def followed(
     return (*trying.placed(tried.T), *signs, sine)
 
 
-# --- drawings by the thousand, each with errors of its own: what a class would hand in ------------
+# --- thousands of drawings with random errors, as a class would hand them in ----------------------
 
 
 BLOCK = 4096
-"""Drawings made at once: few enough that the values of a step stay in the processor's cache."""
+"""Drawings made at once: few enough that the values of a step fit the processor's cache."""
 COMMON = 95.0
-"""Of a hundred drawings so many are to be no farther off."""
+"""The percentile of drawings that an error covers."""
 
 
 class Drawn(Struct, frozen=True, dict=True):
@@ -148,16 +148,14 @@ class Drawn(Struct, frozen=True, dict=True):
     values: tuple[Any, ...]
 
     def __getitem__(self, target: Target) -> Any:
-        """The values of a target."""
         return self.values[self.index[target]]
 
     @cached_property
     def index(self) -> dict[Target, int]:
-        """The place of each target."""
         return {answer.target: i for i, answer in enumerate(self.answers)}
 
     def error(self, target: Target, percent: float = COMMON) -> float:
-        """How far off so many percent of the drawings are at most; infinite where they fail."""
+        """The largest error of ``percent`` percent of the drawings; infinite if too many fail."""
         off = abs(self[target] - self.answers[self.index[target]].value)
         return float(np.percentile(np.where(np.isnan(off), np.inf, off), percent, method="lower"))
 
@@ -170,16 +168,16 @@ def pencil_drawings(
     seed: int = 0,
     targets: Iterable[Target] | None = None,
 ) -> Drawn:
-    """So many drawings of what a scene asks, or of some targets, at the scales of its sheets.
+    """``count`` drawings of what a scene asks, or of some targets, at the scales of its sheets.
 
-    The same seed gives the same drawings, and the first of more drawings are those of fewer: each
-    step has a stream of its own (PCG64 of the seed and the step's number).
+    The same seed gives the same drawings, and a larger ``count`` begins with the same drawings:
+    each step has its own random stream (PCG64 of the seed and the step's number).
     """
     return simulated(original(mechanism, scales, targets), pencil, count, seed)
 
 
 def simulated(exact: Original, pencil: Pencil, count: int, seed: int = 0) -> Drawn:
-    """So many drawings of an original."""
+    """``count`` drawings of an original."""
     wanted = tuple(answers(exact))
     values = [np.empty(count, dtype=np.result_type(type(answer.value))) for answer in wanted]
     streams = {

@@ -1,1 +1,1 @@
-"""Printing a class: every student's sheets and forms, and the files for the printer."""
+"""Printing a class: every student's sheets and forms, and the merged files to print."""

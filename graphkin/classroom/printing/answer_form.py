@@ -19,13 +19,13 @@ from graphkin.text import Words
 
 LEFT, RIGHT, TOP, BOTTOM = A4_AREA[0] + 4, A4_AREA[2] - 4, A4_AREA[1] + 4, A4_AREA[3] - 4
 ROW, LEAST_ROW = 7.0, 6.0
-"""Height of a row, for a hand to write in, in mm; the least where that saves a page."""
+"""The height of a row for handwriting, and the least height where that saves a page, in mm."""
 HEAD = SIDE + 8.0
-"""Room for the square and the words beside it, in mm."""
+"""The height of the head with the QR code and the text next to it, in mm."""
 BESIDE = RIGHT - LEFT - SIDE - 8.0
-"""Room for the name beside the square, in mm."""
+"""The width for the name next to the QR code, in mm."""
 WIDTHS = (34.0, 40.0, 58.0, 22.0, 18.0)
-"""Columns: quantity, name of the field, answer, unit, points."""
+"""The widths of the columns quantity, name of the field, answer, unit and points, in mm."""
 LETTER, SMALL = 2.5, 1.8
 
 
@@ -38,11 +38,11 @@ def form(
     owner: tuple[str, str],
     pivot: str = "",
 ) -> tuple[Page, ...]:
-    """The pages of a form: its fields in order, those in ``compute`` marked as to be reckoned.
+    """The pages of a form: its fields in order, those in ``compute`` marked as computed.
 
-    ``header`` is markup for the left and right of the head; ``owner`` the student's name and
-    opaque code; ``pivot`` the first fixed one, from which places are measured. Points are shown
-    where the rubric gives any.
+    ``header`` is markup for the left and right of the head, ``owner`` the student's name and opaque
+    code. ``pivot`` is the first fixed point, from which places are measured. Points are shown where
+    the rubric gives any.
     """
     if not items:
         return ()
@@ -58,18 +58,18 @@ def form(
 
 
 def rows_within(height: float) -> int:
-    """How many rows of a height a page has below the head of its table."""
+    """The number of rows of a height that fit on a page below the head of its table."""
     return int((BOTTOM - TOP - HEAD) / height + 1e-9) - 1
 
 
 def row_height(count: int) -> float:
-    """The height at which so many rows take no more pages than they must, in mm."""
+    """The greatest height of a row, in mm, at which so many rows take the fewest pages."""
     pages = ceil(count / rows_within(LEAST_ROW))
     return min(ROW, (BOTTOM - TOP - HEAD) / (ceil(count / pages) + 1))
 
 
 def advice(items: Sequence[Item], words: Words, pivot: str) -> tuple[str, ...]:
-    """How numbers, senses and places are to be written, as far as the form has them, as markup."""
+    """Instructions, as markup, on writing numbers, senses and places, for the kinds in the form."""
     kinds = {item.what for item in items}
     senses = {BY_TARGET[item.quantity].whose for item in items if item.what == "sense"}
     said = [words("form.numbers")]
@@ -85,7 +85,7 @@ def advice(items: Sequence[Item], words: Words, pivot: str) -> tuple[str, ...]:
 def row(
     item: Item, points: Mapping[str, Fraction], compute: Collection[str], words: Words
 ) -> tuple[str, ...]:
-    """The cells of a field: its symbol, its name, a hint where it is reckoned, unit and points."""
+    """The cells of a field: symbol, name, a hint if it is computed, unit and points."""
     what = f"{item.symbol}, {words('table.sense')}" if item.what == "sense" else item.symbol
     hint = why(item, words) if item.field in compute else ""
     worth = points.get(item.field)
@@ -99,7 +99,7 @@ def why(item: Item, words: Words) -> str:
 
 
 def quantity_of(item: Item) -> str:
-    """The symbol by which the calculation knows what a field is of: J₃ for its coordinates."""
+    """The symbol of a field's quantity in the calculation: J₃ for its coordinates."""
     if item.what != "place":
         return item.symbol
     return symbol(f"{motion_of(item).letter}_{item.of}")
@@ -131,7 +131,7 @@ def page_of(
 
 
 def table(top: float, rows: Sequence[tuple[str, ...]], height: float) -> Iterator[Mark]:
-    """A ruled table across the page, its first row the head; a hint stands at a cell's right."""
+    """A ruled table across the page, its first row the head; a hint is at the right of its cell."""
     width, low = sum(WIDTHS), top + len(rows) * height
     yield box(LEFT, top, width, height, "shade")
     for i in range(len(rows) + 1):
@@ -147,7 +147,7 @@ def table(top: float, rows: Sequence[tuple[str, ...]], height: float) -> Iterato
 
 
 def cell(markup: str, x: float, width: float, base: float, *, hint: int | bool) -> Text:
-    """The text of a cell, in the lettering that fits it."""
+    """The text of a cell, in lettering that fits."""
     wide = extent(markup, LETTER)[0] > width - 2
     height = SMALL if wide or hint else LETTER
     if hint:

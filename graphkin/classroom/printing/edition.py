@@ -1,4 +1,4 @@
-"""What is printed: the manifest of a class folder, read and held against the lab beside it."""
+"""The edition to print: the manifest of a class folder, checked against its copy of the lab."""
 
 from __future__ import annotations
 
@@ -33,15 +33,15 @@ if TYPE_CHECKING:
     from graphkin.classroom.grading.class_marking import Book
 
 FILES = ("scene.toml", "lab.toml")
-"""The files of the lab, whose hashes the manifest holds."""
+"""The files of the lab whose hashes the manifest holds."""
 AGAIN = "make the folder again with graphkin variants"
 
 
 class Edition(Struct, frozen=True, dict=True):
     """A class folder: its lab, the text of its scene, and its students in roster order.
 
-    ``language`` is that of who has no own, as variants or print was told; nothing where it is the
-    scene's.
+    ``language`` is for students who have none of their own, as given to variants or print; it is
+    empty if that is the scene's language.
     """
 
     folder: Path
@@ -52,14 +52,14 @@ class Edition(Struct, frozen=True, dict=True):
 
     @cached_property
     def book(self) -> Book:
-        """What marks its variants."""
+        """The marker of the class's variants."""
         from graphkin.classroom.grading.class_marking import Book
 
         return Book(self.lab, self.scene)
 
     @property
     def signs(self) -> Signs:
-        """By what its students are known in other tables."""
+        """How other tables identify the students."""
         every = {taker.student.id: taker for taker in self.takers}
         return signs(
             every,
@@ -69,9 +69,9 @@ class Edition(Struct, frozen=True, dict=True):
         )
 
     def words(self, language: str | None = None) -> Words:
-        """The words of its pages: in a language, else in that of the class, or of its scene.
+        """The words of the pages: in the given language, else in that of the class or of its scene.
 
-        Raises SceneError for one that is not there.
+        Raises SceneError for a language that does not exist.
         """
         mechanism = Mechanism(read_text(self.scene, self.lab.name))
         return language_of(mechanism, language or self.language or None)
@@ -80,7 +80,7 @@ class Edition(Struct, frozen=True, dict=True):
 def read_edition(folder: Path) -> Edition:
     """The class folder that ``graphkin variants`` wrote.
 
-    Raises SceneError with what is wrong, RosterError where its table cannot be read.
+    Raises SceneError with what is wrong, RosterError if the folder's table cannot be read.
     """
     from graphkin.classroom.lab.read_lab import read_lab
 
@@ -108,7 +108,7 @@ def read_edition(folder: Path) -> Edition:
 
 
 def keep_language(folder: Path, language: str) -> None:
-    """Write into the manifest of a class which language its pages are in."""
+    """Write the language of a class's pages into its manifest."""
     record = tables(folder)
     students = record.pop("students")
     text = as_text({**record, "language": language, "students": students})
@@ -116,7 +116,7 @@ def keep_language(folder: Path, language: str) -> None:
 
 
 def tables(folder: Path) -> dict[str, Any]:
-    """The tables of the manifest, of a format that is known, with its list of students."""
+    """The manifest, if it has a known format and a list of students; else raises SceneError."""
     path = folder / MANIFEST
     try:
         raw = json.loads(whole_file(path).decode("utf-8"))
@@ -138,8 +138,9 @@ def tables(folder: Path) -> dict[str, Any]:
 
 
 def refuse_changed(folder: Path, hashes: object) -> None:
-    """Raise SceneError when the lab beside the manifest is not the one that was used, or the table
-    not the one that came with it: a run that was killed, or a hand, changed one and not the other.
+    """Raise SceneError if the copied lab or the table is not the one recorded in the manifest.
+
+    A run that was killed, or a person, changed one file and not the other.
     """
     problems = []
     for name in FILES:
@@ -163,7 +164,7 @@ def refuse_changed(folder: Path, hashes: object) -> None:
 
 
 def digest_of(path: Path) -> str:
-    """The SHA-256 of a file; nothing where it cannot be read."""
+    """The SHA-256 of a file; empty if it cannot be read."""
     try:
         return sha256(whole_file(path)).hexdigest()
     except OSError:
@@ -171,7 +172,7 @@ def digest_of(path: Path) -> str:
 
 
 def taker(student: object, place: int, problems: list[Problem]) -> Taker | None:
-    """One student of the manifest; None, with a problem noted, where something is missing."""
+    """One student of the manifest; None, with a problem recorded, if something is missing."""
     where = f"{MANIFEST}, student {place}"
     if not isinstance(student, dict):
         problems.append(Problem(where, "is no table", "id, code and parameters", AGAIN))
@@ -194,12 +195,12 @@ def taker(student: object, place: int, problems: list[Problem]) -> Taker | None:
 
 
 def whole(value: object) -> int | None:
-    """A whole number of the manifest; None where there is none."""
+    """The value if it is a whole number; else None."""
     return value if isinstance(value, int) and not isinstance(value, bool) else None
 
 
 def twins(takers: Sequence[Taker]) -> Iterator[Problem]:
-    """The problems of students whose ids or codes are the same."""
+    """The problems of students with equal ids or codes."""
     ids, codes = [each.student.id for each in takers], [each.code for each in takers]
     for what, texts in (("id", ids), ("code", codes)):
         for text, times in Counter(texts).items():
@@ -209,11 +210,10 @@ def twins(takers: Sequence[Taker]) -> Iterator[Problem]:
 
 
 def beside_ids(folder: Path) -> dict[str, dict[str, str]]:
-    """What the table of a class folder says of each student's language and e-mail address, by id as
-    it is written there; nothing where it has no such columns, or where there is no table, which is
-    needed for nothing else.
+    """Each student's language and e-mail address in the table of a class folder.
 
-    Raises RosterError where the table cannot be read.
+    The keys are the ids as that table writes them. The result is empty if there are no such
+    columns, or no table, which nothing else needs. Raises RosterError if the table cannot be read.
     """
     if not (folder / TABLE).exists():
         return {}

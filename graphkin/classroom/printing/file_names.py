@@ -1,4 +1,4 @@
-"""File names from ids that may be anything: plain letters only, no two alike, none outside."""
+"""File names from arbitrary ids: plain letters only, all different, all inside the folder."""
 
 from __future__ import annotations
 
@@ -11,18 +11,18 @@ from graphkin.text.errors import PageError, Problem
 from graphkin.writers.files import RESERVED
 
 LONGEST = 48
-"""Characters of an id in a file name."""
+"""The most characters of an id in a file name."""
 SHOWN = 3
-"""Files in the way that are named."""
+"""The most files in the way that a message names."""
 STRANGE = r"[^A-Za-z0-9_-]+"
 
 
 def stems(ids: Sequence[str], codes: Sequence[str]) -> list[str]:
-    """The beginning of each student's file names: the id where it is plain letters and digits.
+    """The beginning of each student's file names: the id if it is plain letters and digits.
 
-    What a file system may not like becomes _, and such an id, one that a system keeps for a
-    device, and all that differ by case alone get the student's opaque code behind them. No two
-    are the same, upper and lower case taken alike, whatever ids and codes there are.
+    Other signs become ``_``. The student's opaque code is appended to such an id, to one that a
+    system reserves for a device, and to ids that differ only in case. All stems are different,
+    regardless of case, whatever the ids and codes.
     """
     plain = [re.sub(STRANGE, "_", text)[:LONGEST] for text in ids]
     times = Counter(name.lower() for name in plain)
@@ -40,12 +40,12 @@ def stems(ids: Sequence[str], codes: Sequence[str]) -> list[str]:
 
 
 def is_fit(name: str) -> bool:
-    """Whether a file may bear a name of plain letters: not empty, no device, no option."""
+    """Whether a plain name can be a file name: not empty, no device, no leading hyphen."""
     return bool(name) and name.upper() not in RESERVED and name[0] != "-"
 
 
 def unused(name: str, taken: Set[str]) -> str:
-    """The name, or with the first number behind it that no other name has."""
+    """The name, or the name with the lowest number that makes it unused."""
     tried, number = name, 1
     while tried.lower() in taken:
         number += 1
@@ -54,7 +54,7 @@ def unused(name: str, taken: Set[str]) -> str:
 
 
 def inside(folder: Path, name: str) -> Path:
-    """The path of a file in a folder. Raises PageError when links lead it out of the folder."""
+    """The path of a file in a folder. Raises PageError if links lead out of the folder."""
     path = folder / name
     whole = folder.resolve()
     if not path.resolve().is_relative_to(whole):
@@ -64,7 +64,7 @@ def inside(folder: Path, name: str) -> Path:
 
 
 def in_the_way(folder: Path, names: Sequence[str], unlike: Sequence[str] = ()) -> Problem:
-    """The problem of files that stand where others are to go; ``unlike`` says what differs."""
+    """The problem of existing files where others are to go; ``unlike`` says what differs."""
     more = f" and {len(names) - SHOWN} more" if len(names) > SHOWN else ""
     why = "; ".join(unlike) or "made from other data or settings"
     found = f"{', '.join(names[:SHOWN])}{more}: there already, {why}"

@@ -1,7 +1,7 @@
-"""What is finished: a line for each part of a student's sheets, with the hashes of its files.
+"""The finished parts: a line for each part of a student's sheets, with the hashes of its files.
 
-A line is written before its files are put in their places, so that what is found there is known
-to be ours; it counts as finished when all its files are there with just these hashes.
+A line is written before its files are moved into place, so that files found there are known to be
+from this program. A part is finished if all its files exist with exactly these hashes.
 """
 
 from __future__ import annotations
@@ -20,13 +20,13 @@ from graphkin.writers.commit import put_in_place
 
 JOURNAL = ".journal.jsonl"
 LARGEST = 512 << 20
-"""Bytes of a journal."""
+"""The largest journal, in bytes."""
 
 
 class Entry(Struct, frozen=True):
-    """A part of what is printed: its name, a hash of all that decides it, its files' hashes.
+    """A printed part: its name, a hash of everything that decides it, and the hashes of its files.
 
-    ``settings`` are what goes into that hash, by name, so that what differs can be told.
+    ``settings`` are what goes into the first hash, by name, so that messages can say what differs.
     """
 
     part: str
@@ -42,7 +42,7 @@ class Entry(Struct, frozen=True):
 
 
 class Journal:
-    """The journal of a folder: read whole, then grown line by line."""
+    """The journal of a folder: read whole, then extended line by line."""
 
     def __init__(self, folder: Path) -> None:
         self.folder = folder
@@ -50,7 +50,7 @@ class Journal:
         self.entries: dict[str, Entry] = {}
         data = whole_file(self.path, LARGEST) if self.path.exists() else b""
         whole = data[: data.rfind(b"\n") + 1]
-        if whole != data:  # a line that was cut short
+        if whole != data:  # the last write was interrupted
             with self.path.open("r+b") as stream:
                 stream.truncate(len(whole))
         for line in whole.splitlines():
@@ -59,26 +59,26 @@ class Journal:
                 self.entries[entry.part] = entry
 
     def finished(self, part: str, key: str) -> bool:
-        """Whether a part stands as this key has it: all its files, byte for byte."""
+        """Whether a part is finished with this key: all its files exist, byte for byte."""
         entry = self.entries.get(part)
         if entry is None or entry.key != key:
             return False
         return all(hash_of(self.folder / name) == found for name, found in entry.files.items())
 
     def otherwise(self, part: str, key: str) -> list[str]:
-        """The files of a part that stand there with other settings."""
+        """The existing files of a part that were made with other settings."""
         entry = self.entries.get(part)
         if entry is None or entry.key == key:
             return []
         return [name for name in entry.files if (self.folder / name).exists()]
 
     def ours(self, part: str, key: str) -> frozenset[str]:
-        """The files that were begun for a part with this key."""
+        """The files recorded for a part with this key."""
         entry = self.entries.get(part)
         return frozenset(entry.files) if entry is not None and entry.key == key else frozenset()
 
     def write(self, entries: Sequence[Entry]) -> None:
-        """Add lines; of a line that finds no room nothing stays."""
+        """Add lines; if the disk is full, leave no partial line."""
         start = self.path.stat().st_size if self.path.exists() else 0
         try:
             with self.path.open("ab") as stream:
@@ -90,7 +90,7 @@ class Journal:
         self.entries |= {entry.part: entry for entry in entries}
 
     def settle(self, order: Iterable[str]) -> None:
-        """Write the journal anew with each part once, in an order, the others behind them."""
+        """Rewrite the journal with each part once, in the given order, then the other parts."""
         parts = dict.fromkeys(part for part in order if part in self.entries)
         parts |= dict.fromkeys(sorted(self.entries.keys() - parts))
         data = b"".join(self.entries[part].line() for part in parts)
@@ -99,7 +99,7 @@ class Journal:
 
 
 def entry_of(line: bytes) -> Entry | None:
-    """The entry that a line holds; None for a line that is none, as if it had not been written."""
+    """The entry of a line; None for an invalid line, which is ignored."""
     try:
         return msgspec.json.decode(line, type=Entry)
     except (msgspec.MsgspecError, UnicodeDecodeError, RecursionError):
@@ -107,7 +107,7 @@ def entry_of(line: bytes) -> Entry | None:
 
 
 def hash_of(path: Path) -> str:
-    """The hash of a file; nothing where there is none."""
+    """The SHA-256 of a file; empty if it cannot be read."""
     try:
         with path.open("rb") as stream:
             return file_digest(stream, "sha256").hexdigest()
@@ -116,5 +116,5 @@ def hash_of(path: Path) -> str:
 
 
 def key_of(*parts: object) -> str:
-    """A hash of all that decides the bytes of a part."""
+    """A hash of everything that decides the bytes of a part."""
     return sha256(json.dumps(parts, ensure_ascii=True, sort_keys=True).encode()).hexdigest()[:32]

@@ -1,4 +1,4 @@
-"""A student's own sheets: the name and the opaque code on every page, the square where it fits."""
+"""A student's own sheets: name and opaque code on every page, and a QR code where it fits."""
 
 from __future__ import annotations
 
@@ -22,18 +22,19 @@ from graphkin.drawing.symbol_markup import escape
 from graphkin.text.errors import PageError
 
 SIDE = 20.0
-"""Side of the square in mm."""
+"""The side of the QR code in mm."""
 QUIET = 4
-"""Modules that stay white around it (ISO/IEC 18004)."""
+"""The white modules around the QR code (ISO/IEC 18004)."""
 STEP = 4.0
-"""How far apart the places are that are tried, in mm."""
+"""The distance between the places tried, in mm."""
 
 
 @lru_cache(maxsize=64)
 def modules(text: str) -> tuple[tuple[bool, ...], ...]:
-    """The square of a text, row by row, dark ones True; a quarter of them may be spoilt.
+    """The QR code of a text, row by row, dark modules True.
 
-    Ten capitals and digits take 21 modules a side, the least that there is.
+    It stays readable with a quarter of the modules damaged. Ten capitals and digits take 21 modules
+    a side, the smallest size there is.
     """
     import segno
 
@@ -42,7 +43,7 @@ def modules(text: str) -> tuple[tuple[bool, ...], ...]:
 
 
 def square(text: str, x: float, y: float, side: float = SIDE) -> tuple[Mark, ...]:
-    """The square of a text as black rectangles, its top-left corner at (x, y), side in mm."""
+    """The QR code of a text as black rectangles, its top-left corner at (x, y), side in mm."""
     rows = modules(text)
     size = side / len(rows)
     return tuple(
@@ -52,8 +53,8 @@ def square(text: str, x: float, y: float, side: float = SIDE) -> tuple[Mark, ...
 
 
 def rectangles(rows: Sequence[Sequence[bool]]) -> Iterator[tuple[int, int, int, int]]:
-    """Dark modules as rectangles (left, top, width, height): runs, joined where they are alike."""
-    standing: dict[tuple[int, int], int] = {}  # (left, width) of a run, and where it began
+    """Dark modules as rectangles (left, top, width, height): equal runs are joined."""
+    standing: dict[tuple[int, int], int] = {}  # (left, width) of a run: the row where it began
     for top, row in enumerate([*rows, ()]):
         runs = dict.fromkeys(dark_runs(row), top)
         for run in [run for run in standing if run not in runs]:
@@ -63,7 +64,7 @@ def rectangles(rows: Sequence[Sequence[bool]]) -> Iterator[tuple[int, int, int, 
 
 
 def dark_runs(row: Sequence[bool]) -> Iterator[tuple[int, int]]:
-    """Where dark modules of a row begin, and how many there are side by side."""
+    """The runs of dark modules in a row: where each begins, and its length."""
     for dark, group in groupby(range(len(row)), key=row.__getitem__):
         run = list(group)
         if dark:
@@ -71,7 +72,7 @@ def dark_runs(row: Sequence[bool]) -> Iterator[tuple[int, int]]:
 
 
 def stamped(page: Page, text: str) -> Page:
-    """The page with the square of a text where there is room; as it was where there is none."""
+    """The page with the QR code of a text where there is room; the same page if there is none."""
     margin = SIDE / len(modules(text)) * QUIET
     full = [full_box for mark in page.marks for full_box in boxes(mark)]
     a4 = (page.width, page.height) == A4_SIZE
@@ -84,7 +85,7 @@ def stamped(page: Page, text: str) -> Page:
 
 
 def corners_of_a3(margin: float) -> Iterator[tuple[float, float]]:
-    """Places below the drawings of an A3 sheet, from beside the title block to the left and up."""
+    """Places below the drawings of an A3 sheet, from the title block to the left and up."""
     x, low = A3_TITLE_BLOCK[0] - SIDE - margin - 1, A3_TITLE_BLOCK[3] - SIDE - margin - 1
     while x > BELOW[0] + margin:
         y = low
@@ -95,7 +96,7 @@ def corners_of_a3(margin: float) -> Iterator[tuple[float, float]]:
 
 
 def corners_of_a4(margin: float) -> Iterator[tuple[float, float]]:
-    """Places on an A4 page, from its right upper corner down, then further to the left."""
+    """Places on an A4 page, from its top right corner down, then further to the left."""
     x = A4_AREA[2] - SIDE - margin - 1
     while x > A4_AREA[0] + margin:
         y = A4_AREA[1] + margin + 1
@@ -106,7 +107,7 @@ def corners_of_a4(margin: float) -> Iterator[tuple[float, float]]:
 
 
 def boxes(mark: Mark) -> Iterator[Rect]:
-    """The boxes that a mark takes up; of an outline those of its sides."""
+    """The bounding boxes of a mark; of a polyline, those of its sides."""
     if isinstance(mark, Polyline):
         ends = (*mark.points[1:], mark.points[0]) if mark.closed else mark.points[1:]
         for (x1, y1), (x2, y2) in zip(mark.points, ends, strict=False):
@@ -116,7 +117,6 @@ def boxes(mark: Mark) -> Iterator[Rect]:
 
 
 def overlap(one: Rect, other: Rect) -> bool:
-    """Whether two upright boxes share anything."""
     return one[0] < other[2] and other[0] < one[2] and one[1] < other[3] and other[1] < one[3]
 
 
@@ -124,42 +124,43 @@ def overlap(one: Rect, other: Rect) -> bool:
 
 
 UNKNOWN = "?"
-"""What stands for a sign that the sheet's font does not have."""
+"""The substitute for a sign that the sheet's font does not have."""
 OVERLAY_FOOT = (A3_AREA[0] + 12, A3_AREA[3] - FOOT + 4.6)
-"""Where an overlay says whose it is, in mm: below its caption."""
+"""The place of the owner's name on an overlay, in mm: below its caption."""
 
 
 class Owner(Struct, frozen=True):
-    """Whose a sheet is: the name as it is printed, with the group, and the opaque code."""
+    """The owner of a sheet: the name as printed, with the group, and the opaque code."""
 
     name: str
     code: str
 
     @property
     def line(self) -> str:
-        """Name and code on one line."""
         return f"{self.name}   {self.code}"
 
 
 def owner(taker: Taker) -> Owner:
-    """Whose the sheets of a student are."""
+    """The owner of a student's sheets."""
     return Owner(shortened(printable_name(taker.student)), taker.code)
 
 
 def printable_name(student: Student) -> str:
-    """A student's name and group in signs of the sheet's font; one without a name, or of whose
-    name it has no letter, is called by the id."""
+    """A student's name and group in signs of the sheet's font.
+
+    The id replaces a missing name, and a name of which the font has no letter.
+    """
     name = student.name if is_readable(student.name) else student.id
     return ", ".join(filter(None, (writable(name) or UNKNOWN, writable(student.group))))
 
 
 def is_readable(name: str) -> bool:
-    """Whether the font has some letter of a name."""
+    """Whether the font has at least one letter of a name."""
     return any(sign.isalnum() for sign in writable(name))
 
 
 def writable(text: str) -> str:
-    """A text in signs of the sheet's font: letters without their marks, ? for what is unknown."""
+    """A text in signs of the sheet's font: letters without missing accents, ? for unknown signs."""
     face = measures(italic=False)
     found = []
     for sign in known(normalize("NFC", " ".join(text.split()))):
@@ -176,7 +177,7 @@ def lost(text: str) -> tuple[str, ...]:
 
 
 def shortened(text: str) -> str:
-    """A text that fits the title block, its end left out where it does not."""
+    """A text that fits the title block; the end is cut off if it does not fit."""
     kept = text
     while kept and not fits(kept):
         kept = kept.removesuffix("…")[:-1].rstrip()
@@ -195,25 +196,28 @@ def fits(text: str) -> bool:
 
 
 def owned(drawing: Drawing, whose: Owner) -> Drawing:
-    """A drawing whose title block names its student and bears the code."""
+    """A drawing with the student's name and code in the title block."""
     number = drawing.scene.sheet.number
     both = f"{number} / {whose.code}" if number else whose.code
     return with_sheet(drawing, student=whose.name, number=both)
 
 
 def owned_pages(drawings: Sequence[Drawing], whose: Owner) -> list[Drawing]:
-    """Drawings whose calculation pages name their student and the code at the foot."""
+    """Drawings whose calculation pages have the student's name and code at the foot."""
     return [with_sheet(drawing, student=whose.line) for drawing in drawings]
 
 
 def with_sheet(drawing: Drawing, **said: str) -> Drawing:
-    """A drawing whose sheet says something else."""
+    """A drawing with some fields of its sheet replaced."""
     scene = drawing.scene
     return replace(drawing, scene=replace(scene, sheet=replace(scene.sheet, **said)))
 
 
 def signed(pages: Sequence[Page], view: str, whose: Owner) -> Iterator[Page]:
-    """The pages with their student's square; overlays, which have no title block, with the name."""
+    """The pages with their owner: a QR code on a task, the name on an overlay.
+
+    Overlays have no title block.
+    """
     for page in pages:
         if view == "overlay":
             x, y = OVERLAY_FOOT
@@ -225,19 +229,19 @@ def signed(pages: Sequence[Page], view: str, whose: Owner) -> Iterator[Page]:
             yield page
 
 
-# --- small crosses in the fields of a task's drawing sheet ----------------------------------------
+# --- small crosses in the fields of a task's drawing sheet, to register a scan -------------------
 
 
 REGISTER = "register"
-"""The class of their lines."""
+"""The class of the lines of the crosses."""
 ARM, PITCH, CLEAR = 1.0, 20.0, 1.5
-"""Half of a cross, how far apart they stand, and how far from what is printed, in mm."""
+"""Half the size of a cross, their distance, and their clearance from printed marks, in mm."""
 MIDDLE = (210.0, 148.5)
-"""The sheet's middle, from which they are laid off as the divisions of its border are, in mm."""
+"""The middle of the sheet in mm, from which the crosses and the border are divided."""
 
 
 def crossed(page: Page) -> Page:
-    """The page with crosses in its fields, below all else, where nothing is printed."""
+    """The page with crosses in its fields, below everything else, where nothing is printed."""
     full = [each for mark in page.marks for each in boxes(mark)]
     marks = []
     for x, y in places():
@@ -249,18 +253,18 @@ def crossed(page: Page) -> Page:
 
 
 def without_crosses(page: Page) -> Page:
-    """The page as it was printed before there were crosses."""
+    """The page without crosses."""
     return replace(page, marks=tuple(mark for mark in page.marks if mark.cls != REGISTER))
 
 
 def crosses_of(page: Page) -> list[Point]:
-    """Where a page has crosses, in mm."""
+    """The places of the crosses of a page, in mm."""
     level = (m for m in page.marks if isinstance(m, LineMark) and m.cls == REGISTER)
     return [((m.x1 + m.x2) / 2, m.y1) for m in level if m.y1 == m.y2]
 
 
 def places() -> Iterator[Point]:
-    """Where crosses may stand: on a square pitch about the sheet's middle, inside its fields."""
+    """The possible places of crosses: on a square grid about the middle, inside the fields."""
     left, top, right, bottom = AREA
     low, high = (int((m - edge) / PITCH) for m, edge in zip(MIDDLE, (left, top), strict=True))
     for i, j in product(range(-low, low + 1), range(-high, high + 1)):

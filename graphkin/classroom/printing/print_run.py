@@ -1,4 +1,4 @@
-"""Printing a class folder: what is finished stays, the rest is made, put in its place and noted."""
+"""Print a class folder: keep finished files, make the others, move them into place, record them."""
 
 from __future__ import annotations
 
@@ -27,9 +27,9 @@ from graphkin.writers.commit import held, put_in_place, reason_of, replacing
 from graphkin.writers.pdf_join import PdfPart, join
 
 FOLDER = "print"
-"""Where the files come, in the class folder."""
+"""The folder of the printed files, in the class folder."""
 FEWEST = 4
-"""Students that are worth a process of their own."""
+"""The fewest students that justify a process of their own."""
 
 
 UNLIKE = {
@@ -39,11 +39,11 @@ UNLIKE = {
     "lab": "printed from another text of the lab",
     "student": "printed with other data, or another name or group",
 }
-"""What is said of a setting with which files that stand there were made."""
+"""The message for each setting that differs from the one used for existing files."""
 
 
 class PrintRequest(Struct, frozen=True):
-    """What is to be printed of every student, and how."""
+    """What to print of every student, and how."""
 
     views: tuple[str, ...] = ("task", "key")
     formats: tuple[str, ...] = ("pdf",)
@@ -53,17 +53,18 @@ class PrintRequest(Struct, frozen=True):
 
 
 class Means(Struct, frozen=True):
-    """With what it is done: processes (1: this one alone), or the address of a cluster."""
+    """Where the work runs: in ``jobs`` processes (1: only this one), or on a cluster."""
 
     jobs: int = 1
     cluster: str = ""
 
 
 class Outcome(Struct):
-    """What came of a run: students, those made now and those that stood already, files, doubts.
+    """The result of a run: students, those printed now and those already finished, files, warnings.
 
-    ``files`` are those for the printer; ``refused`` the students who got none; ``strange`` tells
-    of languages that no page has.
+    ``files`` are the merged files to print. ``refused`` are the students without files, with the
+    problems. ``lost`` are the students whose names have signs that the font lacks. ``strange`` are
+    lines on languages that no page has.
     """
 
     folder: Path
@@ -78,14 +79,14 @@ class Outcome(Struct):
 
 
 Tell = Callable[[int, int], None]
-"""Called with how many students are done, and of how many."""
+"""Called with the number of students finished, and the number of students in all."""
 
 
 def print_class(edition: Edition, wishes: PrintRequest, means: Means, tell: Tell) -> Outcome:
     """Print a class into its folder; the same edition and wishes give the same bytes again.
 
-    Raises PageError when another run holds the folder, when files are in the way or cannot be
-    written; what was finished by then stays, and the next run goes on from there.
+    Raises PageError if another run holds the folder, or if files are in the way or cannot be
+    written. Finished files are kept, and the next run continues from there.
     """
     folder = edition.folder / FOLDER
     try:
@@ -104,14 +105,14 @@ def print_class(edition: Edition, wishes: PrintRequest, means: Means, tell: Tell
 
 
 def stopped(folder: Path, error: OSError) -> PageError:
-    """The error of a run that the system did not let write: a full disk, a folder not ours."""
+    """The error of a run that could not write: a full disk, or a folder without permission."""
     found = f"cannot be written: {reason_of(error)}"
     hint = "what was finished is kept; when that is mended, the same command goes on"
     return PageError(Problem(str(error.filename or folder), found, hint=hint))
 
 
 class PrintRun:
-    """One run over a class: its order, what each part of it is called, and what came of it."""
+    """One run over a class: its order, the name of each part, and the result."""
 
     def __init__(self, edition: Edition, wishes: PrintRequest, journal: Journal) -> None:
         self.edition, self.wishes, self.journal = edition, wishes, journal
@@ -129,7 +130,7 @@ class PrintRun:
         self.outcome.strange = list(unknown_lines(named))
 
     def note_parts(self) -> None:
-        """Note of each part what it is made with, and a hash of all that decides its bytes."""
+        """Record the settings of each part, and a hash of everything that decides its bytes."""
         order = self.order
         texts = [sha256(text.encode()).hexdigest() for text in (order.scene, order.lab.text)]
         for one in self.edition.takers:
@@ -145,11 +146,11 @@ class PrintRun:
                 self.settings[part] = made
 
     def parts(self) -> list[tuple[str, str]]:
-        """What is wished of each student: view and format."""
+        """The requested pairs of view and format, which every student gets."""
         return [(view, kind) for view in self.wishes.views for kind in self.wishes.formats]
 
     def refuse_others(self) -> None:
-        """Raise PageError when files of other settings would be replaced without force."""
+        """Raise PageError if files with other settings would be replaced without force."""
         if self.wishes.force:
             return
         ways = {part: self.journal.otherwise(part, key) for part, key in self.keys.items()}
@@ -159,14 +160,14 @@ class PrintRun:
             raise PageError(in_the_way(self.journal.folder, names, list(dict.fromkeys(told))))
 
     def unlike(self, part: str) -> Iterator[str]:
-        """What a part that stands there was made with, and is not now."""
+        """The settings of an existing part that differ from the current ones."""
         stood, now = self.journal.entries[part].settings, self.settings[part]
         for name, said in UNLIKE.items():
             if name in stood and stood[name] != now[name]:
                 yield said.format(stood=stood[name], now=now[name])
 
     def wanted(self) -> list[StudentSheets]:
-        """What is not finished, student by student."""
+        """The parts that are not finished, student by student."""
         found = []
         for one in self.edition.takers:
             missing = tuple(
@@ -179,7 +180,7 @@ class PrintRun:
         return found
 
     def make_all(self, means: Means, tell: Tell) -> None:
-        """Make what is missing; each chunk is put in its place as it comes."""
+        """Make the missing parts; each chunk is moved into place when it arrives."""
         wanted = self.wanted()
         total = self.outcome.students
         self.outcome.stood = done = total - len(wanted)
@@ -202,7 +203,7 @@ class PrintRun:
         self.outcome.made = len(wanted) - len(self.outcome.refused)
 
     def put(self, found: Sequence[Made]) -> None:
-        """Note the files that came, then put them in their places, all of them or none."""
+        """Record the files that arrived, then move them into place, all of them or none."""
         entries: list[Entry] = []
         targets: dict[Path, bytes] = {}
         for one in found:
@@ -215,9 +216,9 @@ class PrintRun:
         put_in_place(self.journal.folder, targets)
 
     def targets(self, part: str, files: Mapping[str, bytes]) -> dict[Path, bytes]:
-        """Where the files of a part go, but for those that stand there already.
+        """The target paths of a part's files, without files that already exist with the same bytes.
 
-        Raises PageError for files in the way that are not ours, unless they may be replaced.
+        Raises PageError for existing files of another origin, unless they may be replaced.
         """
         folder = self.journal.folder
         ours = self.journal.ours(part, self.keys[part])
@@ -233,8 +234,10 @@ class PrintRun:
         return {paths[name]: data for name, data in others.items()}
 
     def merge(self, view: str) -> None:
-        """Write the file of a view for the printer, if it does not stand already and somebody has
-        pages, with a bookmark for each student. Raises PageError when another file is in its way.
+        """Write the merged file of a view to print, with a bookmark for each student.
+
+        Nothing is written if the file is already finished or nobody has pages. Raises PageError if
+        another file is in its way.
         """
         members = self.printed(view)
         if not members:
@@ -257,7 +260,7 @@ class PrintRun:
             journal.write([Entry(name, key, {name: hash_of(Path(stream.name))})])
 
     def printed(self, view: str) -> list[tuple[Taker, list[str]]]:
-        """The PDF files of a view that stand, student by student in the order of the roster."""
+        """The finished PDF files of a view, student by student in the order of the roster."""
         refused = {taker.code for taker, _ in self.outcome.refused}
         return [
             (one, list(self.journal.entries[part_of(one.code, view, "pdf")].files))
@@ -272,18 +275,18 @@ def part_of(code: str, view: str, kind: str) -> str:
 
 
 Members = Sequence[tuple[Taker, Sequence[str]]]
-"""Students in order, each with the names of the PDF files that are put in."""
+"""Students in order, each with the names of the PDF files to include."""
 
 
 def parts(folder: Path, members: Members) -> Iterator[PdfPart]:
-    """The files of the students one after another, a bookmark where each student begins."""
+    """The files of the students one after another, with a bookmark where each student begins."""
     for taker, names in members:
         for number, name in enumerate(names):
             yield PdfPart(folder / name, "" if number else bookmark(taker))
 
 
 def bookmark(taker: Taker) -> str:
-    """What a student is called in the list beside the pages."""
+    """The bookmark of a student: name, or id, and group."""
     student = taker.student
     name = student.name or student.id
     return f"{name}, {student.group}" if student.group else name

@@ -1,4 +1,4 @@
-"""What one worker does: the files of some students, as bytes; the same in every process."""
+"""The work of one worker: the files of some students, as bytes, the same in every process."""
 
 from __future__ import annotations
 
@@ -36,16 +36,18 @@ from graphkin.text import Words
 from graphkin.text.errors import Problem, problems_of
 
 VIEWS = ("task", "key", "overlay", "steps")
-"""What can be printed of each student."""
+"""The views that can be printed for each student."""
 ALONE = Lock()
-"""Held while PDF files are made: their fonts are shared by the threads of a process (Dask's)."""
+"""Held while PDF files are made: the threads of a process share their fonts (Dask uses threads)."""
 FORM = "form"
-"""The A4 pages that go with a task."""
+"""The kind of the A4 pages that go with a task."""
 
 
 class PrintOrder(Struct, frozen=True):
-    """What the sheets of a class share: the lab, the text of its scene, ink; the language of those
-    who have none of their own."""
+    """What the sheets of a class share: the lab, the text of its scene, the ink.
+
+    ``language`` is for students who have none of their own.
+    """
 
     lab: Lab
     scene: str
@@ -54,7 +56,7 @@ class PrintOrder(Struct, frozen=True):
 
 
 class StudentSheets(Struct, frozen=True):
-    """A student's sheets that are to be made: (view, format) each, under a stem of file names."""
+    """The sheets to make for a student: pairs (view, format), and the stem of their files."""
 
     taker: Taker
     stem: str
@@ -62,7 +64,7 @@ class StudentSheets(Struct, frozen=True):
 
 
 class Made(Struct, frozen=True):
-    """What came of it: the files of each part by name, or why there are none."""
+    """The result for a student: the files of each part by name, or the problems."""
 
     code: str
     files: Mapping[tuple[str, str], Mapping[str, bytes]]
@@ -70,7 +72,7 @@ class Made(Struct, frozen=True):
 
 
 def make(order: PrintOrder, wanted: Sequence[StudentSheets]) -> list[Made]:
-    """The files of some students; one who cannot be drawn is told and keeps nobody else back."""
+    """The files of some students; the problems of one student do not stop the others."""
     with ALONE:
         return [made(order, one) for one in wanted]
 
@@ -88,10 +90,10 @@ def made(order: PrintOrder, wanted: StudentSheets) -> Made:
 
 
 class Sheets:
-    """A student's pages of every view, drawn when they are asked for, from one construction.
+    """A student's pages of every view, drawn on demand from one construction.
 
-    Raises as handout does: a mechanism that does not close or is not proved, a page that does not
-    fit.
+    Raises as handout does: for a mechanism that does not close or is not proved, and for a page
+    that does not fit.
     """
 
     def __init__(self, order: PrintOrder, taker: Taker) -> None:
@@ -105,13 +107,13 @@ class Sheets:
         self.made: dict[str, list[SheetDocument]] = {}
 
     def of(self, view: str) -> list[SheetDocument]:
-        """The sheets of a view: A3 drawings, then A4 pages where the view has some."""
+        """The sheets of a view: A3 drawings, then A4 pages if the view has some."""
         if view not in self.made:
             self.made[view] = list(self.draw(view))
         return self.made[view]
 
     def draw(self, view: str) -> Iterator[SheetDocument]:
-        """The sheets of a view, each page with its student's name and code."""
+        """Draw the sheets of a view, each page with its student's name and code."""
         own = [replace(owned(each, self.whose), computed=self.computed) for each in self.drawings]
         for sheet in drawn_sheets(own, view):
             first, *more = signed(sheet.pages, view, self.whose)
@@ -123,7 +125,7 @@ class Sheets:
             yield SheetDocument(kind, (*pages, *self.answers()) if view == "task" else pages)
 
     def page(self, view: str, stem: str, ink: Ink) -> str:
-        """The page for a browser: the task with the form to be filled in, or the key by steps."""
+        """The page for a browser: the task with the form to fill in, or the key step by step."""
         from graphkin.classroom import form_page
         from graphkin.web.step_page import step_page, task_page
         from graphkin.web.your_turn import TurnOwner
@@ -149,7 +151,7 @@ class Sheets:
         return form(fields, points, self.taker.compute, self.words, (title, name), whose, *pivot)
 
     def asked(self) -> tuple[tuple[Item, ...], dict[str, Fraction]]:
-        """The fields of the student's form, and what each is worth."""
+        """The fields of the student's form, and the points of each."""
         form = items(self.mechanism, self.lab)
         return asked_of(form, self.lab.rubric.points, self.taker.compute)
 
@@ -166,7 +168,7 @@ class Sheets:
 def files_of(
     sheets: Sheets, stem: str, view: str, kind: str, ink: Ink
 ) -> Iterator[tuple[str, bytes]]:
-    """The files of a view in a format: a PDF of its drawings and one of its form; SVG; a page."""
+    """The files of a view in a format: a PDF of its drawings and one of its form, SVG, or HTML."""
     if kind == "html":
         yield f"{view}/{stem}-{view}.html", sheets.page(view, stem, ink).encode("utf-8")
         return

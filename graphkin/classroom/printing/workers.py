@@ -1,4 +1,4 @@
-"""Who does the work: this process, all cores of this machine, or a cluster."""
+"""Run work in this process, on all cores of this machine, or on a cluster."""
 
 from __future__ import annotations
 
@@ -21,37 +21,37 @@ from typing import Any, TypeVar
 from graphkin.text.errors import PageError, Problem
 
 CHUNK = 25
-"""Students that a worker takes at once."""
+"""The most students in a chunk."""
 SHARES = 4
-"""Chunks that each worker gets at least, where there are students enough."""
+"""The fewest chunks for each worker, if there are enough students."""
 AHEAD = 2
-"""Chunks that wait for each worker."""
+"""The chunks queued for each worker."""
 CLUSTER = "dask://"
 PRELOADED = ("graphkin.classroom.printing.print_work", "graphkin.writers.pdf")
-"""What every worker process needs, imported once where the system lets processes share it."""
+"""The modules that every worker needs, imported once where processes can share them."""
 
 Given = TypeVar("Given")
 Result = TypeVar("Result")
 
 
 def cores() -> int:
-    """How many cores this process may use."""
+    """The number of cores that this process may use."""
     if hasattr(os, "sched_getaffinity"):
         return len(os.sched_getaffinity(0))
     return os.cpu_count() or 1
 
 
 def chunks(items: Sequence[Given], workers: int, most: int = CHUNK) -> list[Sequence[Given]]:
-    """The items in chunks for some workers, none larger than a worker takes at once."""
+    """The items in chunks for some workers, each of at most ``most`` items."""
     size = max(1, min(most, len(items) // (SHARES * workers)))
     return [items[i : i + size] for i in range(0, len(items), size)]
 
 
 @contextmanager
 def engine(jobs: int, address: str = "") -> Iterator[tuple[Executor | None, int]]:
-    """What does the work, and how many workers it has; None where this process does it itself.
+    """The executor and its number of workers; None for the executor if this process does the work.
 
-    ``address``: dask://HOST:PORT for a cluster. Raises PageError when that does not answer.
+    ``address`` is dask://HOST:PORT for a cluster. Raises PageError if the cluster does not answer.
     """
     if address:
         with cluster(address) as found:
@@ -67,12 +67,12 @@ def engine(jobs: int, address: str = "") -> Iterator[tuple[Executor | None, int]
 
 
 def processes(jobs: int) -> ProcessPoolExecutor:
-    """Worker processes that begin afresh, so that they share no threads, locks or files with us."""
+    """Worker processes that start fresh: they share no threads, locks or files with this one."""
     return ProcessPoolExecutor(jobs, mp_context=fresh_processes(), initializer=begin)
 
 
 def fresh_processes() -> Any:
-    """How processes are started that begin afresh."""
+    """The multiprocessing context that starts fresh processes."""
     from multiprocessing import get_all_start_methods, get_context
 
     server = "forkserver" in get_all_start_methods()
@@ -83,7 +83,7 @@ def fresh_processes() -> Any:
 
 
 def begin() -> None:
-    """What a worker does first: it leaves Ctrl-C to its parent, and dies when that is gone."""
+    """Initialise a worker: leave Ctrl-C to its parent, and end when the parent ends."""
     from threading import Thread
 
     signal.signal(signal.SIGINT, signal.SIG_IGN)
@@ -91,7 +91,7 @@ def begin() -> None:
 
 
 def follow_parent() -> None:
-    """Wait until the parent process ends, however it does, then end this one."""
+    """Wait until the parent process ends for any reason, then end this one."""
     from multiprocessing import parent_process
     from multiprocessing.connection import wait as wait_for
 
@@ -125,9 +125,9 @@ def results(
     work: Callable[[Sequence[Given]], Result],
     parts: Iterable[Sequence[Given]],
 ) -> Iterator[Result]:
-    """What comes of each part, as it comes; no more wait at once than workers need.
+    """The result of each part, as it arrives; only as many parts wait as the workers need.
 
-    Raises PageError when a worker dies, or the way to it is cut.
+    Raises PageError if a worker dies or the connection to it breaks.
     """
     if executor is None:
         yield from map(work, parts)

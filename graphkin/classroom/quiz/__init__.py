@@ -1,1 +1,1 @@
-"""A lab as questions of a learning platform."""
+"""A lab as questions for a learning platform."""

@@ -1,8 +1,8 @@
-"""A lab as a bank of questions for Moodle (its XML format): a category for each variant.
+"""A lab as a question bank in Moodle's XML format, with a category for each variant.
 
-A question holds the task as pictures, its sheets as a PDF to be printed, and a gap for each field.
-A quiz that takes a random question of each student's category, or of all, marks by the tolerances
-of that variant.
+A question holds the task as pictures, its sheets as a PDF to print, and a gap for each field. A
+quiz takes a random question from each student's category, or from all categories, and Moodle marks
+it with the tolerances of that variant.
 """
 
 from __future__ import annotations
@@ -42,8 +42,10 @@ WHOLE = Fraction(1)
 
 
 class Taken(Struct, frozen=True):
-    """What a gap takes, of several the first that fits: an answer, as text or as a number with how
-    far it may be off, the share of the points that it earns, and what is said of it.
+    """An answer that a gap accepts; the first one that fits counts.
+
+    ``answer`` is a text or a number with the tolerance ``allowed``, ``share`` the part of the
+    points it earns, and ``told`` the feedback.
     """
 
     answer: str | float
@@ -53,7 +55,7 @@ class Taken(Struct, frozen=True):
 
 
 class Gap(Struct, frozen=True):
-    """One field of a question: its points, and what it takes, the right answer first."""
+    """One field of a question: its points and the answers it accepts, the correct one first."""
 
     item: Item
     points: Fraction
@@ -61,11 +63,11 @@ class Gap(Struct, frozen=True):
 
 
 def gaps(marker: Marker, points: Mapping[str, Fraction], words: Words) -> tuple[Gap, ...]:
-    """The gaps of a variant: its fields that earn points and that have a value.
+    """The gaps of a variant: its fields that earn points and have a value.
 
-    A slip earns its share at the first field that it explains, and at all others what follows
-    from an own value where that is more, as in marking; what it gives is looked for only where it
-    is not right by the key.
+    A slip earns its share at the first field that it explains. At all later fields it earns what
+    follows from the student's own value, if that is more, as in grading. A slip's value counts only
+    if it differs from the correct one.
     """
     paid: set[str] = set()
     found = []
@@ -79,7 +81,7 @@ def gaps(marker: Marker, points: Mapping[str, Fraction], words: Words) -> tuple[
 
 
 def keyed(marker: Marker, item: Item, words: Words) -> Iterator[Taken]:
-    """The right value; of a rate its negative, too, whose sense has a gap of its own."""
+    """The correct value; for a rate also its negative, because the sense has a gap of its own."""
     standard = marker.standard
     right, allowed = standard.key[item.field], standard.tolerance[item.field].value
     told = words("feedback.right")
@@ -90,7 +92,7 @@ def keyed(marker: Marker, item: Item, words: Words) -> Iterator[Taken]:
 
 
 def sensed(marker: Marker, item: Item, words: Words) -> tuple[Taken, ...]:
-    """Both senses; where no drawing tells it, each is right."""
+    """Both senses; each is correct if no drawing can decide the sense."""
     standard, turning = marker.standard, item.quantity in TURNING
     is_open = sense_is_open(standard, item.field)
     right, wrong = words("feedback.right"), plain(words("feedback.wrong_sense"))
@@ -103,9 +105,9 @@ def sensed(marker: Marker, item: Item, words: Words) -> tuple[Taken, ...]:
 
 
 def slipped(marker: Marker, item: Item, paid: set[str], words: Words) -> Iterator[Taken]:
-    """What slips make of a value, those with a share first, of two that make the same the first.
+    """The values that slips give, those with a share first; of two equal values only the first.
 
-    ``paid`` gathers those that have earned their share.
+    ``paid`` collects the slips that have earned their share.
     """
     standard, field = marker.standard, item.field
     rubric, seen = standard.rubric, list[tuple[float, float]]()
@@ -126,15 +128,15 @@ def slipped(marker: Marker, item: Item, paid: set[str], words: Words) -> Iterato
     paid.update(slip.name for slip in marker.slips if field in slip.values)
 
 
-# --- A lab as a bank of questions for Moodle (its XML format): a category for each variant --------
+# --- one question for each variant ----------------------------------------------------------------
 
 
 PRINTED = "task.pdf"
-"""The sheets of a variant within its question."""
+"""The name of the PDF with a variant's sheets within its question."""
 
 
 class Question(Struct, frozen=True):
-    """A variant as a question: its name, its text with the gaps, and the files that this shows."""
+    """The question of a variant: its name, its text with the gaps, and the files shown."""
 
     name: str
     text: str
@@ -143,7 +145,7 @@ class Question(Struct, frozen=True):
 
 
 def variants_of(lab: Lab, count: int) -> tuple[list[Assigned], list[Assigned]]:
-    """The variants of a lab, each once: those that are fair, and those that are not."""
+    """The variants of a lab, each once: the fair ones and the others."""
     every = {
         tuple(sorted(each.settings.items())): each
         for each in assigned(lab, students_of(lab, count))
@@ -153,7 +155,7 @@ def variants_of(lab: Lab, count: int) -> tuple[list[Assigned], list[Assigned]]:
 
 
 def questions(order: PrintOrder, variants: Sequence[Assigned], jobs: int) -> list[Question]:
-    """The question of each variant, by some processes."""
+    """The question of each variant, made by ``jobs`` processes."""
     parts = chunks(list(enumerate(variants)), jobs)
     found: list[tuple[int, Question]] = []
     with engine(jobs) as (pool, workers):
@@ -165,13 +167,13 @@ def questions(order: PrintOrder, variants: Sequence[Assigned], jobs: int) -> lis
 def asked(
     order: PrintOrder, variants: Sequence[tuple[int, Assigned]]
 ) -> list[tuple[int, Question]]:
-    """The questions of some variants with their places."""
+    """The questions of some variants, each with its place in the list."""
     book = Book(order.lab, order.scene)
     return [(place, question(order, book, each, str(place + 1))) for place, each in variants]
 
 
 def question(order: PrintOrder, book: Book, each: Assigned, code: str) -> Question:
-    """The question of one variant; ``code`` stands on its sheets, where long data have no room."""
+    """The question of one variant; ``code`` is printed on sheets where long data do not fit."""
     settings = {name: exact_text(value) for name, value in each.settings.items()}
     told = ", ".join(f"{name} = {value}" for name, value in settings.items())
     who = Student(each.student.row, told, name=told)
@@ -202,17 +204,16 @@ def question(order: PrintOrder, book: Book, each: Assigned, code: str) -> Questi
 
 
 def said(what: str, words: Words) -> str:
-    """What is said of a field beside its symbol."""
     return words(KINDS[what]) if what in KINDS else words("table.sense")
 
 
 def harmless(text: str) -> Markup:
-    """A text beside gaps that is not taken for one."""
+    """A text near gaps, escaped so that Moodle does not read it as a gap."""
     return Markup(escape(text).replace("{", SIGNS["{"]))
 
 
 def files_of(sheets: Sheets, order: PrintOrder) -> list[tuple[str, bytes]]:
-    """The task sheets of a variant: a PDF to be printed, and pictures to be seen."""
+    """The task sheets of a variant: a PDF to print, and pictures for the screen."""
     from graphkin.writers.pdf import write_pdf
     from graphkin.writers.svg import write_svg
 
@@ -232,7 +233,7 @@ def files_of(sheets: Sheets, order: PrintOrder) -> list[tuple[str, bytes]]:
 
 
 def bank(title: str, every: Sequence[Question]) -> bytes:
-    """The questions as a file that Moodle imports, a category for each."""
+    """The questions as a file that Moodle imports, with a category for each."""
     quiz = Element("quiz")
     for each in every:
         category = SubElement(quiz, "question", type="category")
@@ -253,31 +254,30 @@ def bank(title: str, every: Sequence[Question]) -> bytes:
 
 
 def texted(element: Element, text: str) -> Element:
-    """An element with a text, as Moodle nests it."""
+    """Add a text to an element, nested as Moodle does, and return the element."""
     SubElement(element, "text").text = text
     return element
 
 
 SIGNS = {sign: f"&#{ord(sign)};" for sign in "{}~#\\"}
-"""What means something within a gap, as references to characters, which Moodle turns back."""
+"""The signs with a meaning within a gap, as character references, which Moodle turns back."""
 
 
 def weights(points: Iterable[Fraction]) -> tuple[list[int], int]:
-    """Points as whole numbers, which are the only ones that a gap may have, and how many times as
-    many they are."""
+    """The points as whole numbers, which Moodle requires for gaps, and the factor applied."""
     every = list(points)
     times = lcm(*(each.denominator for each in every)) if every else 1
     return [int(each * times) for each in every], times
 
 
 def cloze(gap: Gap, weight: int) -> str:
-    """A gap within the text of a question."""
+    """A gap in the syntax of Moodle's cloze questions."""
     kind = "MULTICHOICE" if gap.item.what == "sense" else "NUMERICAL"
     return f"{{{weight}:{kind}:{'~'.join(map(taken, gap.takes))}}}"
 
 
 def taken(each: Taken) -> str:
-    """One thing that a gap takes; older Moodles read shares in whole percent alone."""
+    """An accepted answer in cloze syntax; older versions of Moodle read only whole percentages."""
     share = "=" if each.share == 1 else f"%{round(100 * each.share)}%"
     if isinstance(each.answer, str):
         answer = written(each.answer)
@@ -287,5 +287,5 @@ def taken(each: Taken) -> str:
 
 
 def written(text: str) -> str:
-    """A text in which nothing ends a gap or begins one."""
+    """A text with every sign escaped that would begin or end a gap."""
     return "".join(SIGNS.get(sign) or escape(sign) for sign in text)

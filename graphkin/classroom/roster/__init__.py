@@ -1,1 +1,1 @@
-"""Class lists and tables of answers as they come: CSV or XLSX, whatever their separator."""
+"""Class lists and tables of answers: CSV with any separator, or XLSX."""

@@ -1,4 +1,4 @@
-"""The languages that a class list may name for its students, by code or by name."""
+"""The languages of students in a class list, by code or by name."""
 
 from __future__ import annotations
 
@@ -8,25 +8,25 @@ from graphkin.classroom.roster.spreadsheets import folded
 from graphkin.classroom.roster.student import Student
 
 HEADS = ("language", "lang", "limba", "limbă", "lingua", "roster language", "roster limba")
-"""What the column may be called."""
+"""The names of a column of languages."""
 NAMES = {
     "ro": "ro rou ron rum roman romana romanian romanesc romaneste romeno rumeno",
     "en": "en eng english engleza englez inglese",
     "it": "it ita italian italiana italiano italieneste",
 }
-"""What each language may be called, without diacritics."""
+"""The names of each language, without diacritics."""
 FEW = 3
-"""Students that are named of many with the same language."""
+"""The number of students named when many have the same unknown language."""
 CODES = {name: code for code, names in NAMES.items() for name in names.split()}
 
 
 def language_in(text: str) -> str | None:
-    """The code of a language by its code or its name; None where it is none of the pages'."""
+    """The code of a language given by code or name; None if the pages do not have that language."""
     return CODES.get(folded(text)) or CODES.get(folded(text.partition("-")[0]))
 
 
 def named_languages(roster: str, students: Iterable[Student]) -> Iterator[tuple[str, str]]:
-    """What a class list says of its students' languages, each with its cell and whose it is."""
+    """The languages in a class list, each as (cell and student, text of the cell)."""
     heads = {folded(head) for head in HEADS}
     for each in students:
         for head, text in each.extra.items():
@@ -36,7 +36,7 @@ def named_languages(roster: str, students: Iterable[Student]) -> Iterator[tuple[
 
 
 def unknown_lines(named: Iterable[tuple[str, str]]) -> Iterator[str]:
-    """A line for each language that is none of the pages', with the first students whose it is."""
+    """A line for each language that the pages do not have, with the first students who have it."""
     unknown: dict[str, list[str]] = {}
     for who, text in named:
         if text and language_in(text) is None:

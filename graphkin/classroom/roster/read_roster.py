@@ -1,7 +1,7 @@
-"""A class list: one student a row, the columns named in any of three languages.
+"""A class list: one student a row, with columns named in any of three languages.
 
-Demanded is a column of ids; a number where the lab's rule is a formula of it. Name and group are
-printed where they are given; every other column is kept as it is.
+A column of ids is required, and one of numbers if the lab's rule is a formula of the number. Name
+and group are printed if given; every other column is kept unchanged.
 """
 
 from __future__ import annotations
@@ -48,17 +48,20 @@ NAMES = {
         "classe; sezione; seria",
     }.items()
 }
-"""What each column may be called, in English, Romanian and Italian."""
+"""The names of each column, in English, Romanian and Italian."""
 NAMED = {"name", "first", "last"}
-"""Columns that together are a name: in one list *nume* is all of it, in another the surname."""
+"""Columns that together form a name.
+
+*nume* is the full name in one list and the surname in another.
+"""
 Check = Callable[[Student], Iterable[Problem]]
-"""Finds what is wrong with a student."""
+"""Finds the problems of a student."""
 MOST_DIGITS = 9
 Tell = Callable[[str], object]
-"""Tells a note that is no mistake."""
+"""Reports a note that is not an error."""
 LONGEST_ID, LONGEST_NAME = 100, 200
 POSSIBLE = "Points Possible"
-"""The first cell of the row in which an export of Canvas has the points of each assignment."""
+"""The first cell of the row with the points of each assignment in an export from Canvas."""
 WHOLE = re.compile(r"[0-9]+")
 DECIMAL_ZERO = re.compile(r"([0-9]+)[.,]0+")
 
@@ -70,11 +73,11 @@ def read_roster(
     check: Check | None = None,
     tell: Tell | None = None,
 ) -> list[Student]:
-    """The students of a class list, in its order; RosterError with every problem, row by row.
+    """The students of a class list, in its order; raises RosterError with every problem by row.
 
-    ``numbered`` demands a number of each; ``check`` says what else is wrong with one who has it;
-    ``tell`` gets a note where ids may have lost their leading zeros, and of columns that are not
-    understood.
+    ``numbered`` requires a number for each student. ``check`` finds further problems of a student
+    who has a number. ``tell`` receives notes: ids that may have lost their leading zeros, and
+    columns that are not understood.
     """
     told = TableProblems(Path(path).name)
     sheet = read_sheet(
@@ -100,7 +103,7 @@ def read_roster(
 
 
 def not_understood(sheet: Spreadsheet, where: Mapping[str, int]) -> str:
-    """A note of columns that mean nothing here, and are kept as they are; else nothing."""
+    """A note on the columns that are not understood and kept unchanged; empty if none."""
     known = {folded(name) for name in ("email", *EMAIL, *LANGUAGE)}
     heads = [
         f'"{visible(head)}"'
@@ -114,7 +117,7 @@ def not_understood(sheet: Spreadsheet, where: Mapping[str, int]) -> str:
 
 
 def lost_zeros(sheet: Spreadsheet, column: int) -> str:
-    """A note where ids are numbers in a workbook, which keep no zeros before them; else nothing."""
+    """A note on ids stored as numbers, which have no leading zeros in a workbook; empty if none."""
     bare = [row.cells[column] for row in sheet.rows if column in row.numbers]
     if not bare:
         return ""
@@ -128,7 +131,7 @@ def lost_zeros(sheet: Spreadsheet, column: int) -> str:
 
 
 def found_columns(sheet: Spreadsheet, told: TableProblems, numbered: bool) -> dict[str, int]:
-    """Which column holds what; a demanded one that is missing is noted."""
+    """The column of each kind of data; a missing required column is recorded."""
     where = columns(sheet, NAMES)
     wanted = {"id": "matricol or matricola"} | ({"number": "nr or numero"} if numbered else {})
     for what, others in wanted.items():
@@ -149,14 +152,16 @@ def found_columns(sheet: Spreadsheet, told: TableProblems, numbered: bool) -> di
 
 
 def meant(head: str, what: str) -> str:
-    """A hint where a head nearly is a name of some column; empty where it is far from all."""
+    """A hint if a head is close to a name of the column; empty if it is not."""
     near = nearest(head, [what, *NAMES[what]])
     return f'is it "{visible(head)}"? then call that column "{what}"' if near else ""
 
 
 class RosterReading(Struct, frozen=True):
-    """A class list being read: which column holds what, whether each student needs a number, and
-    the ``first`` student of each id.
+    """A class list being read.
+
+    ``where`` is the column of each kind of data, ``numbered`` whether each student needs a number,
+    ``first`` the first student with each id.
     """
 
     sheet: Spreadsheet
@@ -166,17 +171,18 @@ class RosterReading(Struct, frozen=True):
     first: dict[str, Student] = field(default_factory=dict)
 
     def cell(self, row: SheetRow, what: str) -> str:
-        """What a row has in a column; nothing where there is no such column."""
+        """The text of a row in a column; empty if there is no such column."""
         return row.cells[self.where[what]] if what in self.where else ""
 
     def place(self, row: SheetRow, what: str) -> InTable:
-        """Where that stands, by what the column is called in this file."""
+        """The place of a cell, with the name that the column has in this file."""
         head = self.sheet.head[self.where[what]] if what in self.where else what
         return self.sheet.place(row, head)
 
     def student(self, row: SheetRow) -> Student:
-        """One student; what is wrong in the row is noted, also an id that stands in a row before,
-        where only its case differs too.
+        """The student of a row; the problems of the row are recorded.
+
+        An id that occurs in an earlier row is a problem, also if only its case differs.
         """
         named = sorted(NAMED & self.where.keys(), key=lambda what: self.where[what])
         full, own = full_name({what: self.cell(row, what) for what in named}), self.cell(row, "id")
@@ -201,7 +207,7 @@ class RosterReading(Struct, frozen=True):
         return one
 
     def number(self, row: SheetRow) -> int | None:
-        """The student's number; None where there is none, noted where it is demanded or none."""
+        """The student's number, or None; if a number is required, its absence is recorded."""
         text, place = self.cell(row, "number"), self.place(row, "number")
         found = DECIMAL_ZERO.fullmatch(text)
         text = found[1] if found else text
@@ -219,7 +225,7 @@ class RosterReading(Struct, frozen=True):
 
 
 def full_name(parts: Mapping[str, str]) -> str:
-    """The name of a student: its columns in the order of the file, none of them twice."""
+    """The name of a student: the columns in the order of the file, without repeating a part."""
     whole = parts.get("name", "")
     rest = [part for what, part in parts.items() if what != "name" and part in whole.split()]
     named = [part for part in parts.values() if part and part not in rest]

@@ -1,6 +1,6 @@
-"""Tables as spreadsheets write them: CSV with any usual separator, or the first sheet of an XLSX.
+"""Tables as spreadsheets write them: CSV with any usual separator, or one sheet of an XLSX.
 
-Nothing is guessed that could shift a column: what a file breaks is told by its row, all at once.
+The reader makes no guess that could shift a column. It reports all broken rows at once, by number.
 """
 
 from __future__ import annotations
@@ -36,16 +36,16 @@ from graphkin.text.errors import (
 )
 
 MOST_ROWS, MOST_COLUMNS, LONGEST = 200_000, 1000, 4000
-"""Rows that are not empty, columns, and characters of one cell."""
+"""The most rows that are not empty, the most columns, and the most characters of a cell."""
 MOST_CELLS, LAST_ROW = 2_000_000, 1 << 20
-"""Cells of a table, rows times columns; the last row that a spreadsheet has."""
+"""The most cells of a table, rows times columns, and the last row that a spreadsheet has."""
 
 
 class SheetRow(Struct, frozen=True):
-    """One row: its line in the file, or its row in the sheet, and its cells by column.
+    """One row: its line in the file or its row in the sheet, and its cells by column.
 
-    ``numbers`` are the columns of cells that are numbers in the file, without zeros before them;
-    ``broken`` is the line at which the fault begins where the cells may be in wrong columns, or 0.
+    ``numbers`` are the columns whose cells are numbers in the file, without leading zeros.
+    ``broken`` is the line at which the fault begins if the cells may be in wrong columns, else 0.
     """
 
     line: int
@@ -55,31 +55,31 @@ class SheetRow(Struct, frozen=True):
 
 
 def too_large(name: str, found: str) -> RosterError:
-    """The error for a table beyond the limits, told as soon as it is found to be."""
+    """The error for a table beyond the limits, raised as soon as the limit is exceeded."""
     expected = f"at most {MOST_ROWS} rows, {MOST_COLUMNS} columns, {MOST_CELLS} cells in all"
     return RosterError(Problem(name, found, expected))
 
 
-# --- tables as spreadsheets write them ------------------------------------------------------------
+# --- reading tables -------------------------------------------------------------------------------
 
 
 LARGEST = 16 * 1024 * 1024
-"""Bytes of a table."""
+"""The largest table, in bytes."""
 SEPARATORS = {",": "commas", ";": "semicolons", "\t": "tabs"}
 VALUES = re.compile(r'"[^"]*"|\d+')
-"""What differs from row to row in problems that have one cause."""
+"""The parts of a message that differ from row to row although the cause is the same."""
 FEW, TOLD = 3, 4
-"""Rows of one cause that are told one by one; rows that are named with the first of more."""
+"""Fewer than ``FEW`` further rows of one cause are each reported; else ``TOLD`` rows are named."""
 TITLES = 20
-"""Rows, empty ones not counted, within which the head of a table is looked for."""
+"""The number of rows that are not empty within which the reader looks for the head of a table."""
 ZIP, OLD_EXCEL = b"PK\x03\x04", b"\xd0\xcf\x11\xe0"
-"""First bytes of an XLSX, which is a ZIP file, and of an XLS."""
+"""The first bytes of an XLSX, which is a ZIP file, and of an XLS."""
 
 
 class Spreadsheet(Struct, frozen=True):
-    """A table: the name of its file, its head, its rows; cells are texts without blanks around.
+    """A table: the name of its file, its head and its rows; cells are texts without blanks around.
 
-    ``separator`` is what stands between the cells; a tab for XLSX. ``left_out`` are broken rows.
+    ``separator`` separates the cells; it is a tab for XLSX. ``left_out`` are the broken rows.
     """
 
     name: str
@@ -89,12 +89,12 @@ class Spreadsheet(Struct, frozen=True):
     left_out: tuple[SheetRow, ...] = ()
 
     def place(self, row: SheetRow, column: str = "") -> InTable:
-        """Where something is."""
+        """The place of a row, or of its cell in a column, for error messages."""
         return InTable(self.name, row.line, visible(column))
 
 
 class TableProblems(Findings):
-    """Problems of a table, gathered so that all are told at once, those of one cause together."""
+    """The problems of a table, reported all at once, with those of one cause together."""
 
     def __init__(self, name: str) -> None:
         super().__init__()
@@ -110,12 +110,12 @@ class TableProblems(Findings):
         changes: tuple[Change, ...] = (),
         about: tuple[About, ...] = (),
     ) -> None:
-        """Note one problem, of the whole table or of a row."""
+        """Record one problem, of the whole table or of a row."""
         own = (place,) if isinstance(place, InTable) else ()
         super().add(str(place), found, expected, hint, changes, (*own, *about))
 
     def extend(self, problems: Iterable[Problem]) -> None:
-        """Note problems that are new; with more causes than an error carries, stop."""
+        """Record the new problems; stop once there are more causes than an error carries."""
         for problem in problems:
             alike = self.causes.setdefault(cause_of(problem), {})
             alike.setdefault((problem.place, problem.found), problem)
@@ -126,7 +126,7 @@ class TableProblems(Findings):
 
     @property
     def every(self) -> list[Problem]:
-        """Each problem by itself."""
+        """Every problem, without merging those of one cause."""
         return [each for alike in self.causes.values() for each in alike.values()]
 
     @property
@@ -136,20 +136,20 @@ class TableProblems(Findings):
         return sorted(told, key=row_of)
 
     def stop(self) -> None:
-        """Raise RosterError when anything was found, in the order of the rows."""
+        """Raise RosterError with the problems in the order of the rows, if there are any."""
         if self.problems:
             raise RosterError(self.merged)
 
 
 class RowProblems(TableProblems):
-    """Problems of a table whose rows are read each by itself, however many are broken."""
+    """The problems of a table whose rows are independent: broken rows do not stop the reading."""
 
     def stop(self) -> None:
-        """Go on."""
+        """Continue."""
 
 
 def cause_of(problem: Problem) -> tuple[str | int, ...]:
-    """What problems share that differ in their rows and values alone."""
+    """The key shared by problems that differ only in their rows and values."""
     texts = (problem.found, problem.expected, str(problem.hint))
     place = place_of(problem)
     if place is None:
@@ -158,7 +158,7 @@ def cause_of(problem: Problem) -> tuple[str | int, ...]:
 
 
 def together(alike: Iterable[Problem]) -> list[Problem]:
-    """Problems of one cause: each where they are few, else the first with the others' rows."""
+    """The problems of one cause: each one if they are few, else the first with the other rows."""
     every = list(alike)
     rows = list(dict.fromkeys(row_of(problem) for problem in every))[1:]
     if len(rows) < FEW:
@@ -171,12 +171,12 @@ def together(alike: Iterable[Problem]) -> list[Problem]:
 
 
 def place_of(problem: Problem) -> InTable | None:
-    """Where in a table a problem is; None for one of the whole table."""
+    """The place of a problem in a table; None for a problem of the whole table."""
     return next((each for each in problem.about if isinstance(each, InTable)), None)
 
 
 def row_of(problem: Problem) -> int:
-    """The row of a problem; zero for one of the whole table."""
+    """The row of a problem; zero for a problem of the whole table."""
     place = place_of(problem)
     return place.row if place else 0
 
@@ -184,11 +184,11 @@ def row_of(problem: Problem) -> int:
 def read_sheet(
     path: Path, heads: Sequence[str] = (), told: TableProblems | None = None
 ) -> Spreadsheet:
-    """The table in a CSV or XLSX file; RosterError with every row that cannot be read.
+    """The table in a CSV or XLSX file; raises RosterError with every row that cannot be read.
 
-    ``heads`` are names of columns that help to tell the separator. Cells are normalised (NFC).
-    Rows that cannot be read are left out and noted in ``told``, if there is one: the caller finds
-    the other problems, and then stops.
+    ``heads`` are names of columns, which help to find the separator. Cells are normalised (NFC).
+    With ``told``, unreadable rows are skipped and recorded there: the caller finds the other
+    problems and then stops.
     """
     return sheet_in(bytes_of(Path(path)), Path(path).name, heads, told)
 
@@ -196,7 +196,7 @@ def read_sheet(
 def sheet_in(
     data: bytes, name: str, heads: Sequence[str] = (), told: TableProblems | None = None
 ) -> Spreadsheet:
-    """The same of the bytes of a file, by the name that errors give it."""
+    """The table in the bytes of a file, otherwise as ``read_sheet``; errors use ``name``."""
     own, told = told is None, told or TableProblems(name)
     rows: Iterable[SheetRow]
     if data.startswith(OLD_EXCEL):
@@ -215,7 +215,7 @@ def sheet_in(
 
 
 def bytes_of(path: Path) -> bytes:
-    """The bytes of a file. Raises RosterError where there are none, or too many."""
+    """The bytes of a file. Raises RosterError if it cannot be read or is too large."""
     try:
         data = file_bytes(path, LARGEST + 1)
     except (OSError, ValueError) as error:
@@ -228,7 +228,7 @@ def bytes_of(path: Path) -> bytes:
 
 
 def beside(path: Path) -> Hint:
-    """A hint for a table that cannot be read: the name that is nearest to its in that folder."""
+    """A hint for a table that cannot be read: the file with the nearest name in the same folder."""
     folder = path.parent
     if not folder.is_dir():
         return f"there is no folder {folder}"
@@ -250,7 +250,7 @@ def text_of(data: bytes, name: str) -> str:
         at = InTable(name, row)
         problem = Problem(str(at), found, "a text saved as UTF-8", hint, about=(at,))
         raise RosterError(problem) from None
-    if text.count("\0") > len(text) // 4:  # the bytes of wider letters; a few are told by row
+    if text.count("\0") > len(text) // 4:  # this many come from UTF-16; fewer are reported by row
         row = text.count("\n", 0, text.index("\0")) + 1
         hint = "save the table again as CSV UTF-8"
         at = InTable(name, row)
@@ -259,9 +259,9 @@ def text_of(data: bytes, name: str) -> str:
 
 
 def separator_of(text: str, heads: Sequence[str] = ()) -> str:
-    """What stands between the cells, by the head: the sign that makes most known columns of it.
+    """The separator of the cells: the one that finds the most known columns in the head.
 
-    Where titles may stand above it, each of the first lines may be the head.
+    Each of the first lines may be the head, because titles may come before it.
     """
     full = (line for line in io.StringIO(text, newline="") if line.strip(" ,;\t\r\n"))
     lines = [line[: csv.field_size_limit()] for line in islice(full, TITLES if heads else 1)]
@@ -275,15 +275,15 @@ def separator_of(text: str, heads: Sequence[str] = ()) -> str:
 
 
 def known_in(cells: Iterable[str], known: Collection[str]) -> int:
-    """How many cells of a row are known names of columns."""
+    """The number of cells of a row that are known names of columns."""
     return sum(bool(cell) and folded(cell) in known for cell in cells)
 
 
 def csv_rows(text: str, separator: str, told: TableProblems) -> Iterator[SheetRow]:
-    """The rows of a CSV text by the lines on which they begin; what is broken is noted.
+    """The rows of a CSV text by the lines on which they begin; broken records are recorded.
 
-    A record that is broken gives a broken row for each of its lines. A quote that is never closed
-    breaks its own line alone.
+    A broken record gives one broken row for each of its lines. A quote that is never closed breaks
+    only its own line.
     """
     lines = list(io.StringIO(text, newline=""))
     begins, unclosed = 1, 0
@@ -321,12 +321,12 @@ def csv_rows(text: str, separator: str, told: TableProblems) -> Iterator[SheetRo
 
 
 def loose_cells(line: str, separator: str) -> list[str]:
-    """The cells of a line that is broken, quotes left out."""
+    """The cells of a broken line, without quotes."""
     return line.replace('"', "").rstrip("\r\n").split(separator)
 
 
 def broken(message: str) -> tuple[str, str, str]:
-    """What the reader of CSV says, in words that help: found, expected, hint."""
+    """A message of the CSV reader in plain words: found, expected, hint."""
     if "unexpected end" in message:
         return "a quote that is opened and never closed", 'a closing "', ""
     if "expected after" in message:
@@ -344,7 +344,7 @@ def sheet_of(
     told: TableProblems,
     heads: Sequence[str] = (),
 ) -> Spreadsheet:
-    """A table of rows, empty ones left out: its head, and what is below it."""
+    """The table made of these rows, without empty ones: its head, and the rows below the head."""
     left_out: list[SheetRow] = []
     head, body = below_titles(whole_rows(map(tidied, rows), left_out), heads)
     if left_out and (head is None or left_out[0].line < head.line):
@@ -383,7 +383,7 @@ def sheet_of(
 
 
 def whole_rows(rows: Iterable[SheetRow], left_out: list[SheetRow]) -> Iterator[SheetRow]:
-    """The rows that hold something; broken ones are left out."""
+    """The rows that hold something; broken rows go to ``left_out``."""
     for row in rows:
         if row.broken:
             left_out.append(row)
@@ -394,8 +394,10 @@ def whole_rows(rows: Iterable[SheetRow], left_out: list[SheetRow]) -> Iterator[S
 def below_titles(
     rows: Iterator[SheetRow], heads: Sequence[str]
 ) -> tuple[SheetRow | None, Iterator[SheetRow]]:
-    """The head of a table and the rows below it: the first row, unless one that follows soon, below
-    titles, has more known names of columns, two at least.
+    """The head of a table and the rows below it.
+
+    The head is the first row, unless one of the next rows, below titles, has more known names of
+    columns, at least two.
     """
     known = {folded(head) for head in heads}
     first = list(islice(rows, TITLES))
@@ -408,7 +410,7 @@ def below_titles(
 
 
 def tidied(row: SheetRow) -> SheetRow:
-    """A row of tidy cells, without the empty ones at its end."""
+    """The row with tidy cells, without the empty ones at its end."""
     cells = [tidy(cell) for cell in row.cells]
     while cells and not cells[-1]:
         cells.pop()
@@ -421,12 +423,12 @@ def tidy(cell: str) -> str:
 
 
 def repeated(names: Sequence[str]) -> set[str]:
-    """The names that stand there more than once."""
+    """The names that occur more than once."""
     return {name for name in names if names.count(name) > 1}
 
 
 def refuse_hidden(told: TableProblems, place: InTable, cell: str) -> None:
-    """Note a cell with control or bidirectional characters, or one too long."""
+    """Record a cell that is too long or has control or bidirectional characters."""
     if len(cell) > LONGEST:
         told.add(place, f"{len(cell)} characters", f"at most {LONGEST}")
         return
@@ -437,14 +439,15 @@ def refuse_hidden(told: TableProblems, place: InTable, cell: str) -> None:
 
 
 def folded(head: str) -> str:
-    """The name of a column as it is compared: no case, no accents, no blanks or signs."""
+    """The name of a column as names are compared: no case, accents, blanks or signs."""
     apart = unicodedata.normalize("NFKD", head.strip().strip("\ufeff"))
     return "".join(c for c in apart.casefold() if c.isalnum())
 
 
 def columns(sheet: Spreadsheet, names: Mapping[str, Sequence[str]]) -> dict[str, int]:
-    """Which column holds what, by the names that each may bear in any language: of several the one
-    whose name stands first.
+    """The column of each key, found by the key or any of its names in any language.
+
+    If several columns match, the one whose name comes first in ``names`` is used.
     """
     found: dict[str, int] = {}
     cells = {folded(cell): i for i, cell in reversed(list(enumerate(sheet.head))) if folded(cell)}
@@ -456,18 +459,21 @@ def columns(sheet: Spreadsheet, names: Mapping[str, Sequence[str]]) -> dict[str,
     return found
 
 
-# --- the first sheet of an XLSX file as rows of texts, numbers as they would be typed -------------
+# --- the active sheet of an XLSX file as rows of texts, with numbers as they would be typed -------
 
 
 LARGEST_UNPACKED, MOST_ELEMENTS = 64 * 1024 * 1024, 1_000_000
-"""Bytes and XML elements of an XLSX unpacked; more is a bomb. A cell with a number has two."""
+"""The most bytes and XML elements of an XLSX once unpacked, against ZIP bombs.
+
+A cell with a number has two elements.
+"""
 BLOCK = 1 << 20
 PADDED = re.compile(r"0+")
 """A number format that shows leading zeros: 0000."""
 
 
 def xlsx_rows(data: bytes, name: str) -> Iterator[SheetRow]:
-    """The rows of the sheet that was open last; leading zeros that its format shows are kept."""
+    """The rows of the active sheet; leading zeros that a cell's format shows are kept."""
     with opened(data, name, data_only=True) as book:
         for number, cells in full_rows(open_sheet(book), name):
             bare = frozenset(i for i, cell in enumerate(cells) if is_bare(cell))
@@ -475,16 +481,17 @@ def xlsx_rows(data: bytes, name: str) -> Iterator[SheetRow]:
 
 
 def open_sheet(book: Any) -> Any:
-    """The sheet that was open last."""
+    """The sheet that was active when the workbook was saved."""
     return book.active if book.active is not None else book.worksheets[0]
 
 
 def full_rows(sheet: Any, name: str) -> Iterator[tuple[int, Sequence[Any]]]:
     """The rows of a sheet that hold something, each with its number, which counts from 1.
 
-    Cells are those as far as the last of the row. Raises RosterError as soon as there are too many.
+    The cells reach as far as the last one of the row. Raises RosterError as soon as there are too
+    many.
     """
-    sheet.reset_dimensions()  # what a file says of its size may be anything
+    sheet.reset_dimensions()  # the size written in the file may be wrong
     count = 0
     for number, cells in enumerate(sheet.iter_rows(), 1):
         count += len(cells)
@@ -496,9 +503,9 @@ def full_rows(sheet: Any, name: str) -> Iterator[tuple[int, Sequence[Any]]]:
 
 @contextmanager
 def opened(data: bytes, name: str, *, data_only: bool) -> Iterator[Any]:
-    """The workbook, opened for reading row by row: values, or the formulas that give them.
+    """The workbook, opened for reading row by row: its values, or the formulas that give them.
 
-    Raises RosterError where openpyxl is missing, or the file is no workbook.
+    Raises RosterError if openpyxl is missing or the file is not a workbook.
     """
     try:
         from openpyxl import load_workbook
@@ -508,7 +515,7 @@ def opened(data: bytes, name: str, *, data_only: bool) -> Iterator[Any]:
         raise RosterError(Problem(name, found, "the table saved as CSV UTF-8", hint)) from None
     try:
         refuse_bomb(data, name)
-        with catch_warnings():  # openpyxl names what it does not read: it is not written either
+        with catch_warnings():  # openpyxl warns of parts it skips, which are not written either
             simplefilter("ignore")
             book = load_workbook(
                 io.BytesIO(data), read_only=True, data_only=data_only, keep_links=False
@@ -522,7 +529,7 @@ def opened(data: bytes, name: str, *, data_only: bool) -> Iterator[Any]:
 
 
 def refuse_bomb(data: bytes, name: str) -> None:
-    """Raise RosterError where a file is far larger unpacked; BadZipFile where it is no ZIP."""
+    """Raise RosterError if a file is far larger unpacked; BadZipFile if it is not a ZIP."""
     expected = f"at most {LARGEST_UNPACKED >> 20} MiB and {MOST_ELEMENTS} XML elements"
     with zipfile.ZipFile(io.BytesIO(data)) as packed:
         size = sum(part.file_size for part in packed.infolist())
@@ -534,25 +541,25 @@ def refuse_bomb(data: bytes, name: str) -> None:
 
 
 def elements_of(part: IO[bytes]) -> int:
-    """About how many elements a part has, if it is XML: its tags that close none."""
+    """The approximate number of XML elements of a part: its tags that are not closing tags."""
     blocks = iter(lambda: part.read(BLOCK), b"")
     return sum(block.count(b"<") - block.count(b"</") for block in blocks)
 
 
 def unreadable(name: str) -> RosterError:
-    """The error for a file that is no workbook."""
+    """The error for a file that is not a workbook."""
     hint = "open it in a spreadsheet and save it again, or as CSV UTF-8"
     return RosterError(Problem(name, "cannot be read as XLSX", "a workbook", hint))
 
 
 def is_bare(cell: Any) -> bool:
-    """Whether a cell is a number that shows no zeros before it: 0041 would be 41."""
+    """Whether a cell is a number shown without leading zeros, so that 0041 would be 41."""
     number = isinstance(cell.value, int | float) and not isinstance(cell.value, bool)
     return number and not PADDED.fullmatch(getattr(cell, "number_format", "") or "")
 
 
 def cell_text(cell: Any) -> str:
-    """A cell as it would be typed: whole numbers without a point, zeros before them as shown."""
+    """A cell as it would be typed: whole numbers without a point, with the leading zeros shown."""
     value = cell.value
     if value is None:
         return ""
@@ -569,22 +576,24 @@ def cell_text(cell: Any) -> str:
     return repr(value) if isinstance(value, float) else str(value)
 
 
-# --- tables as they are written -------------------------------------------------------------------
+# --- writing tables -------------------------------------------------------------------------------
 
 
 NUMBER = re.compile(r"[+-]?(?:\d+(?:[.,]\d*)?|[.,]\d+)(?:[eE][+-]?\d+)?", re.ASCII)
 RUNS = re.compile(r"""^(?=\s*[=+\-@＝＋－＠]|[\t\r\n])|([;\t\r\n][\s"]*)(?=[=+\-@＝＋－＠])""")
-"""Where a spreadsheet takes what follows for a formula: at the beginning of a text, and behind what
-ends a cell for one that expects semicolons or tabs between cells.
+"""The places where a spreadsheet reads what follows as a formula.
+
+They are the beginning of a text, and any end of a cell for a spreadsheet that expects semicolons or
+tabs between cells.
 """
 QUOTED = re.compile(r'[",;\t\r\n]')
-"""What a cell in quotes holds: signs at which some spreadsheet ends a cell."""
+"""The signs that require quotes: some spreadsheet ends a cell at each of them."""
 
 
 def safe(cell: object) -> str:
-    """A cell that no spreadsheet runs: in a text, what looks like a formula gets a ' before it.
+    """A cell that no spreadsheet runs: a text that looks like a formula gets a leading '.
 
-    What is a number stays one, -5 too.
+    A number stays a number, including -5.
     """
     text = str(cell)
     if not isinstance(cell, str) or NUMBER.fullmatch(text):
@@ -601,5 +610,5 @@ def csv_text(rows: Iterable[Sequence[object]]) -> str:
 
 
 def quoted(text: str) -> str:
-    """A cell in quotes where it must be."""
+    """A cell, in quotes if it needs them."""
     return '"' + text.replace('"', '""') + '"' if QUOTED.search(text) else text

@@ -10,8 +10,8 @@ from msgspec import Struct, field
 class Student(Struct, frozen=True):
     """One row of a class list; ``row`` is its line in the file, ``extra`` its other columns.
 
-    ``number`` is the student's number in the group, None where the list has none; ``id`` keeps
-    its leading zeros.
+    ``number`` is the student's number in the group, None if the list has none. ``id`` keeps its
+    leading zeros.
     """
 
     row: int
@@ -23,5 +23,5 @@ class Student(Struct, frozen=True):
 
     @property
     def called(self) -> str:
-        """As notes name one: by name and id."""
+        """The student's name and id, as notes name a student."""
         return f"{self.name} ({self.id})" if self.name else self.id

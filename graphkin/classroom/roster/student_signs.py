@@ -1,4 +1,4 @@
-"""By what students are known in other tables: ids, codes of sheets, e-mail addresses, names."""
+"""How other tables identify students: by id, sheet code, e-mail address or name."""
 
 from __future__ import annotations
 
@@ -21,18 +21,20 @@ EMAIL = (
     "indirizzo e-mail",
     "indirizzo di posta elettronica",
 )
-"""What a column of e-mail addresses may be called."""
+"""The names of a column of e-mail addresses."""
 Match = Literal["", "id", "email"]
-"""By which column of a table students are found: by their ids, their addresses, or either."""
+"""The column in which a table identifies students: ids, addresses, or either if empty."""
 
 
 class Signs(Struct, frozen=True):
-    """What stands for each student in other tables, each with the id.
+    """Everything that identifies a student in other tables, mapped to the student's id.
 
-    ``exact`` are ids and codes of sheets; ``bare`` ids without the zeros at their beginning, which
-    spreadsheets take away, where no two are the same so; ``emails`` and ``names`` are in small
-    letters, names without blanks and accents too, each with all students of it. ``called`` is the
-    name of each student as the class list has it.
+    - ``exact`` holds ids and sheet codes.
+    - ``bare`` holds ids without leading zeros, which spreadsheets remove, where they stay unique.
+    - ``emails`` holds addresses in lower case.
+    - ``names`` holds names in lower case without blanks and accents, each with all students of that
+      name.
+    - ``called`` holds the name of each student as the class list writes it, by id.
     """
 
     ids: tuple[str, ...] = ()
@@ -43,16 +45,19 @@ class Signs(Struct, frozen=True):
     called: Mapping[str, str] = field(default_factory=dict)
 
     def who(self, sign: str) -> str | None:
-        """The student whose id, code or address something is; None where it is nobody's."""
+        """The id of the student with this id, code or address; None if there is no such student."""
         known = self.exact.get(sign) or self.emails.get(sign.casefold())
         return known or (self.bare.get(sign.lstrip("0")) if sign.isdecimal() else None)
 
     def named(self, name: str) -> tuple[str, ...]:
-        """The students of a name, whichever part of it comes first."""
+        """The ids of the students with this name, whichever part of the name comes first."""
         return self.names.get(folded(name), ())
 
     def may_be(self, name: str, who: str) -> bool:
-        """Whether a name that is nobody's in the class list shares a word with a student's own."""
+        """Whether a name shares a word with the name of student ``who``.
+
+        True if the class list has no name for the student.
+        """
         own = self.called.get(who, "").replace(",", " ").split()
         return not own or any(folded(word) in folded(name) for word in own)
 
@@ -63,7 +68,7 @@ def signs(
     emails: Mapping[str, str] | None = None,
     names: Mapping[str, str] | None = None,
 ) -> Signs:
-    """The signs of a class: its ids; codes, addresses and names by id, as far as there are any."""
+    """The signs of a class: its ids, and the known codes, addresses and names by id."""
     every = tuple(ids)
     exact = {code: who for who, code in (codes or {}).items() if code}
     exact |= {who: who for who in every}
@@ -79,13 +84,13 @@ def signs(
 
 
 def single(pairs: Iterable[tuple[str, str]]) -> dict[str, str]:
-    """Pairs as a mapping, without what stands for two."""
+    """The pairs as a mapping, without signs that belong to more than one student."""
     found = sorted(pairs)
     counts = Counter(sign for sign, _ in found)
     return {sign: who for sign, who in found if sign and counts[sign] == 1}
 
 
 def turns(name: str) -> set[str]:
-    """A name as it is compared, its words in their order and begun at any of them."""
+    """All rotations of the words of a name, in the form in which names are compared."""
     words = name.replace(",", " ").split()
     return {folded("".join(words[i:] + words[:i])) for i in range(len(words))}

@@ -1,4 +1,4 @@
-"""A student of a class who got data: whose sheets are printed, and whose answers are marked."""
+"""A student of a class with assigned data: the owner of printed sheets and of graded answers."""
 
 from __future__ import annotations
 
@@ -11,10 +11,10 @@ from graphkin.classroom.roster.student import Student
 
 
 class Taker(Struct, frozen=True):
-    """A student who takes part: the parameters of the own variant, exact and as written.
+    """A student who takes part: the parameters of the student's variant, exact and as written.
 
-    ``compute`` are fields too small to be measured, which are computed; ``code`` is the opaque name
-    on the sheets, ``language`` and ``email`` what the class list says of the student's.
+    ``compute`` are the fields too small to measure, which the student computes. ``code`` is the
+    opaque name on the sheets. ``language`` and ``email`` are those of the class list.
     """
 
     student: Student
@@ -26,5 +26,5 @@ class Taker(Struct, frozen=True):
 
     @property
     def spoken(self) -> str | None:
-        """The code of the student's language; None where it is that of the class."""
+        """The code of the student's language; None if the student has the language of the class."""
         return language_in(self.language)

@@ -1,1 +1,1 @@
-"""Data for each student of a class: assigned, judged as one batch, written down."""
+"""Data for each student of a class: assigned, checked for fairness in one batch, and saved."""

@@ -1,4 +1,4 @@
-"""Who gets which data: a formula as it is, a range drawn again until it is fair."""
+"""Assign data to students: formulas give them directly, ranges are drawn until they are fair."""
 
 from __future__ import annotations
 
@@ -27,20 +27,20 @@ from graphkin.scene.quantity import shortest
 from graphkin.text.errors import Problem, RosterError, problems_of
 
 VAIN = 300
-"""Draws on end that find room for nobody, after which nobody is drawn again."""
+"""Consecutive draws that find room for nobody, after which nobody is drawn again."""
 BLOCK = 256
-"""Students whose data are held against those before them at once."""
+"""The number of students whose data are compared at once with those of earlier students."""
 MOST = 5_000
-"""Students of a list whose data are all held against one another."""
+"""The most students of a list whose data can all be compared with one another."""
 
 
 class Assigned(Struct, frozen=True):
     """The data of one student, and how fair they are.
 
-    ``attempt`` counts the drawings before this one; ``faults`` are the limits that are not kept,
-    ``computed`` the fields that are computed for want of something to measure. ``flattest`` and
-    ``rays``, those to centres and poles, are in degrees, ``shortest`` in mm; None where nothing of
-    the kind can be drawn.
+    ``attempt`` counts the earlier draws; ``faults`` are the limits exceeded, ``computed`` the
+    fields computed because there is nothing to measure. ``flattest``, the flattest crossing, and
+    ``rays``, the flattest of those that fix centres and poles, are in degrees, ``shortest`` is in
+    mm. They are None where nothing of the kind can be drawn.
     """
 
     student: Student
@@ -54,24 +54,25 @@ class Assigned(Struct, frozen=True):
 
     @property
     def fair(self) -> bool:
-        """Whether all limits are kept."""
+        """Whether the data keep all limits."""
         return not self.faults
 
     @property
     def status(self) -> str:
-        """``fair``, ``unfair``, or ``undrawable`` where it does not close or fit its page."""
+        """``fair``, ``unfair``, or ``undrawable`` if the mechanism does not close or fit."""
         if self.fair:
             return "fair"
         return "unfair" if self.flattest is not None else "undrawable"
 
 
 def assigned(lab: Lab, students: Sequence[Student], roster: str = "roster") -> list[Assigned]:
-    """The data of each student by the lab's rule, the whole class judged as one batch.
+    """The data of each student by the lab's rule, the whole class judged in one batch.
 
-    What ranges give that is unfair, or too near to the data of one before in the list, is drawn
-    again, as often as the rule allows; the least unfair is kept.
-    Raises RosterError for numbers with which a formula leaves what the scene allows, and for more
-    students than can be held against one another where a limit asks for that.
+    Data drawn from ranges are drawn again if they are unfair or too close to those of an earlier
+    student, as often as the rule allows; the least unfair are kept.
+
+    Raises RosterError for numbers whose formula gives values outside the scene's ranges. Raises it
+    too for more students than can be compared with one another, if a limit requires the comparison.
     """
     if lab.fair.needs_keys and len(students) > MOST:
         found = f"has {len(students)} students, and [fair] of lab.toml limits apart or pencil"
@@ -84,11 +85,12 @@ def assigned(lab: Lab, students: Sequence[Student], roster: str = "roster") -> l
 
 
 def spaced(lab: Lab, every: list[Assigned]) -> list[Assigned]:
-    """The same, where a pencil draws everything as exactly as it should, and nobody's right values
-    earn too much on the sheet of one before in the list.
+    """The data of each student, drawn again where pencil errors or a neighbour's answers matter.
 
-    By ranges what is not so is drawn again, until many draws find room for nobody; what is left
-    has its fault.
+    A pencil must draw everything as exactly as the limit demands. No student's correct values may
+    earn too much on the sheet of an earlier student. Data from ranges that exceed these limits are
+    drawn again until many draws find room for nobody. Data that still exceed a limit get that
+    fault.
     """
     kept: list[tuple[Assigned, Standard]] = []
     known: dict[object, Standard] = {}
@@ -120,7 +122,7 @@ def spaced(lab: Lab, every: list[Assigned]) -> list[Assigned]:
 
 
 def longest(room: Sequence[Fault | None]) -> int:
-    """How many in a row found no room, where these are so many that nobody is drawn again."""
+    """The longest run of students without room, if it is long enough to stop drawing; else zero."""
     runs = (sum(1 for _ in run) for full, run in groupby(room, bool) if full)
     most = max(runs, default=0)
     return most if most >= VAIN else 0
@@ -129,7 +131,7 @@ def longest(room: Sequence[Fault | None]) -> int:
 def with_room(
     lab: Lab, kept: list[tuple[Assigned, Standard]], tried: Sequence[tuple[Assigned, Standard]]
 ) -> list[Fault | None]:
-    """For each of some data what is too inexact or too near to others; what is not is kept."""
+    """The fault of each of some data, or None; data without fault are added to ``kept``."""
     limit, found = lab.fair.apart, list[Fault | None]()
     data, places = without_doubles([standard for _, standard in (*kept, *tried)])
     values, taken = RightValues.of(data), places[: len(kept)]
@@ -151,7 +153,7 @@ def with_room(
 
 
 class Nearness:
-    """What the right values of some data and of others earn on each other's sheet, at most."""
+    """The most that the correct values of some data and of others earn on each other's sheets."""
 
     def __init__(self, values: RightValues, own: Sequence[int], others: Sequence[int]) -> None:
         rows, columns = list(dict.fromkeys(own)), list(dict.fromkeys(others))
@@ -161,7 +163,7 @@ class Nearness:
         self.shares = np.maximum(here.by_key(there), there.by_key(here).T)
 
     def nearest(self, place: int, among: Sequence[int]) -> tuple[int, float]:
-        """Which of some is nearest to a datum, the first of several, and what is earned there."""
+        """The place in ``among`` nearest to ``place``, the first of several, and its share."""
         if not among:
             return -1, 0.0
         shares = self.shares[self.row[place], [self.column[other] for other in among]]
@@ -170,13 +172,13 @@ class Nearness:
 
 
 def held_against(lab: Lab, every: Sequence[Assigned]) -> list[Standard]:
-    """What the answers of students who can draw are held against."""
+    """The standard against which each student's answers are graded; all data must be drawable."""
     asked = [(each.settings, each.computed) for each in every]
     return standards_of(lab, asked) if asked else []
 
 
 def refuse_misfits(lab: Lab, students: Sequence[Student], roster: str) -> None:
-    """RosterError with the row of each number to which a formula gives what no scene allows."""
+    """Raise RosterError with the row of each number whose formula leaves the scene's ranges."""
     problems = [
         Problem(f"{roster}, row {student.row}", p.found, p.expected, p.hint)
         for student in students
@@ -187,12 +189,12 @@ def refuse_misfits(lab: Lab, students: Sequence[Student], roster: str) -> None:
 
 
 def check_of(lab: Lab) -> Check | None:
-    """What finds students whose number gives no data that the scene allows; none for ranges."""
+    """A check for numbers whose formula leaves the scene's ranges; None for a rule of ranges."""
     return partial(misfits, lab) if lab.rule.counts else None
 
 
 def misfits(lab: Lab, student: Student) -> list[Problem]:
-    """What is wrong with the data that a formula gives a student: none, or what no scene allows."""
+    """The problems of a formula's data for a student: values that the scene does not allow."""
     try:
         given = settings(lab, student)
     except Exception as error:
@@ -206,9 +208,9 @@ def misfits(lab: Lab, student: Student) -> list[Problem]:
 
 
 def fairest(lab: Lab, students: Sequence[Student], since: Sequence[int] = ()) -> list[Assigned]:
-    """The first fair data that the rule gives each student, else the least unfair of all tried.
+    """The first fair data that the rule gives each student, else the least unfair of those tried.
 
-    ``since`` are the attempts with which each begins, the first where it is left out.
+    ``since`` are the attempts from which each student starts; all start from 0 if it is left out.
     """
     found: dict[int, Assigned] = {}
     attempts = list(since) or [0] * len(students)
@@ -225,14 +227,14 @@ def fairest(lab: Lab, students: Sequence[Student], since: Sequence[int] = ()) ->
 
 
 def unfairness(data: Assigned) -> tuple[bool, int]:
-    """By what data are less unfair than others: those that can be drawn, of the fewest faults."""
+    """The sort key for the least unfair data: drawable first, then by number of faults."""
     return data.flattest is None, len(data.faults)
 
 
 def one(
     student: Student, given: Settings, attempt: int, fairness: Fairness, index: int
 ) -> Assigned:
-    """The data of one student with what the batch says of them."""
+    """The data of one student with the results of the batch for them."""
     drawn = bool(fairness.closes[index] and fairness.fits[index])
     shortest, rays = float(fairness.shortest[index]), float(fairness.flattest_rays[index])
     return Assigned(

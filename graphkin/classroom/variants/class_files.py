@@ -33,7 +33,7 @@ from graphkin.writers.files import write_all
 HEAD = ("row", "number", "id", "name", "group")
 TAIL = ("flattest_deg", "shortest_mm", "status", "tries", "compute", "limits", "code")
 SALT = 16
-"""Bytes of the salt."""
+"""The length of the salt in bytes."""
 
 
 def write_class(
@@ -45,10 +45,10 @@ def write_class(
     force: bool,
     language: str | None = None,
 ) -> list[Path]:
-    """Write the folder of a class; raises PageError before anything is touched.
+    """Write the folder of a class; raises PageError before it changes anything.
 
-    A class that is written again keeps its salt, so that codes that were printed stay true, and its
-    language unless another is named.
+    A class written again keeps its salt, so that printed codes stay valid, and its language unless
+    another is given.
     """
     settle(folder)
     scene = lab.scene.read_bytes()
@@ -69,12 +69,11 @@ def write_class(
 
 
 def digest(data: bytes) -> str:
-    """The SHA-256 of some bytes."""
     return sha256(data).hexdigest()
 
 
 def kept(folder: Path, name: str) -> str:
-    """A text of the manifest that stands in a folder; empty where none can be read."""
+    """A text of the manifest in a folder; empty if it cannot be read."""
     try:
         text = json.loads(whole_file(folder / MANIFEST).decode("utf-8"))[name]
     except (OSError, ValueError, KeyError, TypeError, RecursionError):
@@ -83,7 +82,7 @@ def kept(folder: Path, name: str) -> str:
 
 
 def table_rows(students: Sequence[Assigned], salt: str) -> Iterator[list[object]]:
-    """The rows of variants.csv: who, the exact data, how fair, then the roster's other columns."""
+    """The rows of variants.csv: student, exact data, fairness, then the roster's other columns."""
     names = list(dict.fromkeys(name for each in students for name in each.settings))
     extra = list(dict.fromkeys(key for each in students for key in each.student.extra))
     own = {*HEAD, *names, *TAIL}
@@ -108,15 +107,15 @@ def table_rows(students: Sequence[Assigned], salt: str) -> Iterator[list[object]
         ]
 
 
-# --- what is said of a class that got its data: how fair they are, and to whom they are not -------
+# --- the report on a class with data: how fair they are, and for whom they are not ----------------
 
 
 MOST = 40
-"""Rows of one list."""
+"""The most rows of one list."""
 COMPARED = 1_000
-"""Students whose data are compared with one another; of more of them so many."""
+"""The most students whose data are compared; of a larger class an even sample is taken."""
 WHO = ("row", "number", "id", "name")
-"""The heads of what lists say of who somebody is."""
+"""The heads of the columns that identify a student in a list."""
 
 
 def class_lines(lab: Lab, found: Sequence[Assigned]) -> Iterator[str]:
@@ -157,7 +156,7 @@ def class_lines(lab: Lab, found: Sequence[Assigned]) -> Iterator[str]:
 
 
 def unsure_lines(unsure: Sequence[tuple[str, Sequence[str]]], cap: str) -> list[str]:
-    """The fields that hardly any drawing settles, and whose: before the exam, as after it."""
+    """The fields that hardly any drawing can decide, with their students, known before the exam."""
     if not any(fields for _, fields in unsure):
         return ["none"]
     return [
@@ -168,7 +167,7 @@ def unsure_lines(unsure: Sequence[tuple[str, Sequence[str]]], cap: str) -> list[
 
 
 def alike_lines(students: Sequence[Student]) -> list[str]:
-    """Numbers that several students of a group share, and so their data."""
+    """The numbers that several students of a group share: these students get the same data."""
     shared = Counter((student.group, student.number) for student in students)
     found = [
         f"{count} students{f' of group {group}' if group else ''} have number {number}: "
@@ -180,13 +179,13 @@ def alike_lines(students: Sequence[Student]) -> list[str]:
 
 
 def who(student: Student) -> tuple[str, str, str, str]:
-    """A student as lists name one."""
+    """The cells that identify a student in a list."""
     number = "" if student.number is None else str(student.number)
     return str(student.row), number, student.id, student.name
 
 
 def listed(head: tuple[str, ...], rows: Sequence[tuple[str, ...]]) -> list[str]:
-    """A list with its head, cut where it is long; none where it is empty."""
+    """A list with its head, cut if it is long; the line ``none`` if it is empty."""
     if not rows:
         return ["none"]
     more = [f"… and {len(rows) - MOST} more"] if len(rows) > MOST else []

@@ -1,8 +1,9 @@
-"""What a class got, as JSON: enough to derive every sheet again years later.
+"""The record of a class's data, as JSON: enough to derive every sheet again years later.
 
-The rule as it is written, the course, the lab's name and its very text (copied beside it, with its
-hash); for each student the id, the opaque code, the exact parameters as text, and how often was
-drawn. Tests derive the parameters again from the manifest alone.
+The manifest holds the rule as written, the course, and the lab's name with the hash of its text,
+which is copied into the same folder. For each student it holds the id, the opaque code, the exact
+parameters as text, and the number of draws. Tests derive the parameters again from the manifest
+alone.
 """
 
 from __future__ import annotations
@@ -18,11 +19,11 @@ from graphkin.classroom.lab.rules import exact_text
 from graphkin.classroom.variants.assign import Assigned
 
 FORMAT = 1
-"""Version of the manifest."""
+"""The version of the manifest's format."""
 MANIFEST, TABLE, COPY = "manifest.json", "variants.csv", "lab"
 """The files of a class folder, and the folder with the copy of its lab."""
 CODE = 10
-"""Signs of an opaque code: 50 bits, so that two of a class are alike once in 10⁹ classes."""
+"""The length of an opaque code: 50 bits, so that two codes of a class agree once in 10⁹ classes."""
 
 
 def manifest(
@@ -33,9 +34,10 @@ def manifest(
     salt: str,
     language: str = "",
 ) -> dict[str, Any]:
-    """The manifest of a class; ``hashes`` are of scene.toml, lab.toml, the table and the roster.
+    """The manifest of a class.
 
-    ``language`` is that of its pages, where it is not the scene's.
+    ``hashes`` are those of scene.toml, lab.toml, the table and the roster. ``language`` is the
+    language of the class's pages, if it is not the scene's.
     """
     import numpy
 
@@ -57,7 +59,7 @@ def manifest(
 
 
 def entry(each: Assigned, salt: str) -> dict[str, Any]:
-    """One student of the manifest."""
+    """The entry of one student in the manifest."""
     student = each.student
     return {
         "row": student.row,
@@ -77,12 +79,12 @@ def entry(each: Assigned, salt: str) -> dict[str, Any]:
 
 
 def rounded(value: float | None, digits: int) -> float | None:
-    """A number as it is written down, or none."""
+    """A rounded number, or None."""
     return None if value is None else round(value, digits)
 
 
 def code(salt: str, student: str) -> str:
-    """The opaque code of a student: ten signs of base 32 of SHA-256 over salt and id."""
+    """The opaque code of a student: ten base-32 digits of SHA-256 over salt and id."""
     digest = hashlib.sha256((salt + student).encode("utf-8")).digest()
     return base64.b32encode(digest).decode("ascii")[:CODE]
 
@@ -97,7 +99,7 @@ def written_rule(rule: LabRule) -> dict[str, Any]:
 
 
 def written_draw(values: Range | ValueList) -> Any:
-    """What is drawn as lab.toml writes it: the ends of a range, or a list of such."""
+    """Drawn values as lab.toml writes them: the ends and step of a range, or a list of ranges."""
     if isinstance(values, ValueList):
         return [written_draw(part) for part in values.parts]
     ends = {"min": values.least, "max": values.most, "step": values.step}

@@ -1,1 +1,1 @@
-"""What the commands print: records for machines (JSON), aligned text for people."""
+"""The output of the commands: records for machines (JSON), aligned text for people."""

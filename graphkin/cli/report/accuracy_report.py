@@ -1,4 +1,4 @@
-"""What accuracy costs, in words and as a table of comma separated values."""
+"""The cost of accuracy, as text and as a table of comma-separated values."""
 
 from __future__ import annotations
 
@@ -36,7 +36,7 @@ HEADS = (
 
 
 def accuracy_table(study: Study) -> str:
-    """A row for each method: errors, certified or not, time with quartiles, how it was measured."""
+    """A row for each method: errors, certified or not, time with quartiles, and conditions."""
     out = io.StringIO()
     writer = csv.writer(out, lineterminator="\n")
     writer.writerow(HEADS)
@@ -66,7 +66,7 @@ def timed(time: Timing) -> list[str]:
 
 
 def accuracy_lines(study: Study) -> Iterator[str]:
-    """Everything that was found, to be read on a terminal."""
+    """The whole report, line by line, for a terminal."""
     yield from head_lines(study)
     yield ""
     heads = ("method", "position", "velocity", "accel.", "µs each", "quartiles", "at once")
@@ -86,7 +86,7 @@ def accuracy_lines(study: Study) -> Iterator[str]:
 
 
 def head_lines(study: Study) -> Iterator[str]:
-    """What was compared, in what, against what, on which machine."""
+    """What was compared, in which units, against which reference, on which machine."""
     reference = study.reference
     yield f"What accuracy costs: {study.mechanism.scene.title}"
     yield f"positions  {where(study)}"
@@ -117,7 +117,7 @@ def where(study: Study) -> str:
 
 
 def line_of(row: MethodRow) -> tuple[str, ...]:
-    """A row as texts: errors, median in microseconds, quartiles, positions at once."""
+    """A row as texts: errors, median in microseconds, quartiles, positions in one run."""
     errors = tuple(shown(error) for error in row.errors)
     if row.time is None:
         return (row.method, *errors, "–", "", "")
@@ -134,14 +134,14 @@ def micro(seconds: float) -> str:
 
 
 def shown(error: float | None) -> str:
-    """An error as a power of ten with two digits; – where there is none."""
+    """An error as a power of ten with two digits; – if there is none."""
     if error is None:
         return "–"
     return "fails" if isinf(error) else f"{error:.1e}"
 
 
 def agreement_lines(found: Agreement) -> Iterator[str]:
-    """How doubles and balls of as many bits keep to the bound of doubles."""
+    """How doubles, and balls of as many bits, keep within the error bound of doubles."""
     yield (
         f"Doubles keep to {max(found.single, found.batch):.1g} of their bound, at most "
         f"{found.bound:.1g} of the largest of a quantity"
@@ -182,7 +182,7 @@ def flat_lines(study: Study) -> Iterator[str]:
 
 
 def goal_words(found: Flattening, length: str) -> str:
-    """To what the driver was moved, and what is seen there."""
+    """The place to which the driver was moved, and how errors grow there."""
     sweep, goal = found.approach.places.course.sweep, found.approach.goal
     lowest, highest = min(found.sines), max(found.sines)
     if goal is None:
@@ -202,7 +202,7 @@ def goal_words(found: Flattening, length: str) -> str:
 
 
 def scope_lines(study: Study) -> Iterator[str]:
-    """What is asked and what it costs."""
+    """The steps and times of each scope."""
     rows = [
         (each.name, str(each.steps), micro(each.single.median), micro(each.batch.median))
         for each in study.scopes

@@ -23,7 +23,7 @@ ASKED = (
 
 
 def labs_lines() -> Iterator[str]:
-    """Every shipped lab: its title, parameters with their ranges, and what it asks."""
+    """Every shipped lab: its title, its parameters with their ranges, and what it asks."""
     from graphkin.scene.read_scene import read_scene
 
     for name in scene_files.names():
@@ -32,7 +32,7 @@ def labs_lines() -> Iterator[str]:
 
 
 def lab_lines(scene: Scene) -> list[str]:
-    """One lab."""
+    """The lines about one lab."""
     parameters = [
         f"{range_words(each)} ({each.value.written({})} unless set)"
         for each in scene.parameters.values()

@@ -1,7 +1,7 @@
-"""What solve says in certified digits: the record with proved decimals, and its text.
+"""The certified digits of solve: the record with proved decimals, and its text.
 
-The record has the structure of the usual one, strings in place of numbers. What is not decided is
-null there, and told under ``undecided`` by its path.
+The record has the structure of the usual one, with strings in place of numbers. An undecided number
+is null, and ``undecided`` gives the reason by its path.
 """
 
 from __future__ import annotations
@@ -47,7 +47,7 @@ from graphkin.text.plain_table import table
 FAR = "at infinity, or too far to tell: not decided"
 NOWHERE = "none: at infinity, or the link is at rest"
 SECTIONS = {"points": "point", "links": "link", "centres": "links", "slides": "block"}
-"""The parts of the record that hold certified digits, with the head of their names."""
+"""The sections of the record with certified digits, and the head of their column of names."""
 CALLED = {
     **{each.attribute: (each.words, each.unit) for each in QUANTITIES if each.words},
     "": ("centre of both", "m"),
@@ -55,13 +55,13 @@ CALLED = {
 for _key, _each in CIRCLES.items():
     CALLED |= {_key: (_each.circle, "m"), f"{_key}.pole": (_each.words, "m")}
     CALLED |= {f"{_key}.{part}": (f"{_each.circle}, {part}", "m") for part in ("centre", "radius")}
-"""What the keys of the record are called, with their units."""
+"""The words and units of the record's keys."""
 
 
 def certify(mechanism: Mechanism, found: Record, digits: int, targets: Any = None) -> Record:
-    """The record of a run in floats with so many proved digits; ``undecided`` where there are none.
+    """The record of a float run with ``digits`` proved digits; ``undecided`` lists the others.
 
-    The precision is raised until every number is decided, or by as much as is sensible.
+    The precision is raised until every number is decided, up to a sensible limit.
     """
     certifier = Certifier.of(mechanism, targets)
     for bits, narrowed in precisions(digits):
@@ -75,7 +75,7 @@ def certify(mechanism: Mechanism, found: Record, digits: int, targets: Any = Non
 
 
 class Printer(Struct):
-    """Prints the numbers of a run in balls, and keeps what it cannot print by its path."""
+    """Prints the numbers of a run in balls, and records the undecided ones by path."""
 
     scene: Scene
     balls: Balls
@@ -84,11 +84,10 @@ class Printer(Struct):
 
     @property
     def targets(self) -> Mapping[Target, int]:
-        """All that the program constructs."""
         return self.balls.trace.program.targets
 
     def real(self, path: str, ball: Any, target: Target) -> str | None:
-        """The digits of a number; None where they are not proved, or it was not found."""
+        """The digits of a number; None if they are not proved, or the number was not found."""
         if ball is None:
             self.lost(path, target)
             return None
@@ -109,7 +108,7 @@ class Printer(Struct):
         return [self.real(f"{path}.{axis}", part, target) for axis, part in parts]
 
     def centre(self, path: str, ratio: Ratio | None, target: Target) -> list[str | None] | None:
-        """The digits of a centre; None without doubt only where it surely is at infinity."""
+        """The digits of a centre; None, without a doubt recorded, only if it is at infinity."""
         if ratio is None:
             self.lost(path, target)
             return None
@@ -122,21 +121,21 @@ class Printer(Struct):
         return self.pair(path, self.balls.narrowed(place, target), target)
 
     def lost(self, path: str, target: Target) -> None:
-        """A number that was not found: some step before it is singular within the ball.
+        """Record a number that was not found because an earlier step is singular within the ball.
 
-        Without such a step nothing tells it, in floats as little as in balls.
+        Without such a step nothing is recorded: the number does not exist in floats either.
         """
         failed = self.balls.failure(target)
         if failed is not None:
             self.doubted(path, singular_words(self.scene, self.balls.trace.program, failed))
 
     def doubted(self, path: str, words: str) -> None:
-        """A number that is not decided, with the reason."""
+        """Record an undecided number, with the reason."""
         self.undecided[path] = words
 
 
 def place_of(ratio: Ratio) -> Any:
-    """The point of a ratio; None where its ball reaches to infinity."""
+    """The point of a ratio; None if its ball reaches infinity."""
     try:
         place = ratio.start + ratio.shift / ratio.size
     except ZeroDivisionError:
@@ -145,7 +144,7 @@ def place_of(ratio: Ratio) -> Any:
 
 
 def singular_words(scene: Scene, program: Program, failed: StepFailed) -> str:
-    """Why a step cannot be drawn in balls, in the words of a step that fails in floats."""
+    """Why a step cannot be drawn in balls, in the words used for a step that fails in floats."""
     action, reason = failed.step.action, "the ball does not tell where"
     crosses = action is not None and action.margin is not None
     if crosses or closer_of(failed.step) is not None:
@@ -175,7 +174,7 @@ def certified_record(found: Record, printer: Printer, kind: Kind) -> Record:
 
 
 def completed(scene: Scene, solution: Solution) -> Solution:
-    """The solution with every moving link in it: a block turns as its guide does."""
+    """The solution with every moving link; a block turns with its guide."""
     links = {
         name: with_pole(solution.links.get(name), motion_of_block(scene, name, solution))
         for name in scene.links
@@ -184,7 +183,7 @@ def completed(scene: Scene, solution: Solution) -> Solution:
 
 
 def point(name: str, entry: Record, solution: Solution, printer: Printer) -> Record:
-    """Position, velocity and acceleration of a point, those of its entry in floats."""
+    """Position, velocity and acceleration of a point, those in its entry in floats."""
     motion = motion_of(name, solution) or PointMotion()
     of = name if (next(iter(entry)), name) in printer.targets else ends_of(name)[0]
     return {
@@ -193,7 +192,7 @@ def point(name: str, entry: Record, solution: Solution, printer: Printer) -> Rec
 
 
 def link(name: str, entry: Record, solution: Solution, printer: Printer) -> Record:
-    """Turning and centres of a link, those of its entry in floats."""
+    """Turning and centres of a link, those in its entry in floats."""
     motion, path = solution.links[name], f"links.{name}"
     targets = {each.attribute: each for each in (*RATES, *CENTRES)}
     record: Record = {}
@@ -210,7 +209,7 @@ def link(name: str, entry: Record, solution: Solution, printer: Printer) -> Reco
 
 
 def circle(path: str, target: Target, motion: LinkMotion, printer: Printer) -> Record | None:
-    """The circle of a target; None without doubt only where the link surely does not turn."""
+    """The circle of a target; None, without a doubt recorded, only if the link does not turn."""
     quantity = CIRCLES[target[0]]
     ratios = getattr(motion, quantity.circle_from), motion_value(motion, quantity)
     if ratios[0] is None or ratios[1] is None:
@@ -230,7 +229,7 @@ def circle(path: str, target: Target, motion: LinkMotion, printer: Printer) -> R
 
 
 def slide(name: str, solution: Solution, printer: Printer) -> Record:
-    """Motion of a block along its guide; the vector that a guide that does not turn gives is 0."""
+    """Motion of a block along its guide; the vector of a guide that does not turn is 0."""
     motion, record = solution.slides.get(name, SlideMotion()), {}
     for each in OF_SLIDES:
         path, target = f"slides.{name}.{each.attribute}", (each.target, name)
@@ -245,7 +244,7 @@ def slide(name: str, solution: Solution, printer: Printer) -> Record:
 
 
 def certified_text(scene: Scene, record: Record, verdict: Verdict | None) -> str:
-    """Everything that a certified record holds, a number on each line."""
+    """Everything in a certified record, a number on each line."""
     parts = [
         [heading(scene)],
         *(numbers_table(record, section) for section in SECTIONS),
@@ -275,7 +274,7 @@ def below(path: str, entry: Record) -> Record:
 
 
 def leaves(values: Record) -> Iterator[tuple[str, str | None]]:
-    """Every number of an entry, with its path; None for what has no digits."""
+    """Every number of an entry with its path; None for a number without digits."""
     for path, value in values.items():
         if isinstance(value, dict):
             yield from leaves(below(path, value))
@@ -286,7 +285,7 @@ def leaves(values: Record) -> Iterator[tuple[str, str | None]]:
 
 
 def quantity(path: str, place: str) -> str:
-    """What a path in an entry is called, with its unit."""
+    """The words for a path in an entry, with the unit."""
     *keys, last = path.removeprefix(place).strip(".").split(".")
     axis = [last] if last in ("x", "y") else []
     words, unit = CALLED[".".join(keys if axis else [*keys, last])]

@@ -1,4 +1,4 @@
-"""The text of check: what a scene is made of, how it closes, how well it can be drawn."""
+"""The text of check: the parts of a scene, how it closes, and how well it can be drawn."""
 
 from __future__ import annotations
 
@@ -37,16 +37,16 @@ from graphkin.text.plain_table import labelled, listed, table
 
 Places = Mapping[str, complex]
 TOLD = 10
-"""Idle links and pairs that are told; each of them is a count of its own."""
+"""The most idle links and pairs that are listed; each takes a count of its own."""
 NUDGE = Fraction(1, 50)
-"""How far the drivers are moved to leave a singular position, in radians or longest bars."""
+"""The step of the drivers away from a singular position, in radians or longest bars."""
 
 
 class Rank:
-    """The true mobility of a mechanism at its position, and in words what it tells of the count.
+    """The true mobility of a mechanism at its position, compared with the count.
 
-    Raises ClosureError where the position does not close, and StructureError where the vector
-    loops do not cover a pair.
+    Raises ClosureError if the position does not close, and StructureError if the vector loops do
+    not cover a pair.
     """
 
     def __init__(self, mechanism: Mechanism) -> None:
@@ -60,7 +60,7 @@ class Rank:
             self.moving = min(self.here, nearby(mechanism, self.places) or self.here)
 
     def lines(self) -> Iterator[str]:
-        """The true mobility, and why it is another than the count's."""
+        """The true mobility, and why it differs from the count."""
         if self.here == self.counted:
             yield f"{self.here}, true mobility by the rank of the constraints, as the count says"
             return
@@ -71,7 +71,7 @@ class Rank:
             yield from self.idle_lines(self.moving - self.counted)
 
     def idle_lines(self, surplus: int) -> Iterator[str]:
-        """Which constraints take a freedom that others have taken already."""
+        """The constraints that remove a freedom already removed by others."""
         many = "one constraint is" if surplus == 1 else f"{surplus} constraints are"
         yield f"{surplus} more than the count: {many} idle, taking what others take already"
         found = list(islice(self.idle(), TOLD + 1))
@@ -85,7 +85,7 @@ class Rank:
         yield f"without {first}{also} the motion is the same{right}"
 
     def idle(self) -> Iterator[str]:
-        """What can be taken away without another freedom, what the groups found idle first."""
+        """The parts that can be removed without adding a freedom, the idle groups first."""
         ties = [tie.link for tie in self.ties]
         for link in (*ties, *(name for name in self.scene.links if name not in ties)):
             if spare(self.scene, link) and self.same_without(without_link(self.scene, link)):
@@ -95,7 +95,7 @@ class Rank:
                 yield name
 
     def same_without(self, part: Scene) -> bool:
-        """Whether a part of the mechanism moves as the whole, though the count allows it more."""
+        """Whether a part of the mechanism moves as the whole does, though its count is larger."""
         try:
             more = count(part).mobility > self.counted
             return more and true_mobility(part, self.places) == self.here
@@ -104,14 +104,14 @@ class Rank:
 
 
 def places_of(mechanism: Mechanism) -> dict[str, complex]:
-    """Where the points stand (m); no velocity is constructed for it."""
+    """The positions of the points (m), computed without any velocity."""
     positions = [target for target in mechanism.program.targets if target[0] == "position"]
     points = gathered(mechanism.trace(positions)).points.items()
     return {name: motion.position for name, motion in points if motion.position is not None}
 
 
 def nearby(mechanism: Mechanism, places: Places) -> int | None:
-    """True mobility with the drivers moved a little; None where that cannot be constructed."""
+    """True mobility with the drivers moved a little; None if that cannot be constructed."""
     spread = [abs(p - q) for p in places.values() for q in places.values()]
     for sense in (1, -1):
         moved = Mechanism(nudged(mechanism.scene, sense, max(spread, default=1.0)))
@@ -123,7 +123,7 @@ def nearby(mechanism: Mechanism, places: Places) -> int | None:
 
 
 def nudged(scene: Scene, sense: int, size: float) -> Scene:
-    """The scene with every driver a little further, each by another amount."""
+    """The scene with every driver moved a little further, each by a different amount."""
     drivers = []
     for number, driver in enumerate(scene.drivers, 1):
         whole = 1.0 if driver.kind == "turn" else size
@@ -132,7 +132,7 @@ def nudged(scene: Scene, sense: int, size: float) -> Scene:
 
 
 def further(scene: Scene, driver: Driver, step: float) -> Driver:
-    """A driver at a position that is so much (rad, m) further on."""
+    """A driver with its position increased by ``step`` (rad, m)."""
     position = driver.position
     factor, of_pi = SI[position.unit]
     written = Fraction(step) / factor / (Fraction(pi) if of_pi else 1)
@@ -141,7 +141,7 @@ def further(scene: Scene, driver: Driver, step: float) -> Driver:
 
 
 def spare(scene: Scene, name: str) -> bool:
-    """Whether a link could be left out: no driver moves it, and it leads nothing."""
+    """Whether a link could be left out: no driver moves it, and it guides no other link."""
     driven = {end for driver in scene.drivers for end in (driver.link, driver.against)}
     links = scene.links.values()
     carriers = {path.on for link in links for path in link.paths}
@@ -149,13 +149,16 @@ def spare(scene: Scene, name: str) -> bool:
 
 
 def without_link(scene: Scene, name: str) -> Scene:
-    """The mechanism without a link, for counting only: no drivers."""
+    """The mechanism without a link and without drivers, for counting only."""
     links = {other: link for other, link in scene.links.items() if other != name}
     return replace(scene, links=links, drivers=())
 
 
 def parts_without(scene: Scene) -> Iterator[tuple[str, Scene]]:
-    """The mechanism without one of a link's wheels' tracks, or a block's further guides."""
+    """The mechanism without one spare path and without drivers, with the name of that path.
+
+    A spare path is the track of a wheel, or a further guide of a block.
+    """
     for link in scene.links.values():
         for path in link.spare_paths:
             links = {**scene.links, link.name: link.without(path)}
@@ -166,14 +169,14 @@ def parts_without(scene: Scene) -> Iterator[tuple[str, Scene]]:
 
 
 MOST_LOOPS = 24
-"""Rings of four links that are told."""
+"""The most rings of four links listed."""
 NUMBERS = ("no", "one", "two", "three", "four", "five", "six", "seven", "eight")
 
 
 def structure(scene: Scene) -> Iterator[str]:
     """Links, pairs, the count of freedoms, and the drivers.
 
-    Raises StructureError for wheels that do not touch, after the links.
+    Raises StructureError, after the links, for wheels that do not touch.
     """
     bare = scene.bare
     moving = listed(bare.links)
@@ -189,9 +192,9 @@ def structure(scene: Scene) -> Iterator[str]:
 
 
 def keeper_lines(scene: Scene) -> Iterator[str]:
-    """Each link that the scene does not have, put in to keep a wheel on its track.
+    """A line for each guide and each link that the program added to the scene.
 
-    And each guide that it does not have, put in for rollers of one size.
+    A guide is added for rollers of one size, a link to keep a wheel on its track.
     """
     for name, link in scene.links.items():
         for slide in (each for each in link.slides if each.rollers):
@@ -211,7 +214,7 @@ def keeper_lines(scene: Scene) -> Iterator[str]:
 
 
 def count_notes(scene: Scene) -> Iterator[str]:
-    """What is easily counted wrong: pins of several links, pairs that take one freedom, springs."""
+    """Cases that are easily miscounted: pins of several links, and pairs that take one freedom."""
     for point, links in sharers(scene).items():
         if len(links) > 2:
             many = dict(enumerate(NUMBERS)).get(len(links) - 1, len(links) - 1)
@@ -226,7 +229,7 @@ def count_notes(scene: Scene) -> Iterator[str]:
 
 
 def loop_lines(scene: Scene) -> list[str]:
-    """How many closed loops are independent, and what turns fully in each single one."""
+    """The number of independent closed loops, and the links that turn fully in each single one."""
     loops = count(scene).loops
     if loops <= 0:
         return ["none: an open chain"]
@@ -241,7 +244,7 @@ def loop_lines(scene: Scene) -> list[str]:
 
 
 def single_loop_lines(scene: Scene, loop: Loop) -> list[str]:
-    """A loop of four links: its class, the rule that decides it, and what that means."""
+    """A loop of four links: its class, the rule that decides it, and what it means for drivers."""
     head = four_bar_words(scene, loop) if isinstance(loop, FourBar) else slider_words(scene, loop)
     verdicts = [words for driver in scene.drivers if (words := driver_turn(loop, driver))]
     return [head, *(f"  {words}" for words in verdicts)]
@@ -271,7 +274,7 @@ def slider_words(scene: Scene, loop: SliderCrank) -> str:
 
 
 def turning_words(loop: Loop) -> str:
-    """Which links turn all the way round against the others."""
+    """The links that turn fully against the others."""
     if not loop.turning:
         return "no link turns fully"
     if FRAME in loop.turning and loop.slack:
@@ -286,7 +289,7 @@ def turning_words(loop: Loop) -> str:
 
 
 def driver_turn(loop: Loop, driver: Driver) -> str:
-    """Whether a turning driver within a loop turns fully there; empty where it is not in it."""
+    """Whether a turning driver of a loop turns fully there; empty if it is not in the loop."""
     ends = {driver.link, driver.against}
     if driver.kind != "turn" or not ends <= set(loop.links):
         return ""
@@ -298,7 +301,6 @@ def driver_turn(loop: Loop, driver: Driver) -> str:
 
 
 def ring(loop: Loop) -> str:
-    """The links of a loop, one after the other."""
     return "–".join(loop.links)
 
 
@@ -316,7 +318,7 @@ def unit(scene: Scene) -> str:
 
 
 def driver_words(scene: Scene, driver: Driver) -> str:
-    """What a driver does, in the units of the scene, at these parameters."""
+    """The motion of a driver, in the units of the scene, with these parameters."""
     found = [
         f"{quantity.written(scene.values)} {quantity.unit}".strip()
         for quantity in (driver.position, driver.speed, driver.acceleration)
@@ -327,7 +329,6 @@ def driver_words(scene: Scene, driver: Driver) -> str:
 
 
 def group_lines(groups: tuple[Group, ...]) -> list[str]:
-    """The groups in the order of construction."""
     return [f"{i}. {group.words}" for i, group in enumerate(groups, 1)]
 
 
@@ -335,11 +336,14 @@ def group_lines(groups: tuple[Group, ...]) -> list[str]:
 
 
 WORST = 3
-"""Flattest crossings shown."""
+"""The number of flattest crossings shown."""
 
 
 class Checking:
-    """Looks at a mechanism part by part; what is wrong is kept, and what is known still shown."""
+    """The check of a mechanism, part by part.
+
+    Problems are collected, and the parts that can be checked are still shown.
+    """
 
     def __init__(self, mechanism: Mechanism) -> None:
         self.mechanism = mechanism
@@ -368,12 +372,12 @@ class Checking:
             self.problems += error.problems
 
     def closing(self) -> Iterator[str]:
-        """Closures of the dyads, and the driver's angles for which everything closes."""
+        """Closures of the dyads, and the driver's angles at which the mechanism closes."""
         mechanism = self.mechanism
         lines: list[str] = []
         try:
             groups, program = mechanism.laid
-        except StructureError:  # an idle link may have no room in the stated closure
+        except StructureError:  # the stated closure may have no room for an idle link
             groups = mechanism.groups
             program = write(mechanism.scene, groups, fitted=False)
         for choice in choices(mechanism.scene, groups, program):
@@ -382,13 +386,13 @@ class Checking:
         legend = ["(* as the scene says)"] if stated else []
         lines = lines or ["nothing to choose"]
         yield from labelled("closures", [*lines, *legend])
-        if program is mechanism.program:  # which raises where an idle link has no room
+        if program is mechanism.program:  # the program raises where an idle link has no room
             yield from labelled("range", range_lines(mechanism))
 
     def rank(self) -> list[str]:
         """The true mobility in words; a wrong number of drivers for it is a problem.
 
-        Where nothing closes, more drivers than the count leaves freedoms may be the cause.
+        If nothing closes, the cause may be more drivers than the count leaves freedoms.
         """
 
         try:
@@ -401,7 +405,7 @@ class Checking:
         return list(rank.lines())
 
     def witness(self, trace: Trace) -> str:
-        """The verdict of the independent route; a doubt where it does not agree."""
+        """The verdict of the independent check; records a doubt if it does not agree."""
         try:
             verdict = self.mechanism.witness(gathered(trace))
         except WitnessError as error:
@@ -412,9 +416,9 @@ class Checking:
         return verdict_words(verdict, self.mechanism.scene)
 
     def scale_factors(self) -> None:
-        """Raise GraphkinError for scale factors that [sheet] states and no sheet can keep.
+        """Raise GraphkinError for scale factors in [sheet] that no sheet can keep.
 
-        A mechanism of which no sheet is handed out anyway is not asked for them.
+        They are not checked if there are doubts, because then no sheet is handed out.
         """
         sheet = self.mechanism.scene.sheet
         states = sheet.scale or sheet.enlarge or sheet.ka or sheet.rule == "lab"
@@ -425,7 +429,7 @@ class Checking:
 
 
 def closure_lines(choice: Choice) -> list[str]:
-    """Both closures of a dyad, the picked one marked."""
+    """Both closures of a dyad, with a mark on the chosen one."""
     of = f"the angle of link {choice.pin}" if choice.is_turned else choice.pin
     lines = [f"{of} of links {listed(choice.links)}:"]
     if not choice.closures:
@@ -449,7 +453,7 @@ def closure_lines(choice: Choice) -> list[str]:
 
 
 def range_lines(mechanism: Mechanism) -> list[str]:
-    """The positions of the driver for which everything closes, for one driver."""
+    """The positions of the driver at which the mechanism closes, for a single driver."""
     if len(mechanism.scene.drivers) != 1:
         return ["not swept: it is for mechanisms with one driver"]
     found = closing(mechanism.scene)
@@ -459,7 +463,7 @@ def range_lines(mechanism: Mechanism) -> list[str]:
 
 
 def range_words(mechanism: Mechanism, found: ClosingRanges) -> str:
-    """Where the only driver closes everything."""
+    """The ranges of the only driver in which the mechanism closes."""
     scene, ranges = mechanism.scene, found.ranges
     turns = scene.drivers[0].kind == "turn"
     what = "angle" if turns else "position"
@@ -480,7 +484,7 @@ def range_words(mechanism: Mechanism, found: ClosingRanges) -> str:
 
 
 def turns_lines(trace: Trace, scene: Scene) -> list[str]:
-    """Which angle links are taken to have, where their pins leave whole turns open."""
+    """The angles assumed for links whose pins leave whole turns open."""
     found = []
     for step in trace.program.steps:
         link = counted_link(step)
@@ -497,9 +501,10 @@ def turns_lines(trace: Trace, scene: Scene) -> list[str]:
 
 
 def crossing_lines(trace: Trace) -> list[str]:
-    """The flattest crossings on paper: the angle, the part of the work, and the point.
+    """The flattest crossings on paper: angle, part of the work, and point.
 
-    ``trace`` holds the hand's way to what is asked: figures of components, plates and poles, too.
+    ``trace`` holds the construction by hand of what is asked, including figures of components,
+    plates and poles.
     """
     rows: dict[tuple[str, str], str] = {}
     for found in sorted(crossings(trace), key=lambda found: found.angle):
@@ -513,13 +518,13 @@ def crossing_lines(trace: Trace) -> list[str]:
 
 
 STEEP = 30.0
-"""Pressure angle of a sliding follower that textbooks advise not to exceed, in degrees."""
+"""The largest pressure angle that textbooks advise for a sliding follower, in degrees."""
 STEEP_LEVER = 45.0
-"""The same of one that swings."""
+"""The same for an oscillating follower."""
 
 
 def cam_lines(scene: Scene) -> Iterator[str]:
-    """For each cam its pressure angle and its least radius of curvature; undercutting is told."""
+    """The pressure angle and least radius of curvature of each cam, with a note on undercutting."""
     unit = scene.units["length"]
     for follower, cam in scene.cams.items():
         moves = "swings" if cam.lever else "lifts"
@@ -533,7 +538,7 @@ def cam_lines(scene: Scene) -> Iterator[str]:
 def profile_lines(profile: CamProfile, unit: str) -> Iterator[str]:
     """The pressure angle of one profile, and its least radius of curvature.
 
-    A flat follower has none, but where it swings about a pivot beside its face.
+    A flat follower has no pressure angle, unless it swings about a pivot off its face.
     """
     cam = profile.cam
     angle, at = profile.steepest
@@ -553,25 +558,25 @@ def profile_lines(profile: CamProfile, unit: str) -> Iterator[str]:
 
 
 def law_place(cam: Cam, at: float, unit: str) -> str:
-    """A place of a law, by the angle in degrees or the coordinate (m) of a plate."""
+    """A place of a law: the angle in degrees, or the coordinate of a plate (given in m)."""
     return f"{at / METRES[unit]:.4g} {unit} of the law" if cam.slides else f"{at:.1f}° of the law"
 
 
 def remedy(tip: str) -> str:
-    """What takes undercutting away."""
+    """The remedy for undercutting."""
     smaller = " or a smaller roller" if tip == "roller" else ""
     return f"a larger base circle{smaller} mends it"
 
 
 NEAR = 1e-9
-"""Pins nearer to one another than this, in parts of the largest distance, lie on one place."""
+"""The distance below which two pins coincide, as a fraction of the largest distance."""
 
 
 def fallen_together(scene: Scene, trace: Trace) -> list[str]:
-    """A sentence for each two pins that fall together though no link keeps them so.
+    """A sentence for each two pins that coincide though no link keeps them together.
 
-    A closure in which they do is seldom the one that is meant, for a bar then lies on another; two
-    names for what is one pin would leave its links apart.
+    This closure is seldom the intended one, because a bar then lies on another. It also occurs
+    where the scene has two names for one pin, so that its links are not joined.
     """
     places = pin_places(scene, trace)
     size = max((abs(p - q) for p, q in combinations(places.values(), 2)), default=0.0)
@@ -583,7 +588,7 @@ def fallen_together(scene: Scene, trace: Trace) -> list[str]:
 
 
 def pin_places(scene: Scene, trace: Trace) -> dict[str, complex]:
-    """Where the points stand that join links."""
+    """The positions of the points that join links."""
     pins = [point for point, links in sharers(scene).items() if len(links) > 1]
     found = {pin: trace.value("position", pin) for pin in pins}
     return {pin: complex(place) for pin, place in found.items() if place is not None}
@@ -596,7 +601,7 @@ def kept(scene: Scene, one: str, other: str) -> bool:
 
 
 def sentence(scene: Scene, one: str, other: str) -> str:
-    """That two pins fall together, with their links, and what to do."""
+    """A sentence that two pins coincide, with their links and what to do."""
     owners = sharers(scene)
     who = [f"{pin} of {listed(map(link_words, owners[pin]))}" for pin in (one, other)]
     return (

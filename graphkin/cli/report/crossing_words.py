@@ -1,4 +1,4 @@
-"""Where lines cross in a construction, in words: the point as the scene names it."""
+"""The crossings of a construction in words, with the names of the scene."""
 
 from __future__ import annotations
 
@@ -11,13 +11,13 @@ from graphkin.text.plain_table import listed
 
 
 def crossing(program: Program, number: int) -> tuple[str, str]:
-    """What a step finds by lines that cross, as the scene calls it, and the part of the work."""
+    """What a step finds where lines cross, as the scene names it, and the part of the work."""
     step = program.steps[number]
     return place_words(program, number) or "lines that help", step.part.value
 
 
 def place_words(program: Program, number: int) -> str:
-    """The point, the line, the centre or the links that a step settles; empty for none of them."""
+    """The point, line, centre or links that a step determines; empty if it determines none."""
     step = program.steps[number]
     whole = next((n for n, other in enumerate(program.steps) if other.by_hand == number), None)
     if whole is not None and not step.name:
@@ -31,9 +31,9 @@ def place_words(program: Program, number: int) -> str:
 
 
 def drawn_name(program: Program, number: int) -> str:
-    """The letter of a step, or of the later step that lays what it finds, without any tag.
+    """The letter of a step, or of a later step that uses its result, without any tag.
 
-    The corner of a plate has its letter only where the plate is laid.
+    The corner of a plate gets its letter only where the plate is drawn.
     """
     step = program.steps[number]
     name, reached = step.letter, {number}
@@ -48,7 +48,7 @@ def drawn_name(program: Program, number: int) -> str:
 
 
 def point_words(program: Program, name: str) -> str:
-    """The point whose letter or whose image in a plan this is; a name that is none stays itself."""
+    """The point that has ``name`` as its letter or image in a plan; else ``name`` itself."""
     for quantity, point in program.targets:
         if quantity == "position" and name in (letter(point), image(point), second_image(point)):
             own, link = ends_of(point)

@@ -36,10 +36,10 @@ Column = tuple[str, Any]
 
 
 def cycle_table(cycle: Cycle) -> str:
-    """The whole table as CSV: heads with their units, '.' decimals, full precision.
+    """The whole table as CSV: heads with units, '.' decimals, full precision.
 
-    A cell is empty where there is no value, an instantaneous centre at infinity, and where no digit
-    of the value is sure.
+    A cell is empty where there is no value, where an instantaneous centre is at infinity, and where
+    no digit of the value is sure.
     """
     columns = list(columns_of(cycle))
     out = io.StringIO()
@@ -51,7 +51,7 @@ def cycle_table(cycle: Cycle) -> str:
 
 
 def cell(value: Any) -> str:
-    """A number in its shortest exact form, never minus nought; empty where there is none."""
+    """A number in its shortest exact form, never minus zero; empty if there is none."""
     import math
 
     if getattr(value, "dtype", None) == "int64":
@@ -85,7 +85,7 @@ def of_points(cycle: Cycle) -> Iterator[Column]:
 
 
 def own(motion: Any, quantities: Iterable[MotionQuantity], name: str) -> Iterator[Column]:
-    """Some quantities of a motion, those that are not numbers by components."""
+    """Some quantities of a motion; points and vectors by components."""
     for quantity in quantities:
         value, tail = motion_value(motion, quantity), f"_{name} [{quantity.caret_unit}]"
         if value is None:
@@ -98,7 +98,7 @@ def own(motion: Any, quantities: Iterable[MotionQuantity], name: str) -> Iterato
 
 
 def of_links(cycle: Cycle) -> Iterator[Column]:
-    """Angular velocity and acceleration and the instantaneous centre of every link."""
+    """Angular velocity, angular acceleration and instantaneous centre of every link."""
     for name, motion in cycle.sure.links.items():
         for rate in RATES:
             value = motion_value(motion, rate)
@@ -129,7 +129,7 @@ def of_slides(cycle: Cycle) -> Iterator[Column]:
 
 
 NOTHING = 1e-12
-"""A length, in the scene's unit, that is rounding."""
+"""A length, in the scene's unit, below which it is rounding."""
 
 
 def at_words(sweep: Sweep, at: float, name: bool = True) -> str:
@@ -155,7 +155,7 @@ def short(value: float) -> str:
 
 
 def pieces_words(cycle: Cycle) -> tuple[str, list[str]]:
-    """The label and the lines about the pieces; none where there is but one."""
+    """The label and the lines about the pieces; no lines if there is only one."""
     pieces = cycle.pieces
     if any(piece.low.kind == "number" for piece in pieces):
         return "closures", list(number_words(cycle, pieces))
@@ -170,9 +170,9 @@ def pieces_words(cycle: Cycle) -> tuple[str, list[str]]:
 
 
 def number_words(cycle: Cycle, pieces: Sequence[Piece]) -> Iterator[str]:
-    """The numbers that the closures of groups of higher class have along their one motion.
+    """The numbers of the closures of groups of higher class along their one motion.
 
-    Pieces of the same numbers that follow one another are one line; too short ones have none.
+    Consecutive pieces with the same numbers share a line; pieces that are too short have none.
     """
     yield "one motion through the whole range; to stand in it, write in [branches]"
     for numbers, run in groupby(pieces, numbered):
@@ -190,7 +190,7 @@ def numbered(piece: Piece) -> tuple[tuple[str, int], ...]:
 
 
 def is_short(cycle: Cycle, low: float, high: float) -> bool:
-    """Whether two places are told by the same figures."""
+    """Whether two places are printed with the same figures."""
     return at_words(cycle.sweep, low) == at_words(cycle.sweep, high)
 
 
@@ -204,18 +204,21 @@ def span_words(cycle: Cycle, low: float, high: float) -> str:
 
 
 FLAT = 1e-10
-"""Difference that a row may have, over the cube of its flattest sine: beside singular places an
-acceleration is known no better, least of all where all of its kind are nought."""
+"""The factor of the difference allowed in a row: FLAT over the cube of its flattest sine.
+
+Near singular places an acceleration is known no better, least of all where all accelerations are
+zero.
+"""
 TINY = 1e-99
-"""Sine that counts as none."""
+"""The least sine that divides FLAT, so that a sine of zero does not."""
 SAME = 1e-6
-"""Distance of two limits, in degrees, m or s, that are one."""
+"""The distance of two limits, in degrees, m or s, below which they are the same."""
 SHOWN = 6
-"""Places left out that are listed."""
+"""The most places left out that are listed."""
 
 
 def cycle_lines(cycle: Cycle, found_jumps: Sequence[Jump] = ()) -> Iterator[str]:
-    """The whole report of a cycle, line by line, with the jumps that were found in it."""
+    """The whole report of a cycle, line by line, with the jumps found in it."""
     from graphkin.motion.follower_limits import followers
     from graphkin.motion.single_loop import loop_of
 
@@ -242,12 +245,12 @@ def cycle_lines(cycle: Cycle, found_jumps: Sequence[Jump] = ()) -> Iterator[str]
 
 
 def of_kind(cycle: Cycle, kind: str) -> Iterable[Singular]:
-    """Dead points, or change points."""
+    """The dead points, or the change points."""
     return (each for each in cycle.singulars if each.kind == kind)
 
 
 def sweep_words(cycle: Cycle) -> Iterator[str]:
-    """What is moved, and how."""
+    """The driver that is moved, and how."""
     sweep = cycle.sweep
     if sweep.what == "time":
         count = len(cycle.scene.drivers)
@@ -266,7 +269,7 @@ def sweep_words(cycle: Cycle) -> Iterator[str]:
 
 
 def range_words(cycle: Cycle) -> list[str]:
-    """Where the driver can go."""
+    """The ranges of the driver."""
     sweep = cycle.sweep
     if cycle.path.whole:
         words = ["every angle of the driver: it turns fully"]
@@ -284,9 +287,10 @@ def range_words(cycle: Cycle) -> list[str]:
 
 
 def beyond_words(sweep: Sweep, low: Event, high: Event) -> str:
-    """What comes beyond the ends of a slide's or wheel's range that are no dead points.
+    """Whether the motion continues beyond the ends of a range that are not dead points.
 
-    Nothing stops it that has not stopped it where all lengths together no longer reach.
+    The range is that of a slide or a wheel. If nothing has stopped the driver where all lengths
+    together no longer reach, nothing stops it at all.
     """
     from graphkin.motion.driving import reach_of
 
@@ -299,7 +303,7 @@ def beyond_words(sweep: Sweep, low: Event, high: Event) -> str:
 
 
 def return_words(path: Path) -> Iterator[str]:
-    """How the mechanism stands after a turn of the driver, unless it stands as before."""
+    """The position of the mechanism after a turn of the driver, if it is not the initial one."""
     from graphkin.motion.period import MOST_TURNS
     from graphkin.motion.pieces import strangers
 
@@ -318,7 +322,7 @@ def return_words(path: Path) -> Iterator[str]:
 
 
 def circle_words(path: Path) -> Iterator[str]:
-    """How often the ranges of a driver that stops come again."""
+    """How often the ranges of a driver that stops repeat."""
     from graphkin.motion.period import MOST_TURNS
 
     if path.turns > 1:
@@ -344,9 +348,9 @@ def stops(cycle: Cycle, number: int) -> tuple[bool, bool]:
 
 
 def follower_words(cycle: Cycle, found: Follower, steady: bool) -> list[str]:
-    """How far one follower goes, where it turns round, and the ratio of the times.
+    """How far one follower moves, where it reverses, and its time ratio.
 
-    ``steady`` tells that nothing stops the driver, so that a link without limits turns on.
+    ``steady`` says that nothing stops the driver, so that a link without limits keeps turning.
     """
     what = f"block {found.name}" if found.line is None else f"link {found.name}"
     line = "" if found.line is None else f" (line {'-'.join(found.line)})"
@@ -409,7 +413,7 @@ def loop_words(cycle: Cycle, loop: Loop) -> list[str]:
 
 
 def verdict(loop: Loop) -> list[str]:
-    """What the lengths say, in the field's words."""
+    """What the lengths of a loop mean, in the field's words."""
     from graphkin.motion.single_loop import class_of
 
     if loop.kind == "four-bar":
@@ -444,11 +448,11 @@ FOUR_BARS = {
         "the coupler is the shortest and turns fully, both links on the frame rock",
     ),
 }
-"""What Grashof's rule finds of the lengths of a four-bar, and what turns."""
+"""Grashof's rule for the lengths of each class of four-bar, and the links that turn."""
 
 
 def reach_words(sweep: Sweep, loop: Loop) -> str:
-    """The path of the driven pin against what the rest can reach."""
+    """The path of the driven pin compared with what the other links can reach."""
     from graphkin.motion.single_loop import Band, Ring
 
     pin = loop.pins[1]
@@ -464,7 +468,7 @@ def reach_words(sweep: Sweep, loop: Loop) -> str:
 
 
 def rows_words(cycle: Cycle) -> str:
-    """How many rows there are, and which positions have none."""
+    """The number of rows, and the positions without a row."""
     turns = cycle.path.turns
     words = f"{len(cycle.at)} rows" + f" through {turns} turns of the driver" * (turns > 1)
     left = cycle.left_out
@@ -476,7 +480,7 @@ def rows_words(cycle: Cycle) -> str:
 
 
 def motion_words(cycle: Cycle, found: Sequence[Jump]) -> Iterator[str]:
-    """Whether every point goes from row to row as its velocities lead it, or where it jumps."""
+    """Whether every point follows its velocity from row to row, or where it jumps."""
     if not found:
         yield "from row to row every point goes as its velocity leads it"
     for each in found[:SHOWN]:
@@ -486,7 +490,7 @@ def motion_words(cycle: Cycle, found: Sequence[Jump]) -> Iterator[str]:
 
 
 def jump_words(cycle: Cycle, found: Jump) -> str:
-    """Where something jumps, and how far."""
+    """Where a point or link jumps, and how far."""
     low, high = (at_words(cycle.sweep, at, name=False) for at in (found.low, found.high))
     where = f"between {cycle.sweep.coordinate.letter} = {low} and {high}"
     if found.turns:
@@ -497,7 +501,7 @@ def jump_words(cycle: Cycle, found: Jump) -> str:
 
 
 def witness_words(cycle: Cycle) -> str:
-    """What the independent route says of all rows."""
+    """The verdict of the independent check on all rows."""
     found = cycle.witnessed
     if found.refused:
         return f"could not judge: {found.refused}"
@@ -514,7 +518,7 @@ def witness_words(cycle: Cycle) -> str:
 
 
 def digits_words(cycle: Cycle) -> Iterator[str]:
-    """Of which quantities no digit is sure, and in how many rows."""
+    """The quantities without a sure digit, and in how many rows."""
     unsure = cycle.witnessed.unsure
     if unsure:
         rows = int(np.logical_or.reduce([*unsure.values()]).sum())
@@ -523,9 +527,9 @@ def digits_words(cycle: Cycle) -> Iterator[str]:
 
 
 def agrees(cycle: Cycle) -> bool:
-    """Whether the independent route agrees in every row that is not beside a singular place.
+    """Whether the independent check agrees in every row that is not near a singular place.
 
-    Where a crossing is so flat that no digit is sure it need not have an answer at all.
+    Where a crossing is so flat that no digit is sure, it need not have an answer at all.
     """
     found = cycle.witnessed
     allowed = FLAT / np.maximum(cycle.solution.margin, TINY) ** 3

@@ -1,4 +1,4 @@
-"""The text and the JSON of explain: which effects are in, why, their steps and what those cost."""
+"""The text and JSON of explain: the effects included, the reasons, their steps and times."""
 
 from __future__ import annotations
 
@@ -21,10 +21,10 @@ if TYPE_CHECKING:
 
 
 class Explanation(Struct, frozen=True):
-    """What explain has to say of a scene.
+    """The content of explain for a scene.
 
-    ``asked`` and ``everything`` are how many steps a run of what is asked, and of all that can be
-    asked, has, and the time that it takes. ``unmeasured`` says why there are no times.
+    ``asked`` and ``everything`` are the numbers of steps and the times of a run for what is asked,
+    and for everything that can be asked. ``unmeasured`` says why there are no times.
     """
 
     scene: Scene
@@ -36,8 +36,10 @@ class Explanation(Struct, frozen=True):
 
 
 def explained(new: Callable[[], Mechanism]) -> Explanation:
-    """Count the effects of a mechanism, and measure them where its scene can be drawn; ``new``
-    reads it."""
+    """Count the effects of a mechanism, and time them if its scene can be drawn.
+
+    ``new`` reads the mechanism.
+    """
     mechanism = new()
     program, asked, scene = mechanism.program, mechanism.asked(), mechanism.scene
     steps = len(program.needed(asked)), len(program.needed(program.answers))
@@ -90,7 +92,7 @@ def cells(row: EffectRow) -> tuple[str, ...]:
 
 
 def micro(seconds: float) -> str:
-    """Microseconds, with two digits at least."""
+    """A time in microseconds, with at least two digits."""
     value = seconds * 1e6
     return f"{value:.1f}" if value < 100 else f"{value:.0f}"
 
@@ -101,13 +103,13 @@ def in_words(time: Timing) -> str:
 
 
 def share(rows: Sequence[EffectRow]) -> str:
-    """What the effects add up to, beside a whole run."""
+    """The sum of the effects' times, to compare with a whole run."""
     seconds = sum(row.time.median for row in rows if row.time and row.name in EFFECTS)
     return f"the effects add up to {micro(seconds)} µs, the rest is the run itself"
 
 
 def explain_record(found: Explanation) -> dict[str, Any]:
-    """The same as plain data, times in seconds."""
+    """The explanation as plain data, times in seconds."""
     return {
         "name": found.scene.name,
         "asked": ask_words(found.scene.ask),

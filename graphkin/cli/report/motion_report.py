@@ -30,7 +30,7 @@ from graphkin.scene.model import Scene
 from graphkin.text.plain_table import Cell, cleaned, listed, number, table
 
 COLUMNS = {"place": ("x", "y"), "vector": ("x", "y", "")}
-"""The components of each sort, the magnitude last."""
+"""The components of each sort of quantity, the magnitude last."""
 POINT_HEADS = {
     each.attribute: [f"{each.letter}{part}, {each.unit}" for part in COLUMNS[each.sort]]
     for each in OF_POINTS
@@ -38,7 +38,7 @@ POINT_HEADS = {
 
 
 def motion_text(scene: Scene, solution: Solution, found: Record, verdict: Verdict | None) -> str:
-    """Everything that a record holds, in aligned tables."""
+    """Everything in a record, in aligned tables."""
     parts = [
         [heading(scene)],
         points_table(found["points"], solution),
@@ -70,7 +70,7 @@ def points_table(points: Mapping[str, Record], solution: Solution) -> list[str]:
 
 
 def components(pair: list[float | None] | None, biggest: float, columns: int) -> list[Cell]:
-    """The two components of a vector, and its magnitude where there is a third column."""
+    """The two components of a vector, and its magnitude if there is a third column."""
     known = [part for part in pair or () if part is not None]
     if len(known) < 2:
         return [None] * columns
@@ -78,7 +78,10 @@ def components(pair: list[float | None] | None, biggest: float, columns: int) ->
 
 
 def turning_table(links: Mapping[str, Record], solution: Solution) -> list[str]:
-    """ω and ε of each link, with their senses in words; ε beside ω² may be rounding."""
+    """ω and ε of each link, with their senses in words.
+
+    An ε that is tiny compared with ω² is rounding and is printed as zero.
+    """
     biggest = 0.0
     heads: list[str] = ["link"]
     columns: list[list[Cell]] = [list(links)]
@@ -102,14 +105,14 @@ def turning_table(links: Mapping[str, Record], solution: Solution) -> list[str]:
 
 
 def sense(value: float | None) -> str | None:
-    """Which way a link turns, in words."""
+    """The sense in which a link turns, in words."""
     if value is None:
         return None
     return "none" if value == 0 else "counter-clockwise" if value > 0 else "clockwise"
 
 
 def centres_table(scene: Scene, solution: Solution, links: Mapping[str, Record]) -> list[str]:
-    """Instantaneous centre and acceleration pole of each link that has them reported."""
+    """Instantaneous centre and acceleration pole of each link for which they are reported."""
     full, breadth = with_blocks(scene, solution), breadth_of(solution)
     kinds = {each.attribute: f"{each.words}, {each.unit}" for each in CENTRES}
     known = [key for key in kinds if any(key in link for link in links.values())]
@@ -133,7 +136,7 @@ def acceleration_of(scene: Scene, solution: Solution, link: str) -> complex | No
 
 
 def slides_table(slides: Mapping[str, Record]) -> list[str]:
-    """Motion of each block along its guide, and the vector that the guide's turning adds."""
+    """Motion of each block along its guide, and the vector that the turning of the guide adds."""
     *along, across = OF_SLIDES
     heads = [f"{each.words}, {each.unit}" for each in along]
     heads += [f"{across.words} x, {across.unit}", f"y, {across.unit}"]
@@ -160,7 +163,7 @@ def scale_lines(scales: Mapping[str, float | None]) -> list[str]:
 
 
 def verdict_words(verdict: Verdict | None, scene: Scene) -> str:
-    """What the independent route says of the construction, each cause of a doubt by itself."""
+    """The verdict of the independent check, with each cause of a doubt."""
     if verdict is None:
         return "could not judge"
     where = f" at {verdict.quantity}" if verdict.quantity else ""
@@ -183,7 +186,7 @@ PROVES = "solve --digits proves what can be known"
 
 
 def sure_lines(verdict: Verdict | None) -> list[str]:
-    """How many digits are sure, and of what there is none."""
+    """The number of sure digits, and the quantities without a sure digit."""
     if verdict is None or not verdict.digits:
         return []
     told = [] if verdict.differs else [f"sure: {digits_words(verdict)}"]
@@ -192,12 +195,12 @@ def sure_lines(verdict: Verdict | None) -> list[str]:
 
 
 def is_flat(trace: Trace) -> bool:
-    """Whether some lines cross so flatly that no ruler finds their point."""
+    """Whether some lines cross so flatly that their point cannot be drawn."""
     return any(float(margin) < FAIR for margin in trace.margins.values())
 
 
 def flat_words(scene: Scene, trace: Trace) -> str:
-    """The flattest crossing: its point, its sine, what is nearly in line, and how to leave it."""
+    """The flattest crossing: its point, its sine, the lines nearly in line, and how to avoid it."""
     from graphkin.diagnosis.assembly_failure import beside_dead_point
 
     number = min(trace.margins, key=lambda step: float(trace.margins[step]))
@@ -215,13 +218,13 @@ KINDS = {"position": "positions", "velocity": "velocities", "acceleration": "acc
 
 
 def digits_words(verdict: Verdict) -> str:
-    """How many digits are sure of the positions, velocities and accelerations."""
+    """The numbers of sure digits of positions, velocities and accelerations."""
     known = [(kind, verdict.digits[kind]) for kind in KINDS if kind in verdict.digits]
     return ", ".join(f"{KINDS[kind]} {digits}" for kind, digits in known)
 
 
 def unsure_words(verdict: Verdict) -> str:
-    """Of which quantities no digit is sure, and why."""
+    """The quantities without a sure digit, and the reason."""
     return (
         f"no digit is sure of {listed(verdict.unsure, 6)}: the rounding of doubles, which flat "
         f"crossings and angles of many turns enlarge, exceeds them; {PROVES}"

@@ -1,4 +1,4 @@
-"""The text and the JSON of solve --pencil: crossings, and the error that drawings will have."""
+"""The text and JSON of solve --pencil: the crossings, and the predicted errors of drawings."""
 
 from __future__ import annotations
 
@@ -23,11 +23,11 @@ from graphkin.construction.core.program import Part, Program, Step
 from graphkin.text.plain_table import at_the_point, listed, table
 
 UNSURE = 0.1
-"""Relative error above which not even the first digit that is read is sure."""
+"""The relative error above which not even the first digit read off is sure."""
 NOUGHT = 1e-6
-"""An answer drawn shorter than this, in mm, is nought, and has no error in percent."""
+"""The length, in mm, below which a drawn answer is zero and has no error in percent."""
 NONE = "–"
-"""What stands where there is nothing to tell."""
+"""The sign for an empty cell."""
 DRAWN_IN = {
     Part.POSITION: "mechanism",
     Part.VELOCITY: "velocity plan",
@@ -35,11 +35,11 @@ DRAWN_IN = {
     Part.CENTRE: "centre",
     Part.POLE: "acceleration pole",
 }
-"""Where a crossing is drawn that its construction does not say it of."""
+"""The drawing of a crossing, if its construction does not name one."""
 
 
 def pencil_record(found: Forecast) -> dict[str, Any]:
-    """What a pencil does to what is asked, in SI units; infinite errors are null."""
+    """The effect of a pencil on the requested quantities, in SI units; infinite errors are null."""
     crossed = crossings(found.original.trace)
     worst = flattest(crossed)
     return {
@@ -68,7 +68,7 @@ def answers_record(found: Forecast) -> dict[str, dict[str, Any]]:
 
 
 def crossing_record(found: Forecast, crossing: Crossing) -> dict[str, Any]:
-    """A crossing: its letter, its drawing, its lines, its angle, and what a millimetre becomes."""
+    """A crossing: letter, drawing, lines, angle, and the error that 1 mm becomes."""
     return {
         "point": crossing.name,
         "in": drawing_of(found, crossing),
@@ -79,7 +79,7 @@ def crossing_record(found: Forecast, crossing: Crossing) -> dict[str, Any]:
 
 
 def pencil_lines(found: Forecast) -> Iterator[str]:
-    """The errors of what is asked, the crossings, and the worst of them in words."""
+    """The errors of the requested quantities, the crossings, and the worst crossing in words."""
     pencil = found.pencil
     if not found.expected:
         yield "pencil   nothing that is asked is read off a drawing"
@@ -125,7 +125,7 @@ def errors_table(found: Forecast) -> list[str]:
 
 
 def crossings_table(found: Forecast, crossed: tuple[Crossing, ...]) -> list[str]:
-    """Each crossing with its angle and what a millimetre becomes there."""
+    """Each crossing with its angle and the error that 1 mm becomes there."""
     program = found.original.program
     return table(
         ("crossing", "in", "of", "angle, °", "1 mm becomes, mm"),
@@ -143,13 +143,13 @@ def crossings_table(found: Forecast, crossed: tuple[Crossing, ...]) -> list[str]
 
 
 def drawing_of(found: Forecast, crossing: Crossing) -> str:
-    """Where a crossing is drawn."""
+    """The drawing of a crossing."""
     kind = construction(found.original.program.steps[crossing.number])
     return kind.drawn_in if isinstance(kind, TriangleComponent) else DRAWN_IN[crossing.part]
 
 
 def rough(values: Sequence[float | None], endless: str = NONE) -> list[str]:
-    """Numbers with the two digits that an estimate is worth, at their decimal points."""
+    """Numbers with the two digits that an estimate is worth, aligned at the decimal point."""
     known = [None if value is None else two_digits(value) or endless for value in values]
     texts = at_the_point([text or NONE for text in known])
     width = max(map(len, texts), default=0)
@@ -157,7 +157,7 @@ def rough(values: Sequence[float | None], endless: str = NONE) -> list[str]:
 
 
 def two_digits(value: float) -> str:
-    """A number with two significant digits; nothing for one without bound."""
+    """A number with two significant digits; empty for an infinite one."""
     if not isfinite(value):
         return ""
     return f"{value:.0f}" if abs(value) >= 100 else f"{value:#.2g}".rstrip(".")
@@ -175,7 +175,7 @@ def worst_words(found: Forecast, worst: Crossing) -> str:
 
 
 def warnings(found: Forecast) -> Iterator[str]:
-    """Why the lab should not be drawn by hand with this pencil: what cannot be read off well."""
+    """Why the lab should not be drawn by hand with this pencil: answers that are too uncertain."""
     unsure = [each for each in found.expected if (relative(each) or 0.0) > UNSURE]
     if unsure:
         names = listed(answer_words(each) for each in unsure)
@@ -194,39 +194,39 @@ def answer_words(each: Expected) -> str:
 
 
 def relative(each: Expected) -> float | None:
-    """The error beside the answer; None for a place, and for an answer that is nought."""
+    """The relative error of an answer; None for a place, and for an answer that is zero."""
     size = each.answer.size
     least = NOUGHT * (each.answer.millimetre or each.error)
     return None if size is None or size <= least else each.relative
 
 
 def mostly(found: Forecast, each: Expected) -> str:
-    """What weighs most in an error: the mark by its letter, or the line or arc."""
+    """The main source of an error: the mark by its letter, or the line or arc."""
     return "" if each.heaviest is None else step_words(found.original.program, each.heaviest)
 
 
 def step_words(program: Program, number: int) -> str:
-    """A step as the drawing calls it."""
+    """A step as the drawing names it."""
     step = program.steps[number]
     own = step.name or line_words(program, step) or arrow_end(program, number)
     return own or letter_of(program, number)
 
 
 def arrow_end(program: Program, number: int) -> str:
-    """The end of an arrow that has no letter of its own; nothing where none ends there."""
+    """The end of an arrow that has no letter; empty if no such arrow ends there."""
     arrows = (step for step in program.steps if step.arrow and step.args[1:2] == (number,))
     component = next((v for step in arrows if (v := plan_vector(step)) and v.sign), None)
     return "" if component is None else f"the end of {component.symbol}"
 
 
 def line_words(program: Program, step: Step) -> str:
-    """A line or an arc by what it is perpendicular or parallel to; nothing for other steps."""
+    """A line or an arc by what it is perpendicular or parallel to; empty for other steps."""
     kind = construction(step)
     return kind.line_name(program.steps, step.role) if kind is not None else ""
 
 
 def lines_words(program: Program, number: int) -> str:
-    """The two lines or arcs of a crossing; nothing where they are not told."""
+    """The two lines or arcs of a crossing; empty if they have no name."""
     if is_found_by_closing(program.steps[number]):
         return "the locus and what was cut"
     both = [line_words(program, program.steps[arg]) for arg in program.steps[number].args[:2]]

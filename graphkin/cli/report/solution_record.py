@@ -36,7 +36,7 @@ if TYPE_CHECKING:
 
 Record = dict[str, Any]
 Wanted = Callable[[MotionQuantity, str], bool]
-"""Whether a quantity of a point, link or block is to be reported."""
+"""Whether to report a quantity of a point, link or block."""
 
 
 def record(
@@ -49,7 +49,7 @@ def record(
 ) -> Record:
     """Everything that solve reports, under the names of the scene and in its order.
 
-    Without ``scales`` there are none in it: they belong to a drawing, which nobody may have asked.
+    Without ``scales`` the record has none: they belong to a drawing.
     """
     full, wanted = with_blocks(scene, solution), wanted_of(scene, asked)
     slides = as_given(scene, full.slides)
@@ -69,9 +69,9 @@ def record(
 
 
 def drawn_at(scales: Scales | None, verdict: Verdict | None) -> Record:
-    """The scale factors of the sheets, where they were looked for.
+    """The scale factors of the sheets, if they were computed.
 
-    Those of the plans are null where there are numbers of which no digit is sure.
+    Those of the plans are null if some numbers have no sure digit.
     """
     if scales is None:
         return {}
@@ -81,12 +81,12 @@ def drawn_at(scales: Scales | None, verdict: Verdict | None) -> Record:
 
 
 def wanted_of(scene: Scene, asked: bool) -> Wanted:
-    """Everything, or only what [ask] asks."""
+    """A test that accepts every quantity, or only what [ask] asks."""
     return lambda quantity, of: not asked or of in names_asked(scene.ask, quantity)
 
 
 def point_names(scene: Scene, solution: Solution) -> list[str]:
-    """The frame's points, the links' as written, then those such as A@3."""
+    """The frame's points, the links' points as written, then points such as A@3."""
     written = [p for link in scene.every_link for p in link.points]
     asked = [name for name in (*scene.ask.velocity, *scene.ask.acceleration) if is_under(name)]
     names = dict.fromkeys((*written, *asked, *solution.points))
@@ -94,7 +94,7 @@ def point_names(scene: Scene, solution: Solution) -> list[str]:
 
 
 def motion_of(name: str, solution: Solution) -> PointMotion | None:
-    """The motion of a point; A@3 is A itself where link 3 owns it."""
+    """The motion of a point; A@3 is A itself if A belongs to link 3."""
     return solution.points.get(name) or solution.points.get(ends_of(name)[0])
 
 
@@ -105,13 +105,13 @@ def named(names: Any, entry: Callable[[str], Record]) -> Record:
 
 
 def point(name: str, motion: PointMotion | None, wanted: Wanted) -> Record:
-    """Position, velocity and acceleration of a point, those that are wanted and known."""
+    """Position, velocity and acceleration of a point, if wanted and known."""
     found = {q.attribute: motion_value(motion, q) for q in OF_POINTS if wanted(q, name)}
     return {key: pair(value) for key, value in found.items() if value is not None}
 
 
 def link(name: str, motion: LinkMotion, wanted: Wanted, breadth: float) -> Record:
-    """Turning of a link, and its centres or null where they are at infinity."""
+    """Turning of a link, and its centres, or null if they are at infinity."""
     found: Record = {q.attribute: real(motion_value(motion, q)) for q in RATES if wanted(q, name)}
     for q in CENTRES:
         if not wanted(q, name):
@@ -124,7 +124,7 @@ def link(name: str, motion: LinkMotion, wanted: Wanted, breadth: float) -> Recor
 
 
 def circle(motion: LinkMotion, quantity: MotionQuantity, breadth: float) -> Record | None:
-    """The circle of a quantity: its pole, centre and radius; null where the link does not turn."""
+    """The circle of a quantity: its pole, centre and radius; null if the link does not turn."""
     first = place_of(getattr(motion, quantity.circle_from), breadth)
     pole = place_of(motion_value(motion, quantity), breadth)
     if first is None or pole is None:
@@ -133,7 +133,7 @@ def circle(motion: LinkMotion, quantity: MotionQuantity, breadth: float) -> Reco
 
 
 def centres(scene: Scene, solution: Solution) -> Record:
-    """The relative centres that are asked, or null where they are at infinity."""
+    """The relative centres that are asked, or null if they are at infinity."""
     breadth = breadth_of(solution)
     known = [name for name in scene.ask.pairs if name in solution.centres]
     found = {name: pair(place_of(solution.centres[name], breadth)) for name in known}
@@ -143,9 +143,10 @@ def centres(scene: Scene, solution: Solution) -> Record:
 def as_given(
     scene: Scene, slides: Mapping[str, SlideMotion], kind: Kind = FLOAT
 ) -> dict[str, SlideMotion]:
-    """Motions of blocks, what drivers give along their guides as it is given, in a number kind.
+    """Motions of blocks, in a number kind, with the values that drivers give along their guides.
 
-    What a hand measures along the guide differs from it by rounding. What is not known stays so.
+    A measured value along the guide differs from the given one by rounding. Unknown values stay
+    unknown.
     """
     found, values = dict(slides), scene.values if kind is FLOAT else scene.values_in(kind)
     for driver in scene.drivers:
@@ -164,7 +165,7 @@ def as_given(
 
 
 def slide(name: str, motion: SlideMotion, wanted: Wanted) -> Record:
-    """Motion of a block along its guide; the vector that a guide that does not turn gives is 0."""
+    """Motion of a block along its guide; the vector of a guide that does not turn is 0."""
     if not wanted(SLIDING["position"], name):
         return {}
     found = ((q, motion_value(motion, q)) for q in OF_SLIDES)
@@ -174,7 +175,7 @@ def slide(name: str, motion: SlideMotion, wanted: Wanted) -> Record:
 
 
 def witness(verdict: Verdict | None) -> Record:
-    """The verdict of the independent route; without one nothing agrees."""
+    """The verdict of the independent check; without a verdict, ``agrees`` is false."""
     if verdict is None:
         return {"agrees": False, "largest_difference": None}
     return {
@@ -189,17 +190,17 @@ def witness(verdict: Verdict | None) -> Record:
 
 
 def real(value: Any) -> float | None:
-    """A finite float, never minus nought; None for what is not known."""
+    """A finite float, never minus zero; None for an unknown or infinite value."""
     return float(value) + 0.0 if value is not None and isfinite(value) else None
 
 
 def pair(value: complex | None) -> list[float | None] | None:
-    """Two numbers of a point or vector."""
+    """The two components of a point or vector."""
     return None if value is None else [real(value.real), real(value.imag)]
 
 
 def plain(value: object) -> int | float | None:
-    """A parameter's value, whole when it is whole."""
+    """A parameter's value, as an int if it is whole."""
     if isinstance(value, Fraction) and value.denominator == 1:
         return int(value)
     return real(value)

@@ -1,6 +1,6 @@
-"""What a user waits for, on one clock, and how sure the drawing and the numbers of a sheet are.
+"""The times that a user waits, measured on one clock, and the accuracy of drawing and numbers.
 
-``accuracy`` and ``explain`` end with it.
+``accuracy`` and ``explain`` end with this report.
 """
 
 from __future__ import annotations
@@ -26,17 +26,18 @@ WAITED_FOR = {
     "check": "what is asked held against the vector loops, these written and closed anew",
     "page": "all sheets laid out and written as SVG",
 }
-"""What each time is of."""
+"""What each time measures."""
 USUAL = Stopwatch(rounds=9, patience=0.5, fewest=2)
-"""How often each is done: a page takes long."""
+"""How often each task is run; a page takes long."""
 
 
 class Waits(Struct, frozen=True):
-    """The times of what a user waits for, those that could be measured.
+    """The times that a user waits, those that could be measured.
 
-    ``drawing`` is the largest error of an answer that is read off the sheets, in parts of it, in 95
-    of 100 drawings with marks within ``point`` mm; ``digits`` are those that doubles leave sure of
-    every number that is asked. None where there is none; ``undrawn`` says why there is no page.
+    ``drawing`` is the largest relative error of an answer read off the sheets, in 95 of 100
+    drawings with marks within ``point`` mm. ``digits`` is the number of digits that are sure in
+    doubles, for every number that is asked. Both are None if unknown; ``undrawn`` says why there is
+    no page.
     """
 
     times: dict[str, Timing]
@@ -47,9 +48,9 @@ class Waits(Struct, frozen=True):
 
 
 def waits_of(new: Callable[[], Mechanism], watch: Stopwatch = USUAL) -> Waits:
-    """Measure what a user waits for of a mechanism; ``new`` reads its scene.
+    """Measure the times that a user waits for a mechanism; ``new`` reads its scene.
 
-    Raises ClosureError where it closes nowhere.
+    Raises ClosureError if the mechanism does not close.
     """
     mechanism = new()
     solution = mechanism.solve(asked=True)
@@ -76,7 +77,7 @@ def waits_of(new: Callable[[], Mechanism], watch: Stopwatch = USUAL) -> Waits:
 
 
 def solved_anew(mechanism: Mechanism) -> object:
-    """What is asked, with nothing kept of what was drawn before."""
+    """Solve the requested quantities, without anything kept from earlier drawings."""
     mechanism.drawings.clear()
     return mechanism.solve(asked=True)
 
@@ -93,9 +94,9 @@ def page_of(mechanism: Mechanism) -> list[str]:
 
 
 def unsure_by_hand(mechanism: Mechanism, scales: Any, pencil: Pencil) -> float | None:
-    """The largest error that a drawing gives an answer, in parts of it; None where none is read.
+    """The largest relative error of an answer read off a drawing; None if none is read off.
 
-    Infinite where a drawing may not close; answers that are zero have no such error.
+    The error is infinite if a drawing may not close. Answers that are zero have no such error.
     """
     found = forecast(original(mechanism, scales), pencil).expected
     if any(isinf(each.error) for each in found):
@@ -105,7 +106,7 @@ def unsure_by_hand(mechanism: Mechanism, scales: Any, pencil: Pencil) -> float |
 
 
 def waits_lines(found: Waits) -> Iterator[str]:
-    """The times as a table, then what a lab sheet needs in one sentence."""
+    """The times as a table, then the accuracy of a lab sheet in one sentence."""
     rows = [
         (name, milli(time.median), f"{milli(time.low)} – {milli(time.high)}", WAITED_FOR[name])
         for name, time in found.times.items()
@@ -120,7 +121,7 @@ def waits_lines(found: Waits) -> Iterator[str]:
 
 
 def sheet_words(found: Waits) -> str:
-    """What a lab sheet needs: how sure a drawing of what is asked is, and how many digits are."""
+    """The accuracy of a lab sheet: the error of a drawing, and the number of sure digits."""
     by_hand = f"a drawing with marks within {found.point:g} mm"
     if found.drawing is None:
         drawn = "nothing that is asked is read off a drawing"
@@ -134,13 +135,13 @@ def sheet_words(found: Waits) -> str:
 
 
 def milli(seconds: float) -> str:
-    """Milliseconds with three digits."""
+    """A time in milliseconds with three digits."""
     value = seconds * 1e3
     return f"{value:.3g}" if value < 100 else f"{value:.0f}"
 
 
 def waits_record(found: Waits) -> dict[str, Any]:
-    """The same as plain data, times in seconds."""
+    """The times as plain data, in seconds, and the accuracy of a sheet."""
     return {
         "waits": {name: time_record(time) for name, time in found.times.items()},
         "sheet": {
@@ -152,12 +153,12 @@ def waits_record(found: Waits) -> dict[str, Any]:
 
 
 def shortened(share: float | None) -> float | None:
-    """A share with three digits; None where there is none, or no drawing closes."""
+    """A share with three digits; None if there is none, or no drawing closes."""
     return None if share is None or isinf(share) else float(f"{share:.3g}")
 
 
 def time_record(time: Timing | None) -> dict[str, float] | None:
-    """A time in seconds; None where nothing was run."""
+    """A time in seconds; None if nothing was run."""
     if time is None:
         return None
     return {"median": time.median, "low": time.low, "high": time.high, "rounds": time.rounds}
