@@ -20,9 +20,7 @@ from graphkin.structure.pairs import Pin, Sliding
 
 
 def place(pen: Pen, group: CamFollower) -> None:
-    """Place the follower at the coordinate, or turn it to the angle, that the law of its
-    cam gives.
-    """
+    """Place the follower at the coordinate or angle that the law of its cam gives."""
     dyad = group.dyad
     follower = next(link for link in dyad.links if link in pen.scene.cams)
     cam = pen.scene.cams[follower]

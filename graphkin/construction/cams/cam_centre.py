@@ -170,19 +170,17 @@ def tip_of_lever(
 
 
 def curved(motion: TipMotion) -> Real:
-    """The pivot's distance from the tip, as a fraction of that distance plus the centre's.
+    """The tip's distance from the cam's pivot, over the sum of that and the centre's distance.
 
-    The pivot is that of the cam, and both distances are measured from it. The fraction is zero
-    where the pitch curve is straight and its centre of curvature lies at infinity.
+    The fraction is zero where the pitch curve is straight and its centre of curvature lies at
+    infinity.
     """
     far = abs(motion.centre)
     return abs(motion.place) / (abs(motion.place) + far)
 
 
 def tip_over_plate(path: Line, plate: Line, at: Real, rate: Real, bend: Real) -> TipMotion:
-    """The motion over a plate of a roller or knife edge that moves on a guide; its place in
-    the plane.
-    """
+    """The motion of a roller or knife edge on a guide over a plate; its place in the plane."""
     along, drift = path.along / abs(path.along), plate.along / abs(plate.along)
     return TipMotion(path.point + along * at, rate * along, bend * along, drift)
 
@@ -443,9 +441,7 @@ def lifted(pen: Pen, follower: str) -> tuple[int, int]:
 
 
 def height(pen: Pen, follower: str) -> tuple[int, int, int]:
-    """The path of a follower's point, the cam's pivot, and the follower's height above the
-    pivot.
-    """
+    """A follower's path, the cam's pivot, and the follower's height above the pivot."""
     cam = pen.scene.cams[follower]
     path = path_of(pen, pen.first_slide(follower), follower, cam.point)
     pivot, begun = pen.the("position", cam.pivot), lifted(pen, follower)
@@ -455,9 +451,7 @@ def height(pen: Pen, follower: str) -> tuple[int, int, int]:
 
 
 def over_plate(pen: Pen, follower: str) -> tuple[int, int, int]:
-    """The path of a follower's point, the path of the plate under it, and the follower's
-    coordinate.
-    """
+    """A follower's path, the path of the plate under it, and the follower's coordinate."""
     cam = pen.scene.cams[follower]
     path = path_of(pen, pen.first_slide(follower), follower, cam.point)
     plate, begun = plate_line(pen, cam), lifted(pen, follower)

@@ -44,9 +44,7 @@ FORMS = {
         "420·{h}·{x}^2·(1 − {x})^2·(1 − 2·{x})/{b}^2",
     ),
 }
-"""Lift, first and second derivative of each motion, by rise h, fraction x and length b of a
-piece.
-"""
+"""Lift, first and second derivative of each motion, by rise h, fraction x and length b."""
 POLES = tuple("PSTUVWXYZ") + tuple(f"P{k}" for k in range(1000))
 """Candidate names of the point in which the cam and its follower have the same velocity."""
 
@@ -140,10 +138,10 @@ def piece_at(drawing: Drawing, centre: CurvatureCentre) -> LawPiece | None:
 
 
 def of_piece(drawing: Drawing, piece: LawPiece) -> Iterator[Relation]:
-    """The fraction of a piece covered, its length in radians, then lift and derivatives as
-    formulas.
+    """The fraction of a piece covered, its length in radians, its lift and derivatives.
 
-    Yields nothing for motions that are sums of several sines.
+    The lift and the derivatives are formulas. Yields nothing for motions that are sums of several
+    sines.
     """
     late = piece.motion == "parabolic" and piece.angle - piece.begin >= piece.span / 2
     forms = FORMS.get(piece.motion + ("-late" if late else ""))
@@ -180,8 +178,8 @@ def how_found(drawing: Drawing, centre: CurvatureCentre) -> str:
 
     Let t = w′ - iw be the tangent of the pitch curve in the axes of the cam, and m = w″ - 2iw′ - w.
     The tip w is at the distance |t|³/(m×t) from the centre, on the normal. The normal passes
-    through the point in which the cam and the follower have the same velocity (Norton, Cam Design
-    and Manufacturing Handbook, ch. 7).
+    through the point in which the cam and the follower have the same velocity. Source: Norton, Cam
+    Design and Manufacturing Handbook, ch. 7.
     """
     cam, words = drawing.scene.cams[centre.follower], drawing.words
     if cam.slides or (cam.is_flat and cam.lever):

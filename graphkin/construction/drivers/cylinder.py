@@ -80,9 +80,7 @@ def turn_to_pins(pen: Pen, cylinder: Cylinder, far: str, way: int) -> None:
 
 
 def way_between_pins(pen: Pen, cylinder: Cylinder, far: str) -> int:
-    """The vector from the pin of the link with the guide to the pin of the block, along the
-    guide.
-    """
+    """The vector from the pin of the link with the guide to the block's pin, along the guide."""
     block, carrier = cylinder.slide.links
     pins = {cylinder.near: cylinder.pin.point, cylinder.far: far}
     first = pen.scene.link(block).points[0]
@@ -104,9 +102,7 @@ def move(images: GroupImages, pen: Pen, group: Stretched) -> None:
 
 
 def move_foot(pen: Pen, cylinder: Cylinder) -> None:
-    """Draw the image of the far link's point under the near pin, by the given speed along
-    the guide.
-    """
+    """Draw the image of the far link's point under the near pin, by the given speed."""
     point, foot, block = cylinder.pin.point, cylinder.foot.point, cylinder.slide.block
     start, line = pen.the("velocity", point), known_guide(pen, cylinder.slide)
     steps = start, line, pen.drive(cylinder.driver).speed

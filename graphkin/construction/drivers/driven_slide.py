@@ -1,6 +1,4 @@
-"""A motion along a guide, drawn in a plan, that a driver, a trial value or a rolling wheel
-gives.
-"""
+"""A motion along a guide in a plan, given by a driver, a trial value or a rolling wheel."""
 
 from __future__ import annotations
 
@@ -88,15 +86,11 @@ class DrivenSlide(AlongGuide, LaidOffByRate, frozen=True, kw_only=True):
         return drawing.words(f"page.to_{nearest_side(values[self.image] - values[self.start])}")
 
     def relative(self, drawing: Drawing) -> str:
-        """The motion of the point relative to the guide, where no vector of the plan has
-        its name.
-        """
+        """The point's motion relative to the guide, if no vector of the plan has its name."""
         return symbol(f"{drawing.vector.letter}_{''.join(self.slider(drawing, self.point))}")
 
     def point_sentence(self, drawing: Drawing, role: str) -> str:
-        """How the motion is laid off; where it is zero, why the point coincides with the
-        previous one.
-        """
+        """How the motion is laid off; if it is zero, why the point is on the previous one."""
         fields = self.fields(drawing, role)
         if has_no_length(drawing, self.image):
             key, rate = self.fallen(drawing, fields["s"])
@@ -105,9 +99,7 @@ class DrivenSlide(AlongGuide, LaidOffByRate, frozen=True, kw_only=True):
         return drawing.words(key, **fields)
 
     def fallen(self, drawing: Drawing, start: str) -> tuple[str, str]:
-        """The key of the sentence where nothing is laid off, and the rate that the sentence
-        names.
-        """
+        """The key of the sentence for a zero motion, and the rate in that sentence."""
         key, driver = falls(drawing, self.image, start), driver_of_rate(drawing, self.speed)
         name = drawing.trace.program.steps[self.speed].name
         if driver is None:

@@ -128,9 +128,7 @@ def pivot_of(drawing: Drawing, driver: Driver) -> str:
 
 
 def lies_along(drawing: Drawing, link: str, angle: float) -> bool:
-    """True where the link's second point lies on the ray at an angle (degrees) from its
-    first point.
-    """
+    """Whether the link's second point is on the ray at an angle (degrees) from its first."""
     places = [drawing.positions[p] for p in drawing.scene.links[link].points[:2]]
     if len(places) < 2 or places[0] == places[1]:
         return False
@@ -322,9 +320,7 @@ def free_side(drawing: Drawing, field: Field, start: complex, end: complex, way:
 
 
 def dimension(lines: Iterable[tuple[XY, XY]], name: str) -> Iterator[Mark]:
-    """The extension lines and the dimension line, with arrowheads where the dimension line
-    is long enough.
-    """
+    """The extension lines and the dimension line, with arrowheads where there is room."""
     for low, high in lines:
         yield LineMark(*low, *high, "drive", name)
     if distance(low, high) >= SHORT:

@@ -20,9 +20,7 @@ from graphkin.scene.link_points import lettered
 
 
 def line_reached(line: Line, circle: Circle, *_: Any) -> Any:
-    """The square of the half-chord that a circle cuts off a line; negative where they do
-    not meet.
-    """
+    """The square of a circle's half-chord on a line; negative where they do not meet."""
     height = cross(line.along, circle.centre - line.point) / abs(line.along)
     return circle.radius**2 - height**2
 
@@ -94,9 +92,7 @@ class DyadByArcAndGuide(Determined, frozen=True, kw_only=True):
 def cut_line(
     pen: Pen, name: str, centre: str, loci: tuple[int, int], *way: int, sign: tuple[int, ...]
 ) -> int:
-    """Draw the pin in which an arc cuts a line, on a stated side or on the side that a step
-    gives.
-    """
+    """Draw the pin in which an arc cuts a line, on a stated side or a side that a step gives."""
     pin = pen.draw(arc_cuts_line, *loci, *way, name=name, extra=sign)
     pen.make(DyadByArcAndGuide(name=name, centre=centre, path=loci[0], arc=loci[1], pin=pin))
     return pin

@@ -186,9 +186,7 @@ class GuideThroughBlock(Construction, frozen=True, kw_only=True):
         return way_of(drawing, self.block)
 
     def clause(self, drawing: Drawing, role: str) -> str:
-        """The clause for the line through the block's point, with its angle if found with a
-        group.
-        """
+        """The clause for the line through the block, with its angle if found with a group."""
         point = drawing.scene.links[self.block].points[0]
         if is_found_by_closing(drawing.trace.program.steps[self.axis]):
             return found_at_angle(drawing, self.block, point, self.line)

@@ -199,9 +199,7 @@ def lies_on(slide: Slide, point: str) -> bool:
 
 
 def is_level(pen: Pen, block: str, point: str) -> bool:
-    """Whether the scene gives a block's point the same distance from its guide as its first
-    point.
-    """
+    """Whether the scene makes a block's point as far from its guide as its first point."""
     values, link = pen.scene.values, pen.scene.link(block)
     heights: dict[str, Fraction | None] = {}
     for placing in link.placings:
@@ -267,9 +265,7 @@ def shared_points(one: Sliding, other: Sliding) -> list[str]:
 
 
 def is_through(pen: Pen, pair: Sliding, pin: str) -> bool:
-    """Whether a guide passes through the pin of its block, and that pin is the block's
-    first point.
-    """
+    """Whether a guide passes through its block's pin, which is the block's first point."""
     level = pair.slide.offset.number(pen.scene.values) == 0
     return level and pin == pen.scene.link(pair.block).points[0]
 

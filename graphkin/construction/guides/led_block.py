@@ -41,9 +41,7 @@ class LedBlock(Struct, frozen=True):
         return int(getattr(pen.drive(driver), which))
 
     def set_at(self, pen: Pen, link: str, where: int) -> None:
-        """Place the link with its guided point at a coordinate of the guide; it turns with
-        the guide.
-        """
+        """Place the link, its guided point at a coordinate of the guide; set its axis."""
         from graphkin.construction.guides.set_by_coordinate import set_carrier, set_point
 
         pair, point = self.pair, pen.bases[link].start

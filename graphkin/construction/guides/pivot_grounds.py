@@ -37,9 +37,7 @@ RAY = 17.0
 NEAR = hypot(TALL + HATCH / 2, STRIP + HIP * (TALL - PIVOT)) + AIR
 """Distance from its pin within which a mark may collide with the ground, in mm."""
 RAISED = 1.0
-"""Cost of a tall ground, in mm of clearance: a bar that passes the pin then crosses its
-triangle.
-"""
+"""Cost of a tall ground, in mm of clearance: a bar past the pin would cross its triangle."""
 
 
 def ground_ways(drawing: Drawing, mm: float) -> dict[str, complex]:
@@ -85,16 +83,12 @@ def pivots(drawing: Drawing) -> dict[str, complex]:
 
 
 def is_covered(drawing: Drawing, here: complex, mm: float) -> bool:
-    """Whether a block turns about the pin of a pivot; the answer is kept while the
-    mechanism moves.
-    """
+    """Whether a block turns about a pivot's pin at the position that decides for the motion."""
     return any(abs(place - here) * mm < PIN for place in swivelling(drawing.choosing))
 
 
 def segments(drawing: Drawing, mm: float) -> Iterator[Segment]:
-    """The bars, the sides of plates, the guides, and the axes from which crank angles are
-    measured.
-    """
+    """The bars, sides of plates, guides, and axes from which crank angles are measured."""
     for link in drawing.scene.links:
         yield from combinations(places_of(drawing, link), 2)
     for rail in rails_of(drawing):

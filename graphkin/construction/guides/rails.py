@@ -50,9 +50,7 @@ class Rail(Struct):
 
 
 def is_swivel(drawing: Drawing, slide: Slide) -> bool:
-    """Whether the guide is a block that only turns about its one point, with the bar
-    sliding in it.
-    """
+    """Whether the guide is a block that only turns about its one point, on a sliding bar."""
     if slide.on == FRAME or slide.pin:
         return False
     scene = drawing.scene

@@ -1,6 +1,4 @@
-"""Blocks, guides and slots on the mechanism: the frame's are hatched, the others part of
-their link.
-"""
+"""Blocks, guides and slots on the mechanism; those of the frame are hatched."""
 
 from __future__ import annotations
 

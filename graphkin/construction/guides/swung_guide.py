@@ -188,8 +188,7 @@ class LineOfPins(GuideThroughPins, frozen=True, kw_only=True):
 
 
 class TangentGuide(SwungGuide, frozen=True, kw_only=True):
-    """A guide that has the pin at a ``height`` to its left: a tangent of the circle about its
-    pivot.
+    """A guide with the pin at a ``height`` to its left: a tangent of a circle about its pivot.
 
     By hand, the ``small`` circle has the height as its radius and the ``large`` one is Thales's
     circle on both pins. They meet in the ``foot`` of the ``tangent``.
@@ -248,9 +247,7 @@ class TangentGuide(SwungGuide, frozen=True, kw_only=True):
 
 
 def swing_guide(pen: Pen, group: Dyad) -> None:
-    """Draw a dyad RPR: the guide through one pin and, at its height, the other; set the
-    link's axis.
-    """
+    """Draw a dyad RPR: the guide through one pin and, at its height, the other; set the axes."""
     assert isinstance(group.left, Pin) and isinstance(group.right, Pin)
     assert isinstance(group.inner, Sliding)
     first, second = group.links

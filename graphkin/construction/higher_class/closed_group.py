@@ -77,9 +77,7 @@ class ClosedGroup(ClosesGroup, PlacesLink, frozen=True):
         return self.pins
 
     def laid_length(self, role: str) -> LaidLength | None:
-        """The bar that is cut off; its length is the compass opening or the gap between the
-        loci.
-        """
+        """The bar that is cut off: the compass opening, or the gap between the loci."""
         if role != "closing" or len(self.pins) < 2:
             return None
         first, second = self.pins
@@ -137,7 +135,7 @@ class ClosedGroup(ClosesGroup, PlacesLink, frozen=True):
         return drawing.words(key, bar=bar(*self.pins), **fields)
 
     def drawn_each_time(self, drawing: Drawing) -> str:
-        """What is drawn at each position of the tried link: links, and the trials within."""
+        """The words for the links and inner trials drawn at each position of the tried link."""
         inner = {link for one in self.group.nested[1:] for link in one.links}
         drawn = seen(drawing, (link for link in self.links_drawn(drawing) if link not in inner))
         key = "step.close-links" if len(drawn) > 1 else "step.close-link"
@@ -181,9 +179,7 @@ class ClosedGroup(ClosesGroup, PlacesLink, frozen=True):
 
 
 def seen(drawing: Drawing, links: Iterable[str]) -> list[str]:
-    """The links as sentences name them; a link that holds a wheel is named by the wheel or
-    its bar.
-    """
+    """The links as sentences name them; a link that holds a wheel has the wheel's or bar's name."""
     scene, found = drawing.scene, list[str]()
     for name in links:
         if name in scene.unseen:

@@ -55,9 +55,7 @@ class ClosingError(ValueError):
 
 
 class MergingError(ValueError):
-    """A closure whose number is uncertain: two closures merge at it or before it, up to
-    rounding.
-    """
+    """A closure of uncertain number: two closures merge at it or before it, up to rounding."""
 
     def __init__(self, first: int, asked: int) -> None:
         self.first, self.asked = first, asked
@@ -78,8 +76,7 @@ class Trying(Trial, frozen=True, dict=True):
 
     @cached_property
     def settled(self) -> dict[tuple[Any, ...], list[tuple[Any, ...]] | None]:
-        """The closing values of every closure, in order, where balls had to decide; by known
-        values.
+        """The values of every closure, in order, where balls had to decide; by known values.
 
         Balls decide where rounding in doubles leaves the closures open. None marks known values for
         which balls do not decide either.
@@ -162,9 +159,7 @@ class Trying(Trial, frozen=True, dict=True):
         return (*self.placed(map(float, row[1:count])), *map(float, row[count:]))
 
     def loci(self, known: Sequence[Any], value: Sequence[Any]) -> list[Any]:
-        """The loci of the traced points over the whole trial, with the signs of a closure:
-        (N,) each.
-        """
+        """The loci of the traced points over the trial, with a closure's signs: (N,) each."""
         arrays = [np.atleast_1d(each) for each in known]
         tried = self.grid(arrays, 1)[0]
         here = [np.broadcast_to(array, tried.shape) for array in arrays]
@@ -400,8 +395,9 @@ class Closures(Struct, frozen=True):
         return int(mine.argmax()) if mine.any() else len(mine)
 
     def merging_at(self, number: int) -> MergingError | None:
-        """The error for a number of the first element that rounding leaves open; None if
-        certain.
+        """The error for a closure number that rounding leaves open; None if certain.
+
+        It concerns the first element.
         """
         before = self.before(0)
         if before < number and self.merging[self.whole[:, 0] == 0].any():
@@ -483,7 +479,7 @@ def newly_settled(scene: Scene, program: Program, failed: StepFailed) -> bool:
 
 
 def settle(scene: Scene, program: Program, step: Step, known: tuple[Any, ...]) -> None:
-    """Store in the trial of a step what balls determine about its closures on known floats."""
+    """Store in a step's trial its closures on known floats, as far as balls determine them."""
     from graphkin.construction.higher_class.refining import merged
 
     trying = closing(step).trying

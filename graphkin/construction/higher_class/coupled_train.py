@@ -50,9 +50,7 @@ class ContactMisclosure(LineMisclosure, frozen=True, kw_only=True):
     ends: tuple[str, str]
 
     def fields(self, drawing: Drawing) -> tuple[str, Mapping[str, str]]:
-        """The known wheel's image; for accelerations, the parallel to the radius through
-        that image.
-        """
+        """The known wheel's image; for accelerations, the parallel to the radius through it."""
         start = drawing.lettered(self.start)
         key = "image" if drawing.kind == "velocity" else "radius"
         return key, {"bar": bar(*self.ends), "s": start}

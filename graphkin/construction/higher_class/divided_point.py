@@ -38,9 +38,7 @@ ROUNDING = 1e-12
 
 @action("between", move=Move(DIVIDE, two))
 def between(first: Point, second: Point, part: Real) -> Point:
-    """The point at the fraction ``part`` of the way from the first trial's point to the
-    second's.
-    """
+    """The point at the fraction ``part`` of the way from a point's first trial to its second."""
     return first + (second - first) * part
 
 
@@ -85,9 +83,7 @@ class DividedRate(Divided, GivesRate, frozen=True, kw_only=True):
 
 
 class CrossedLine(JoinsPoints, frozen=True):
-    """The line through two trials of a point, and its crossing with a line known before the
-    trials.
-    """
+    """The line through two trials of a point, and its crossing with a line known before them."""
 
     gives: ClassVar[tuple[str, ...]] = ("line", "crossing")
     lines: ClassVar[Mapping[str, str]] = {"line": "the line of the trials"}
@@ -124,16 +120,13 @@ class DividedPoint(Divided, FindsImage, frozen=True, kw_only=True):
     crossed: CrossedLine | None = None
 
     def reason(self, drawing: Drawing, role: str) -> str:
-        """The reason: the image lies on both crossing lines, or divides its line as every
-        trial line.
-        """
+        """The reason: a crossing of lines, or the same division as of every trial line."""
         return "why.meet" if self.is_crossed(drawing.trace.values) else "why.trials"
 
     def comes_along(self, role: str, found: Container[int]) -> bool:
-        """Whether an arrow brings the image: one found by a crossing, by which the others are
-        divided.
+        """Whether the image has an arrow: where a crossing finds it, or it is under a slider.
 
-        Also an image under a sliding point, through which that point's components pass.
+        The image under a sliding point is a corner of that point's components.
         """
         return is_under(self.point) or self.is_crossed(found)
 
@@ -152,9 +145,7 @@ class DividedPoint(Divided, FindsImage, frozen=True, kw_only=True):
         return self.crossed.line, self.crossed.locus
 
     def point_sentence(self, drawing: Drawing, role: str) -> str:
-        """The sentence for the crossing; empty for a divided point, as one sentence covers
-        all of them.
-        """
+        """The sentence for the crossing; empty for divided points, which share one sentence."""
         if not self.is_crossed(drawing.trace.values):
             return ""
         name = drawing.trace.program.steps[self.value].name
@@ -183,8 +174,7 @@ class DividedPoint(Divided, FindsImage, frozen=True, kw_only=True):
             canvas.through(*map(canvas.value, (self.first, self.second, self.value)))
 
     def ratio(self, drawing: Drawing, first: float, second: float) -> dict[str, str]:
-        """The ratio in which the point divides the line of its trials, and beyond which trial it
-        lies.
+        """The ratio in which the point divides the line of its trials, and the trial it is beyond.
 
         ``first`` and ``second`` are the gaps, or parts of the line. They have the same sign where
         the point is not between the trials.

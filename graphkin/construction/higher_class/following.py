@@ -35,9 +35,7 @@ The step of a link is at most ``MOST`` radians.
 START = 1e-2
 """The first step of a link, in radians, for which there is no prediction."""
 GOOD, GROW, SHRINK = 0.01, 2.0, 4.0
-"""The prediction error, as a fraction of the step, below which steps grow; their growth and
-shrinkage.
-"""
+"""The error, as a fraction of the step, below which steps grow; their growth and shrinkage."""
 LEAPS = (3e-5, 1e-4, 3e-4, 1e-3, 3e-3, 1e-2)
 """Steps that pass a crossing of two closures, as fractions of the usual range."""
 LEAP_NEAR = 0.01
@@ -53,21 +51,15 @@ ON_FOLD, ROUNDS = 9, 3
 TURN_BACK = 0.7
 """How far ahead a fold is searched for, in radians."""
 BETWEEN = 0.3
-"""The largest distance of a closure from its interpolation, as a fraction of its
-neighbours' distance.
-"""
+"""Largest distance from an interpolated closure, as a fraction of its neighbours' distance."""
 MERGED = 1e-4
 """Sine of crossing below which the numbers of two closures that meet are open."""
 AT_FOLD = 1e-7
-"""Distance from a fold, as a fraction of the path, within which the interpolation is used
-as it is.
-"""
+"""Fraction of the path near a fold in which the interpolation is used without refinement."""
 
 
 class Place(NamedTuple):
-    """One place of a path: u, trial values (n,), signs of the dyads (k,), angles of the
-    links (L,).
-    """
+    """One place of a path: u, trial values (n,), signs (k,) of dyads, angles (L,) of links."""
 
     at: float
     tried: Reals
@@ -148,8 +140,7 @@ class GroupOnWay(Struct, frozen=True, dict=True):
     def step_to(
         self, at: float, found: Sequence[Place], size: Reals, near: float
     ) -> tuple[Place | None, float]:
-        """The next place of a path, and its error as a fraction of the step; None where it is not
-        certain.
+        """The next place of a path, and its error relative to the step; None if not certain.
 
         A dyad that is stretched flat on the way continues with its other sign.
         """
@@ -188,11 +179,10 @@ class GroupOnWay(Struct, frozen=True, dict=True):
         return None
 
     def fold(self, found: Sequence[Place], way: float, size: Reals) -> list[Place] | None:
-        """The places from the last one to the fold with another closure; None where no fold is
-        near.
+        """The places from the last one to the fold with another closure; None if none is near.
 
-        One of the trial values is the parameter of this part of the path, and u is a function of it
-        with its extreme at the fold.
+        One of the trial values is the parameter of this part of the path. As a function of it, u
+        has its extreme at the fold.
         """
         if len(found) < ORDER:
             return None
@@ -241,8 +231,8 @@ class GroupOnWay(Struct, frozen=True, dict=True):
         return [Place(r[0], r[1:], last.signs, a) for r, a in zip(rows, angles, strict=True)]
 
     def closed_led(self, start: Reals, lead: int, signs: Reals, unit: float, size: Reals) -> Reals:
-        """Rows (K, 1 + n) of u and the trial values that close the group, with trial value
-        ``lead`` fixed.
+        """Rows (K, 1 + n) of u and trial values that close the group, one value (``lead``)
+        fixed.
         """
         free = [k for k in range(start.shape[1]) if k != 1 + lead]
         scale = np.array([unit, *size])[free]
@@ -317,9 +307,7 @@ class GroupOnWay(Struct, frozen=True, dict=True):
         return None
 
     def number(self, every: Reals, row: Reals) -> int:
-        """The number of a row among all closures (M, n + k + 1) at one place; 0 where it is
-        not certain.
-        """
+        """The number of a row among all closures (M, n + k + 1) at one place; 0 if uncertain."""
         if not len(every) or not row[-1] > MERGED:
             return 0
         away = self.apart(every, row)
@@ -345,9 +333,7 @@ class GroupOnWay(Struct, frozen=True, dict=True):
         return PairedClosures(at, before, after, signs)
 
     def numbers_led(self, pairs: PairedClosures, way: FollowedClosure, at: Reals) -> Reals | None:
-        """As ``numbers``, from closures interpolated between two places; None where one is
-        not certain.
-        """
+        """As ``numbers``, from closures interpolated between two places; None if uncertain."""
         count, places = len(pairs.first), len(at)
         share = np.tile((at - pairs.at[0]) / (pairs.at[1] - pairs.at[0]), count)[:, None]
         owner, which = np.tile(np.arange(places), count), np.repeat(np.arange(count), places)
@@ -365,9 +351,7 @@ class GroupOnWay(Struct, frozen=True, dict=True):
         return np.array([self.number(every.of(n), row) for n, row in enumerate(rows)])
 
     def apart(self, every: Reals, row: Reals) -> Reals:
-        """The distances of closures in rows (M, ...) from another: in trial values, and in
-        signs.
-        """
+        """The distances of closures (M, ...) from another, in trial values and signs."""
         (tried, signs, _), (other, turned, _) = self.trying.split(every), self.trying.split(row)
         way = abs(tried - other)
         turning = np.array([one.turns for one in self.trying.unknowns])
@@ -377,9 +361,7 @@ class GroupOnWay(Struct, frozen=True, dict=True):
 
 
 class PairedClosures(NamedTuple):
-    """All closures of a group at two u: trial values (M, n) at both, and the common signs
-    (M, k).
-    """
+    """All closures of a group at two u: trial values (M, n) at both, and common signs (M, k)."""
 
     at: tuple[float, float]
     first: Reals
@@ -429,9 +411,7 @@ class FollowedClosure(Struct, frozen=True, eq=False):
         return FollowedClosure(at, tried, signs, (self.ends[0], other.ends[1]))
 
     def row_at(self, end: float) -> Reals:
-        """The values that close the group at one of the path's places; the sine is a
-        placeholder of 1.
-        """
+        """The values that close the group at a place of the path; the sine is a placeholder, 1."""
         n = int(np.searchsorted(self.at, end))
         return np.array([*self.tried[n], *self.signs[n], 1.0])
 
@@ -466,8 +446,7 @@ class FollowedClosure(Struct, frozen=True, eq=False):
         return group.trying.parts(np.column_stack([np.arange(len(rows)), rows]))
 
     def rows(self, group: GroupOnWay, at: Reals, known: Sequence[Reals] | None = None) -> Reals:
-        """The rows (K, n + k + 1) at each u, closed from the interpolation between neighbouring
-        places.
+        """The rows (K, n + k + 1) at each u, closed from the interpolation between places.
 
         NaN off the path, and where rounding leaves open which closure it is.
         """

@@ -1,5 +1,4 @@
-"""Groups of class III and higher: one link is tried over its range, and a locus shows where it
-fits.
+"""Groups of class III and higher: one link is tried until a locus shows that it fits.
 
 Once the position of that link is known, the others follow as dyads.
 """

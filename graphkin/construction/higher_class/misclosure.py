@@ -77,9 +77,7 @@ class Misclosure(Construction, frozen=True, kw_only=True):
         return Relation(name, "", figures, answer(drawing, size), unit, remark)
 
     def draw_gap(self, canvas: Canvas, foot: Any, start: Any, tip: Any, across: Any) -> None:
-        """Draw the part laid off, the line from its end on which the point should lie, and
-        the gap.
-        """
+        """Draw the part laid off, the line from its end for the point, and the gap."""
         end, along = tip - across * canvas.value(self.size), 1j * across
         reach, beyond = dot(along, end - start), BEYOND / 2 / canvas.mm
         low, high = smaller(reach, 0.0) - beyond, larger(reach, 0.0) + beyond
@@ -115,8 +113,8 @@ class DrawnMisclosure(Misclosure, frozen=True, kw_only=True):
 
 
 class LineMisclosure(DrawnMisclosure, frozen=True, kw_only=True):
-    """The gap across the line ``along`` through the image ``start``, on which the image
-    should lie.
+    """The gap across the line ``along``, on which the image belongs, through the image
+    ``start``.
     """
 
     along: int
@@ -154,9 +152,7 @@ class BarMisclosure(DrawnMisclosure, frozen=True, kw_only=True):
 
 
 class GuideMisclosure(LineMisclosure, frozen=True, kw_only=True):
-    """The gap across the guide of a ``block``, between the image of its point and the known
-    part.
-    """
+    """The gap across the guide of a ``block``, from the known part to the image of its point."""
 
     block: str
 

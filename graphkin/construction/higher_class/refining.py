@@ -164,8 +164,8 @@ CONFUSED = 0.01
 def closed_in(trying: Any, known: Sequence[Any], number: int, kind: Kind) -> tuple[Any, ...]:
     """Trial value, signs and sine of crossing in one closure, in the kind of the known values.
 
-    Raises ClosingError where there is no such closure, ValueError where a ball does not prove that
-    the group closes, and MergingError where it leaves open which closure has the number.
+    Raises ClosingError where there is no such closure. Raises ValueError where a ball does not
+    prove that the group closes, and MergingError where it leaves the closure's number open.
     """
     doubles = [in_doubles(value) for value in known]
     if kind.name == "ball" and not trying.several:
@@ -222,9 +222,7 @@ def closed_in_balls(
 
 
 def closing(chain: TrialChain, found: Sequence[Any], sine: Any) -> tuple[Any, ...]:
-    """The values that close a group, in the kind of a chain: trial values, signs, sine of
-    crossing.
-    """
+    """The values that close a group, in a chain's kind: trial values, signs, sine of crossing."""
     rest = (each if is_ball(each) else chain.kind.number(each) for each in (*chain.signs, sine))
     return (*chain.trial.placed(found), *rest)
 

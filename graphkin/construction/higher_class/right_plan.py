@@ -116,17 +116,13 @@ def in_order(ends: tuple[str, str], found: list[str]) -> tuple[str, ...]:
 
 
 def own_rate(pen: Pen, link: str) -> bool:
-    """Whether the rate of a link cannot be found from two of its points: the tried link
-    with one pin.
-    """
+    """Whether two points cannot give a link's rate: a tried link with one pin."""
     base = pen.bases.get(link)
     return base is not None and base.end is None and link not in pen.leads and pen.turns(link)
 
 
 def finish(pen: Pen, plan: Plan, point: str, closing: tuple[str, ...]) -> None:
-    """Draw the arrows to a point of the right plan, except that relative to the closing
-    bar's last end.
-    """
+    """Draw the arrows to a point of the right plan, but not that of the ``closing`` bar."""
     moved = [base for base in pen.bases.values() if pen.has(plan.quantity, base.start)]
     starts = {b.start for b in moved if point == b.end}
     starts = starts or {b.start for b in moved if point in b.others}
@@ -251,8 +247,6 @@ def normals_of(pen: Pen, group: CoupledTrain | Higher) -> list[tuple[str, str, i
 
 
 def points_on(pen: Pen, link: str) -> set[str]:
-    """The points of a link, and its point under another link's where it is constructed by
-    that point.
-    """
+    """The points of a link, with its base's end where that is under another link's point."""
     base = pen.bases.get(link)
     return {*pen.scene.link(link).points, *([base.end] if base and base.end else [])}

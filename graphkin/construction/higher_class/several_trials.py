@@ -27,7 +27,7 @@ from graphkin.numbers.common_roots import (
 ACROSS = {2: 120, 3: 32, 4: 12}
 """Grid steps along each unknown, by the number of unknowns tried before a misfit is known."""
 FEWER = 60
-"""Grid steps along each unknown where there are more than two unknowns and two suffice."""
+"""Grid steps along each unknown where the first two of more than two give a misfit."""
 TOGETHER = 64
 """Number of elements that are closed at once."""
 MOST = 1_000_000
@@ -142,9 +142,7 @@ class SeveralTrials(Trying, frozen=True, dict=True):
 
     @cached_property
     def stages(self) -> tuple[GridStage, ...]:
-        """The misfits and dyads that each further unknown determines, from the outermost
-        inwards.
-        """
+        """What each further unknown determines, from the outermost inwards."""
         steps = [one.tried for one in self.unknowns]
 
         def least(number: int) -> int:
@@ -277,9 +275,7 @@ class Corners(NamedTuple):
 
     @property
     def spans(self) -> list[Array]:
-        """Least, start of middle, end of middle and largest value of each misfit; NaN
-        without values.
-        """
+        """Least, start of middle, end of middle and largest value of each misfit, or NaN."""
         shares = (0.0, (1 - MIDDLE) / 2, (1 + MIDDLE) / 2, 1.0)
         finite = (each[np.isfinite(each)] for each in self.misfits)
         return [np.quantile(x, shares) if x.size else np.full(len(shares), np.nan) for x in finite]

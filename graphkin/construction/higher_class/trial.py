@@ -181,9 +181,7 @@ class Trial(Struct, frozen=True, dict=True):
         return tuple(found)
 
     def drawable(self, k: int, known: Sequence[Any], tried: Any, signs: Any) -> Any:
-        """How far the dyad of a sign is drawable: positive where it can be, given the signs
-        before.
-        """
+        """How far the dyad of a sign is drawable, by the signs before it; positive if it is."""
         choice = self.choices[k]
         assert choice is not None
         ready, reaches, args = choice
@@ -193,9 +191,7 @@ class Trial(Struct, frozen=True, dict=True):
 
     @cached_property
     def crossings(self) -> tuple[tuple[Ready, tuple[int, ...]], ...]:
-        """The pairs of crossing lines in the trial, prepared; where they are parallel, it
-        has poles.
-        """
+        """The pairs of crossing lines in the trial, prepared; where parallel, it has poles."""
         found: list[tuple[Ready, tuple[int, ...]]] = []
         for number in self.program.behind((self.first.misfit,)):
             step = self.program.steps[number]
@@ -234,9 +230,7 @@ class Trial(Struct, frozen=True, dict=True):
         return np.stack([one.valued(*each) for one, *each in columns], axis=1)
 
     def shares(self, known: Sequence[Any], size: int) -> Any:
-        """The shares at which each element is tried: angles of a revolution, or a range to
-        both sides.
-        """
+        """The shares at which each element is tried: a revolution, or a range to both sides."""
         if self.first.turns:
             return self.grid(known, size)
         if self.first.rim is None:
@@ -299,9 +293,7 @@ class TrialChain:
     def drawn(
         self, tried: Sequence[Any], wanted: tuple[int, ...], known: Mapping[int, Any] | None = None
     ) -> list[Any]:
-        """The values of some steps at trial values; raises ValueError where they cannot be
-        drawn.
-        """
+        """The values of some steps at trial values; ValueError where they cannot be drawn."""
         trial = self.trial
         overrides = dict(self.known if known is None else known)
         for one, each in zip(trial.unknowns, tried, strict=True):

@@ -88,8 +88,7 @@ class TrialPlan(Struct, AuxiliaryPlan, frozen=True, eq=False):
     # --- coincident points ------------------------------------------------------------------------
 
     def falls_on(self, drawing: Drawing, number: int) -> str:
-        """The point on which a point of the plan falls, with all points that it is drawn from; or
-        empty.
+        """The point on which a point and all that it is drawn from coincide; else empty.
 
         A translated image has its own sentence for this.
         """
@@ -149,9 +148,7 @@ class TrialPlan(Struct, AuxiliaryPlan, frozen=True, eq=False):
                 yield Sentence(number, f"trial{self.tag}", markup, tuple(named))
 
     def runs(self, drawing: Drawing) -> list[list[int]]:
-        """Its points in runs: those before the trials within it, and those that follow from
-        them.
-        """
+        """Its points in runs: before the trials within it, and following from them."""
         steps = drawing.trace.program.steps
         parts = groupby(self.points(drawing), lambda n: isinstance(steps[n].of, DividedPoint))
         return [[*run] for is_divided, run in parts if not is_divided]
@@ -194,9 +191,7 @@ class TrialPlan(Struct, AuxiliaryPlan, frozen=True, eq=False):
                 yield from (point_told(drawing, number) for number in run)
 
     def told_again(self, drawing: Drawing, named: Sequence[int]) -> Iterator[str]:
-        """Its points briefly; in full where other lengths or more lines are drawn than in
-        the first.
-        """
+        """Its points briefly; in full where lengths or lines differ from the first plan's."""
         assert self.first is not None
         steps = drawing.trace.program.steps
         first = {steps[n].letter: n for n in self.first.points(drawing)}

@@ -38,7 +38,7 @@ Where the group is nearly singular, a round rate that is not quite the right one
 away.
 """
 STEPS = {1.0: 0.0, 2.0: 0.05, 5.0: 0.05}
-"""First digits of the steps of such rates, and the penalty of each."""
+"""First digits of the steps of which such rates are multiples, and the penalty of each."""
 MOVING = 0.8
 """Penalty of a first trial in which the link moves rather than rests."""
 FARTHEST = 1.0
@@ -52,8 +52,7 @@ Box = tuple[float, float, float, float]
 
 
 class Spread(Struct, frozen=True):
-    """The points of a plan as functions of the trial rate: ``start`` at zero, plus ``way`` per
-    unit.
+    """The points of a plan as functions of the trial rate: ``start`` at zero, ``way`` per unit.
 
     ``rate`` is the right one; ``whole`` is the distance from the pole to the right plan's farthest
     point.
@@ -76,9 +75,7 @@ class Spread(Struct, frozen=True):
         return max(map(abs, self.way))
 
     def fault(self, first: float, second: float, large: float) -> float:
-        """The penalty of two trials: plan too large, points too close, or both trials on
-        one side.
-        """
+        """The penalty of two trials: too large, too close together, or both on one side."""
         share = (self.rate - first) / (second - first)
         near = APART - abs(second - first) * self.reach / self.whole
         outside = max(WITHIN[0] - share, share - WITHIN[1])
@@ -169,8 +166,7 @@ def levels_of(program: Program) -> list[list[TwoTrials]]:
 
 
 def chosen_rates(spread: Spread) -> tuple[float, float]:
-    """The two trials that are best to draw and read, with the link at rest in the first if
-    possible.
+    """The two trials that are best to draw and read; in the first, the link rests if it may.
 
     The numbers are round, unless even the best round ones draw a plan far too large.
     """
@@ -217,9 +213,7 @@ def candidates(least: float, most: float) -> Iterator[tuple[float, float]]:
 
 
 def beside(rate: float, enough: float) -> Iterator[tuple[float, float]]:
-    """Numbers on both sides of a rate, in steps of about ``enough`` and less, each with its
-    penalty.
-    """
+    """Numbers near a rate, in steps of about ``enough`` and less, each with its penalty."""
     power = floor(log10(enough))
     for digit, worse in STEPS.items():
         for exponent in (power, power - 1):

@@ -87,8 +87,7 @@ def share_on_line(first: Point, second: Point, found: Point) -> Real:
 
 
 class TwoTrials(ClosesGroup, SaidInParts, frozen=True):
-    """The fraction of the way from the first to the second trial plan at which the misclosure is
-    zero.
+    """The fraction of the way between two trial plans at which the misclosure is zero.
 
     ``gaps`` are the misclosures of the ``plans``. Where a crossing finds a point, the fraction is
     ``measured`` on the line of its trials.
@@ -149,9 +148,7 @@ class TwoTrials(ClosesGroup, SaidInParts, frozen=True):
             yield self.share, drawing.words("step.share-second", **fields)
 
     def gaps_in_words(self, drawing: Drawing) -> dict[str, str]:
-        """The points and the lines between which both gaps are measured, and the sizes of
-        the gaps.
-        """
+        """The points and lines between which both gaps are measured, and the gaps' sizes."""
         mm, (first, second) = on_paper(drawing), self.gaps
         one, two = (gap.amount(drawing) for gap in self.gaps)
         side = "alike" if one * two > 0 else "opposite"
@@ -281,9 +278,7 @@ def gaps_of(drawing: Drawing, point: DividedPoint) -> tuple[float, float]:
 
 
 def divided_alone(drawing: Drawing, point: DividedPoint) -> str:
-    """How the line of the trials of one point is divided: as the gaps, or as another
-    point's line.
-    """
+    """How the line of a point's trials is divided: as the gaps, or as another such line."""
     values = drawing.trace.values
     alike = (
         p for p in constructions(drawing.trace.program, DividedPoint) if p.share == point.share
@@ -317,8 +312,7 @@ def on_paper(drawing: Drawing) -> float:
 
 
 def two_trials(images: GroupImages, pen: Pen, group: CoupledTrain | Higher, each: Each) -> None:
-    """Draw two trial plans, and the right plan from them: the misclosure is linear in the trial
-    rate.
+    """Draw two trial plans, and the right one, as the misclosure is linear in the trial rate.
 
     Acceleration components that follow from velocities are known by then.
     """

@@ -95,9 +95,7 @@ class DrivenCrank(Construction, frozen=True, kw_only=True):
 
 
 class TurnedLink(Construction, frozen=True, kw_only=True):
-    """The ``tip``, called ``name``, of a ``link`` turned about its ``pivot`` to the step
-    ``turn``.
-    """
+    """The ``tip``, called ``name``, of a ``link`` turned about its ``pivot`` to ``turn``."""
 
     gives: ClassVar[tuple[str, ...]] = ("tip",)
     reasons: ClassVar[Mapping[str, str]] = {"tip": "why.turned_link"}
@@ -112,9 +110,7 @@ class TurnedLink(Construction, frozen=True, kw_only=True):
     tip: int
 
     def point_sentence(self, drawing: Drawing, role: str) -> str:
-        """The sentence for the tip by its angle; by the bar's angle in the plane if found
-        with a group.
-        """
+        """The sentence for the tip by its angle, or by the bar's angle if found with a group."""
         words, spot = drawing.words, drawing.standing.spot
         fields = {"p": symbol(self.pivot), "name": symbol(self.name)}
         if not is_found_by_closing(drawing.trace.program.steps[self.turn]):

@@ -52,9 +52,7 @@ class CompassArc(Construction, frozen=True, kw_only=True):
 
 
 def stated_bar(drawing: Drawing, ends: tuple[str, str], length: int) -> str:
-    """The name of a bar, with its drawn length in mm where the scene does not give its
-    ``length``.
-    """
+    """The name of a bar, with its drawn length in mm unless the scene gives its ``length``."""
     name = bar(*ends)
     if drawing.trace.program.steps[length].given is None:
         name += f" ({drawn_amount(drawing, float(drawing.trace.values[length]))})"
@@ -96,15 +94,14 @@ def arcs_reach(m: Circle, n: Circle, *_: Any) -> Any:
     move=CUTS,
 )
 def arcs_meet(m: Circle, n: Circle, side: int) -> Point:
-    """The point where two arcs meet, on one side of the line from the first centre to the
-    second.
-    """
+    """The point where two arcs meet, on one side of the line from one centre to the other."""
     return circle_meets_circle(m, n, side)
 
 
 class DyadByArcs(Determined, frozen=True, kw_only=True):
-    """The ``pin`` called ``name``, in which two arcs meet: ``near`` about ``left``, ``far``
-    about ``right``.
+    """The ``pin`` called ``name``, in which two arcs meet.
+
+    They are ``near``, about ``left``, and ``far``, about ``right``.
     """
 
     gives: ClassVar[tuple[str, ...]] = ("pin",)
@@ -149,9 +146,7 @@ class DyadByArcs(Determined, frozen=True, kw_only=True):
         return f"{self.left}{self.name} and {self.right}{self.name} are {nearly}in line"
 
     def undetermined(self, args: Sequence[Any]) -> Problem | None:
-        """The problem of two equal bars with coincident outer pins, which leave the pin
-        undetermined.
-        """
+        """The problem of two equal bars whose outer pins coincide, so that the pin is open."""
         first, second = args[:2]
         least = TOGETHER * first.radius
         apart = abs(first.centre - second.centre), abs(first.radius - second.radius)
@@ -178,8 +173,9 @@ class DyadByArcs(Determined, frozen=True, kw_only=True):
 
 
 def side_words(drawing: Drawing, number: int, name: str, centres: tuple[str, str]) -> str:
-    """The side of the line of centres on which two arcs meet, in the scene's own order of
-    the centres.
+    """The words for the side of the line of centres on which two arcs meet.
+
+    The centres are in the scene's own order.
     """
     side = which_side(drawing, number)
     if centres[::-1] in stated_ways(drawing, name):

@@ -47,10 +47,10 @@ def gear(drawing: Drawing, field: Field, disc: Disc) -> Iterator[Mark]:
 
 
 class Mesh(NamedTuple):
-    """A mesh of a gear: its direction (radians), and a shift of 0 for a tooth there or 0.5 for a
-    gap.
+    """A mesh of a gear: its direction (radians), and the shift of its teeth.
 
-    ``shown`` teeth are drawn on either side of that place, as far as the tips overlap.
+    The shift is 0 for a tooth in that direction and 0.5 for a gap. ``shown`` teeth are drawn on
+    either side of that place, as far as the tips overlap.
     """
 
     way: float
@@ -88,9 +88,7 @@ def overlapping(touch: Touch) -> int:
 def outline(
     disc: Disc, found: Sequence[Mesh], radius: float, module: float
 ) -> Iterator[tuple[float, float]]:
-    """The outline of a gear as (radius in mm, angle): teeth at its meshes, its tip circle
-    elsewhere.
-    """
+    """The outline of a gear as (radius in mm, angle): teeth at meshes, elsewhere the tip circle."""
     inward = -1 if disc.wheel.inside else 1
     tip, root = radius + inward * module, radius - inward * ROOT * module
     count = round(2 * disc.radius / disc.module)

@@ -1,6 +1,4 @@
-"""Links that fit by themselves: bars that no step lays off, because their pins are found
-without them.
-"""
+"""Idle links: bars that no step lays off, because their pins are found without them."""
 
 from __future__ import annotations
 

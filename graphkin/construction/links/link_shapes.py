@@ -31,8 +31,9 @@ from graphkin.scene.model import (
 
 @action("step-along")
 def step_along(start: Point, first: Point, second: Point, length: Real, sense: int) -> Point:
-    """A point at a distance from ``start`` in the direction from ``first`` to ``second``,
-    or back.
+    """A point at a distance from ``start``, in the direction from ``first`` to ``second``.
+
+    ``sense`` is -1 for the opposite direction.
     """
     way = second - first
     return start + way * (sense * length / abs(way))

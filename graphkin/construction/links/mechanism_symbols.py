@@ -55,9 +55,7 @@ def draw_ground(board: FieldContent, drawing: Drawing, field: Field) -> None:
 
 
 def letter(board: FieldContent, drawing: Drawing, field: Field, name: str) -> None:
-    """Label a point with its letter: beside the ground of a fixed point, else away from its
-    bars.
-    """
+    """Label a point with its letter, clear of a fixed point's ground or away from its bars."""
     at = field(drawing.positions[name])
     if name in drawing.scene.fixed_points:
         ground = ground_ways(drawing, field.mm).get(name, -1j)
@@ -124,9 +122,7 @@ def draw_bars(board: FieldContent, drawing: Drawing, field: Field) -> None:
 
 
 def draw_guides(board: FieldContent, drawing: Drawing, field: Field) -> None:
-    """Draw guides and the bars on which blocks slide, then the blocks and the grounds under
-    them.
-    """
+    """Draw guides and the bars on which blocks slide, then blocks and the grounds under them."""
     for link in drawing.scene.links.values():
         draw_guide_line(board, drawing, field, link)
     draw_slides(board, drawing, field)

@@ -129,9 +129,7 @@ def place_point(pen: Pen, link: str, start: str, name: str) -> int:
 CLEAR_CROSSING = 0.342
 """Sine of 20 degrees; below it a plate point is found by similarity, not by two flat lines."""
 IN_LINE = 1e-9
-"""Distance from its line within which a plate point counts as on it, as a fraction of its
-distance.
-"""
+"""Distance of a plate point from its line that counts as zero, relative to its distance."""
 
 
 # --- constructions --------------------------------------------------------------------------------
@@ -240,9 +238,7 @@ def arc(pen: Pen, link: str, centre: str, point: str) -> int:
 
 
 def plate_points(pen: Pen, base: Base) -> None:
-    """Draw the other points of a link: by hand two arcs, in value the figure similar to the
-    link.
-    """
+    """Draw the other points of a link: by hand two arcs, in value a similar figure."""
     for point in base.others:
         if pen.has("position", point):
             continue

@@ -53,9 +53,7 @@ def crank(pen: Pen, group: Crank) -> None:
 
 
 def axis_line(link: Link) -> tuple[str, ...]:
-    """The two points along the x axis of a link given by lengths; none for a link with its
-    own axes.
-    """
+    """The two points on the x axis of a link given by lengths; none if it has its own axes."""
     return link.points[:2] if any(isinstance(each, Apart) for each in link.placings) else ()
 
 
@@ -118,9 +116,7 @@ def two_arcs(pen: Pen, group: Dyad, near: int, far: int) -> None:
 
 
 def bar_and_guide(pen: Pen, group: Dyad, near: int) -> None:
-    """Draw the inner pin of a dyad RRP, where the bar's arc cuts the line of the guided
-    link's pin.
-    """
+    """Draw the inner pin of a dyad RRP, where the bar's arc cuts the pin's guide line."""
     assert isinstance(group.left, Pin) and isinstance(group.inner, Pin)
     assert not isinstance(group.right, Pin)
     left, pin, link = group.left.place, group.inner.point, group.links[1]

@@ -22,9 +22,10 @@ SAME = 1e-6
 
 
 class RolledTurn(Construction, frozen=True, kw_only=True):
-    """The ``turn``, in radians, of a ``link`` that a wheel turns; ``start`` is its first value.
+    """The ``turn``, in radians, of a ``link`` that its wheel has turned.
 
-    ``leads`` are the steps for the rotation of the links that it depends on, by their names.
+    ``start`` is the step of the angle at the start. ``leads`` are the steps for the rotation of the
+    links that it depends on, by their names.
     """
 
     gives: ClassVar[tuple[str, ...]] = ("turn",)

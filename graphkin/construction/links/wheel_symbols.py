@@ -97,9 +97,7 @@ def is_parallel(touch: Touch, other: Disc) -> bool:
 
 
 def strands(field: Field, touch: Touch) -> Iterator[Mark]:
-    """The strands of a belt, common tangents of its wheels; open ones are produced to their
-    crossing.
-    """
+    """The strands of a belt, common tangents of its wheels; open ones are produced."""
     belt, other = touch.belt, touch.other
     if belt is None or other is None:
         return
@@ -156,9 +154,7 @@ def spokes(drawing: Drawing, field: Field, disc: Disc) -> Iterator[Mark]:
 
 
 def track(drawing: Drawing, field: Field, touch: Touch) -> Iterator[Mark]:
-    """The marks of a straight track: hatched on the frame, a bar on a link, with teeth on a
-    rack.
-    """
+    """The marks of a straight track: hatched on the frame, a bar on a link, or a rack."""
     low, high = track_ends(drawing, field, touch)
     on, side = touch.on, touch.side
     at, way = field(touch.at), field.way(touch.along)
@@ -298,9 +294,7 @@ class Edge(NamedTuple):
         return self.contact - self.centre
 
     def half(self, free: Real, values: Mapping[str, Any]) -> Real:
-        """Half the profile's arc in degrees: as given, else ``free`` up to the largest
-        half-angle.
-        """
+        """Half the profile's arc in degrees: as given, or ``free`` up to a limit."""
         if self.profile.arc is None:
             return smaller(free, WIDEST)
         return degrees(float(self.profile.arc.si(values))) / 2

@@ -41,10 +41,10 @@ R = TypeVar("R")
 
 
 def by_contact(draw: Callable[Concatenate[Pen, P], R]) -> Callable[Concatenate[Pen, P], R]:
-    """Attribute all steps that a function draws to the contact, or the group with one, among its
-    arguments.
+    """Attribute all steps that a function draws to the contact among its arguments.
 
-    Steps inside that are attributed to another effect keep that effect.
+    The contact may be in a group. Steps inside that are attributed to another effect keep that
+    effect.
     """
 
     @wraps(draw)
@@ -71,9 +71,7 @@ def contact_among(args: tuple[Any, ...]) -> Contact:
 
 
 class TouchingEffect(Struct, frozen=True):
-    """Why steps for wheels are included or left out: for wheels in mesh, or for wheels that
-    only roll.
-    """
+    """Why the steps for wheels in mesh, or for wheels that only roll, are in or left out."""
 
     effect: Effect
     in_mesh: bool
@@ -177,9 +175,7 @@ class Track(Construction, frozen=True, kw_only=True):
         return f"the line through {through}" if isinstance(through, str) else f"guide {self.wheel}"
 
     def clause(self, drawing: Drawing, role: str) -> str:
-        """The clause for the track: given on the frame, or drawn through a point of a
-        moving link.
-        """
+        """The clause for the track: on the frame, or through a point of a moving link."""
         if self.rolling.on == FRAME:
             return drawing.words("step.guide-named", guide=way_of(drawing, self.wheel))
         line = straight(drawing, self.rolling, on_paper=True)
@@ -189,8 +185,7 @@ class Track(Construction, frozen=True, kw_only=True):
 
 
 class CentrePath(Construction, frozen=True, kw_only=True):
-    """The ``line`` on which the ``centre`` of a ``wheel`` moves, parallel to its straight
-    ``track``.
+    """The ``line`` of the ``centre`` of a ``wheel``, parallel to its straight ``track``.
 
     ``sign`` is the wheel's name among the wheels of its link.
     """
@@ -271,9 +266,7 @@ class ContactOfWheels(PointOfContact, frozen=True, kw_only=True):
     about: tuple[str, Wheel]
 
     def point_sentence(self, drawing: Drawing, role: str) -> str:
-        """The sentence for the contact by a radius; a gear's is from its module and number
-        of teeth.
-        """
+        """The sentence for the contact by a radius; a gear's follows from its module and teeth."""
         size = abs(float(drawing.trace.values[self.found_from[2]]))
         sign, wheel = self.about
         count = f" = *m*·{of_wheel('z', sign)}/2" if wheel.teeth else ""
@@ -287,10 +280,10 @@ class ContactOfWheels(PointOfContact, frozen=True, kw_only=True):
 
 
 class CentreOfBelt(PointOfContact, frozen=True, kw_only=True):
-    """The crossing of the strands of a ``belt``, tangent to two wheels, with their line of centres
-    ``ends``.
+    """The crossing of the strands of a ``belt`` with the line of the wheels' centres, ``ends``.
 
-    There, both wheels, extended as plates, have the same velocity.
+    The strands are common tangents of the wheels. At the crossing, both wheels, extended as plates,
+    have the same velocity.
     """
 
     reasons: ClassVar[Mapping[str, str]] = {"point": "why.belt"}
@@ -299,9 +292,7 @@ class CentreOfBelt(PointOfContact, frozen=True, kw_only=True):
     ends: tuple[str, str]
 
     def point_sentence(self, drawing: Drawing, role: str) -> str:
-        """The sentence for the crossing: of the strands if the belt is crossed, else of the
-        strands produced.
-        """
+        """The sentence for the crossing of the strands, produced if the belt is open."""
         key = "centre-of-crossed-belt" if self.belt.crossed else "centre-of-open-belt"
         return drawing.words(f"step.{key}", bar=bar(*self.ends), **self.symbols())
 

@@ -70,8 +70,9 @@ def foot_beyond(before: Point, axis: Line, p: Point, q: Point, seconds: Real, si
 def tip_over(
     foot: Point, axis: Line, p: Point, q: Point, o: Point, velocity: Point, side: int
 ) -> Point:
-    """The tip of a point's velocity over its foot; the velocity is perpendicular to the
-    line from p to q.
+    """The tip of a point's velocity, perpendicular to the axis over the point's foot.
+
+    The velocity itself is perpendicular to the line from ``p`` to ``q``.
     """
     square = 1j * (q - p) / abs(q - p) * side
     return foot + 1j * axis.along / abs(axis.along) * dot(square, velocity - o)
@@ -79,9 +80,7 @@ def tip_over(
 
 @action("ladder-ray")
 def ray_through(first: Point, last: Point, *others: Point) -> Line:
-    """The line through the tips of two points of a link, on which the link's other tips
-    also lie.
-    """
+    """The line through the tips of two points of a link, on which its other tips also lie."""
     return Line(first, last - first)
 
 
@@ -143,8 +142,7 @@ class LadderAxis(Construction, frozen=True, kw_only=True):
 
 
 class LadderPoint(Construction, frozen=True, kw_only=True):
-    """The ``foot`` of a point on the axis, and the ``tip`` of its velocity perpendicular to the
-    axis.
+    """The ``foot`` of a point on the axis, and over it the ``tip`` of the point's velocity.
 
     ``before`` is the foot from which it is laid off; a fixed point has no tip.
     """
@@ -351,9 +349,7 @@ def short(drawing: Drawing, number: int) -> str:
 
 
 BESIDE = 0.2
-"""Space between the velocity plan and the axis, and between both plans, as a fraction of
-the axis.
-"""
+"""Space from the velocity plan to the axis, and between the plans, as a fraction of the axis."""
 
 
 class OnAxis(NamedTuple):
@@ -462,9 +458,7 @@ class Ladder:
         self.centres[first] = OnAxis(start, start, 0.0)
 
     def place_fixed(self) -> None:
-        """Draw the other fixed centres, each beyond a centre in contact with it, else
-        beyond the first.
-        """
+        """Draw the other fixed centres, each beyond a touching centre or beyond the first."""
         waiting = [centre for centre in self.fixed() if centre not in self.centres]
         while waiting:
             known, centre = next(self.reached(waiting), (next(iter(self.centres)), waiting[0]))
@@ -489,9 +483,7 @@ class Ladder:
             self.carry(wheel, self.centres[centre])
 
     def place_contact(self, contact: Contact) -> None:
-        """Draw a pitch point on the line from a fixed centre; that of two planets is not on
-        the axis.
-        """
+        """Draw a pitch point in line with a fixed centre; other pitch points are left out."""
         fixed = [c for c in centres_of(contact) if c in self.scene.frame.points]
         if not fixed:
             return
@@ -626,8 +618,9 @@ def problem(found: str) -> Problem:
 
 
 def draw_ladder(pen: Pen) -> None:
-    """Draw Kutzbach's plan if the scene asks for it. Raises StructureError where it cannot
-    be drawn.
+    """Draw Kutzbach's plan if the scene asks for it.
+
+    Raises StructureError where it cannot be drawn.
     """
     if pen.scene.sheet.plan != PLAN:
         return

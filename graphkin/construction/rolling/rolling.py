@@ -65,9 +65,7 @@ def rolled_on_track(lead: Real, start: Real, coordinate: Real, radius: Real) -> 
 
 @action("way-rolled")
 def way_rolled(turn: Real, start: Real, radius: Real) -> Real:
-    """The distance that a wheel has rolled along its track, from its angle relative to the
-    track.
-    """
+    """The distance rolled along a track, from the wheel's angle relative to the track."""
     return -(turn - start) * radius
 
 
@@ -115,9 +113,12 @@ def arm_between(
 ) -> Real:
     """The angle of an arm whose planet rolls on two wheels of known rotation (Willis).
 
-    The arguments are, for both contacts, the track's rotation, the arm's and the planet's angle at
-    the start, and the radii of the track and of the planet's wheel; a ring's radius is negative.
-    Equal ratios leave the arm free and raise ZeroDivisionError on a scalar.
+    For both contacts, the arguments are:
+    - the track's rotation;
+    - the angles of the arm and of the planet at the start;
+    - the radii of the track and of the planet's wheel, a ring's negative.
+
+    Equal ratios leave the arm free: they raise ZeroDivisionError on a scalar.
     """
     first, second = track / wheel, other_track / other_wheel
     near = planet - (turn + start) * first - start
@@ -486,8 +487,9 @@ def refuse_idle_turns(pen: Pen) -> None:
 
 
 def turned_with(pen: Pen, link: str) -> str | None:
-    """The next link along slides from a link towards a driven or counted one; both turn
-    together.
+    """The first link on the way along slides from a link to a driven or counted one.
+
+    All links on that way turn together.
     """
     towards, waiting = {link: link}, [link]
     while waiting:
@@ -530,9 +532,7 @@ def driven_turn(pen: Pen, driver: Driver, link: str) -> int:
 
 
 def roller(pen: Pen, group: Geared, own: Contact) -> None:
-    """Place a roller between two parallel tracks: its coordinate on the first, then as any
-    wheel.
-    """
+    """Place a roller between two parallel tracks: by its coordinate, then as any wheel."""
     other = group.contact
     lines = [track_of(pen, each) for each in (own, other)]
     values = [pen.peek(line) for line in lines]

@@ -39,22 +39,21 @@ def rolling_on_wheel(
 ) -> Point:
     """The acceleration of a wheel's contact point relative to that of the wheel on which it rolls.
 
-    ``track`` is the other wheel's centre. The acceleration is that on a straight track, times the
-    ratio of the distances of this centre from the contact and from the wheel's own centre. The
-    diameter of the inflection circle takes the place of the radius (Euler, Savary).
+    ``track`` is the other wheel's centre. The acceleration is that on a straight track times a
+    ratio: that centre's distance from the contact over its distance from the wheel's own centre.
+    The diameter of the inflection circle takes the place of the radius (Euler, Savary).
     """
     relative = omega - omega_track
     return (centre - contact) * ((track - contact) / (track - centre)) * (relative * relative)
 
 
 class RollingNormal(Component, frozen=True, kw_only=True):
-    """a_ν = ω²·r of a contact point relative to the point on which it rolls, laid off from its
-    number.
+    """a_ν = ω²·r of a rolling contact point relative to the touched one, laid off by number.
 
-    It runs along the radius from the point ``p`` to ``q``, whose positions are ``foot`` and
-    ``head``. The point's link turns at ``omega``, and what it rolls on at ``omega_track``. It
-    starts at the image ``start`` of the touched point and ends at the ``image`` of the rolling
-    point, which is a bar's where ``on_bar`` is set.
+    The vector runs along the radius from the point ``p`` to ``q``, at the positions ``foot`` and
+    ``head``. The point's link turns at ``omega``, the touched link at ``omega_track``. In the plan,
+    the vector runs from ``start``, the touched point's image, to ``image``, the rolling point's.
+    ``on_bar`` means that a bar rolls on a wheel.
     """
 
     gives: ClassVar[tuple[str, ...]] = ("vector", "image")
@@ -104,7 +103,7 @@ class RollingNormal(Component, frozen=True, kw_only=True):
         return Wording("", "")
 
     def point_sentence(self, drawing: Drawing, role: str) -> str:
-        """How it is laid off; the first on a sheet also says why it is the whole acceleration."""
+        """How it is laid off; the first time, also why it is the whole acceleration."""
         first = next(self.alike(drawing))
         key = "step.lay-off-rolling-bar" if self.on_bar else "step.lay-off-rolling"
         return self.told(drawing, key if self is first else "step.lay-off-named")
@@ -147,11 +146,12 @@ class RollingNormal(Component, frozen=True, kw_only=True):
             over=self.bars(),
         )
 
-    # --- own sizes --------------------------------------------------------------------------------
+    # --- grading ----------------------------------------------------------------------------------
 
     def sizes(self, own: OwnSizes) -> Iterator[Size]:
-        """ω²·r from the component's own values; none against a turning track, whose rates
-        have no sense.
+        """ω²·r from the student's own values; none against a turning track.
+
+        The reason is that the student's own rates carry no sense.
         """
         if any(track.size for track in own.turnings(self.omega_track)):
             return
@@ -183,9 +183,7 @@ class RollingOnWheel(RollingNormal, frozen=True, kw_only=True):
         return f"{radius}·{far}/{apart}"
 
     def point_sentence(self, drawing: Drawing, role: str) -> str:
-        """How it is laid off; the first on a sheet also says why it lies along the line of
-        centres.
-        """
+        """How it is laid off; the first time, also why it is along the line of centres."""
         first = self is next(self.alike(drawing))
         key = "step.lay-off-rolling-on" if first else "step.lay-off-named"
         return self.told(drawing, key, formula=self.formula(drawing))
@@ -241,8 +239,7 @@ def rolled_image(
 
 
 class CommonNormal(Construction, frozen=True, kw_only=True):
-    """The ``line`` through the image ``start`` of one contact point, as a locus of the other's
-    image.
+    """The ``line`` through one contact point's image ``start``, a locus of the other's image.
 
     The line is parallel to the radius from ``p`` to ``q``; for ``belted`` links, it is parallel to
     their line of centres.

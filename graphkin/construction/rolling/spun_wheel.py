@@ -72,8 +72,7 @@ def as_rack(group: Spun) -> Geared:
 
 
 def move(images: GroupImages, pen: Pen, group: Spun) -> None:
-    """Draw a plan: the link turns at the given rate, and its contact moves with the other link's
-    point.
+    """Draw a plan: the link's rate is given, and its contact moves with the other's point.
 
     The accelerations at the contact differ along the normal alone.
     """

@@ -1,6 +1,4 @@
-"""The images of the points of wheels, and their rates: a wheel has its track's velocity at
-the contact.
-"""
+"""The images of wheels' points, and their rates: a wheel moves with its track at the contact."""
 
 from __future__ import annotations
 
@@ -115,9 +113,7 @@ def touched(pen: Pen, contact: Contact, link: str, known: str) -> int:
 
 @by_contact
 def geared(pen: Pen, group: Geared) -> None:
-    """Draw a wheel or rack in the velocity plan: its contact has the velocity of what it
-    touches.
-    """
+    """Draw a wheel or rack in the velocity plan; the touching points have one velocity."""
     link, contact = group.link, group.contact
     if contact.alike:
         return
@@ -200,9 +196,9 @@ def train(pen: Pen, group: Train) -> None:
 def second_train(pen: Pen, group: Train) -> None:
     """Draw the second image of a planet's centre, from the arm's pin and from its contacts.
 
-    The force along the arm is free. Across the arm, the contacts' second images determine the
-    motion of the centre, as that of m: m divides their line as the centre divides the line of the
-    contacts.
+    Along the arm, the contacts leave the centre's acceleration open. Across the arm, they give the
+    acceleration of m, which divides the line of their second images as the centre divides their own
+    line.
     """
     link, centre, pivot = group.wheel, group.centre.point, group.pivot.point
     names = [contact_name(contact) for contact in group.contacts]
@@ -257,9 +253,7 @@ def second_about_fixed_pin(pen: Pen, contact: Contact, link: str, known: str) ->
 
 
 def second_rack(pen: Pen, group: Geared, slide: Sliding) -> None:
-    """Draw the second image of a rack's point: on its guide's line, and by the wheel
-    perpendicular to it.
-    """
+    """Draw the second image of a rack's point: by its guide, and by the wheel across it."""
     link, contact = group.link, group.contact
     if pen.turns(link):
         turning_rack(pen, group)
@@ -277,8 +271,7 @@ def second_rack(pen: Pen, group: Geared, slide: Sliding) -> None:
 
 
 def turning_rack(pen: Pen, group: Geared) -> None:
-    """Draw the second image of the point of a rack that turns with its guide, from its contact
-    point.
+    """Draw the second image of a point of a turning rack, from its contact point's image.
 
     The contact point's acceleration relative to the wheel's point is directed away from the wheel's
     centre.
@@ -292,18 +285,18 @@ def turning_rack(pen: Pen, group: Geared) -> None:
 def turn_from_rim(
     pen: Pen, link: str, rim: str, point: str, plan: Plan, along: str | None = None
 ) -> None:
-    """Draw the image of a point of a link of known rates, from the image of its contact point or
-    pin.
+    """Draw the image of a link's point, from the image of its contact point or pin.
 
-    ``along`` is the point from whose image a velocity arrow is drawn, too. A link that a driver
-    turns steadily has no tangential component.
+    The link's rates are known. ``along`` is the point from whose image a velocity arrow is drawn,
+    too. A link that a driver turns steadily has no tangential component.
     """
     plan.turn(pen, link, rim, point, steady=plan.is_steady(pen, link), along=along)
 
 
 def second_roller(pen: Pen, group: Geared, own: Contact) -> None:
-    """Draw a roller between tracks: its contacts accelerate against them towards its centre
-    only.
+    """Draw a roller between tracks; its contact points accelerate towards its centre only.
+
+    These accelerations are relative to the tracks.
     """
     link, centre, contacts = group.link, own.wheel.centre, (own, group.contact)
     known = [partner(each, link) for each in contacts]

@@ -23,7 +23,7 @@ from graphkin.numbers.arithmetic import batch_kind, np
 EMITTED_FROM = 2_000
 """Number of variants from which source is written: a few such batches repay the cost."""
 COMPILED_FROM = 100_000
-"""Number of variants from which source is compiled, if numba is installed: seconds per process."""
+"""Number of variants from which source is compiled by numba: it takes seconds per process."""
 
 LEAST: Literal["least"] = "least"
 Margins = bool | Literal["least"]
@@ -43,9 +43,7 @@ class BatchRequest(Struct, frozen=True):
     overrides: Overrides
 
     def key(self) -> tuple[Any, ...]:
-        """The part of the request on which its source depends: all but the numbers in the
-        arrays.
-        """
+        """The part of the request on which its source depends: all but the arrays' numbers."""
         marks = marked(self.values), marked(self.overrides)
         return (tuple(self.needed), tuple(self.keep), self.margins, *marks)
 
@@ -80,8 +78,7 @@ class BatchRunner(Struct):
         overrides: Overrides | None = None,
         way: Way | None = None,
     ) -> Trace:
-        """As ``run_blocks``, with NaN where the mechanism cannot be drawn; call under numpy's
-        errstate.
+        """As ``run_blocks``: NaN where the mechanism cannot be drawn; call under numpy's errstate.
 
         ``overrides`` replaces the values of steps by arrays. ``way`` selects the method; None
         selects it by the number of variants. A request that cannot be traced runs step by step.

@@ -133,9 +133,7 @@ class ScratchArrays:
         return f"t{self.free.pop()}"
 
     def constant(self, value: str) -> str:
-        """The name of a constant: numpy is faster with an array of one number than with a
-        plain one.
-        """
+        """The name of a constant: numpy is faster with a one-number array than a plain number."""
         return self.constants.setdefault(value, f"k{len(self.constants)}")
 
     def written(self, number: int) -> list[str]:
@@ -172,8 +170,7 @@ class ScratchArrays:
 
 
 def loop_source(graph: Graph, columns: Sequence[Column], inputs: Sequence[str]) -> str:
-    """Source of ``loop(size, x…, y…)``: a strip of variants at a time through a small scratch
-    array.
+    """Source of ``loop(size, x…, y…)``: a strip of variants at a time through a small scratch.
 
     All intermediate values are in one array at known offsets. A compiler then sees that nothing
     overlaps, and vectorizes the loop. Operations that call a library come first.

@@ -1,8 +1,7 @@
-"""The computations of a run as a graph of real operations, with equal ones shared and constants
-folded.
+"""The computations of a run as a graph of real operations.
 
-Traced numbers fill the graph (traced.py); it is emitted as source in emitted.py and javascript.py.
-The graph depends on neither.
+Equal operations are shared and constants are folded. Traced numbers fill the graph (traced.py), and
+it is emitted as source in emitted.py and javascript.py. The graph depends on neither.
 """
 
 from __future__ import annotations
@@ -16,9 +15,7 @@ COMMUTING = frozenset({"add", "mul", "min", "max", "equal", "both", "either"})
 
 
 class Node(NamedTuple):
-    """One operation on earlier nodes; ``value`` is the value of a ``number``, ``name`` an
-    input's name.
-    """
+    """One operation on earlier nodes; ``value`` is a constant's, ``name`` an input's."""
 
     op: str
     args: tuple[int, ...] = ()
@@ -27,9 +24,7 @@ class Node(NamedTuple):
 
 
 def quotient(a: float, b: float) -> float:
-    """A quotient as numpy computes it: division by zero gives infinity or NaN instead of
-    raising.
-    """
+    """A quotient as numpy has it: division by zero gives infinity or NaN."""
     if b:
         return a / b
     return a * math.copysign(math.inf, b)
@@ -139,9 +134,7 @@ class Graph:
         return total
 
     def common_factor(self, a: int, b: int) -> tuple[int, int, int] | None:
-        """A common factor of two products and the rest of each, without signs; None if
-        there is none.
-        """
+        """A common factor of two products and the rest of each, without signs, or None."""
         first, second = (self.nodes[self.unsigned(each)] for each in (a, b))
         if first.op == second.op == "mul" and a != b:
             for place, factor in enumerate(first.args):
@@ -270,9 +263,7 @@ def of_squares(op: str) -> Callable[[Graph, int, int], int | None]:
 
 
 def simpler_choice(graph: Graph, condition: int, yes: int, no: int) -> int | None:
-    """A choice between equal nodes is that node; a choice of the smaller or larger is min
-    or max.
-    """
+    """A choice between equal nodes is that node; the smaller or larger of two is min or max."""
     if yes == no:
         return yes
     test = graph.nodes[condition]

@@ -28,9 +28,7 @@ NOWHERE = -1
 
 
 class TapeOutputs:
-    """The outputs of a graph: numbers and points by their first index; equal ones are
-    stored once.
-    """
+    """The outputs of a graph: numbers and points by their first index, without duplicates."""
 
     def __init__(self, graph: Graph, inputs: Mapping[str, float]) -> None:
         self.graph, self.inputs = graph, dict(inputs)
@@ -61,9 +59,7 @@ class TapeOutputs:
         return self.places[nodes]
 
     def now(self, value: Any) -> Any:
-        """The value of a number, point or condition at the scene's position; a plain value
-        unchanged.
-        """
+        """A number, point or condition at the scene's position; a plain value unchanged."""
         if isinstance(value, Truth):
             return self.value(value.node)
         if not isinstance(value, TracedNumber):

@@ -21,9 +21,7 @@ from graphkin.numbers.arithmetic import Kind, nearest_quarter, np, quarter_turns
 
 
 class UntraceableError(AttributeError, TypeError):
-    """A step whose course depends on a value, so that it cannot be traced as straight-line
-    source.
-    """
+    """A step with a course that depends on a value, so that it has no straight-line source."""
 
 
 def refused(self: Traced, *_: Any) -> Any:
@@ -68,9 +66,7 @@ class Traced:
 
 
 class Truth(Traced):
-    """A condition, true or false for each variant; as a bool, it has its value at the drawn
-    position.
-    """
+    """A condition, true or false for each variant; as a bool, it has its drawn value."""
 
     __slots__ = ("node",)
 
