@@ -66,7 +66,7 @@ class DrivenSlide(AlongGuide, LaidOffByRate, frozen=True, kw_only=True):
         """The symbols of the point and of the guide, the latter named by its block."""
         return {"q": symbol(self.point), "g": escape(self.guide)}
 
-    # --- sentences --------------------------------------------------------------------------------
+    # --- sentences -------------------------------------------------------------------------------
 
     def fields(self, drawing: Drawing, role: str) -> dict[str, str]:
         """The ends, the guide, the drawn length and the sense, for the sentences."""
@@ -109,7 +109,7 @@ class DrivenSlide(AlongGuide, LaidOffByRate, frozen=True, kw_only=True):
         letter = (SPEEDS if steady else LETTERS)[name]
         return key, f"*{letter}*_{{{driver_index(driver)}}}"
 
-    # --- marks and relations ----------------------------------------------------------------------
+    # --- marks and relations ---------------------------------------------------------------------
 
     def laid_by_driver(self, drawing: Drawing, size: float) -> Relation:
         """The driver's rate along the guide, and its drawn length in each plan."""

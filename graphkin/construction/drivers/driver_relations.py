@@ -37,7 +37,7 @@ from graphkin.scene.simplify import simplified, text_of
 OMEGA = 6
 """Significant digits of the driver's angular velocity, on which all later numbers depend."""
 IN_RADIANS = tuple(rate.unit for rate in RATES)
-"""Units of angular rates that are not converted from another unit."""
+"""Units of angular rates in radians, which need no conversion."""
 COSINES = "√({0}^2 + {1}^2 − 2·{0}·{1}·cos {2})"
 """The third side of a triangle from two sides and their angle, in symbols or in figures."""
 KV, KA = "(m/s)/mm", "(m/s^2)/mm"

@@ -18,7 +18,7 @@ from graphkin.drawing.symbol_markup import symbol
 from graphkin.numbers.arithmetic import Point, Real, at
 from graphkin.numbers.plane import Line, cross, dot
 
-# --- the rotation of a link -----------------------------------------------------------------------
+# --- the rotation of a link ----------------------------------------------------------------------
 
 
 @action("axis")

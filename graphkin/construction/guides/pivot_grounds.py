@@ -83,7 +83,7 @@ def pivots(drawing: Drawing) -> dict[str, complex]:
 
 
 def is_covered(drawing: Drawing, here: complex, mm: float) -> bool:
-    """Whether a block turns about a pivot's pin at the position that decides for the motion."""
+    """Whether a block turns about a pivot's pin, judged at the position where places are chosen."""
     return any(abs(place - here) * mm < PIN for place in swivelling(drawing.choosing))
 
 

@@ -35,7 +35,7 @@ from graphkin.structure.groups import Dyad, OnTwoPins
 from graphkin.structure.pairs import Pin, Sliding
 from graphkin.text.errors import Problem, Sought
 
-# --- values ---------------------------------------------------------------------------------------
+# --- values --------------------------------------------------------------------------------------
 
 
 def swing_margin(pivot: Point, pin: Point, height: Real, way: int, size: float) -> Real:
@@ -106,7 +106,7 @@ def from_foot(foot: Point, pin: Point, way: int) -> Point:
     return line / abs(line)
 
 
-# --- constructions --------------------------------------------------------------------------------
+# --- constructions -------------------------------------------------------------------------------
 
 
 class SwungGuide(Determined, PlacesLink, frozen=True, kw_only=True):
@@ -243,7 +243,7 @@ class TangentGuide(SwungGuide, frozen=True, kw_only=True):
         return f"{self.pin} stands nearer to {self.pivot} than the guide passes it"
 
 
-# --- drawing --------------------------------------------------------------------------------------
+# --- drawing -------------------------------------------------------------------------------------
 
 
 def swing_guide(pen: Pen, group: Dyad) -> None:

@@ -106,7 +106,7 @@ class ClosedGroup(ClosesGroup, PlacesLink, frozen=True):
                 ends = (canvas.value(targets["position", point]) for point in (fixed, moving))
                 canvas.opening("".join(self.pins), *ends)
 
-    # --- sentences --------------------------------------------------------------------------------
+    # --- sentences -------------------------------------------------------------------------------
 
     def sentence_alone(self, drawing: Drawing, role: str) -> str:
         """How the position of the group is found."""

@@ -428,7 +428,7 @@ def sign_table(count: int) -> list[tuple[int, ...]]:
     return rows
 
 
-# --- balls decide where rounding leaves the number of closures open -------------------------------
+# --- balls decide where rounding leaves the number of closures open ------------------------------
 
 
 def run_settled(

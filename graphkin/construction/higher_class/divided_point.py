@@ -124,9 +124,10 @@ class DividedPoint(Divided, FindsImage, frozen=True, kw_only=True):
         return "why.meet" if self.is_crossed(drawing.trace.values) else "why.trials"
 
     def comes_along(self, role: str, found: Container[int]) -> bool:
-        """Whether the image has an arrow: where a crossing finds it, or it is under a slider.
+        """Whether an arrow brings in the image: one at a crossing, or one under a sliding point.
 
-        The image under a sliding point is a corner of that point's components.
+        By the crossing, the lines of other points are divided. The components of the sliding point
+        pass through the image under it.
         """
         return is_under(self.point) or self.is_crossed(found)
 

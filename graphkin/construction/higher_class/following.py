@@ -82,7 +82,7 @@ class GroupOnWay(Struct, frozen=True, dict=True):
     known: Callable[[Reals], list[Reals]]
     usual: float
 
-    # --- one closure, followed --------------------------------------------------------------------
+    # --- one closure, followed -------------------------------------------------------------------
 
     def begun(self, at: float, number: int) -> Reals | None:
         """The row of the closure with a given number at u; None where there is none."""
@@ -231,9 +231,7 @@ class GroupOnWay(Struct, frozen=True, dict=True):
         return [Place(r[0], r[1:], last.signs, a) for r, a in zip(rows, angles, strict=True)]
 
     def closed_led(self, start: Reals, lead: int, signs: Reals, unit: float, size: Reals) -> Reals:
-        """Rows (K, 1 + n) of u and trial values that close the group, one value (``lead``)
-        fixed.
-        """
+        """Rows (K, 1 + n) of u and closed trial values, with the value ``lead`` fixed."""
         free = [k for k in range(start.shape[1]) if k != 1 + lead]
         scale = np.array([unit, *size])[free]
 
@@ -275,7 +273,7 @@ class GroupOnWay(Struct, frozen=True, dict=True):
         scale = self.trying.scales(self.known(at), 1)[0]
         return np.concatenate([scale, np.ones(len(self.trying.axes))])
 
-    # --- all closures, and their numbers ----------------------------------------------------------
+    # --- all closures, and their numbers ---------------------------------------------------------
 
     def closures(self, at: Reals) -> Closures:
         """All closures at each u, in the order of their numbers."""

@@ -113,9 +113,7 @@ class DrawnMisclosure(Misclosure, frozen=True, kw_only=True):
 
 
 class LineMisclosure(DrawnMisclosure, frozen=True, kw_only=True):
-    """The gap across the line ``along``, on which the image belongs, through the image
-    ``start``.
-    """
+    """The gap across the line ``along`` through the image ``start``, where the image belongs."""
 
     along: int
     start: int

@@ -132,7 +132,7 @@ class SeveralTrials(Trying, frozen=True, dict=True):
         start, way = np.array([one.shares for one in self.unknowns], dtype=float).T
         return start, way
 
-    # --- cells in which all misfits may vanish ----------------------------------------------------
+    # --- cells in which all misfits may vanish ---------------------------------------------------
 
     @cached_property
     def looked_at(self) -> Ready:

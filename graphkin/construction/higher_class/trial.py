@@ -119,7 +119,7 @@ class Trial(Struct, frozen=True, dict=True):
         """Unit vectors and coordinates from angles and coordinates."""
         return tuple(one.value(each) for one, each in zip(self.unknowns, numbers, strict=True))
 
-    # --- runs of the program ----------------------------------------------------------------------
+    # --- runs of the program -------------------------------------------------------------------
 
     @cached_property
     def results(self) -> tuple[int, ...]:
@@ -214,7 +214,7 @@ class Trial(Struct, frozen=True, dict=True):
             found[one.tried] = one.value(each)
         return found | {self.signs[k]: signs[:, k] for k in range(signs.shape[1])}
 
-    # --- range of the trial -----------------------------------------------------------------------
+    # --- range of the trial --------------------------------------------------------------------
 
     def scales(self, known: Sequence[Any], size: int) -> Any:
         """The units of each element's trial values, with a column for each unknown.
@@ -308,7 +308,7 @@ class TrialChain:
             raise ValueError("the chain of the trial cannot be drawn") from failed
         return [trace.values[n] for n in wanted]
 
-    # --- one link tried ---------------------------------------------------------------------------
+    # --- one link tried --------------------------------------------------------------------------
 
     def misfit(self, tried: Any) -> Any:
         """The misfit of the last link; raises ValueError where the chain cannot be drawn."""

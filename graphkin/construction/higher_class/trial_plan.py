@@ -85,7 +85,7 @@ class TrialPlan(Struct, AuxiliaryPlan, frozen=True, eq=False):
         steps = drawing.trace.program.steps
         return sorted(n for n, plan in drawing.auxiliary.items() if plan is self and steps[n].name)
 
-    # --- coincident points ------------------------------------------------------------------------
+    # --- coincident points -----------------------------------------------------------------------
 
     def falls_on(self, drawing: Drawing, number: int) -> str:
         """The point on which a point and all that it is drawn from coincide; else empty.
@@ -110,7 +110,7 @@ class TrialPlan(Struct, AuxiliaryPlan, frozen=True, eq=False):
         users = drawing.children.get(number, ())
         return bool(users) and all(self.falls_on(drawing, user) for user in users)
 
-    # --- marks ------------------------------------------------------------------------------------
+    # --- marks -----------------------------------------------------------------------------------
 
     def marks(self, canvas: Canvas, number: int) -> None:
         """Draw a line as far as needed, or a leg and the point at its end."""
@@ -128,7 +128,7 @@ class TrialPlan(Struct, AuxiliaryPlan, frozen=True, eq=False):
             canvas.leg(step.name, OWN_LINES, canvas.value(start), canvas.value(number))
         canvas.image_aside()
 
-    # --- sentences --------------------------------------------------------------------------------
+    # --- sentences -------------------------------------------------------------------------------
 
     def sentences(self, drawing: Drawing, number: int) -> Iterator[Sentence]:
         """The sentence for the points of the plan, at the last point.
@@ -230,7 +230,7 @@ class TrialPlan(Struct, AuxiliaryPlan, frozen=True, eq=False):
                 return symbol(f"{drawing.rate.letter}_{kind.link}"), turning
         return "", ""
 
-    # --- relations --------------------------------------------------------------------------------
+    # --- relations -------------------------------------------------------------------------------
 
     def slid(self, drawing: Drawing, vector: DrivenSlide, rate: float) -> Relation:
         """The assumed rate of a slider along its guide."""

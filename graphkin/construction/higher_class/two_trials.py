@@ -125,7 +125,7 @@ class TwoTrials(ClosesGroup, SaidInParts, frozen=True):
         """The points of the right plan that this fraction divides."""
         return (p for p in constructions(program, DividedPoint) if p.share == self.share)
 
-    # --- sentences --------------------------------------------------------------------------------
+    # --- sentences -------------------------------------------------------------------------------
 
     def reason(self, drawing: Drawing, role: str) -> str:
         """The reason for a fraction from the gaps, where no crossing gives it."""
@@ -162,7 +162,7 @@ class TwoTrials(ClosesGroup, SaidInParts, frozen=True):
             "other": second.line(drawing),
         }
 
-    # --- relations --------------------------------------------------------------------------------
+    # --- relations -------------------------------------------------------------------------------
 
     def relations(self, drawing: Drawing) -> Iterator[Relation]:
         """The position of the right plan between the trials, from their misclosures."""
@@ -308,7 +308,7 @@ def on_paper(drawing: Drawing) -> float:
     return 1000 / scale_of(drawing, drawing.plane)
 
 
-# --- compilation ----------------------------------------------------------------------------------
+# --- compilation ---------------------------------------------------------------------------------
 
 
 def two_trials(images: GroupImages, pen: Pen, group: CoupledTrain | Higher, each: Each) -> None:

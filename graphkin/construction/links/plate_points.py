@@ -132,7 +132,7 @@ IN_LINE = 1e-9
 """Distance of a plate point from its line that counts as zero, relative to its distance."""
 
 
-# --- constructions --------------------------------------------------------------------------------
+# --- constructions -------------------------------------------------------------------------------
 
 
 class PlatePoint(Construction, frozen=True, kw_only=True):
@@ -228,7 +228,7 @@ class PointOnLever(Construction, frozen=True, kw_only=True):
         return drawing.words("step.mark-off-lever", p=symbol(self.start), q=name, name=name)
 
 
-# --- drawing --------------------------------------------------------------------------------------
+# --- drawing -------------------------------------------------------------------------------------
 
 
 def arc(pen: Pen, link: str, centre: str, point: str) -> int:

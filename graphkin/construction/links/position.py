@@ -32,7 +32,7 @@ def frame(pen: Pen) -> None:
             pen.want("position", placing.point, done[placing.point])
 
 
-# --- driven links ---------------------------------------------------------------------------------
+# --- driven links --------------------------------------------------------------------------------
 
 
 def crank(pen: Pen, group: Crank) -> None:
@@ -63,7 +63,7 @@ def driven(pen: Pen, group: Driven) -> None:
     led.set_at(pen, group.link, led.driven(pen, group.driver, "position"))
 
 
-# --- dyads and ties -------------------------------------------------------------------------------
+# --- dyads and ties ------------------------------------------------------------------------------
 
 
 def dyad(pen: Pen, group: Dyad) -> None:

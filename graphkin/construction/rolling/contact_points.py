@@ -105,7 +105,7 @@ TOUCHING = (
 )
 
 
-# --- values of tracks, contacts, racks and rollers ------------------------------------------------
+# --- values of tracks, contacts, racks and rollers -----------------------------------------------
 
 
 @action("radius-along")
@@ -152,7 +152,7 @@ def between_tracks(
     return -(lean * other_radius + way * shift) / (way - other_radius / radius)
 
 
-# --- constructions --------------------------------------------------------------------------------
+# --- constructions -------------------------------------------------------------------------------
 
 
 class Track(Construction, frozen=True, kw_only=True):
@@ -364,7 +364,7 @@ class RollerCentre(Construction, frozen=True, kw_only=True):
         return drawing.words("step.set-at", name=name, what=what)
 
 
-# --- velocities -----------------------------------------------------------------------------------
+# --- velocities ----------------------------------------------------------------------------------
 
 
 def of_contacts(drawing: Drawing) -> Iterator[Relation]:

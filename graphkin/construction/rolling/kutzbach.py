@@ -51,7 +51,7 @@ BEGINNING = "turn.say.kutzbach"
 """The key of the words on a page before a student draws the plan."""
 
 
-# --- values ---------------------------------------------------------------------------------------
+# --- values --------------------------------------------------------------------------------------
 
 
 @action("ladder-axis")
@@ -111,7 +111,7 @@ def kept(omega: Real) -> Real:
     return omega
 
 
-# --- constructions --------------------------------------------------------------------------------
+# --- constructions -------------------------------------------------------------------------------
 
 
 class LadderAxis(Construction, frozen=True, kw_only=True):
@@ -144,7 +144,8 @@ class LadderAxis(Construction, frozen=True, kw_only=True):
 class LadderPoint(Construction, frozen=True, kw_only=True):
     """The ``foot`` of a point on the axis, and over it the ``tip`` of the point's velocity.
 
-    ``before`` is the foot from which it is laid off; a fixed point has no tip.
+    ``before`` is the foot from which it is laid off. A fixed point has no ``tip``: its foot is its
+    tip.
     """
 
     gives: ClassVar[tuple[str, ...]] = ("foot", "tip")
@@ -306,7 +307,7 @@ class SpeedRead(GivesRate, frozen=True, kw_only=True):
         return Relation(symbol(f"ω_{link}"), f"*k*_n·{start}{cut}", figures, *tail)
 
 
-# --- sentences ------------------------------------------------------------------------------------
+# --- sentences -----------------------------------------------------------------------------------
 
 GROUPS = {"foot": LadderPoint, "tip": LadderPoint, "ray": LadderRay, "cut": SpeedRead}
 """The roles whose steps share one sentence, and their constructions."""
@@ -374,7 +375,7 @@ class Ladder:
         self.on: dict[str, list[OnAxis]] = {}
         self.axis, self.seconds = 0, 0
 
-    # --- points -----------------------------------------------------------------------------------
+    # --- points ----------------------------------------------------------------------------------
 
     def refusal(self) -> str:
         """The reason why a scene has no such plan; empty where it has one."""
@@ -421,7 +422,7 @@ class Ladder:
         """The position of a point at the scene's own numbers."""
         return complex(self.pen.peek(self.pen.the("position", point)))
 
-    # --- steps ------------------------------------------------------------------------------------
+    # --- steps -----------------------------------------------------------------------------------
 
     def draw(self) -> None:
         """Draw the axis, its points, the rays, the pole of speeds and the cuts of the parallels."""

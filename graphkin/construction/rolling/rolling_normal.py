@@ -77,7 +77,7 @@ class RollingNormal(Component, frozen=True, kw_only=True):
         """The symbols of the ends of the radius."""
         return {"p": symbol(self.p), "q": symbol(self.q), "bar": bar(self.p, self.q)}
 
-    # --- sentences --------------------------------------------------------------------------------
+    # --- sentences -------------------------------------------------------------------------------
 
     def rate(self, drawing: Drawing) -> str:
         """The symbol of the link's rate relative to what it rolls on."""
@@ -146,7 +146,7 @@ class RollingNormal(Component, frozen=True, kw_only=True):
             over=self.bars(),
         )
 
-    # --- grading ----------------------------------------------------------------------------------
+    # --- grading ---------------------------------------------------------------------------------
 
     def sizes(self, own: OwnSizes) -> Iterator[Size]:
         """ω²·r from the student's own values; none against a turning track.
@@ -195,7 +195,7 @@ class RollingOnWheel(RollingNormal, frozen=True, kw_only=True):
             yield Size(size.factors, size.size * ratio, size.bar)
 
 
-# --- drawing --------------------------------------------------------------------------------------
+# --- drawing -------------------------------------------------------------------------------------
 
 
 def rolled_image(

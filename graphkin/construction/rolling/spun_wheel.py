@@ -24,7 +24,7 @@ from graphkin.structure.groups import Geared, Higher, Spun
 from graphkin.structure.joints import partner
 from graphkin.structure.pairs import Pin
 
-# --- the mechanism --------------------------------------------------------------------------------
+# --- the mechanism -------------------------------------------------------------------------------
 
 
 def place(pen: Pen, group: Spun) -> None:
@@ -68,7 +68,7 @@ def as_rack(group: Spun) -> Geared:
     return Geared(group.link, group.held, group.contact)
 
 
-# --- the plans ------------------------------------------------------------------------------------
+# --- the plans -----------------------------------------------------------------------------------
 
 
 def move(images: GroupImages, pen: Pen, group: Spun) -> None:

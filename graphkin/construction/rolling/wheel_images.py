@@ -91,7 +91,7 @@ def turned_by_radii(pen: Pen, contact: Contact, link: str, turning: int) -> int:
     return pen.make(found).rate
 
 
-# --- images ---------------------------------------------------------------------------------------
+# --- images -------------------------------------------------------------------------------------
 
 
 @by_contact

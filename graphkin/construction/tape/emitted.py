@@ -88,7 +88,7 @@ def shown(node: Node) -> str:
     return repr(node.value)
 
 
-# --- numpy ----------------------------------------------------------------------------------------
+# --- numpy ---------------------------------------------------------------------------------------
 
 
 def numpy_source(graph: Graph, outputs: Sequence[int]) -> tuple[str, int]:
@@ -166,7 +166,7 @@ class ScratchArrays:
         return f"{ARRAYS[node.op]}({', '.join(args)}, out={array})"
 
 
-# --- a loop over single numbers -------------------------------------------------------------------
+# --- a loop over single numbers ------------------------------------------------------------------
 
 
 def loop_source(graph: Graph, columns: Sequence[Column], inputs: Sequence[str]) -> str:
