@@ -347,8 +347,8 @@ class Closures(Struct, frozen=True):
     """All closures of some elements: rows of element, trial value, signs and sine of crossing.
 
     ``whole`` also has the rows that may be closures (``touching``): there the misfit comes so close
-    to zero that rounding hides whether it changes sign. ``complete`` means that no other closures
-    are proved to exist; a search on a grid proves nothing.
+    to zero that rounding hides whether it changes sign. ``complete`` means that a proof excludes
+    other closures; a search on a grid proves nothing.
     """
 
     size: int
