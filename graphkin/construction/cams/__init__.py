@@ -1,1 +1,1 @@
-"""Cams by their law: the follower set, the centre of curvature, the profile."""
+"""Cams: the follower placed by the cam's law, the centre of curvature, and the profile."""

@@ -1,4 +1,4 @@
-"""A follower set by its cam's law; its plans are those of the equivalent linkage."""
+"""A follower placed by the law of its cam; its plans are those of the equivalent linkage."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ from graphkin.structure.pairs import Pin, Sliding
 
 
 def place(pen: Pen, group: CamFollower) -> None:
-    """The follower at the coordinate, or turned to the angle, that the law of its cam gives."""
+    """Place the follower at the coordinate or angle that the law of its cam gives."""
     dyad = group.dyad
     follower = next(link for link in dyad.links if link in pen.scene.cams)
     cam = pen.scene.cams[follower]
@@ -45,12 +45,12 @@ def place(pen: Pen, group: CamFollower) -> None:
 
 
 def move(images: GroupImages, pen: Pen, group: CamFollower) -> None:
-    """A plan: that of the equivalent linkage."""
+    """Draw a plan: that of the equivalent linkage."""
     images.dyad(pen, group.dyad)
 
 
 def block_on(pen: Pen, pair: Sliding, lever: str) -> None:
-    """The block that stands for the contact, on the face of a lever that is set already."""
+    """Place the block that represents the contact on the face of a lever already placed."""
     turned_with(pen, pair, lever)
     under, block = pen.bases[lever].end, pen.bases[pair.block].start
     pen.want("position", under or "", pen.the("position", block))

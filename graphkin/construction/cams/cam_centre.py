@@ -1,4 +1,4 @@
-"""The follower of a cam where its law sets it, and the centre of curvature that moves it there."""
+"""The position of a cam's follower by the cam's law, and the centre of curvature under it."""
 
 from __future__ import annotations
 
@@ -46,7 +46,10 @@ NAMES = tuple(MOTIONS)
 
 
 def law(axis: Point, start: Point, *rest: Real) -> Rise:
-    """The displacement at the cam's axis; ``rest`` are ends, rises, the sense and the motions."""
+    """The displacement at the cam's axis.
+
+    ``rest`` holds the ends, the rises, the sense and the codes of the motions.
+    """
     count = (len(rest) - 1) // 3
     ends, rises = rest[:count], rest[count : 2 * count]
     sense, motions = rest[2 * count], [NAMES[int(code)] for code in rest[2 * count + 1 :]]
@@ -56,7 +59,11 @@ def law(axis: Point, start: Point, *rest: Real) -> Rise:
 
 
 def table(axis: Point, start: Point, *rest: Real) -> Rise:
-    """The same by a table; ``rest`` are ends, rises, slopes at begins and ends, the sense."""
+    """The displacement at the cam's axis, from a table.
+
+    ``rest`` holds the ends, the rises, the slopes at the begins, the slopes at the ends, and the
+    sense.
+    """
     count = (len(rest) - 1) // 4
     ends, rises, begins, finishes = (rest[k * count : (k + 1) * count] for k in range(4))
     sense, turn = rest[-1], axis * start.conjugate()
@@ -66,7 +73,7 @@ def table(axis: Point, start: Point, *rest: Real) -> Rise:
 
 
 def plate_law(place: Real, start: Real, *rest: Real) -> Rise:
-    """The same by the coordinate of a plate."""
+    """The displacement at the coordinate of a plate; ``rest`` is as in ``law``."""
     count = (len(rest) - 1) // 3
     ends, rises = rest[:count], rest[count : 2 * count]
     sense, motions = rest[2 * count], [NAMES[int(code)] for code in rest[2 * count + 1 :]]
@@ -75,8 +82,10 @@ def plate_law(place: Real, start: Real, *rest: Real) -> Rise:
 
 
 def read_off(law: Callable[..., Rise]) -> tuple[Action, Action, Action]:
-    """What gives the displacement of a follower by a law, and its two derivatives: by the cam's
-    angle, counter-clockwise, or by the coordinate of a plate.
+    """The actions for a follower's displacement by a law and for its two derivatives.
+
+    The derivatives are with respect to the cam's angle, counter-clockwise, or to the coordinate of
+    a plate.
     """
 
     def part(name: str) -> Action:
@@ -92,14 +101,14 @@ plate_lift, plate_rate, plate_bend = read_off(plate_law)
 
 @action("cam-height")
 def height_of_tip(path: Line, pivot: Point, prime: Real, lift: Real) -> Real:
-    """How far along its path the centre of a roller stands from the foot of the cam's pivot."""
+    """The distance along the path from the foot of the cam's pivot to the centre of a roller."""
     aside = cross(path.along, path.point - pivot) / abs(path.along)
     return sqrt(prime * prime - aside * aside) + lift
 
 
 @action("cam-height")
 def height_of_face(path: Line, pivot: Point, prime: Real, lift: Real) -> Real:
-    """How far a flat face stands from the cam's pivot."""
+    """The distance of a flat face from the cam's pivot."""
     return prime + lift
 
 
@@ -117,19 +126,19 @@ def coordinate_on_plate(path: Line, plate: Line, prime: Real, lift: Real) -> Rea
 
 @action("cam-lift")
 def seen_from(axis: Point, carrier: Point) -> Point:
-    """The axis of a cam as the link sees it that carries its follower."""
+    """The axis of a cam in the frame of the link that carries its follower."""
     return axis * carrier.conjugate()
 
 
 @action("cam-lift")
 def seen_at_rest(carrier: Point) -> Point:
-    """The same of a cam at rest."""
+    """The axis of a fixed cam in the frame of the link that carries its follower."""
     return carrier.conjugate()
 
 
 @action("cam-swing")
 def swing_on_plate(plate: Line, pin: Point, arm: Real, prime: Real, lift: Real, side: int) -> Point:
-    """The direction of a lever whose roller or knife a plate lifts."""
+    """The direction of a lever whose roller or knife edge a plate lifts."""
     up = upward(plate.along, pin - plate.point)
     start = start_on_plate(dot(up, pin - plate.point), arm, prime)
     return lever_way(up, start, side, lift)
@@ -137,7 +146,7 @@ def swing_on_plate(plate: Line, pin: Point, arm: Real, prime: Real, lift: Real, 
 
 @action("cam-swing")
 def swing_on_tip(pivot: Point, pin: Point, arm: Real, prime: Real, lift: Real, side: int) -> Point:
-    """The direction of a lever whose roller or knife a cam lifts."""
+    """The direction of a lever whose roller or knife edge a cam lifts."""
     return lever_way(pin - pivot, start_on_tip(pin - pivot, arm, prime), side, lift)
 
 
@@ -148,7 +157,7 @@ def swing_on_face(pivot: Point, pin: Point, face: Real, base: Real, lift: Real, 
 
 
 def tip_on_guide(pivot: Point, path: Line, height: Real, rate: Real, bend: Real) -> TipMotion:
-    """How a roller or a knife moves that a guide leads, seen from the cam's pivot."""
+    """The motion, relative to the cam's pivot, of a roller or knife edge that moves on a guide."""
     along = path.along / abs(path.along)
     return guided_tip(along, cross(along, path.point - pivot), height, rate, bend)
 
@@ -156,21 +165,22 @@ def tip_on_guide(pivot: Point, path: Line, height: Real, rate: Real, bend: Real)
 def tip_of_lever(
     pivot: Point, pin: Point, way: Point, arm: Real, rate: Real, bend: Real, side: int
 ) -> TipMotion:
-    """How it moves at the end of a lever."""
+    """The motion, relative to the cam's pivot, of a roller or knife edge at the end of a lever."""
     return swung_tip(pin - pivot, way * arm, side, rate, bend)
 
 
 def curved(motion: TipMotion) -> Real:
-    """How far the tip stands from the pivot, in parts of that and the way to the centre.
+    """The tip's distance from the cam's pivot, over the sum of that and the centre's distance.
 
-    It vanishes where the pitch curve is straight, so that its centre of curvature lies at infinity.
+    The fraction is zero where the pitch curve is straight and its centre of curvature lies at
+    infinity.
     """
     far = abs(motion.centre)
     return abs(motion.place) / (abs(motion.place) + far)
 
 
 def tip_over_plate(path: Line, plate: Line, at: Real, rate: Real, bend: Real) -> TipMotion:
-    """How a roller or a knife moves that a guide leads over a plate; its place in the plane."""
+    """The motion of a roller or knife edge on a guide over a plate; its place in the plane."""
     along, drift = path.along / abs(path.along), plate.along / abs(plate.along)
     return TipMotion(path.point + along * at, rate * along, bend * along, drift)
 
@@ -178,13 +188,13 @@ def tip_over_plate(path: Line, plate: Line, at: Real, rate: Real, bend: Real) ->
 def tip_of_lever_over_plate(
     plate: Line, pin: Point, way: Point, arm: Real, rate: Real, bend: Real, side: int
 ) -> TipMotion:
-    """How it moves at the end of a lever; its place in the plane."""
+    """The motion over a plate of a tip at the end of a lever; its place in the plane."""
     swung = swung_tip(pin, way * arm, side, rate, bend)
     return swung._replace(drift=plate.along / abs(plate.along))
 
 
 def curved_over(motion: TipMotion, size: Real) -> Real:
-    """The ``size`` of a law in parts of that and of the radius of the pitch curve."""
+    """The ``size`` of a law as a fraction of itself plus the radius of the pitch curve."""
     return size / (size + abs(motion.centre - motion.place))
 
 
@@ -192,7 +202,7 @@ def curved_over(motion: TipMotion, size: Real) -> Real:
 def centre_over_plate(
     path: Line, plate: Line, at: Real, rate: Real, bend: Real, size: Real
 ) -> Point:
-    """The centre of curvature of the pitch curve of a plate under a guided tip."""
+    """The centre of curvature of the pitch curve of a plate, for a tip that moves on a guide."""
     return tip_over_plate(path, plate, at, rate, bend).centre
 
 
@@ -200,13 +210,13 @@ def centre_over_plate(
 def centre_over_plate_by_lever(
     plate: Line, pin: Point, way: Point, arm: Real, rate: Real, bend: Real, side: int
 ) -> Point:
-    """The same under the tip of a lever."""
+    """The centre of curvature of the pitch curve of a plate, for the tip of a lever."""
     return tip_of_lever_over_plate(plate, pin, way, arm, rate, bend, side).centre
 
 
 @action("cam-centre", margin=lambda *known: curved(tip_on_guide(*known)))
 def centre_under_tip(pivot: Point, path: Line, height: Real, rate: Real, bend: Real) -> Point:
-    """The centre of curvature of the pitch curve of a roller or a knife."""
+    """The centre of curvature of the pitch curve, for a roller or knife edge on a guide."""
     return pivot + tip_on_guide(pivot, path, height, rate, bend).centre
 
 
@@ -220,7 +230,7 @@ def centre_under_face(pivot: Point, path: Line, height: Real, rate: Real, bend: 
 def centre_under_lever(
     pivot: Point, pin: Point, way: Point, arm: Real, rate: Real, bend: Real, side: int
 ) -> Point:
-    """The same under the tip of a lever."""
+    """The centre of curvature of the pitch curve, for the tip of a lever."""
     return pivot + tip_of_lever(pivot, pin, way, arm, rate, bend, side).centre
 
 
@@ -228,18 +238,17 @@ def centre_under_lever(
 def centre_under_swung_face(
     pivot: Point, pin: Point, way: Point, face: Real, rate: Real, bend: Real, side: int
 ) -> Point:
-    """The same under the flat face of a lever."""
+    """The centre of curvature of the profile under the flat face of a lever."""
     return pivot + swung_face(pin - pivot, way, face, side, rate, bend).centre
 
 
 @action("cam-lever")
 def lever_end(pin: Point, way: Point, arm: Real) -> Point:
-    """The end of a lever of known direction."""
     return pin + way * arm
 
 
 class SwungLever(Construction, frozen=True, kw_only=True):
-    """The ``tip``, called ``name``, of a lever ``link`` that a cam has swung about its ``pin``."""
+    """The ``tip``, called ``name``, of a lever ``link`` that a cam has turned about its ``pin``."""
 
     gives: ClassVar[tuple[str, ...]] = ("tip",)
     reasons: ClassVar[Mapping[str, str]] = {"tip": "why.cam_lever"}
@@ -253,7 +262,7 @@ class SwungLever(Construction, frozen=True, kw_only=True):
     tip: int
 
     def point_sentence(self, drawing: Drawing, role: str) -> str:
-        """By the angle of its bar in the plane."""
+        """The sentence that places the tip by the angle of its bar in the plane."""
         words, spot = drawing.words, drawing.standing.spot
         angle = words.fixed(degrees(phase(spot(self.name) - spot(self.pin))), 1)
         fields = {"p": symbol(self.pin), "name": symbol(self.name), "angle": angle}
@@ -263,7 +272,7 @@ class SwungLever(Construction, frozen=True, kw_only=True):
 class CurvatureCentre(Determined, frozen=True, kw_only=True):
     """The centre of curvature ``point``, called ``name``, of the cam ``link`` under its follower.
 
-    It is laid off from the cam's pivot, called ``start``.
+    The distance to it is measured from the cam's pivot, called ``start``.
     """
 
     gives: ClassVar[tuple[str, ...]] = ("point",)
@@ -283,11 +292,11 @@ class CurvatureCentre(Determined, frozen=True, kw_only=True):
     point: int
 
     def in_line(self, steps: Sequence[Step], nearly: str) -> str:
-        """A pitch curve without curvature."""
+        """The words for a pitch curve without curvature."""
         return f"the pitch curve of link {self.link} is {nearly}straight at the contact"
 
     def undetermined(self, args: Sequence[Any]) -> Problem:
-        """No circle stands for the cam where its pitch curve is straight."""
+        """The problem of a straight pitch curve, which no circle can replace."""
         hint = (
             "the follower moves by its law, but no circle stands for the cam here: move the driver"
         )
@@ -303,8 +312,11 @@ class CurvatureCentre(Determined, frozen=True, kw_only=True):
         )
 
     def point_sentence(self, drawing: Drawing, role: str) -> str:
-        """By its distance from the pivot, and its direction in the plane; under a face that a
-        guide leads by the second derivative along the guide and the first square to it."""
+        """The sentence that places the centre by its distance from the pivot and its direction.
+
+        Under a face on a guide, the centre is placed by the second derivative along the guide and
+        the first derivative perpendicular to the guide.
+        """
         words, spot = drawing.words, drawing.standing.spot
         way = spot(self.name) - spot(self.start)
         fields = {"name": symbol(self.name), "g": escape(self.link), "p": symbol(self.start)}
@@ -320,7 +332,7 @@ class CurvatureCentre(Determined, frozen=True, kw_only=True):
         )
 
     def by_face(self, drawing: Drawing, step: Step) -> dict[str, str]:
-        """Both derivatives as they are laid off on paper: how far, and to which side."""
+        """Both derivatives as drawn on paper: the length and the side of each."""
         path, rate, bend = (drawing.trace.values[step.args[k]] for k in (1, 3, 4))
         along = path.along / abs(path.along)
         fields = {"law": self.law_words(drawing), "follower": escape(self.follower)}
@@ -339,10 +351,10 @@ class CurvatureCentre(Determined, frozen=True, kw_only=True):
     def law_values(
         self, drawing: Drawing, *, on_paper: bool = False
     ) -> Iterator[tuple[str, str, str]]:
-        """The displacement and its two derivatives: each with its symbol, number and unit.
+        """The displacement and its two derivatives: the symbol, number and unit of each.
 
-        A derivative is by the cam's angle, or by the coordinate of a plate. Lengths are in the
-        scene's unit, or in millimetres of paper.
+        A derivative is with respect to the cam's angle or to the coordinate of a plate. Lengths are
+        in the scene's unit, or in millimetres of paper.
         """
         cam, words, k = drawing.scene.cams[self.follower], drawing.words, escape(self.follower)
         mm = "mm" if on_paper else drawing.scene.units["length"]
@@ -360,7 +372,7 @@ class CurvatureCentre(Determined, frozen=True, kw_only=True):
 
 
 def law_steps(pen: Pen, cam: Cam) -> tuple[tuple[int, ...], tuple[float, ...]]:
-    """What the steps of a law start from, and its sense and motions."""
+    """The steps from which a law is computed, and its sense and motions."""
     place = plate_coordinate(pen, cam) if cam.slides else seen_axis(pen, cam)
     with pen.on(Part.POSITION, Plane.NUMBERS):
         start = pen.given("length" if cam.slides else "direction", cam.start)
@@ -377,9 +389,9 @@ def law_steps(pen: Pen, cam: Cam) -> tuple[tuple[int, ...], tuple[float, ...]]:
 
 
 def plate_line(pen: Pen, cam: Cam) -> int:
-    """The path of the point of a plate that its guide leads.
+    """The path of a plate's point on its guide.
 
-    That of a cylinder's rod is drawn through the pin of the tube, which may stand beside it.
+    The path of a cylinder's rod is drawn through the pin of the tube, which may lie off the path.
     """
     pair = pen.first_slide(cam.on)
     if ("through pin", *pair.links) not in pen.shared:
@@ -389,7 +401,7 @@ def plate_line(pen: Pen, cam: Cam) -> int:
 
 
 def plate_coordinate(pen: Pen, cam: Cam) -> int:
-    """The coordinate of a plate on its guide, from where the guide of a moving link counts it."""
+    """The coordinate of a plate on its guide, from the zero of the guide of a moving link."""
     line = plate_line(pen, cam)
     if cam.carrier != FRAME:
         line = standing_guide(pen, pen.first_slide(cam.on))
@@ -398,7 +410,7 @@ def plate_coordinate(pen: Pen, cam: Cam) -> int:
 
 
 def seen_axis(pen: Pen, cam: Cam) -> int:
-    """The axis of a cam as its carrier sees it."""
+    """The axis of a cam in the frame of its carrier."""
     if cam.carrier == FRAME:
         return axis(pen, cam.on)
     key, carrier = ("cam seen", cam.on + cam.carrier), axis(pen, cam.carrier)
@@ -409,14 +421,14 @@ def seen_axis(pen: Pen, cam: Cam) -> int:
 
 
 def law_actions(cam: Cam) -> tuple[Action, Action, Action]:
-    """What gives the displacement and its two derivatives."""
+    """The actions that give the displacement and its two derivatives."""
     if cam.slides:
         return plate_lift, plate_rate, plate_bend
     return (table_lift, table_rate, table_bend) if cam.slopes else (lift, lift_rate, lift_bend)
 
 
 def lifted(pen: Pen, follower: str) -> tuple[int, int]:
-    """The radius on which the tip begins, and the displacement of a follower."""
+    """The radius at which the tip starts, and the displacement of a follower."""
     cam = pen.scene.cams[follower]
     steps, extra = law_steps(pen, cam)
     with pen.on(Part.POSITION, Plane.NUMBERS):
@@ -429,7 +441,7 @@ def lifted(pen: Pen, follower: str) -> tuple[int, int]:
 
 
 def height(pen: Pen, follower: str) -> tuple[int, int, int]:
-    """The path of a follower's point, the cam's pivot, and how high above this it stands."""
+    """A follower's path, the cam's pivot, and the follower's height above the pivot."""
     cam = pen.scene.cams[follower]
     path = path_of(pen, pen.first_slide(follower), follower, cam.point)
     pivot, begun = pen.the("position", cam.pivot), lifted(pen, follower)
@@ -439,7 +451,7 @@ def height(pen: Pen, follower: str) -> tuple[int, int, int]:
 
 
 def over_plate(pen: Pen, follower: str) -> tuple[int, int, int]:
-    """The path of a follower's point, that of the plate under it, and the follower's coordinate."""
+    """A follower's path, the path of the plate under it, and the follower's coordinate."""
     cam = pen.scene.cams[follower]
     path = path_of(pen, pen.first_slide(follower), follower, cam.point)
     plate, begun = plate_line(pen, cam), lifted(pen, follower)
@@ -449,8 +461,10 @@ def over_plate(pen: Pen, follower: str) -> tuple[int, int, int]:
 
 
 def swing(pen: Pen, follower: str, lever: CamLever) -> tuple[int, int, int, int]:
-    """The cam's pivot or the path of a plate, the pin of a lever, its direction, and its length or
-    how its face lies."""
+    """The cam's pivot or a plate's path, the pin of a lever, its direction, and its length.
+
+    For a lever with a flat face, the offset of the face replaces the length.
+    """
     cam = pen.scene.cams[follower]
     seat = plate_line(pen, cam) if cam.slides else pen.the("position", cam.pivot)
     ends = seat, pen.the("position", lever.pin)
@@ -468,7 +482,7 @@ def swing(pen: Pen, follower: str, lever: CamLever) -> tuple[int, int, int, int]
 
 
 def set_lever(pen: Pen, follower: str, lever: CamLever) -> None:
-    """A lever as its cam's law swings it."""
+    """Place a lever at the angle that its cam's law gives."""
     name = pen.scene.cams[follower].point
     _, pin, way, _ = swing(pen, follower, lever)
     locals_ = [local_place(pen, follower, each) for each in (lever.pin, name)]
@@ -483,12 +497,12 @@ def set_lever(pen: Pen, follower: str, lever: CamLever) -> None:
 
 @action("cam-prime")
 def widened(base: Real, roller: Real) -> Real:
-    """The radius of the prime circle, on which the roller's centre begins."""
+    """The radius of the prime circle, where the roller's centre starts."""
     return base + roller
 
 
 def curvature_centre(pen: Pen, name: str) -> int:
-    """The centre of curvature of a cam under its follower, in the plane."""
+    """Draw the centre of curvature of a cam under its follower, in the plane."""
     follower = pen.scene.cam_centres[name]
     cam = pen.scene.cams[follower]
     steps, extra = law_steps(pen, cam)

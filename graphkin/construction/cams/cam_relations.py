@@ -1,4 +1,4 @@
-"""What the law of a cam gives, and the centre of curvature that follows from it, in figures."""
+"""The relations of a cam's law and of the centre of curvature that follows from it."""
 
 from __future__ import annotations
 
@@ -44,14 +44,15 @@ FORMS = {
         "420·{h}·{x}^2·(1 − {x})^2·(1 − 2·{x})/{b}^2",
     ),
 }
-"""Lift, first and second derivative of the motions by rise h, share x and length b of a piece."""
+"""Lift, first and second derivative of each motion, by rise h, fraction x and length b."""
 POLES = tuple("PSTUVWXYZ") + tuple(f"P{k}" for k in range(1000))
-"""What the point may be called in which a cam and its follower move alike."""
+"""Candidate names of the point in which the cam and its follower have the same velocity."""
 
 
 def of_cams(drawing: Drawing, used: Container[tuple[str, str]] = ()) -> Iterator[Relation]:
-    """The displacement of each follower and its derivatives, how the centre of curvature follows
-    from them, and how far that lies from the pivot of its cam, where this length is ``used``.
+    """The displacement and derivatives of each follower, and how its centre of curvature follows.
+
+    The distance of the centre from the pivot of its cam is added where this length is in ``used``.
     """
     for centre in constructions(drawing.trace.program, CurvatureCentre):
         if centre.point in drawing.trace.values:
@@ -66,7 +67,7 @@ def of_cams(drawing: Drawing, used: Container[tuple[str, str]] = ()) -> Iterator
 
 
 def of_law(drawing: Drawing, centre: CurvatureCentre) -> Iterator[Relation]:
-    """The displacement and its two derivatives, by the formulas of the piece that holds."""
+    """The displacement and its two derivatives, by the formulas of the current piece."""
     words, slides = drawing.words, drawing.scene.cams[centre.follower].slides
     remark = words(f"calculation.law_{'plate' if slides else 'cam'}", g=escape(centre.link))
     piece = None if slides else piece_at(drawing, centre)
@@ -79,7 +80,7 @@ def of_law(drawing: Drawing, centre: CurvatureCentre) -> Iterator[Relation]:
 
 
 def of_height(drawing: Drawing, centre: CurvatureCentre) -> Iterator[Relation]:
-    """How far a flat face that a guide leads stands from the pivot of its cam along that guide."""
+    """The distance of a flat face on a guide from the pivot of its cam, along that guide."""
     cam, words, k = drawing.scene.cams[centre.follower], drawing.words, escape(centre.follower)
     if not cam.is_flat or cam.lever or cam.slides:
         return
@@ -99,8 +100,8 @@ def of_height(drawing: Drawing, centre: CurvatureCentre) -> Iterator[Relation]:
 class LawPiece(Struct, frozen=True):
     """A piece of a cam's law that moves the follower, in radians and the scene's own unit of lift.
 
-    ``angle`` is that of the cam from where the law begins; the piece begins at ``begin`` with the
-    lift ``start``, is ``span`` long and adds ``rise``. ``sense`` is that of the law.
+    ``angle`` is the cam's angle from the start of the law. The piece begins at ``begin`` with the
+    lift ``start``, has the length ``span`` and adds ``rise``. ``sense`` is the sense of the law.
     """
 
     motion: str
@@ -114,7 +115,7 @@ class LawPiece(Struct, frozen=True):
 
 
 def piece_at(drawing: Drawing, centre: CurvatureCentre) -> LawPiece | None:
-    """The piece that holds where a cam stands; None in a dwell, and of tables."""
+    """The piece of the law at the cam's angle; None in a dwell, and for tables."""
     cam, values = drawing.scene.cams[centre.follower], drawing.scene.values
     if cam.slopes:
         return None
@@ -137,9 +138,10 @@ def piece_at(drawing: Drawing, centre: CurvatureCentre) -> LawPiece | None:
 
 
 def of_piece(drawing: Drawing, piece: LawPiece) -> Iterator[Relation]:
-    """How far a piece has gone, its length in radians, then lift and derivatives as formulas.
+    """The fraction of a piece covered, its length in radians, its lift and derivatives.
 
-    Nothing of motions that are made of several sines.
+    The lift and the derivatives are formulas. Yields nothing for motions that are sums of several
+    sines.
     """
     late = piece.motion == "parabolic" and piece.angle - piece.begin >= piece.span / 2
     forms = FORMS.get(piece.motion + ("-late" if late else ""))
@@ -172,11 +174,12 @@ def of_piece(drawing: Drawing, piece: LawPiece) -> Iterator[Relation]:
 
 
 def how_found(drawing: Drawing, centre: CurvatureCentre) -> str:
-    """How the centre follows from the law by hand; nothing for what no short formula gives.
+    """How the centre follows from the law by hand; empty where no short formula gives it.
 
-    With t = w′ - iw the tangent of the pitch curve in the axes of the cam and m = w″ - 2iw′ - w the
-    tip w is |t|³/(m×t) from the centre, on the normal, which passes through the point in which cam
-    and follower move alike (Norton, Cam Design and Manufacturing Handbook, ch. 7).
+    Let t = w′ - iw be the tangent of the pitch curve in the axes of the cam, and m = w″ - 2iw′ - w.
+    The tip w is at the distance |t|³/(m×t) from the centre, on the normal. The normal passes
+    through the point in which the cam and the follower have the same velocity. Source: Norton, Cam
+    Design and Manufacturing Handbook, ch. 7.
     """
     cam, words = drawing.scene.cams[centre.follower], drawing.words
     if cam.slides or (cam.is_flat and cam.lever):
@@ -206,7 +209,7 @@ def how_found(drawing: Drawing, centre: CurvatureCentre) -> str:
 
 
 def of_distance(drawing: Drawing, centre: CurvatureCentre) -> Relation:
-    """How far the centre lies from the pivot, as it is measured."""
+    """The distance from the pivot to the centre, as measured."""
     size = drawing.on_paper(length_of(drawing, centre.start, centre.name))
     told = as_read(drawing, size, drawing.scales.kL / 1000)
     remark = drawing.words("calculation.measured")

@@ -15,11 +15,11 @@ if TYPE_CHECKING:
     from graphkin.construction.core.cam_profiles import CamProfile
 
 BEYOND = 1.15
-"""How far a flat face is drawn, in parts of what touches the cam in a turn."""
+"""Drawn half-length of a flat face, as a multiple of the part that touches the cam in one turn."""
 
 
 def draw_cams(board: FieldContent, drawing: Drawing, field: Field) -> None:
-    """The profiles of all cams whose place is known, and rollers and faces of their followers."""
+    """Draw the profiles of all placed cams, and the rollers and faces of their followers."""
     from graphkin.construction.core.cam_profiles import DRAWN, profiles_of
 
     scene, places = drawing.scene, drawing.positions
@@ -51,8 +51,10 @@ def draw_cams(board: FieldContent, drawing: Drawing, field: Field) -> None:
 def face_ends(
     profile: CamProfile, pin: complex | None, tip: complex, carrier: complex
 ) -> tuple[complex, complex]:
-    """The ends of a flat face whose point, or whose lever's, stands at ``tip``; the axis of the
-    ``carrier``."""
+    """The ends of a flat face whose point, or whose lever's point, is at ``tip``.
+
+    ``carrier`` is the axis of the link that carries the follower.
+    """
     lever, far = profile.cam.lever, BEYOND * profile.face
     if lever is None or pin is None:
         along, aside = profile.guide[0] * carrier, profile.guide[1]
@@ -64,7 +66,7 @@ def face_ends(
 
 
 def face_words(drawing: Drawing, link: Link) -> str:
-    """What is said of a block that stands for a flat face on its cam; nothing of other links."""
+    """The sentence about a block that represents a flat face on its cam; empty for other links."""
     follower = drawing.scene.cam_links.get(link.name)
     if follower is None or not link.slides:
         return ""

@@ -1,1 +1,1 @@
-"""What drivers move, and how they are drawn."""
+"""The motions that drivers give, and how drivers are drawn."""

@@ -1,4 +1,4 @@
-"""A driven cylinder as the bar of a dyad: as long as its driver says, its end slides at a rate."""
+"""A driven cylinder as a bar of a dyad: the driver gives its length and its rate of change."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ from graphkin.structure.pairs import Pin
 
 
 def place(pen: Pen, group: Stretched) -> None:
-    """The far pin on the arc of each cylinder, as long as that is, then the lines of the guides."""
+    """Place the far pin on the arc of each cylinder's length, then the lines of the guides."""
     ways = [way_between_pins(pen, each, inner_pin(group)) for each in group.cylinders]
     arcs = [
         arc_of_cylinder(pen, each, inner_pin(group), way)
@@ -46,7 +46,7 @@ def inner_pin(group: Stretched) -> str:
 
 
 def arc_of_cylinder(pen: Pen, cylinder: Cylinder, far: str, way: int) -> int:
-    """The arc about the known pin, with the length between the pins for its radius."""
+    """The arc about the known pin, with the distance between the pins as its radius."""
     near = cylinder.pin.point
     start = place_foot(pen, cylinder)
     with pen.on(Part.POSITION, Plane.MECHANISM):
@@ -56,7 +56,7 @@ def arc_of_cylinder(pen: Pen, cylinder: Cylinder, far: str, way: int) -> int:
 
 
 def place_foot(pen: Pen, cylinder: Cylinder) -> int:
-    """The far link's point under the known pin."""
+    """The far link's point that coincides with the known pin."""
     foot = cylinder.foot.point
     if not pen.has("position", foot):
         pen.want("position", foot, pen.the("position", cylinder.pin.point))
@@ -64,7 +64,7 @@ def place_foot(pen: Pen, cylinder: Cylinder) -> int:
 
 
 def turn_to_pins(pen: Pen, cylinder: Cylinder, far: str, way: int) -> None:
-    """Both links of a cylinder turned as its pins stand, and the line of its guide."""
+    """Turn both links of a cylinder to the line of its pins, and draw the line of its guide."""
     near, (block, carrier) = cylinder.pin.point, cylinder.slide.links
     pins = {cylinder.near: near, cylinder.far: far}
     places = [pen.the("position", pins[link]) for link in (carrier, block)]
@@ -80,7 +80,7 @@ def turn_to_pins(pen: Pen, cylinder: Cylinder, far: str, way: int) -> None:
 
 
 def way_between_pins(pen: Pen, cylinder: Cylinder, far: str) -> int:
-    """The way from the pin of the link with the guide to that of the block, along the guide."""
+    """The vector from the pin of the link with the guide to the block's pin, along the guide."""
     block, carrier = cylinder.slide.links
     pins = {cylinder.near: cylinder.pin.point, cylinder.far: far}
     first = pen.scene.link(block).points[0]
@@ -94,7 +94,7 @@ def way_between_pins(pen: Pen, cylinder: Cylinder, far: str) -> int:
 
 
 def move(images: GroupImages, pen: Pen, group: Stretched) -> None:
-    """A plan: what is given of each cylinder along its guide, then as a dyad."""
+    """Draw a plan: the given motion of each cylinder along its guide, then the dyad."""
     move_one = move_foot if images.plan is VELOCITY else accelerate_foot
     for each in group.cylinders:
         move_one(pen, each)
@@ -102,7 +102,7 @@ def move(images: GroupImages, pen: Pen, group: Stretched) -> None:
 
 
 def move_foot(pen: Pen, cylinder: Cylinder) -> None:
-    """Image of the far link's point under the near pin: the given speed along the guide."""
+    """Draw the image of the far link's point under the near pin, by the given speed."""
     point, foot, block = cylinder.pin.point, cylinder.foot.point, cylinder.slide.block
     start, line = pen.the("velocity", point), known_guide(pen, cylinder.slide)
     steps = start, line, pen.drive(cylinder.driver).speed
@@ -115,7 +115,7 @@ def move_foot(pen: Pen, cylinder: Cylinder) -> None:
 
 
 def accelerate_foot(pen: Pen, cylinder: Cylinder) -> None:
-    """Second image of that point: the given acceleration along the guide that turns."""
+    """Draw the second image of that point, by the given acceleration along the turning guide."""
     point, foot, block = cylinder.pin.point, cylinder.foot.point, cylinder.slide.block
     line = known_guide(pen, cylinder.slide)
     rate = pen.drive(cylinder.driver).acceleration
@@ -132,5 +132,5 @@ def accelerate_foot(pen: Pen, cylinder: Cylinder) -> None:
 
 
 def sense_of(cylinder: Cylinder) -> int:
-    """The sense in which the driver moves the far link: +1 along the guide."""
+    """The sense in which the driver moves the far link: +1 along the guide, -1 against it."""
     return 1 if cylinder.far == cylinder.slide.block else -1

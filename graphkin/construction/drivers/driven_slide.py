@@ -1,4 +1,4 @@
-"""What a driver, what is tried or a wheel's turning gives along a guide, laid off in a plan."""
+"""A motion along a guide in a plan, given by a driver, a trial value or a rolling wheel."""
 
 from __future__ import annotations
 
@@ -28,21 +28,24 @@ from graphkin.numbers.plane import Line
 from graphkin.scene.link_points import lettered, under
 
 LETTERS = {each.target: each.letter for each in RATES} | {"v": "v", "a": "a"}
-"""The letters of the given rates of drivers by their names."""
+"""The letters of drivers' given rates, by the names of the rates."""
 SPEEDS = {EPSILON: "ω", "a": "v"}
 """The letter of the speed of which each acceleration is the rate."""
 
 
 @action("driven-slide")
 def driven_slide(start: Point, line: Line, speed: Real, way: int) -> Point:
-    """From a point of a plan the given speed, or acceleration, along a guide or back."""
+    """The end of a given speed or acceleration along a guide, from a point of a plan.
+
+    ``way`` is +1 along the guide, -1 against it.
+    """
     return start + line.along * (way * speed / abs(line.along))
 
 
 class DrivenSlide(AlongGuide, LaidOffByRate, frozen=True, kw_only=True):
     """The motion of a ``point`` along a guide, laid off from ``start`` to its ``image``.
 
-    ``speed`` is its speed or acceleration along the guide.
+    ``speed`` is the speed or acceleration along the guide.
     """
 
     gives: ClassVar[tuple[str, ...]] = ("image",)
@@ -60,13 +63,13 @@ class DrivenSlide(AlongGuide, LaidOffByRate, frozen=True, kw_only=True):
         return self.speed
 
     def symbols(self) -> Mapping[str, str]:
-        """The point, and the guide by its block."""
+        """The symbols of the point and of the guide, the latter named by its block."""
         return {"q": symbol(self.point), "g": escape(self.guide)}
 
-    # --- saying it -------------------------------------------------------------------------------
+    # --- sentences -------------------------------------------------------------------------------
 
     def fields(self, drawing: Drawing, role: str) -> dict[str, str]:
-        """Its ends, its guide, its drawn length and its sense."""
+        """The ends, the guide, the drawn length and the sense, for the sentences."""
         return {
             **self.symbols(),
             "s": symbol(letter_at(drawing, end_before(drawing, self.start))),
@@ -78,16 +81,16 @@ class DrivenSlide(AlongGuide, LaidOffByRate, frozen=True, kw_only=True):
         }
 
     def side(self, drawing: Drawing) -> str:
-        """The side to which it is laid off along its guide."""
+        """The side to which the motion is laid off along its guide."""
         values = drawing.trace.values
         return drawing.words(f"page.to_{nearest_side(values[self.image] - values[self.start])}")
 
     def relative(self, drawing: Drawing) -> str:
-        """The motion of the point against the guide, where no vector of the plan has its name."""
+        """The point's motion relative to the guide, if no vector of the plan has its name."""
         return symbol(f"{drawing.vector.letter}_{''.join(self.slider(drawing, self.point))}")
 
     def point_sentence(self, drawing: Drawing, role: str) -> str:
-        """How it is laid off; where it is nought, why the point falls on the one before."""
+        """How the motion is laid off; if it is zero, why the point is on the previous one."""
         fields = self.fields(drawing, role)
         if has_no_length(drawing, self.image):
             key, rate = self.fallen(drawing, fields["s"])
@@ -96,7 +99,7 @@ class DrivenSlide(AlongGuide, LaidOffByRate, frozen=True, kw_only=True):
         return drawing.words(key, **fields)
 
     def fallen(self, drawing: Drawing, start: str) -> tuple[str, str]:
-        """The key of the sentence where nothing is laid off, and the rate that is told in it."""
+        """The key of the sentence for a zero motion, and the rate in that sentence."""
         key, driver = falls(drawing, self.image, start), driver_of_rate(drawing, self.speed)
         name = drawing.trace.program.steps[self.speed].name
         if driver is None:
@@ -109,7 +112,7 @@ class DrivenSlide(AlongGuide, LaidOffByRate, frozen=True, kw_only=True):
     # --- marks and relations ---------------------------------------------------------------------
 
     def laid_by_driver(self, drawing: Drawing, size: float) -> Relation:
-        """What a driver gives along the guide, and how long it is laid off in each plan."""
+        """The driver's rate along the guide, and its drawn length in each plan."""
         drawn = length_drawn(drawing, self.start, self.image)
         return Relation(
             self.vector_along(drawing, self.image) or self.relative(drawing),
@@ -121,13 +124,16 @@ class DrivenSlide(AlongGuide, LaidOffByRate, frozen=True, kw_only=True):
         )
 
     def rate_given(self, drawing: Drawing) -> str:
-        """Its speed or acceleration as among the data; of what is tried by the guide."""
+        """The speed or acceleration as in the data; for a trial value, with the guide's index."""
         driver = driver_of_rate(drawing, self.speed)
         index = driver_index(driver) if driver else escape(self.guide)
         return f"*{drawing.vector.letter}*_{{{index}}}"
 
     def slider(self, drawing: Drawing, sought: str) -> tuple[str, str]:
-        """A foot of a cylinder, which is lettered as a point under another, slides at that one."""
+        """The sliding point and the point at which it slides.
+
+        The foot of a cylinder is lettered as a point under another point, and slides at that point.
+        """
         scene = drawing.scene
         for point in (
             *scene.frame.points,
@@ -138,8 +144,10 @@ class DrivenSlide(AlongGuide, LaidOffByRate, frozen=True, kw_only=True):
         return super().slider(drawing, sought)
 
     def equations(self, drawing: Drawing, role: str) -> Iterator[Relation]:
-        """What is given along the guide, then the motion along it on a guide that moves; of what
-        is tried that motion alone."""
+        """The given motion along the guide, then the relative motion on a guide that moves.
+
+        For a trial value, only the relative motion.
+        """
         rate = self.rate_given(drawing)
         motion = self.motion_of(drawing, self.point, rate)
         if self.image in drawing.auxiliary:
@@ -167,10 +175,10 @@ def slide_image(
     name: str,
     way: int,
 ) -> int:
-    """The image of a point that slides, from those of what is known of it.
+    """Draw the image of a point that slides by a given rate.
 
-    ``steps`` are where it begins, the guide and the speed, ``way`` is the sense in which that is
-    counted.
+    ``steps`` are the start in the plan, the guide and the speed. ``way`` is the sense in which the
+    speed is counted.
     """
     start, _, speed = steps
     image = pen.draw(driven_slide, *steps, name=name, extra=(way,))

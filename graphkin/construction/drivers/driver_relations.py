@@ -1,4 +1,4 @@
-"""The relations that come first: the driver, what it gives its pin, and the scale factors."""
+"""The first relations: the driver, the motion of its pin, and the scale factors."""
 
 from __future__ import annotations
 
@@ -35,17 +35,17 @@ from graphkin.scene.quantity import Quantity
 from graphkin.scene.simplify import simplified, text_of
 
 OMEGA = 6
-"""Significant digits of the driver's angular velocity, from which all else follows."""
+"""Significant digits of the driver's angular velocity, on which all later numbers depend."""
 IN_RADIANS = tuple(rate.unit for rate in RATES)
-"""The units of rates of turning that follow from no other rate."""
+"""Units of angular rates in radians, which need no conversion."""
 COSINES = "√({0}^2 + {1}^2 − 2·{0}·{1}·cos {2})"
-"""The third side of a triangle by two and the angle between them, in symbols or in figures."""
+"""The third side of a triangle from two sides and their angle, in symbols or in figures."""
 KV, KA = "(m/s)/mm", "(m/s^2)/mm"
-"""Units of the scale factors of plans."""
+"""Units of the plans' scale factors."""
 
 
 def of_driver(drawing: Drawing, driver: Driver, *, accelerated: bool) -> Iterator[Relation]:
-    """Position and speed from the parameters, angular velocity, motion of the driven pin."""
+    """Position and speed from the parameters, angular velocity, and motion of the driven pin."""
     words, scene = drawing.words, drawing.scene
     index = f"_{{{driver_index(driver)}}}"
     rate = "*ε*" if driver.kind == "turn" else "*a*"
@@ -57,7 +57,7 @@ def of_driver(drawing: Drawing, driver: Driver, *, accelerated: bool) -> Iterato
         if has_own_relation(scene, quantity):
             amount = number_of(scene, words, quantity)
             symbols, law = expression(scene, words, quantity, values=False), quantity
-            if is_derived(quantity):  # figures are put in only after it is derived
+            if is_derived(quantity):  # figures are put in only after the derivative is taken
                 law = short(quantity)
                 derived = expression(scene, words, law, values=False)
                 symbols += f" = {derived}" if law.uses() else ""
@@ -96,13 +96,13 @@ def of_driver(drawing: Drawing, driver: Driver, *, accelerated: bool) -> Iterato
 
 
 def short(derivative: Quantity) -> Quantity:
-    """A derivative written out."""
+    """The derivative, simplified and written out."""
     tree = simplified(derivative.tree)
     return Quantity(text_of(tree), tree, derivative.unit, derivative.place)
 
 
 def in_radians(drawing: Drawing, name: str, quantity: Quantity, unit: str) -> Relation:
-    """A rate that is given in degrees, with its sense."""
+    """A rate that is given in degrees, converted to radians, with its sense."""
     degrees = drawing.words.decimal(quantity.written(drawing.scene.values).lstrip("-"))
     rate = float(quantity.si(drawing.scene.values))
     size = figure(drawing, abs(rate), OMEGA)
@@ -124,7 +124,7 @@ def driven_bars(drawing: Drawing, driver: Driver) -> Iterator[tuple[str, str]]:
 def of_pin(
     drawing: Drawing, driver: Driver, p: str, q: str, *, accelerated: bool
 ) -> Iterator[Relation]:
-    """Velocity of a driven pin, its normal acceleration, and the tangential one if there is any."""
+    """Velocity of a driven pin, its normal acceleration, and its tangential one unless zero."""
     index, words = f"_{{{escape(driver.link)}}}", drawing.words
     omega, epsilon = (
         abs(float(rate.si(drawing.scene.values))) for rate in (driver.speed, driver.acceleration)
@@ -183,10 +183,10 @@ def of_scales(drawing: Drawing) -> Iterator[Relation]:
 
 
 def plan_scales(drawing: Drawing) -> Iterator[Relation]:
-    """kv and ka from the driving crank, or chosen.
+    """kv and ka, from the driving crank or chosen.
 
-    Where no crank says them ka keeps that mean proportional: it is (m·kv)²/(m′·kL), where the plans
-    are m and m′ times as large as vectors on the mechanism.
+    Where no crank determines them, ka = (m·kv)²/(m′·kL), which keeps kv the mean proportional. The
+    plans are m and m′ times as large as the vectors on the mechanism.
     """
     scales, chosen = drawing.scales, drawing.words("calculation.chosen")
     number = length_scale(drawing)
@@ -224,7 +224,7 @@ def laid_bars(drawing: Drawing) -> Iterator[tuple[str, str]]:
 
 
 def by_cosines(drawing: Drawing) -> Iterator[Relation]:
-    """The bars between the arms of given angles that are laid off: by the law of cosines."""
+    """The bars laid off between arms at given angles, by the law of cosines."""
     laid = {frozenset(ends): bar(*ends) for ends in laid_bars(drawing)}
     for link in drawing.scene.every_link:
         for placing in link.placings:
@@ -235,7 +235,7 @@ def by_cosines(drawing: Drawing) -> Iterator[Relation]:
 
 
 def opposite(drawing: Drawing, name: str, placing: Angled) -> Relation:
-    """The side of a triangle that is called ``name`` by two and the angle between them."""
+    """The side ``name`` of a triangle, from two sides and the angle between them."""
     p, o, q = placing.arm, placing.vertex, placing.point
     one, other, third = (length_of(drawing, *ends) for ends in ((o, p), (o, q), (p, q)))
     degrees = abs(math.degrees(float(placing.angle.si(drawing.scene.values))))
@@ -251,7 +251,7 @@ def opposite(drawing: Drawing, name: str, placing: Angled) -> Relation:
 
 
 def drawn_bars(drawing: Drawing) -> Iterator[tuple[str, float]]:
-    """The bars that are laid off on the mechanism, those of one length together, in metres."""
+    """The bars that are laid off on the mechanism, grouped by length, in metres."""
     found: dict[float, list[str]] = {}
     for p, q in laid_bars(drawing):
         length = round(length_of(drawing, p, q), 12)

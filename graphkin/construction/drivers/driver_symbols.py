@@ -1,4 +1,4 @@
-"""The drivers on the mechanism: the angle of each crank, the way of each slide, and its sense."""
+"""The drivers on the mechanism: the angle of each crank, the path of each slide, and its sense."""
 
 from __future__ import annotations
 
@@ -21,25 +21,24 @@ from graphkin.numbers.plane import cross, dot
 from graphkin.scene.model import FRAME, Driver, Slide
 
 DEGREE = 180 / pi
-"""Degrees of a radian."""
 TURN = 360.0
-"""Degrees of a turn."""
+"""Degrees in a full turn."""
 ANGLE = 11.0
-"""Radius of the arc of a driver's angle in mm."""
+"""Radius of the arc of a driver's angle, in mm."""
 WIDER = 6.5
-"""How much larger the arc of each further driver at one pin is, in mm."""
+"""Increase in radius for each further driver's arc at the same pin, in mm."""
 ASIDE = 9.5
-"""How far the dimension of a driver's slide stands from its guide, in mm."""
+"""Distance of the dimension of a driver's slide from its guide, in mm."""
 BESIDE = 7.5
-"""How far the arrow of a driver's speed stands from its guide, in mm."""
+"""Distance of the arrow of a driver's speed from its guide, in mm."""
 LEAST = 9.0
 """The shortest distance that is dimensioned, in mm."""
 ENOUGH = 4.0
-"""How far points stay from a dimension line, in mm."""
+"""Distance of points from a dimension line, in mm."""
 SENSE, AROUND = (12.0, 70.0), 10.0
-"""Between which angles beyond its crank a turning arrow stands, and what it keeps clear, in °."""
+"""Range of angles beyond the crank for a turning arrow, and its clearance, in degrees."""
 GROUND = 35.0
-"""Half the angle under which its pin sees the ground of a pivot, in °."""
+"""Half the angle that the ground of a pivot subtends at its pin, in degrees."""
 HALF = 5.5
 """Half the length of the arrow of a driver's speed, in mm."""
 
@@ -47,9 +46,9 @@ HALF = 5.5
 def draw_drivers(
     board: FieldContent, drawing: Drawing, field: Field, *, defined: bool = False
 ) -> None:
-    """Every driver: its position with its value, and the sense of its motion.
+    """Draw every driver: its position with its value, and the sense of its motion.
 
-    Where it is only ``defined``, its position with the letter alone.
+    With ``defined``, draw its position with the letter alone.
     """
     used: list[tuple[str, int]] = []
     for driver in drawing.scene.drivers:
@@ -80,7 +79,7 @@ def draw_crank(
     radius: float,
     defined: bool,
 ) -> None:
-    """The angle of a crank from the axis of the link it turns against, and its sense."""
+    """Draw the angle of a crank from the axis of the link it turns against, and its sense."""
     start = pivot_of(drawing, driver)
     centre = field(drawing.positions[start])
     base = drawing.standing.axis(driver.against)
@@ -129,7 +128,7 @@ def pivot_of(drawing: Drawing, driver: Driver) -> str:
 
 
 def lies_along(drawing: Drawing, link: str, angle: float) -> bool:
-    """True where the link's second point lies on the ray at an angle from its first."""
+    """Whether the link's second point is on the ray at an angle (degrees) from its first."""
     places = [drawing.positions[p] for p in drawing.scene.links[link].points[:2]]
     if len(places) < 2 or places[0] == places[1]:
         return False
@@ -138,7 +137,7 @@ def lies_along(drawing: Drawing, link: str, angle: float) -> bool:
 
 
 def drawn_angle(drawing: Drawing, driver: Driver) -> Real:
-    """The driver's angle in degrees, as written where that is less than a turn either way."""
+    """The driver's angle in degrees, as written if that is less than a turn either way."""
     if driver.link in drawing.driven:
         moved = drawing.driven[driver.link]
         return pick(abs(moved) < TURN, moved, moved % TURN)
@@ -150,7 +149,7 @@ def drawn_angle(drawing: Drawing, driver: Driver) -> Real:
 def draw_sense(
     board: FieldContent, drawing: Drawing, field: Field, end: Real, driver: Driver, radius: float
 ) -> None:
-    """A turning arrow beyond the crank at an angle, in the sense of its angular velocity."""
+    """Draw a turning arrow beyond the crank, in the sense of its angular velocity."""
     centre = field(drawing.positions[pivot_of(drawing, driver)])
     omega = speed_of(drawing, driver)
     if omega == 0:
@@ -170,7 +169,7 @@ def draw_sense(
 
 
 def speed_of(drawing: Drawing, driver: Driver) -> Real:
-    """The driver's speed, of which the sense is drawn, in rad/s or m/s."""
+    """The driver's speed, in rad/s or m/s; its sign is the sense drawn."""
     for each, drive in zip(drawing.scene.drivers, drawing.trace.program.drives, strict=True):
         if each is driver and drive.speed in drawing.trace.values:
             return drawing.trace.values[drive.speed]
@@ -178,7 +177,7 @@ def speed_of(drawing: Drawing, driver: Driver) -> Real:
 
 
 def stands_beyond(drawing: Drawing, field: Field, driver: Driver) -> str:
-    """What a turning arrow stands beyond: nothing but its crank, or what else would cut it."""
+    """The name of the line beyond which a turning arrow is clear; empty beyond the crank itself."""
     (near, far), end = SENSE, crank_end(drawing, driver)
     sign = 1 if speed_of(drawing, driver) > 0 else -1
     found = list(cuts(drawing, field, driver, end, sign))
@@ -194,9 +193,10 @@ def stands_beyond(drawing: Drawing, field: Field, driver: Driver) -> str:
 def cuts(
     drawing: Drawing, field: Field, driver: Driver, end: Real, sign: Real
 ) -> Iterator[tuple[str, Real]]:
-    """How far beyond a crank, in degrees in its sense, what would cut an arrow stands at its pivot.
+    """The names of the lines that could cut the arrow, and their angles beyond the crank.
 
-    That are bars, the ground of the pivot, and the velocity of one that moves.
+    Angles are in degrees in the crank's sense. The lines are bars, the ground of the pivot, and the
+    velocity of a moving pivot.
     """
     here = pivot_of(drawing, driver)
     links = (link for link in drawing.scene.links.values() if here in link.points)
@@ -223,8 +223,8 @@ def driven_slide(drawing: Drawing, driver: Driver) -> Slide | None:
 class DrivenWay(NamedTuple):
     """A coordinate that is driven: its zero, its place, and its direction.
 
-    A coordinate too short for its dimension is written beside ``drawn``; the arrow of its rate of
-    change stands beside ``moved``, which has this speed.
+    A coordinate too short for its dimension is written next to ``drawn``. The arrow of its rate of
+    change is drawn next to ``moved``, which has this speed.
     """
 
     zero: complex
@@ -235,8 +235,11 @@ class DrivenWay(NamedTuple):
 
 
 def driven_ways(drawing: Drawing, driver: Driver) -> Iterator[DrivenWay]:
-    """The way of a driven block from the zero of its guide; that of the place where a driven wheel
-    touches, from where its track counts; its centre has the speed."""
+    """The ways of a driven block from the zero of its guide, or of a driven wheel on its track.
+
+    A wheel's way ends at its contact point and starts at the zero of its track. Its centre has the
+    speed.
+    """
     if driver.kind == "slide":
         slide = driven_slide(drawing, driver)
         for way in drawing.standing.guideways:
@@ -252,8 +255,10 @@ def driven_ways(drawing: Drawing, driver: Driver) -> Iterator[DrivenWay]:
 
 
 def dimensioned(drawing: Drawing, field: Field, way: DrivenWay) -> tuple[float, bool]:
-    """How far to the right of a driven way its dimension has room, and whether it is long enough
-    for one: chosen where places are chosen."""
+    """The free distance to the right of a driven way, and whether a dimension fits.
+
+    The distance is chosen on the sheet where places are chosen.
+    """
     long = abs(way.here - way.zero) * field.mm >= LEAST
     aside = free_side(drawing.choosing, field, way.zero, way.here, way.along)
     return aside, field.holds(way.zero, 1) and bool(long)
@@ -268,7 +273,7 @@ def draw_way(
     chosen: tuple[float, bool],
     defined: bool,
 ) -> None:
-    """A driven coordinate dimensioned beside its line, and an arrow for its rate of change."""
+    """Dimension a driven coordinate next to its line, and draw an arrow for its rate of change."""
     way, (aside, is_dimensioned) = field.way(driven.along), chosen
     side = 1 if aside > 0 else -1
     start, end = field(driven.zero), field(driven.here)
@@ -295,10 +300,10 @@ def draw_way(
 
 
 def free_side(drawing: Drawing, field: Field, start: complex, end: complex, way: complex) -> float:
-    """How far to the right of a line (mm) a dimension has room: the nearest place that is free.
+    """The nearest free distance to the right of a line for a dimension, in mm.
 
-    Both sides are tried, first the one that leads away from the mechanism; the nearest place on
-    that side where none is free.
+    Both sides are tried, first the one away from the mechanism. Where no distance is free, the
+    nearest on that side is returned.
     """
     places = list(drawing.positions.values())
     low, high = sorted(dot(place - start, way) * field.mm for place in (start, end))
@@ -315,8 +320,7 @@ def free_side(drawing: Drawing, field: Field, start: complex, end: complex, way:
 
 
 def dimension(lines: Iterable[tuple[XY, XY]], name: str) -> Iterator[Mark]:
-    """The thin lines that lead to what is measured, then the dimension line, with arrowheads where
-    it is long enough for them."""
+    """The extension lines and the dimension line, with arrowheads where there is room."""
     for low, high in lines:
         yield LineMark(*low, *high, "drive", name)
     if distance(low, high) >= SHORT:

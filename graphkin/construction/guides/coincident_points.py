@@ -1,4 +1,4 @@
-"""The point of a link under another link's point: its images in both plans."""
+"""The point of a link that coincides with another link's point: its images in both plans."""
 
 from __future__ import annotations
 
@@ -13,9 +13,10 @@ from graphkin.structure.pairs import is_in_scene
 
 
 def image_under(pen: Pen, link: str, point: str, plan: Plan) -> int:
-    """The image of the point of a known link that lies under a point, in either plan.
+    """The image in a plan of the point of a known link that coincides with a given point.
 
-    What does not turn has one image for all its points; else the link's figure is similar to it.
+    A link that does not turn has one image for all its points. Otherwise, the plan has a figure
+    similar to the link.
     """
     if link == FRAME:
         return pen.pole(plan.plane)
@@ -32,7 +33,7 @@ def image_under(pen: Pen, link: str, point: str, plan: Plan) -> int:
 
 
 def shifted(pen: Pen, link: str, point: str, plan: Plan) -> int:
-    """The image of a point of a link that only shifts: on that of its others, under its letter."""
+    """The image of a point of a translating link: that of its other points, with its own letter."""
     start, name = pen.bases[link].start, under(point, link)
     number = pen.the(plan.quantity, start)
     if point in pen.scene.link(link).points or not is_in_scene(point):
@@ -48,12 +49,12 @@ def shifted(pen: Pen, link: str, point: str, plan: Plan) -> int:
 
 
 def source_of(pen: Pen, number: int) -> int:
-    """The image on which that of a point of a link that only shifts falls, or the image itself."""
+    """The image with which a translating link's image coincides, or the image itself."""
     return pen.shared.get(("fallen", number), number)
 
 
 def found_under(pen: Pen, link: str, point: str, plan: Plan) -> int:
-    """The step that finds the image of a point of a link under another."""
+    """The step that finds the image of a link's point under another point."""
     base, name = pen.bases[link], under(point, link)
     if base.end is None:
         return found_by_turning(pen, link, name, plan)
@@ -70,7 +71,7 @@ def found_under(pen: Pen, link: str, point: str, plan: Plan) -> int:
 
 
 def found_by_turning(pen: Pen, link: str, name: str, plan: Plan) -> int:
-    """The image of a point of a link whose turning is known, from that of its base."""
+    """The image of a point of a link of known rotation, from the image of its base."""
     base = pen.bases[link].start
     start, steady = pen.the(plan.quantity, base), plan.is_steady(pen, link)
     with plan.drawn(pen):

@@ -1,4 +1,4 @@
-"""The pin between a bar and a link that a guide or a track leads: an arc cuts its line in it."""
+"""The pin between a bar and a link on a guide or track: the bar's arc cuts the pin's line in it."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ from graphkin.scene.link_points import lettered
 
 
 def line_reached(line: Line, circle: Circle, *_: Any) -> Any:
-    """By how much a circle meets a line."""
+    """The square of a circle's half-chord on a line; negative where they do not meet."""
     height = cross(line.along, circle.centre - line.point) / abs(line.along)
     return circle.radius**2 - height**2
 
@@ -32,7 +32,7 @@ def line_reached(line: Line, circle: Circle, *_: Any) -> Any:
     move=CUTS,
 )
 def arc_cuts_line(line: Line, circle: Circle, way: int) -> Point:
-    """Where an arc cuts a line, farther along it or nearer."""
+    """The point where an arc cuts a line: the farther one along the line (way +1) or the nearer."""
     return line_meets_circle(line, circle, way)
 
 
@@ -54,26 +54,26 @@ class DyadByArcAndGuide(Determined, frozen=True, kw_only=True):
     pin: int
 
     def symbols(self) -> Mapping[str, str]:
-        """The centre of the arc."""
+        """The symbol of the arc's centre."""
         return {"p": symbol(lettered(self.centre))}
 
     def point_sentence(self, drawing: Drawing, role: str) -> str:
-        """Where the arc cuts the line, and on which side of its centre that is."""
+        """Where the arc cuts the line, and on which side of its centre."""
         return drawing.words("step.arc-cuts-line", **self.place(drawing))
 
     def point_apart(self, drawing: Drawing, role: str) -> str:
-        """The same after a sentence of its own for the line and the arc."""
+        """The same, after a separate sentence for the line and the arc."""
         return drawing.words("step.arc-cuts-line-apart", **self.place(drawing))
 
     def place(self, drawing: Drawing) -> Mapping[str, str]:
-        """Its letter, and on which side of the centre it lies."""
+        """The pin's letter, and the side of the centre on which the pin lies."""
         along = drawing.trace.values[self.path].along * which_side(drawing, self.pin)
         side = drawing.words(f"page.{nearest_side(along)}")
         return {"name": symbol(self.name), "p": symbol(self.centre), "side": side}
 
     @property
     def reaching(self) -> str:
-        """A bar that is long enough."""
+        """The expected bar, long enough to reach its guide."""
         return f"a bar {self.centre}{self.name} that reaches its guide"
 
     def in_line(self, steps: Sequence[Step], nearly: str) -> str:
@@ -82,7 +82,7 @@ class DyadByArcAndGuide(Determined, frozen=True, kw_only=True):
         return f"{self.centre}{self.name} is {nearly}square to {guide}"
 
     def at_end(self, steps: Sequence[Step], loci: Sequence[Any]) -> tuple[str, str] | None:
-        """The bar perpendicular to the guide."""
+        """The pin, and the bar perpendicular to the guide at the end of its range."""
         if not loci:
             return None
         guide = lies_along(steps[self.path]) or "its guide"
@@ -92,7 +92,7 @@ class DyadByArcAndGuide(Determined, frozen=True, kw_only=True):
 def cut_line(
     pen: Pen, name: str, centre: str, loci: tuple[int, int], *way: int, sign: tuple[int, ...]
 ) -> int:
-    """The pin in which an arc cuts a line: on a stated side, or on that which a step says."""
+    """Draw the pin in which an arc cuts a line, on a stated side or a side that a step gives."""
     pin = pen.draw(arc_cuts_line, *loci, *way, name=name, extra=sign)
     pen.make(DyadByArcAndGuide(name=name, centre=centre, path=loci[0], arc=loci[1], pin=pin))
     return pin

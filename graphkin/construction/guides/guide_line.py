@@ -18,7 +18,7 @@ from graphkin.drawing.symbol_markup import symbol
 from graphkin.numbers.arithmetic import Point, Real, at
 from graphkin.numbers.plane import Line, cross, dot
 
-# --- the turning of a link -----------------------------------------------------------------------
+# --- the rotation of a link ----------------------------------------------------------------------
 
 
 @action("axis")
@@ -30,13 +30,13 @@ def axis_of(p: Point, q: Point, here: Point, there: Point) -> Point:
 
 @action("axis")
 def direction_on_link(axis: Point, direction: Point) -> Point:
-    """A direction of a link's own axes, in the plane."""
+    """A direction given in a link's own axes, in the plane."""
     return axis * direction
 
 
 @action("axis")
 def turned_back(axis: Point, direction: Point) -> Point:
-    """The axis of the link in which a direction of the plane lies as given."""
+    """The axis of the link in which a direction of the plane has the given direction."""
     return axis * direction.conjugate()
 
 
@@ -55,32 +55,31 @@ def axis_by_guide(axis: Point, here: Point, there: Point) -> Point:
 
 @action("axis")
 def axis_with_guide(axis: Point, here: Point, there: Point) -> Point:
-    """The x axis of a block from that of the link that carries its guide."""
+    """The x axis of a block, from the axis of the link that carries its guide."""
     line = there - here
     return axis * (line / abs(line))
 
 
 @action("way")
 def way_between(here: Point, there: Point) -> Point:
-    """The way from one point to another."""
     return there - here
 
 
 @action("beside")
 def point_on_link(start: Point, axis: Point, here: Point, there: Point) -> Point:
-    """A point of a link that stands at one of its points and is turned to its axis."""
+    """A point of a link, from the position of one of its points and its axis."""
     return start + axis * (there - here)
 
 
 @action("beside-guide")
 def beside_guide(point: Point, through: Point, along: Point) -> Real:
-    """How far a point of a link lies to the left of a guide of the link, in the link's axes."""
+    """The distance of a point of a link to the left of the link's guide, in the link's axes."""
     return cross(along, point - through) / abs(along)
 
 
 @action("gap")
 def gap(offset: Real, here: Real, there: Real) -> Real:
-    """How far to the left of the parallel to the guide through one pin the other pin stands."""
+    """The distance of one pin to the left of the parallel to the guide through the other pin."""
     return offset + here - there
 
 
@@ -88,10 +87,10 @@ def gap(offset: Real, here: Real, there: Real) -> Real:
 def stretch(
     pin: Point, first: Point, offset: Real, end: Point, here: Point, there: Point, where: Real
 ) -> Point:
-    """From a pin of the link with the guide to one of the block, in the axes of the guide.
+    """The vector from a pin of the link with the guide to a pin of the block, in the guide's axes.
 
-    ``pin`` and ``first`` are the block's, ``end`` is the other link's, whose guide runs from
-    ``here`` towards ``there``; ``where`` is the block's coordinate.
+    ``pin`` and ``first`` belong to the block. ``end`` belongs to the other link, whose guide runs
+    from ``here`` towards ``there``. ``where`` is the block's coordinate.
     """
     along = there - here
     return at(where, offset) + (pin - first) - (end - here) * (along.conjugate() / abs(along))
@@ -99,20 +98,20 @@ def stretch(
 
 @action("length")
 def length_of(way: Point) -> Real:
-    """The length of a way."""
+    """The length of a vector."""
     return abs(way)
 
 
 @action("axis")
 def axis_stretched(from_pin: Point, to_pin: Point, way: Point) -> Point:
-    """Direction of a guide from two pins and the way between them in the guide's axes."""
+    """Direction of a guide from two pins and the vector between them in the guide's axes."""
     turn = (to_pin - from_pin) / way
     return turn / abs(turn)
 
 
 @action("guide-back")
 def guide_back(first: Point, axis: Point, offset: Real) -> Line:
-    """The line of a guide from the block on it: the block stands its offset to the left."""
+    """The line of a guide from the block on it; the block is its offset to the left of the line."""
     return Line(first - 1j * axis * offset, axis)
 
 
@@ -123,7 +122,7 @@ def shifted(line: Line, offset: Real) -> Line:
 
 
 class GuideLine(Construction, frozen=True, kw_only=True):
-    """The ``line`` of the guide of a ``block``, through the point ``start`` if that has a name."""
+    """The ``line`` of the guide of a ``block``, through the point ``start`` if it has a name."""
 
     gives: ClassVar[tuple[str, ...]] = ("line",)
     between: ClassVar[tuple[str, ...]] = ("start",)
@@ -134,15 +133,18 @@ class GuideLine(Construction, frozen=True, kw_only=True):
     line: int
 
     def line_name(self, steps: Sequence[Step], role: str) -> str:
-        """By the point that it passes through, or its block."""
+        """The line by the point that it passes through, or by its block."""
         return f"the line through {self.start}" if self.start else f"guide {self.block}"
 
     def path_name(self, drawing: Drawing) -> str:
-        """The guide of its block."""
+        """The words for the guide of its block."""
         return way_of(drawing, self.block)
 
     def clause(self, drawing: Drawing, role: str) -> str:
-        """The only guide needs no name; of a link found with its group the angle is told."""
+        """The clause for the line; the only guide of a scene needs no name.
+
+        For a link found with its group, the clause gives the angle.
+        """
         links, steps = drawing.scene.links, drawing.trace.program.steps
         direction = steps[self.line].args[-1]
         if self.start and any(
@@ -155,22 +157,22 @@ class GuideLine(Construction, frozen=True, kw_only=True):
 
 
 def found_at_angle(drawing: Drawing, block: str, point: str, line: int) -> str:
-    """The guide of a block through a point, at the angle that was found with a group."""
+    """The clause for a guide through a point, at the angle found with a group."""
     angle = drawing.words.fixed(degrees(phase(drawing.trace.values[line].along)), 1)
     fields = {"q": symbol(point), "guide": way_of(drawing, block)}
     return drawing.words("step.guide-back-found", angle=angle, **fields)
 
 
 class GuideAlongBar(GuideLine, frozen=True, kw_only=True):
-    """The ``line`` along a bar that stands already."""
+    """The ``line`` along a bar that is already placed."""
 
     def line_name(self, steps: Sequence[Step], role: str) -> str:
-        """None: the bar is no line of its own."""
+        """Empty: the bar is not a line of its own."""
         return ""
 
 
 class GuideThroughBlock(Construction, frozen=True, kw_only=True):
-    """The ``line`` of a guide through its ``block``, which is turned to an ``axis`` already."""
+    """The ``line`` of a guide through its ``block``, which already has its ``axis``."""
 
     gives: ClassVar[tuple[str, ...]] = ("line",)
     guided: ClassVar[str] = "block"
@@ -180,11 +182,11 @@ class GuideThroughBlock(Construction, frozen=True, kw_only=True):
     line: int
 
     def path_name(self, drawing: Drawing) -> str:
-        """The guide of its block."""
+        """The words for the guide of its block."""
         return way_of(drawing, self.block)
 
     def clause(self, drawing: Drawing, role: str) -> str:
-        """Through the point of the block; at an angle where that was found with a group."""
+        """The clause for the line through the block, with its angle if found with a group."""
         point = drawing.scene.links[self.block].points[0]
         if is_found_by_closing(drawing.trace.program.steps[self.axis]):
             return found_at_angle(drawing, self.block, point, self.line)
@@ -204,11 +206,11 @@ class ShiftedGuide(Construction, frozen=True, kw_only=True):
     line: int
 
     def path_name(self, drawing: Drawing) -> str:
-        """The parallel to the guide of its block."""
+        """The words for the parallel to the guide of its block."""
         return drawing.words("turn.beside", guide=way_of(drawing, self.block))
 
     def clause(self, drawing: Drawing, role: str) -> str:
-        """By the offset as it is drawn, and to which side."""
+        """The clause for the parallel, by its drawn offset and the side."""
         guide, line = (drawing.trace.values[number] for number in (self.guide, self.line))
         across = 1j * guide.along / abs(guide.along)
         offset = float(dot(across, line.point - guide.point))
@@ -230,12 +232,12 @@ class GuidesMeet(Construction, frozen=True, kw_only=True):
     point: int
 
     def point_sentence(self, drawing: Drawing, role: str) -> str:
-        """Where they meet."""
+        """The sentence for the crossing of the two lines."""
         return drawing.words("step.meet", name=symbol(self.name))
 
 
 def guide_at(pen: Pen, block: str, through: tuple[int, str], direction: int) -> int:
-    """The line of a guide through a point, whose name is beside it, in a direction."""
+    """Draw the line of a guide through a point, given as a step and a name, in a direction."""
     start, name = through
     line = pen.draw(ray, start, direction)
     pen.make(GuideLine(block=block, start=name, line=line))
@@ -243,7 +245,7 @@ def guide_at(pen: Pen, block: str, through: tuple[int, str], direction: int) -> 
 
 
 def guide_along(pen: Pen, block: str, bar: tuple[str, str]) -> int:
-    """The line of a guide along a bar, from its first point."""
+    """Draw the line of a guide along a bar, from the bar's first point."""
     start, end = (pen.the("position", point) for point in bar)
     line = pen.draw(along_bar, start, start, end)
     pen.make(GuideAlongBar(block=block, start=bar[0], line=line))
@@ -251,21 +253,21 @@ def guide_along(pen: Pen, block: str, bar: tuple[str, str]) -> int:
 
 
 def guide_through(pen: Pen, block: str, first: int, axis: int, offset: int) -> int:
-    """The line of a guide from the block on it."""
+    """Draw the line of a guide from the block on it."""
     line = pen.draw(guide_back, first, axis, offset)
     pen.make(GuideThroughBlock(block=block, axis=axis, line=line))
     return line
 
 
 def shift_guide(pen: Pen, block: str, guide: int, offset: int) -> int:
-    """The parallel to the line of a guide at an offset."""
+    """Draw the parallel to the line of a guide at an offset."""
     line = pen.draw(shifted, guide, offset)
     pen.make(ShiftedGuide(block=block, guide=guide, line=line))
     return line
 
 
 def cross_guides(pen: Pen, name: str, one: int, other: int) -> int:
-    """The point in which the lines of two guides meet."""
+    """Draw the point in which the lines of two guides meet."""
     point = pen.draw(meet, one, other, name=name)
     pen.make(GuidesMeet(name=name, one=one, other=other, point=point))
     return point

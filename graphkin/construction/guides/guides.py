@@ -1,4 +1,4 @@
-"""Where guides lie and how links are turned: axes of links, lines of guides, paths of points."""
+"""Positions of guides and links in the plane: axes of links, lines of guides, paths of points."""
 
 from __future__ import annotations
 
@@ -34,7 +34,7 @@ from graphkin.structure.turning import guide_on
 
 
 class CarriedDirection(Construction, frozen=True, kw_only=True):
-    """A direction of a ``link``'s own axes, in the plane."""
+    """A direction given in a ``link``'s own axes, in the plane."""
 
     gives: ClassVar[tuple[str, ...]] = ("turn",)
     pencil: ClassVar[Mapping[str, ByHand]] = {"turn": ByHand.TURNED}
@@ -44,7 +44,7 @@ class CarriedDirection(Construction, frozen=True, kw_only=True):
 
 
 class CarriedPlace(Construction, frozen=True, kw_only=True):
-    """A place of a ``link``'s own axes that is none of its points, in the plane."""
+    """A place on a ``link``, other than one of its points, in the plane."""
 
     gives: ClassVar[tuple[str, ...]] = ("place",)
     pencil: ClassVar[Mapping[str, ByHand]] = {"place": ByHand.LAID_OFF}
@@ -66,7 +66,7 @@ def axis(pen: Pen, link: str) -> int:
 
 
 def direction_on(pen: Pen, link: str, direction: int) -> int:
-    """A direction of a link's own axes, in the plane."""
+    """A direction given in a link's own axes, in the plane."""
     if link == FRAME:
         return direction
     turn = pen.draw(direction_on_link, axis(pen, link), direction)
@@ -74,7 +74,7 @@ def direction_on(pen: Pen, link: str, direction: int) -> int:
 
 
 def local_line(pen: Pen, slide: GuideOrTrack, on: str) -> tuple[int, int]:
-    """A point of a guide or track and a second one ahead of it, in the axes of their link."""
+    """A point of a guide or track, and a second one ahead of it, in the axes of their link."""
     along = slide.along if isinstance(slide, Slide) else None
     if along is not None:
         return local_place(pen, on, along[0]), local_place(pen, on, along[1])
@@ -89,7 +89,7 @@ def local_line(pen: Pen, slide: GuideOrTrack, on: str) -> tuple[int, int]:
 
 
 def guide_line(pen: Pen, slide: GuideOrTrack, on: str, name: str) -> int:
-    """A guide or track of a known link, in the plane; its point is where coordinates begin."""
+    """Draw a guide or track of a known link, in the plane; its point is the zero of coordinates."""
     along = slide.along if isinstance(slide, Slide) else None
     if along is not None:
         return guide_along(pen, name, along)
@@ -114,8 +114,10 @@ def point_on(pen: Pen, link: str, local: int) -> int:
 
 
 def known_guide(pen: Pen, pair: Sliding, sought: str = "") -> int:
-    """The line of a guide in the plane, from the link that carries it or, if that is sought, from
-    the block on it."""
+    """The line of a guide in the plane, from the link that carries it.
+
+    If that link is the one ``sought``, the line is drawn from the block on it.
+    """
     key = ("guide", *pair.links)
     if key not in pen.shared:
         block, on = pair.links
@@ -131,7 +133,7 @@ def known_guide(pen: Pen, pair: Sliding, sought: str = "") -> int:
 
 
 def standing_guide(pen: Pen, pair: Sliding) -> int:
-    """The line of a guide once its link stands, from where the coordinates of its block count."""
+    """The line of a guide whose link is placed, from the zero of its block's coordinates."""
     key = ("standing", *pair.links)
     if key not in pen.shared:
         with pen.on(Part.POSITION, Plane.NUMBERS):
@@ -140,9 +142,9 @@ def standing_guide(pen: Pen, pair: Sliding) -> int:
 
 
 def path_of(pen: Pen, pair: Sliding, link: str, point: str) -> int:
-    """The line on which a slide with a known link leads a point of the other, ``link``.
+    """The line on which a point of ``link`` moves, by a slide with a known link.
 
-    The link's axis is known from then on: links that slide on one another turn together.
+    This also sets the link's axis: links that slide on one another turn together.
     """
     line = known_guide(pen, pair, link)
     key = ("path", *pair.links, point)
@@ -186,18 +188,18 @@ def path_of_carrier(pen: Pen, pair: Sliding, line: int, point: str) -> int:
 
 
 def beside_line(pen: Pen, link: str, point: str, ends: tuple[int, int]) -> int:
-    """How far a point of a link stands to the left of a guide through two places on the link."""
+    """The distance of a link's point to the left of a guide through two places on the link."""
     along = pen.draw(way_between, *ends)
     return pen.draw(beside_guide, local_place(pen, link, point), ends[0], along)
 
 
 def lies_on(slide: Slide, point: str) -> bool:
-    """Whether a guide is written to pass through a point."""
+    """Whether the scene makes a guide pass through a point."""
     return point == slide.through or point in (slide.along or ())
 
 
 def is_level(pen: Pen, block: str, point: str) -> bool:
-    """Whether a block is written to have a point as far from its guide as its first one."""
+    """Whether the scene makes a block's point as far from its guide as its first point."""
     values, link = pen.scene.values, pen.scene.link(block)
     heights: dict[str, Fraction | None] = {}
     for placing in link.placings:
@@ -215,9 +217,9 @@ def is_level(pen: Pen, block: str, point: str) -> bool:
 
 
 def height_of(pen: Pen, pair: Sliding, pins: dict[str, str]) -> int | None:
-    """How far the block's pin stands to the left of the guide's own pin, across the guide.
+    """The distance of the block's pin to the left of the guide's own pin, across the guide.
 
-    None where the scene is written so that the guide passes through both.
+    None where the scene makes the guide pass through both.
     """
     block, carrier = pair.links
     on_block, on_carrier = pins[block], pins[carrier]
@@ -234,9 +236,9 @@ def height_of(pen: Pen, pair: Sliding, pins: dict[str, str]) -> int | None:
 
 
 def height_between(pen: Pen, line: PinLine) -> int | None:
-    """How far the pin ahead stands to the left of the line through the other, as the rail has them.
+    """The distance of the pin ahead to the left of the line through the other pin, on the rail.
 
-    None where the scene is written so that one guide passes through both.
+    None where the scene makes one guide pass through both.
     """
     ahead, behind = line.slides
     point = next(iter(shared_points(ahead, behind)), None)
@@ -255,7 +257,7 @@ def height_between(pen: Pen, line: PinLine) -> int | None:
 
 
 def shared_points(one: Sliding, other: Sliding) -> list[str]:
-    """The points of one link through which two guides of it are written to pass."""
+    """The points of one link through which the scene makes two of its guides pass."""
     if one.links[1] != other.links[1]:
         return []
     names = (one.slide.through, *(one.slide.along or ()))
@@ -263,13 +265,13 @@ def shared_points(one: Sliding, other: Sliding) -> list[str]:
 
 
 def is_through(pen: Pen, pair: Sliding, pin: str) -> bool:
-    """Whether a guide is written to pass through the pin of its block, the block's first point."""
+    """Whether a guide passes through its block's pin, which is the block's first point."""
     level = pair.slide.offset.number(pen.scene.values) == 0
     return level and pin == pen.scene.link(pair.block).points[0]
 
 
 def height_over(pen: Pen, pair: Sliding, pin: str, rail: str, point: str) -> int:
-    """How far a pin stands to the left of a point of the rail, across the guide between them."""
+    """The distance of a pin to the left of a point of the rail, across the guide between them."""
     block, carrier = pair.links
     first = local_place(pen, block, pen.scene.link(block).points[0])
     ends, offset = local_line(pen, pair.slide, carrier), pen.given("length", pair.slide.offset)
@@ -282,13 +284,13 @@ def height_over(pen: Pen, pair: Sliding, pin: str, rail: str, point: str) -> int
 
 
 def are_opposed(pen: Pen, line: PinLine) -> bool:
-    """Whether the two guides of a link are written in opposite senses."""
+    """Whether the two guides of a link have opposite senses in the scene."""
     one, other = (guide_on(pen.scene, line.rail, p.block, p.slide) for p in line.slides)
     return bool(dot(one, other) < 0)
 
 
 def turned_with(pen: Pen, pair: Sliding, known: str) -> None:
-    """The axis of the other link of a slide, from that of one of them."""
+    """Set the axis of the other link of a slide, from the axis of one of them."""
     block, carrier = pair.links
     other = carrier if known == block else block
     if pen.has("axis", other):

@@ -1,4 +1,4 @@
-"""What a pair with a known link gives a point of the other link that it leads, in each drawing."""
+"""The motion that a pair with a known link gives a point of the other link, in each drawing."""
 
 from __future__ import annotations
 
@@ -26,23 +26,22 @@ class LedBlock(Struct, frozen=True):
     pair: Sliding
 
     def line(self, pen: Pen) -> int:
-        """The line of the guide."""
         return known_guide(pen, self.pair)
 
     def path(self, pen: Pen, link: str, point: str) -> int:
-        """The line on which a point of the link is led."""
+        """The line on which a point of the link moves."""
         return path_of(pen, self.pair, link, point)
 
     def direction(self, pen: Pen) -> int:
-        """A line along which the link moves against the known one."""
+        """A line along which the link moves relative to the known one."""
         return known_guide(pen, self.pair)
 
     def driven(self, pen: Pen, driver: Driver, which: str) -> int:
-        """What a driver gives along the guide: position, speed or acceleration."""
+        """The driver's position, speed or acceleration along the guide."""
         return int(getattr(pen.drive(driver), which))
 
     def set_at(self, pen: Pen, link: str, where: int) -> None:
-        """The link with its led point at a coordinate of the guide; it turns with the guide."""
+        """Place the link, its guided point at a coordinate of the guide; set its axis."""
         from graphkin.construction.guides.set_by_coordinate import set_carrier, set_point
 
         pair, point = self.pair, pen.bases[link].start
@@ -60,13 +59,13 @@ class LedBlock(Struct, frozen=True):
         pen.want("position", point, found)
 
     def finish(self, pen: Pen) -> None:
-        """Nothing more is to be found once the led point stands."""
+        """Do nothing: the link needs no more steps once its guided point is placed."""
 
     def touch(self, pen: Pen, plan: Plan) -> None:
-        """Nothing touches."""
+        """Do nothing: a block has no rolling contact."""
 
     def rim(self, pen: Pen) -> int | None:
-        """No radius ties its turning to its coordinate."""
+        """None: no radius relates its rotation to its coordinate."""
         return None
 
 
@@ -75,7 +74,7 @@ def led_by(pair: Contact) -> LedWheel: ...
 @overload
 def led_by(pair: Leading) -> LedBlock | LedWheel: ...
 def led_by(pair: Leading) -> LedBlock | LedWheel:
-    """What a pair with a known link gives in each drawing."""
+    """The construction of a pair with a known link, in each drawing."""
     if isinstance(pair, Sliding):
         return LedBlock(pair)
     from graphkin.construction.rolling.wheel_images import LedWheel

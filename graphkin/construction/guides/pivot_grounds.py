@@ -1,4 +1,4 @@
-"""Where the ground of each fixed pivot stands: on the side of the pin that is freest."""
+"""The side of each fixed pivot's pin on which its ground is drawn: the side with most room."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ from graphkin.scene.model import FRAME
 
 Segment = tuple[complex, complex]
 Ground = tuple[complex, float]
-"""The unit way from a fixed pivot to its ground, and the height of its triangle in mm."""
+"""The unit vector from a fixed pivot to its ground, and the height of its triangle in mm."""
 
 HALFWAY = sqrt(0.5)
 WAYS = {
@@ -27,28 +27,28 @@ WAYS = {
     HALFWAY * (1 + 1j): 1.6,
     HALFWAY * (-1 + 1j): 1.6,
 }
-"""The ways in which a ground may lead from its pin, and what each costs, in mm of air."""
+"""The directions of a ground from its pin, and the cost of each, in mm of clearance."""
 AIR = 2.5
-"""How far a ground should stay from what is drawn at its pin, in mm."""
+"""Required clearance of a ground from the marks at its pin, in mm."""
 RAIL = BLOCK[1] / 2 + HATCH
-"""How far a guide of the frame reaches to both sides of its line, in mm."""
+"""Half the width of a guide of the frame, in mm."""
 RAY = 17.0
-"""How far the axis from which a crank's angle counts is drawn from its pin, in mm."""
+"""Drawn length, from its pin, of the axis from which a crank's angle is measured, in mm."""
 NEAR = hypot(TALL + HATCH / 2, STRIP + HIP * (TALL - PIVOT)) + AIR
-"""How far from its pin lies what a ground may meet, in mm."""
+"""Distance from its pin within which a mark may collide with the ground, in mm."""
 RAISED = 1.0
-"""What a tall ground costs, in mm of air: a bar that passes the pin then crosses its triangle."""
+"""Cost of a tall ground, in mm of clearance: a bar past the pin would cross its triangle."""
 
 
 def ground_ways(drawing: Drawing, mm: float) -> dict[str, complex]:
-    """The way from each fixed pivot to its ground."""
+    """The direction from each fixed pivot to its ground."""
     return {name: way for name, (way, _) in grounds_of(drawing, mm).items()}
 
 
 def grounds_of(drawing: Drawing, mm: float) -> dict[str, Ground]:
-    """The ground of each fixed pivot, held while the mechanism moves.
+    """The ground of each fixed pivot, kept while the mechanism moves.
 
-    ``mm`` are the millimetres of paper that a metre takes up.
+    ``mm`` is the millimetres of paper for a metre.
     """
     still = drawing.choosing
     if mm not in still.grounds:
@@ -57,7 +57,7 @@ def grounds_of(drawing: Drawing, mm: float) -> dict[str, Ground]:
 
 
 def chosen(drawing: Drawing, mm: float) -> dict[str, Ground]:
-    """The freest ground of each pivot: down and low where that is as free as any."""
+    """The ground of each pivot with most room; down and low among equals."""
     drawn, found = [*segments(drawing, mm)], {}
     for name, here in pivots(drawing).items():
         lines = (((p - here) * mm, (q - here) * mm) for p, q in drawn)
@@ -73,7 +73,7 @@ def chosen(drawing: Drawing, mm: float) -> dict[str, Ground]:
 
 
 def pivots(drawing: Drawing) -> dict[str, complex]:
-    """The points of the frame that moving links own."""
+    """The points of the frame that moving links share."""
     moving = {point for link in drawing.scene.links.values() for point in link.points}
     return {
         name: drawing.positions[name]
@@ -83,12 +83,12 @@ def pivots(drawing: Drawing) -> dict[str, complex]:
 
 
 def is_covered(drawing: Drawing, here: complex, mm: float) -> bool:
-    """Whether a block turns about the pin of a pivot, held while the mechanism moves."""
+    """Whether a block turns about a pivot's pin, judged at the position where places are chosen."""
     return any(abs(place - here) * mm < PIN for place in swivelling(drawing.choosing))
 
 
 def segments(drawing: Drawing, mm: float) -> Iterator[Segment]:
-    """The bars, the sides of plates, the guides, and the axes from which cranks' angles count."""
+    """The bars, sides of plates, guides, and axes from which crank angles are measured."""
     for link in drawing.scene.links:
         yield from combinations(places_of(drawing, link), 2)
     for rail in rails_of(drawing):
@@ -109,14 +109,14 @@ def segments(drawing: Drawing, mm: float) -> Iterator[Segment]:
 
 
 def crowding(near: Sequence[Segment], way: complex, height: float) -> float:
-    """The air that a ground lacks beside lines about its pin, in mm."""
+    """The clearance that a ground lacks from lines near its pin, in mm."""
     middle, half = way * (height + HATCH / 2), 1j * way * (STRIP + HIP * (height - PIVOT))
     ground = middle - half, middle + half
     return sum(max(0.0, AIR - apart(ground, line)) for line in near)
 
 
 def apart(one: Segment, other: Segment) -> float:
-    """How far two segments are from one another; less than zero where they cross."""
+    """The distance between two segments; less than zero where they cross."""
     (a, b), (c, d) = one, other
     sides = cross(b - a, c - a) * cross(b - a, d - a), cross(d - c, a - c) * cross(d - c, b - c)
     if max(sides) < 0:
@@ -128,7 +128,7 @@ def apart(one: Segment, other: Segment) -> float:
 
 
 def away_from(place: complex, line: Segment) -> float:
-    """How far a place is from a segment."""
+    """The distance of a place from a segment."""
     start, along = line[0] - place, line[1] - line[0]
     square = abs(along) ** 2
     share = min(max(-dot(start, along) / square, 0.0), 1.0) if square else 0.0

@@ -1,4 +1,4 @@
-"""The straight lines of links that blocks and pins slide on, and where their blocks stand."""
+"""The straight lines of links on which blocks and pins slide, and the positions of the blocks."""
 
 from __future__ import annotations
 
@@ -11,18 +11,18 @@ from graphkin.numbers.plane import cross, dot
 from graphkin.scene.model import FRAME, Slide
 
 REACH = 15.0
-"""Half the length of a drawn guide in mm."""
+"""Half the length of a drawn guide, in mm."""
 BEYOND = 10.5
-"""How far a bar is drawn beyond the middle of a block on it, in mm."""
+"""Drawn length of a bar beyond the middle of a block on it, in mm."""
 ALIKE = 1e-6
-"""Lines nearer than this, in parts of the mechanism, are one."""
+"""Lines closer than this, as a fraction of the mechanism's size, are one."""
 
 
 class Rail(Struct):
-    """A straight line of one link that blocks slide on, with the places of what is on it.
+    """A straight line of one link on which blocks slide, with the positions of the blocks and pins.
 
-    ``marks`` are coordinates of ``blocks`` along the line, in metres from ``zero``; ``slots`` those
-    of pins.
+    ``marks`` are coordinates of ``blocks`` along the line, in metres from ``zero``; ``slots`` are
+    coordinates and names of pins.
     """
 
     owner: str
@@ -33,7 +33,7 @@ class Rail(Struct):
     slots: list[tuple[float, str]] = field(default_factory=list)
 
     def holds(self, owner: str, point: complex, along: complex, near: float) -> bool:
-        """True for a link and a line that are this one's."""
+        """Whether a line of a link is this one."""
         return (
             owner == self.owner
             and abs(cross(self.along, along)) < ALIKE
@@ -45,12 +45,12 @@ class Rail(Struct):
         return self.zero + coordinate * self.along
 
     def along_of(self, point: complex) -> float:
-        """How far along the line a point lies."""
+        """The coordinate of a point along the line."""
         return dot(point - self.zero, self.along)  # type: ignore[no-any-return]
 
 
 def is_swivel(drawing: Drawing, slide: Slide) -> bool:
-    """True where the guide is a block that only turns about its one point: the bar slides in it."""
+    """Whether the guide is a block that only turns about its one point, on a sliding bar."""
     if slide.on == FRAME or slide.pin:
         return False
     scene = drawing.scene
@@ -61,7 +61,7 @@ def is_swivel(drawing: Drawing, slide: Slide) -> bool:
 
 
 def rails_of(drawing: Drawing) -> list[Rail]:
-    """The guides of all links, those on one line of one link together; none where rollers lead."""
+    """The guides of all links, those on one line of one link together; no guides with rollers."""
     found: list[Rail] = []
     near = ALIKE * drawing.standing.size
     for way in (each for each in drawing.standing.guideways if not each.slide.rollers):
@@ -81,7 +81,7 @@ def rails_of(drawing: Drawing) -> list[Rail]:
 
 
 def seat(drawing: Drawing, way: Guideway) -> Point:
-    """Where the middle of the rectangle of a sliding pair stands."""
+    """The position of the middle of a sliding pair's rectangle."""
     if way.slide.on == FRAME:
         return drawing.standing.beside_wheels(way)
     if not is_swivel(drawing, way.slide):
@@ -91,12 +91,12 @@ def seat(drawing: Drawing, way: Guideway) -> Point:
 
 
 def swivelling(drawing: Drawing) -> list[complex]:
-    """Where the rectangles stand that are drawn on moving links."""
+    """The positions of the rectangles that are drawn on moving links."""
     ways = drawing.standing.guideways
     return [seat(drawing, w) for w in ways if w.slide.on != FRAME and not w.slide.pin]
 
 
 def places_of(drawing: Drawing, link: str) -> list[complex]:
-    """Where the points of a link stand, but for the centres of its hollows."""
+    """The positions of a link's points, except the centres of its hollows."""
     own, places = drawing.scene.link(link), drawing.positions
     return [places[p] for p in own.points if p in places and not own.is_hollow_about(p)]

@@ -1,4 +1,4 @@
-"""Links set at a coordinate of their guide or track: a driver gives it, or a group closes there."""
+"""Links set at a coordinate of their guide or track, given by a driver or by a group's closure."""
 
 from __future__ import annotations
 
@@ -27,7 +27,7 @@ def set_at(line: Line, coordinate: Real) -> Point:
 
 @action("set-back")
 def set_back(line: Line, coordinate: Real, here: Point, through: Point, axis: Point) -> Point:
-    """A point of the link that carries a guide, from where its block stands on it."""
+    """A point of the link that carries a guide, from the position of the block on it."""
     zero = line.point - line.along * (coordinate / abs(line.along))
     return zero + axis * (here - through)
 
@@ -46,7 +46,11 @@ class SetByCoordinate(Construction, frozen=True, kw_only=True):
     point: int
 
     def point_sentence(self, drawing: Drawing, role: str) -> str:
-        """By its coordinate; by where it lies from the zero where a group was found to close."""
+        """The sentence for the point by its coordinate.
+
+        Where a group's closure gives the coordinate, the sentence gives distance and side from the
+        zero.
+        """
         name = drawing.lettered(self.point)
         if not is_found_by_closing(drawing.trace.program.steps[self.where]):
             return drawing.words("step.set-at", name=name, what=self.coordinate(drawing))
@@ -65,7 +69,7 @@ class SetByCoordinate(Construction, frozen=True, kw_only=True):
         )
 
     def coordinate(self, drawing: Drawing) -> str:
-        """The coordinate, by the letter of the driver that gives it, or as it is drawn."""
+        """The coordinate, by the letter of the driver that gives it, or as drawn."""
         amount = drawn_amount(drawing, float(drawing.trace.values[self.where]))
         drive = drawing.trace.program.steps[self.where].of
         if not isinstance(drive, Drive) or drive.position != self.where:
@@ -74,19 +78,19 @@ class SetByCoordinate(Construction, frozen=True, kw_only=True):
 
 
 class CarrierSetByCoordinate(SetByCoordinate, frozen=True, kw_only=True):
-    """A ``point`` of the ``link`` that carries a guide, from where the block on it stands."""
+    """A ``point`` of the ``link`` that carries a guide, from the position of the block on it."""
 
     told_after: ClassVar[tuple[str, ...]] = ()
 
     def point_sentence(self, drawing: Drawing, role: str) -> str:
-        """By the coordinate of the block."""
+        """The sentence for the point by the coordinate of the block."""
         name = drawing.lettered(self.point)
         what = self.coordinate(drawing)
         return drawing.words("step.set-back", name=name, k=escape(self.link), what=what)
 
 
 def set_point(pen: Pen, name: str, pair: tuple[str, str], path: int, where: int) -> int:
-    """A point of a link, the first of a pair, at a coordinate of its path on the other."""
+    """Draw a point of the first link of a pair, at a coordinate of its path on the other."""
     point = pen.draw(set_at, path, where, name=name)
     link, on = pair
     pen.make(SetByCoordinate(link=link, on=on, path=path, where=where, point=point))
@@ -96,7 +100,7 @@ def set_point(pen: Pen, name: str, pair: tuple[str, str], path: int, where: int)
 def set_carrier(
     pen: Pen, name: str, pair: tuple[str, str], zero: int, where: int, *ends: int
 ) -> int:
-    """A point of a link that carries a guide: ``zero`` is the guide where its block stands."""
+    """Draw a point of a link that carries a guide; ``zero`` is the guide through its block."""
     point = pen.draw(set_back, zero, where, *ends, name=name)
     link, on = pair
     pen.make(CarrierSetByCoordinate(link=link, on=on, path=zero, where=where, point=point))

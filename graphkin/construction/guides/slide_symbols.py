@@ -1,4 +1,4 @@
-"""Blocks, guides and slots on the mechanism: of the frame hatched, of moving links part of them."""
+"""Blocks, guides and slots on the mechanism; those of the frame are hatched."""
 
 from __future__ import annotations
 
@@ -39,17 +39,17 @@ from graphkin.numbers.plane import cross
 from graphkin.scene.model import FRAME
 
 LEAST = 7.0
-"""Half the length of a guide where there is no room for more, in mm."""
+"""Half the length of a guide in a narrow space, in mm."""
 AWAY = 8.0
-"""How far a guide of the frame stays from the middle of a fixed pivot, in mm."""
+"""Distance of a frame guide from the middle of a fixed pivot, in mm."""
 STROKE = 13.0
-"""Half the length of a drawn slot in mm."""
+"""Half the length of a drawn slot, in mm."""
 CLEAR = 4.0
-"""How far a slot ends from a pin of its bar, in mm."""
+"""Distance from a slot's end to a pin of its bar, in mm."""
 
 
 def draw_frame_guides(board: FieldContent, drawing: Drawing, field: Field) -> None:
-    """The hatched sides of the frame's guides and slots, and the blocks between them."""
+    """Draw the hatched sides of the frame's guides and slots, and the blocks between them."""
     for _, marks in frame_guides(drawing, field):
         board.marks += marks
     for guideway in drawing.standing.guideways:
@@ -60,7 +60,7 @@ def draw_frame_guides(board: FieldContent, drawing: Drawing, field: Field) -> No
 
 
 def frame_guides(drawing: Drawing, field: Field) -> Iterator[tuple[list[str], list[Mark]]]:
-    """The drawn parts of the frame's guides and slots, each with the blocks about which it lies."""
+    """The drawn parts of the frame's guides and slots, each with the names of its blocks."""
     for rail in rails_of(drawing):
         if rail.owner != FRAME:
             continue
@@ -77,7 +77,7 @@ def frame_guides(drawing: Drawing, field: Field) -> Iterator[tuple[list[str], li
 
 
 def clear_of_pivots(drawing: Drawing, field: Field, rail: Rail, middle: Real) -> tuple[Real, Real]:
-    """The part of a guide about a block, in mm, shorter where a fixed pivot stands in the way."""
+    """The part of a guide about a block, in mm, shortened at a fixed pivot."""
     low, high, (x, y) = middle - REACH, middle + REACH, field(rail.zero)
     u, v = field.way(rail.along)
     for name, ground in ground_ways(drawing, field.mm).items():
@@ -93,7 +93,7 @@ def clear_of_pivots(drawing: Drawing, field: Field, rail: Rail, middle: Real) ->
 
 
 def merged(parts: Iterable[tuple[float, float]]) -> Iterator[tuple[float, float]]:
-    """The drawn parts of a guide with blocks at some places, those that overlap as one."""
+    """The drawn parts of a guide, with overlapping ones merged."""
     ends = sorted(parts)
     while ends:
         low, high = ends.pop(0)
@@ -103,7 +103,7 @@ def merged(parts: Iterable[tuple[float, float]]) -> Iterator[tuple[float, float]
 
 
 def draw_guide_bars(board: FieldContent, drawing: Drawing, field: Field) -> None:
-    """The bars and slots of moving links that blocks slide on, joined rigidly to their links."""
+    """Draw the bars and slots of moving links on which blocks slide, fixed to their links."""
     for rail in rails_of(drawing):
         if rail.owner != FRAME:
             board.marks += within(guide_bar(drawing, field, rail), field.rect)
@@ -140,18 +140,18 @@ def slot_ends(field: Field, coordinate: float, on: list[float]) -> tuple[float, 
 
 
 def off(rail: Rail, point: complex, ends: list[float]) -> float:
-    """How far a point stands from the drawn part of a line."""
+    """The distance of a point from the drawn part of a line."""
     return abs(point - rail.at(nearest(rail.along_of(point), ends)))
 
 
 def nearest(coordinate: float, ends: list[float]) -> float:
-    """The coordinate of the drawn part of a line that is nearest to a given one."""
+    """The coordinate on the drawn part of a line that is nearest to a given one."""
     beyond = larger(coordinate, reduce(smaller, ends))
     return smaller(beyond, reduce(larger, ends))  # type: ignore[no-any-return]
 
 
 def joint(field: Field, rail: Rail, point: complex, ends: list[float]) -> Iterator[Mark]:
-    """The arm from a point of a link to its guide, and the filled corner between the two."""
+    """The arm from a link's point to its guide, and the filled corner between the two."""
     coordinate = rail.along_of(point)
     middle = (reduce(smaller, ends) + reduce(larger, ends)) / 2
     is_far = abs(coordinate - middle) * field.mm > 4 * REACH
@@ -166,7 +166,7 @@ def joint(field: Field, rail: Rail, point: complex, ends: list[float]) -> Iterat
 
 
 def draw_blocks(board: FieldContent, drawing: Drawing, field: Field) -> None:
-    """The blocks that move along moving links, each with the arm to its point if it needs one."""
+    """Draw the blocks that slide on moving links, each with an arm to its point if needed."""
     for way in drawing.standing.guideways:
         if way.slide.on == FRAME or way.slide.pin or way.slide.rollers:
             continue
@@ -181,19 +181,19 @@ def draw_blocks(board: FieldContent, drawing: Drawing, field: Field) -> None:
 
 
 def covered(loci: Sequence[Mark], marks: Sequence[Mark]) -> list[Mark]:
-    """The lines and arcs of steps that come near a block, which would hide the middle of them."""
+    """The lines and arcs of steps near a block, which the block would hide in the middle."""
     blocks = [reach(mark) for mark in marks if mark.cls in ("block", "slider")]
     return [m for m in loci if m.step is not None and any(overlap(reach(m), b) for b in blocks)]
 
 
 def overlap(one: Rect, other: Rect) -> bool:
-    """True for upright boxes that have something in common."""
+    """Whether two upright boxes overlap or touch."""
     across = one[0] <= other[2] and other[0] <= one[2]
     return across and one[1] <= other[3] and other[1] <= one[3]
 
 
 def within(marks: Iterable[Mark], rect: Rect) -> Iterator[Mark]:
-    """Marks whose lines end clear of the edges of a field; strokes of hatching are left whole."""
+    """Marks clipped inside a field; strokes of hatching are kept whole or dropped."""
     inner = inside(rect)
     for mark in marks:
         if not isinstance(mark, LineMark):
@@ -207,7 +207,7 @@ def within(marks: Iterable[Mark], rect: Rect) -> Iterator[Mark]:
 
 
 def number_side(drawing: Drawing, field: Field, link: str) -> tuple[XY, XY] | None:
-    """The side of a link's rectangle or slot pin at which its number stands."""
+    """The side of a link's rectangle or slot pin at which its number is drawn."""
     for way in drawing.standing.guideways:
         owner = way.slide.on if is_swivel(drawing, way.slide) else way.block
         if owner == link:

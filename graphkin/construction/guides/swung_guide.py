@@ -1,5 +1,7 @@
-"""A guide that turns about a pivot and leads a pin, or that two pins are: laid through both, or as
-a tangent from one to a circle about the other."""
+"""A guide that turns about a pivot and guides a pin, or that two pins guide.
+
+Its line is drawn through both pins, or as a tangent from one pin to a circle about the other.
+"""
 
 from __future__ import annotations
 
@@ -33,29 +35,30 @@ from graphkin.structure.groups import Dyad, OnTwoPins
 from graphkin.structure.pairs import Pin, Sliding
 from graphkin.text.errors import Problem, Sought
 
-# --- their values --------------------------------------------------------------------------------
+# --- values --------------------------------------------------------------------------------------
 
 
 def swing_margin(pivot: Point, pin: Point, height: Real, way: int, size: float) -> Real:
     """Cosine of the angle between the guide and the line of its two pins.
 
-    Pins much nearer to one another than the mechanism is large (``size``) tell the direction as
-    badly as a flat crossing: it is then that of the foot and the size.
+    Pins closer together than the mechanism's ``size`` give the direction as badly as a flat
+    crossing. For these, the cosine is the ratio of the foot's distance to the size.
     """
     bar = abs(pin - pivot)
     return sqrt((bar - height) * (bar + height)) / pick(bar < size, size, bar)
 
 
 def swing_reached(pivot: Any, pin: Any, height: Any, *_: Any) -> Any:
-    """By how much a pin stands far enough from a pivot for a guide at a height between them."""
+    """Positive where a pin is far enough from a pivot for a guide at a height between them."""
     return abs(pin - pivot) ** 2 - height**2
 
 
 @action("swing", margin=swing_margin, reaches=swing_reached)
 def swing(pivot: Point, pin: Point, height: Real, way: int, size: float) -> Point:
-    """Direction of a guide that turns about a pivot and keeps a pin at a height to its left.
+    """Direction of a guide that turns about a pivot and has a pin at a height to its left.
 
-    The pin lies ahead of the pivot (way +1) or behind it (-1); nearer than the height it raises.
+    The pin lies ahead of the pivot (way +1) or behind it (-1). Raises an error where the pin is
+    closer to the pivot than the height.
     """
     line = pin - pivot
     bar = abs(line)
@@ -64,7 +67,7 @@ def swing(pivot: Point, pin: Point, height: Real, way: int, size: float) -> Poin
 
 
 def through_margin(pivot: Point, pin: Point, way: int, size: float) -> Real:
-    """Distance of the pins over the size of the mechanism, where it is less: else 1."""
+    """Distance of the pins as a fraction of the mechanism's size, at most 1."""
     bar = abs(pin - pivot)
     return bar / pick(bar < size, size, bar)
 
@@ -73,7 +76,7 @@ def through_margin(pivot: Point, pin: Point, way: int, size: float) -> Real:
 def swing_through(pivot: Point, pin: Point, way: int, size: float) -> Point:
     """Direction of a guide whose line passes through both pins: from the pivot to the pin, or back.
 
-    The pin on the pivot raises: any direction would do.
+    Raises an error where the pin is on the pivot: the direction is then undetermined.
     """
     line = way * (pin - pivot)
     return line / abs(line)
@@ -81,7 +84,6 @@ def swing_through(pivot: Point, pin: Point, way: int, size: float) -> Point:
 
 @action("middle")
 def middle(p: Point, q: Point) -> Point:
-    """The point halfway between two."""
     return (p + q) / 2
 
 
@@ -93,7 +95,7 @@ def half(p: Point, q: Point) -> Real:
 
 @action("size")
 def size(height: Real) -> Real:
-    """The height without its sign: the radius of the circle that the guide touches."""
+    """The absolute height: the radius of the circle that the guide touches."""
     return abs(height)
 
 
@@ -104,14 +106,14 @@ def from_foot(foot: Point, pin: Point, way: int) -> Point:
     return line / abs(line)
 
 
-# --- what they are -------------------------------------------------------------------------------
+# --- constructions -------------------------------------------------------------------------------
 
 
 class SwungGuide(Determined, PlacesLink, frozen=True, kw_only=True):
-    """A guide of a ``link`` that turns about its ``pivot`` and leads the ``pin`` of a ``block``.
+    """A guide of a ``link`` that turns about its ``pivot`` and guides the ``pin`` of a ``block``.
 
-    It gives its direction ``turn`` and its ``line``. Where two pins guide the link, the ``pin`` is
-    ``ahead`` of the pivot along it (+1), or behind it (-1); else that is 0.
+    It gives its direction ``turn`` and its ``line``. Where two pins guide the link, ``ahead`` is +1
+    for a ``pin`` ahead of the pivot along the guide and -1 for one behind it; otherwise it is 0.
     """
 
     gives: ClassVar[tuple[str, ...]] = ("turn", "line")
@@ -129,21 +131,20 @@ class SwungGuide(Determined, PlacesLink, frozen=True, kw_only=True):
     ahead: int = 0
 
     def guides(self, block: str, on: str) -> bool:
-        """Whether it leads a block along a link, whichever of the two has the guide."""
+        """Whether it guides a block along a link, whichever of the two has the guide."""
         return {self.block, self.link} == {block, on}
 
     @property
     def found_link(self) -> str:
-        """The link that it turns."""
         return self.link
 
     def symbols(self) -> Mapping[str, str]:
-        """Both pins, and the link that turns."""
+        """The symbols of both pins and of the link that turns."""
         p, q = (symbol(lettered(point)) for point in self.points)
         return {"p": p, "q": q, "k": escape(self.link)}
 
     def fields(self) -> Mapping[str, str]:
-        """What its sentence speaks of."""
+        """The fields of its sentence."""
         p, q = map(symbol, self.points)
         return {"p": p, "q": q, "k": escape(self.link), "bar": bar(self.pivot, self.pin)}
 
@@ -157,15 +158,15 @@ class GuideThroughPins(SwungGuide, frozen=True, kw_only=True):
     titled: ClassVar[str] = "the line {pivot}-{pin}"
 
     def sentence_alone(self, drawing: Drawing, role: str) -> str:
-        """Joining them."""
+        """The sentence that joins the pins."""
         return drawing.words(self.key, **self.fields()) if role == "turn" else ""
 
     def in_line(self, steps: Sequence[Step], nearly: str) -> str:
-        """Pins at one place."""
+        """The words for coincident pins."""
         return f"{self.pin} {nearly}falls on {self.pivot}"
 
     def undetermined(self, args: Sequence[Any]) -> Problem:
-        """Where the pin has come to stand on the pivot."""
+        """The problem of a pin that coincides with the pivot."""
         p, q = self.pivot, self.pin
         return Problem(
             f"position of link {self.link}",
@@ -176,22 +177,21 @@ class GuideThroughPins(SwungGuide, frozen=True, kw_only=True):
         )
 
     def at_end(self, steps: Sequence[Step], loci: Sequence[Any]) -> tuple[str, str]:
-        """Pins at one place."""
+        """The link, and the coincident pins at the end of its range."""
         return f"link {self.link}", f"{self.pin} on {self.pivot}"
 
 
 class LineOfPins(GuideThroughPins, frozen=True, kw_only=True):
-    """A line through two pins in parallel guides of a link, which both guide along it."""
+    """A line through two pins in parallel guides of a link, which both guide the link along it."""
 
     key: ClassVar[str] = "step.pins-guide"
 
 
 class TangentGuide(SwungGuide, frozen=True, kw_only=True):
-    """A guide that keeps the pin at a ``height`` to its left: a tangent of the circle about its
-    pivot.
+    """A guide with the pin at a ``height`` to its left: a tangent of a circle about its pivot.
 
-    By hand the ``small`` circle has the height as its radius, the ``large`` one is that of Thales
-    on both pins; they meet in the ``foot`` of the ``tangent``.
+    By hand, the ``small`` circle has the height as its radius and the ``large`` one is Thales's
+    circle on both pins. They meet in the ``foot`` of the ``tangent``.
     """
 
     gives: ClassVar[tuple[str, ...]] = ("small", "large", "foot", "tangent", "turn", "line")
@@ -216,17 +216,17 @@ class TangentGuide(SwungGuide, frozen=True, kw_only=True):
     tangent: int | None = None
 
     def laid_length(self, role: str) -> LaidLength | None:
-        """Half the distance of the pins, the radius of the circle of Thales."""
+        """Half the distance of the pins, the radius of Thales's circle."""
         whole = super().laid_length(role)
         return replace(whole, half=True) if whole is not None else None
 
     def marks(self, canvas: Canvas, role: str) -> None:
-        """As much of both circles as finds the foot."""
+        """Draw the parts of both circles that find the foot."""
         if role in ("small", "large"):
             canvas.arc(self.pivot + self.pin)
 
     def sentence_alone(self, drawing: Drawing, role: str) -> str:
-        """By Thales's circle, where it is drawn."""
+        """The sentence, by Thales's circle where it is drawn."""
         if role != "turn":
             return ""
         if self.tangent not in drawing.trace.values:
@@ -239,15 +239,15 @@ class TangentGuide(SwungGuide, frozen=True, kw_only=True):
         return f"{self.pivot}{self.pin} is {nearly}square to the guide of {self.block}"
 
     def failing(self) -> str:
-        """A pin within the circle that the guide touches."""
+        """The words for a pin within the circle that the guide touches."""
         return f"{self.pin} stands nearer to {self.pivot} than the guide passes it"
 
 
-# --- drawing them --------------------------------------------------------------------------------
+# --- drawing -------------------------------------------------------------------------------------
 
 
 def swing_guide(pen: Pen, group: Dyad) -> None:
-    """A dyad RPR: the guide through one pin and, at its height, the other; its link's axis."""
+    """Draw a dyad RPR: the guide through one pin and, at its height, the other; set the axes."""
     assert isinstance(group.left, Pin) and isinstance(group.right, Pin)
     assert isinstance(group.inner, Sliding)
     first, second = group.links
@@ -264,7 +264,7 @@ def swing_guide(pen: Pen, group: Dyad) -> None:
 
 
 def guide_by_pins(pen: Pen, group: OnTwoPins) -> None:
-    """Two blocks whose pins guide a link: the line that they keep, and what slides along it."""
+    """Draw a link that two blocks guide by their pins: its line, and what slides along it."""
     (block, start), (pin, pivot) = group.inner.links, group.inner.pins
     ahead, behind = group.inner.slides
     own: dict[str, Any] = {"link": group.rail, "block": block, "pivot": pivot, "pin": pin}
@@ -283,7 +283,7 @@ def guide_by_pins(pen: Pen, group: OnTwoPins) -> None:
 
 
 def lay_guide(pen: Pen, group: Dyad, height: int | None, own: Mapping[str, Any]) -> tuple[int, int]:
-    """The direction and the line of a guide by its ``pivot`` and ``pin``, where these stand."""
+    """Draw the direction and the line of a guide from its ``pivot`` and ``pin``, already placed."""
     places = [pen.the("position", own[end]) for end in ("pivot", "pin")]
     way, extra = pen.choice(group)
     sized = (*extra, breadth_about(pen, places[0]))
@@ -305,7 +305,7 @@ def lay_guide(pen: Pen, group: Dyad, height: int | None, own: Mapping[str, Any])
 
 
 def breadth_about(pen: Pen, pivot: int) -> float:
-    """The largest distance of a point that stands already from a pivot; zero if none is known."""
+    """The largest distance of a placed point from a pivot; zero if none is known."""
     start = pen.peek(pivot)
     stands = [number for (what, _), number in pen.targets.items() if what == "position"]
     places = [pen.peek(number) for number in stands]
@@ -315,7 +315,7 @@ def breadth_about(pen: Pen, pivot: int) -> float:
 
 
 def tangent(pen: Pen, places: list[int], height: int, way: int) -> dict[str, int]:
-    """The hand's way to an offset guide: the tangent to a circle, by Thales's circle."""
+    """Draw the tangent to a circle, by Thales's circle, as a hand finds an offset guide."""
     value = pen.peek(height)
     if not value:
         return {}

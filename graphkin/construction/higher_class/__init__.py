@@ -1,1 +1,1 @@
-"""Groups of class III and higher: where they close, and the plans that two wrong ones give."""
+"""Groups of class III and higher: their closures, and the plans found from two trial plans."""

@@ -1,4 +1,4 @@
-"""The position of a group of class III or higher: a locus of one of its points closes it."""
+"""The position of a group of class III or higher: the locus of one of its points closes it."""
 
 from __future__ import annotations
 
@@ -15,10 +15,10 @@ from graphkin.structure.pairs import Pin, Sliding
 
 
 class ClosedGroup(ClosesGroup, PlacesLink, frozen=True):
-    """A group in one closure: the step that closes it, the tried link's place, its dyads' sides.
+    """A group in one closure: the closing step, the tried link's position, the sides of its dyads.
 
-    Its closures are numbered by the angle of the link ``counted``. ``traced`` are the points whose
-    loci a hand draws.
+    The closures are numbered by the angle of the link ``counted``. ``traced`` are the points whose
+    loci are drawn by hand.
     """
 
     group: Higher
@@ -30,37 +30,35 @@ class ClosedGroup(ClosesGroup, PlacesLink, frozen=True):
     sides: tuple[int, ...]
 
     def reason(self, drawing: Drawing, role: str) -> str:
-        """That no two lines are known."""
+        """The reason: no two lines are known from which to draw the group."""
         if role != "closing":
             return ""
         return "why.closed" if len(self.group.nested) == 1 else "why.closed_together"
 
     def given(self) -> Iterator[tuple[str, int]]:
-        """What closes the group, and each value taken from it."""
+        """The closing step, and each value taken from it."""
         yield "closing", self.closing
         yield from (("tried", number) for number in self.tried)
         yield from (("side", number) for number in self.sides)
 
     @property
     def closes(self) -> tuple[str, ...]:
-        """The links of the group."""
         return self.group.links
 
     @property
     def cut_off(self) -> set[str]:
-        """The links that are cut off, in it and in the groups within it."""
+        """The links that are cut off, in this group and in the groups within it."""
         return {one.last.link for one in self.group.nested if isinstance(one.last, Tie)}
 
     @property
     def found_link(self) -> str:
-        """The link that is tried."""
         return self.group.tried.link
 
     # --- where it is cut -------------------------------------------------------------------------
 
     @property
     def guide(self) -> str:
-        """The block that is cut off its guide, or off the pin on it; nothing for others."""
+        """The block that is cut off its guide, or off the pin on it; empty for other groups."""
         match self.group.last:
             case Tie(second=Sliding(links=(block, _))):
                 return block
@@ -75,11 +73,11 @@ class ClosedGroup(ClosesGroup, PlacesLink, frozen=True):
 
     @property
     def points(self) -> tuple[str, ...]:
-        """The points of which its sentence speaks."""
+        """The points that its sentence names."""
         return self.pins
 
     def laid_length(self, role: str) -> LaidLength | None:
-        """The bar that is cut off: the compass is opened as far, or the loci are so far apart."""
+        """The bar that is cut off: the compass opening, or the gap between the loci."""
         if role != "closing" or len(self.pins) < 2:
             return None
         first, second = self.pins
@@ -87,11 +85,11 @@ class ClosedGroup(ClosesGroup, PlacesLink, frozen=True):
 
     @property
     def locus(self) -> str:
-        """The point whose locus closes the group; nothing where a driver does."""
+        """The point whose locus closes the group; empty where a driver closes it."""
         return self.pins[-1] if self.pins else ""
 
     def ends_of_bar(self, drawing: Drawing) -> tuple[str, str]:
-        """The ends of the bar at which it is cut: one that is known, if any is; a moving one."""
+        """The ends of the cut bar: the known one, or an empty name, and the moving one."""
         first, second = self.pins
         targets = drawing.trace.program.targets
         known = {p for p in (first, second) if targets["position", p] < self.closing}
@@ -100,7 +98,7 @@ class ClosedGroup(ClosesGroup, PlacesLink, frozen=True):
         return first if first in known else "", second
 
     def marks(self, canvas: Canvas, role: str) -> None:
-        """Of the arc by which the locus is cut, the part that finds the pin."""
+        """Draw the part of the arc on which the locus finds the pin."""
         if role == "closing" and len(self.pins) > 1:
             fixed, moving = self.ends_of_bar(canvas.drawing)
             if fixed:
@@ -108,7 +106,7 @@ class ClosedGroup(ClosesGroup, PlacesLink, frozen=True):
                 ends = (canvas.value(targets["position", point]) for point in (fixed, moving))
                 canvas.opening("".join(self.pins), *ends)
 
-    # --- in words --------------------------------------------------------------------------------
+    # --- sentences -------------------------------------------------------------------------------
 
     def sentence_alone(self, drawing: Drawing, role: str) -> str:
         """How the position of the group is found."""
@@ -137,7 +135,7 @@ class ClosedGroup(ClosesGroup, PlacesLink, frozen=True):
         return drawing.words(key, bar=bar(*self.pins), **fields)
 
     def drawn_each_time(self, drawing: Drawing) -> str:
-        """What is drawn for each place of the tried link: links, and what is tried within."""
+        """The words for the links and inner trials drawn at each position of the tried link."""
         inner = {link for one in self.group.nested[1:] for link in one.links}
         drawn = seen(drawing, (link for link in self.links_drawn(drawing) if link not in inner))
         key = "step.close-links" if len(drawn) > 1 else "step.close-link"
@@ -146,7 +144,7 @@ class ClosedGroup(ClosesGroup, PlacesLink, frozen=True):
         return mark.join((first, *within)) + (mark.rstrip() if within else "")
 
     def tried_within(self, drawing: Drawing) -> Iterator[str]:
-        """How each group within it is closed."""
+        """How each group within this one is closed."""
         for one in self.group.nested[1:]:
             match one.last:
                 case Driver() as driver:
@@ -163,7 +161,7 @@ class ClosedGroup(ClosesGroup, PlacesLink, frozen=True):
             yield drawing.words("step.close-within", k=escape(tried), list=listed, cut=cut)
 
     def links_drawn(self, drawing: Drawing) -> list[str]:
-        """The links that give the locus: all but the one that a pin or guide is cut off."""
+        """The links that give the locus: all but the link that is cut off at a pin or guide."""
         links, near, ends = drawing.scene.links, list(self.closes), {*self.pins}
         if self.guide:
             near = [self.guide, *(slide.on for slide in links[self.guide].slides)]
@@ -171,7 +169,7 @@ class ClosedGroup(ClosesGroup, PlacesLink, frozen=True):
         return [name for name in self.closes if name != cut]
 
     def branch_words(self, drawing: Drawing) -> str:
-        """Which of the ways in which it closes is meant."""
+        """The words that say which closure is drawn."""
         return drawing.words(
             "page.closure",
             list=escape(", ".join(seen(drawing, self.closes))),
@@ -181,7 +179,7 @@ class ClosedGroup(ClosesGroup, PlacesLink, frozen=True):
 
 
 def seen(drawing: Drawing, links: Iterable[str]) -> list[str]:
-    """Links as sentences name them: what keeps a wheel in place by the wheel, or bar, it keeps."""
+    """The links as sentences name them; a link that holds a wheel has the wheel's or bar's name."""
     scene, found = drawing.scene, list[str]()
     for name in links:
         if name in scene.unseen:

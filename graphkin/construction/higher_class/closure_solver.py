@@ -1,7 +1,7 @@
-"""Groups of class III and higher: one link is tried all round, until what was cut fits again.
+"""Closures of groups of class III and higher: one link is tried over its range until the cut fits.
 
-The only place where values decide how many steps there are: the trial runs a program of its own on
-arrays of trial positions, brackets every fit and closes in on it. Its derivatives come from plans.
+Only here do values decide the number of steps. The trial runs its own program on arrays of trial
+positions, brackets every fit and refines it. Its derivatives come from the plans.
 """
 
 from __future__ import annotations
@@ -30,24 +30,24 @@ from graphkin.numbers.roots import (
 from graphkin.scene.model import Scene
 
 DOUBLES = ("float", "batch")
-"""The kinds in which closures are looked for; in the others they are refined."""
+"""The kinds of number in which closures are searched for; in the others they are refined."""
 KEPT = 16
-"""Closures of a group that are kept."""
+"""Number of solved sets of known values that a trial keeps."""
 SAME = 1e-7
-"""Radians within which two angles count as one when closures are put in order."""
+"""Radians within which two angles count as equal when closures are sorted."""
 STEP = 1e-6
-"""Half the step of the differences that give slopes, in radians or in parts of a trial value."""
+"""Half the difference step for slopes, in radians or as a fraction of the trial value."""
 
 HIDDEN = 1e-6
-"""Sine of crossing below which what doubles take for one closure may be two, or none."""
+"""Sine of crossing below which one closure in doubles may be two closures or none."""
 
 
 BITS = (128, 256, 512, 1024)
-"""Bits of the balls that are asked one after the other."""
+"""Precisions of the balls, in bits, tried in this order."""
 
 
 class ClosingError(ValueError):
-    """A group that does not close, or not in as many ways as asked."""
+    """A group that does not close, or that has fewer closures than the number asked for."""
 
     def __init__(self, ways: int, asked: int) -> None:
         self.ways, self.asked = ways, asked
@@ -55,7 +55,7 @@ class ClosingError(ValueError):
 
 
 class MergingError(ValueError):
-    """A closure whose number rounding leaves open: before it, or with it, two closures merge."""
+    """A closure of uncertain number: two closures merge at it or before it, up to rounding."""
 
     def __init__(self, first: int, asked: int) -> None:
         self.first, self.asked = first, asked
@@ -63,34 +63,37 @@ class MergingError(ValueError):
 
 
 class Trying(Trial, frozen=True, dict=True):
-    """A trial, and where it fits."""
+    """A trial with the search for its closures."""
 
     def action(self, number: int) -> Action:
-        """The step that closes the group in the closure of a number, counted from one."""
+        """The step that closes the group in the closure with a given number, counted from one."""
         return Action(CLOSE, ClosureSolver(self, number))
 
     @cached_property
     def kept(self) -> dict[tuple[Any, ...], Closures]:
-        """The closures that were found last, by what was known."""
+        """The closures found last, by the known values."""
         return {}
 
     @cached_property
     def settled(self) -> dict[tuple[Any, ...], list[tuple[Any, ...]] | None]:
-        """What closes in every closure in order, by what was known, where rounding leaves that open
-        and balls were asked; None where they leave it open too."""
+        """The values of every closure, in order, where balls had to decide; by known values.
+
+        Balls decide where rounding in doubles leaves the closures open. None marks known values for
+        which balls do not decide either.
+        """
         return {}
 
     def chosen(self, closings: Sequence[Any], number: int) -> Any:
-        """The closure of a number of all closures. Raises ClosingError where there is none."""
+        """The closure with a given number. Raises ClosingError where there is none."""
         if number > len(closings):
             raise ClosingError(len(closings), number)
         return closings[number - 1]
 
     def closed(self, known: Sequence[Any], number: int) -> tuple[Any, ...]:
-        """Trial value, signs and the sine of crossing in one closure: scalars or arrays.
+        """Trial value, signs and sine of crossing in one closure: scalars or arrays.
 
-        A scalar without that closure raises ClosingError, and MergingError where rounding leaves
-        open which closure has the number; an element of an array gives NaN.
+        For scalars, raises ClosingError where that closure does not exist, and MergingError where
+        rounding leaves its number open. For arrays, the element is NaN in both cases.
         """
         if not any(hasattr(value, "shape") for value in known):
             closures = self.closures_of(known)
@@ -104,7 +107,7 @@ class Trying(Trial, frozen=True, dict=True):
         return self.parts(np.array(self.every(arrays, size).sure(number)))
 
     def every(self, known: Sequence[Any], size: int) -> Closures:
-        """Every closure of any number of elements, a part of them at a time."""
+        """Every closure of any number of elements, computed in chunks."""
         chunk = self.together(known, size)
         parts = [
             self.closures([array[start : start + chunk] for array in known])
@@ -113,23 +116,23 @@ class Trying(Trial, frozen=True, dict=True):
         return joined(parts)
 
     def together(self, known: Sequence[Any], size: int) -> int:
-        """How many elements are closed at once."""
+        """The number of elements that are closed at once."""
         return max(1, MOST // int(self.shares(known, size).shape[1] * 2 ** len(self.signs)))
 
     def parts(self, table: Any) -> tuple[Any, ...]:
-        """Trial values, signs and sines of rows: element, trial values, signs, sine."""
+        """Trial values, signs and sines from rows of element, trial values, signs, sine."""
         count = 1 + len(self.unknowns)
         return (*self.placed(table[:, 1:count].T), *table[:, count:].T)
 
     def split(self, rows: Any) -> tuple[Any, Any, Any]:
-        """What is tried (…, n), signs (…, k) and sines of crossing (…) of closures in rows."""
+        """The trial values (…, n), signs (…, k) and sines of crossing (…) of closures in rows."""
         size = len(self.unknowns)
         return rows[..., :size], rows[..., size:-1], rows[..., -1]
 
     def closed_beside(self, known: Sequence[Any], tried: Any, signs: Any) -> Any:
-        """Trial values at which all closes beside some (K, n), by Newton's method.
+        """Trial values (K, n) of closures near given ones, by Newton's method.
 
-        NaN where it does not come to rest.
+        NaN where the method does not converge.
         """
 
         def missed(row: Any, share: Any) -> Any:
@@ -138,9 +141,9 @@ class Trying(Trial, frozen=True, dict=True):
         return roots_beside(missed, tried)
 
     def closures_of(self, known: Sequence[Any]) -> Closures:
-        """Every closure on known scalars, in the order of their numbers; the last ones are kept.
+        """Every closure on known scalars, in the order of their numbers; the last results are kept.
 
-        The traces of a sheet, and those by which its scale is chosen, ask the same many times.
+        The traces of a sheet, and those that choose its scale, ask for the same values many times.
         """
         asked = tuple(known)
         if asked not in self.kept:
@@ -156,7 +159,7 @@ class Trying(Trial, frozen=True, dict=True):
         return (*self.placed(map(float, row[1:count])), *map(float, row[count:]))
 
     def loci(self, known: Sequence[Any], value: Sequence[Any]) -> list[Any]:
-        """Where the traced points go all round, with the signs of a closure: (N,) each."""
+        """The loci of the traced points over the trial, with a closure's signs: (N,) each."""
         arrays = [np.atleast_1d(each) for each in known]
         tried = self.grid(arrays, 1)[0]
         here = [np.broadcast_to(array, tried.shape) for array in arrays]
@@ -179,10 +182,11 @@ class Trying(Trial, frozen=True, dict=True):
         signs: tuple[int, ...],
         windows: Windows,
     ) -> Iterator[tuple[Any, Any, Any, Any]]:
-        """Every fit for sets of signs that begin so: its element, its trial value (K, 1), its
-        signs, and whether it only may be one, as the misfit comes near zero without crossing it.
+        """Every fit for sets of signs that begin with ``signs``.
 
-        ``windows`` are where the dyads of the signs that are set can be drawn.
+        Yields elements, trial values (K, 1), signs, and a mask. The mask marks touches, where the
+        misfit comes close to zero without changing sign. ``windows`` are the ranges in which the
+        dyads of the given signs can be drawn.
         """
 
         def trial(owner: Any, share: Any, rows: Any) -> tuple[list[Any], Any, Any]:
@@ -251,10 +255,10 @@ class Trying(Trial, frozen=True, dict=True):
         return Closures(size, table[~touching[order]], table, touching[order])
 
     def sines(self, known: Sequence[Any], tried: Any, signs: Any) -> Any:
-        """The least sine of the angles at which a locus crosses what was cut, those within closed,
-        by a small step each way.
+        """The least sine of the angles at which a locus crosses what was cut.
 
-        Where a step leads beyond what can be drawn it is not taken.
+        Differences over a small step each way are used, with the groups within closed. A step out
+        of the drawable range is not taken.
         """
         turning = [one.turns for one in self.unknowns]
         step = STEP * np.where(turning, 1.0, np.maximum(abs(tried), 1e-3))
@@ -276,7 +280,8 @@ class Trying(Trial, frozen=True, dict=True):
 def crossing_sines(misfits: Any, ways: Any) -> Any:
     """The least sine of the crossings of each row, from differences (K, n, n) of misfits and loci.
 
-    An unknown moves while those within close; differences without a value count as a sine of zero.
+    Each unknown moves while the groups within stay closed. A difference without a value counts as a
+    sine of zero.
     """
     count, size, _ = misfits.shape
     least = np.ones(count)
@@ -294,26 +299,26 @@ def crossing_sines(misfits: Any, ways: Any) -> Any:
 
 
 def closer_of(step: Step) -> ClosureSolver | None:
-    """What closes a group of higher class in a step; None for a step that closes none."""
+    """The solver of a step that closes a group of higher class; None for other steps."""
     value = step.action.value if step.action is not None else None
     return value if isinstance(value, ClosureSolver) else None
 
 
 def closing(step: Step) -> ClosureSolver:
-    """What closes the group of a step that closes one."""
+    """The solver of a step that closes a group."""
     closer = closer_of(step)
     assert closer is not None
     return closer
 
 
 class ClosureSolver(Struct, frozen=True):
-    """What closes a group in the closure of a number, counted from one."""
+    """The solver of a group in the closure with a given number, counted from one."""
 
     trying: Trying
     number: int
 
     def __call__(self, *known: Any) -> tuple[Any, ...]:
-        """Trial value, signs and the sine of crossing; as balls have settled them, if asked."""
+        """Trial value, signs and sine of crossing; as settled by balls, where balls were used."""
         if all(isinstance(value, float | complex) for value in known):
             closings = self.trying.settled.get(known)
             if closings is not None:
@@ -327,23 +332,23 @@ class ClosureSolver(Struct, frozen=True):
         return closed_in(self.trying, known, self.number, kind)
 
     def loci(self, known: Sequence[Any], value: Sequence[Any]) -> list[Any]:
-        """Where the traced points go while the link is tried, (N,) each; NaN where one breaks off.
+        """The loci of the traced points during the trial, (N,) each; NaN where a locus breaks off.
 
-        None where no point shows the fit. ``value`` is the closure beside which they are drawn.
+        Empty where no point shows the fit. ``value`` is the closure at which the loci are drawn.
         """
         return self.trying.loci(known, value) if self.trying.traced else []
 
     def ways(self, known: Sequence[Any]) -> int:
-        """In how many ways the group closes on known values."""
+        """The number of ways in which the group closes on known values."""
         return self.trying.closures_of(known).ways()
 
 
 class Closures(Struct, frozen=True):
     """All closures of some elements: rows of element, trial value, signs and sine of crossing.
 
-    ``whole`` has the rows of what may be closures too (``touching``): the misfit comes there so
-    near zero that rounding hides whether it crosses it. ``complete`` tells that there are proved
-    to be no others; a search on a grid proves nothing.
+    ``whole`` also has the rows that may be closures (``touching``): there the misfit comes so close
+    to zero that rounding hides whether it changes sign. ``complete`` means that a proof excludes
+    other closures; a search on a grid proves nothing.
     """
 
     size: int
@@ -358,15 +363,15 @@ class Closures(Struct, frozen=True):
 
     @property
     def merging(self) -> Any:
-        """Which rows of the whole may be two closures or none: rounding does not tell."""
+        """A mask of the rows of ``whole`` that may be two closures or none, up to rounding."""
         return self.touching | (self.whole[:, -1] < HIDDEN)
 
     def ways(self) -> int:
-        """In how many ways the first element closes."""
+        """The number of ways in which the first element closes."""
         return int((self.table[:, 0] == 0).sum())
 
     def picked(self, number: int) -> list[Any]:
-        """The row of each element's closure of a number; NaN where it has none."""
+        """The row of each element's closure with a given number; NaN where it has none."""
         rows = np.full((self.size, self.table.shape[1]), np.nan)
         owners = self.table[:, 0].astype(int)
         first = np.searchsorted(owners, np.arange(self.size))
@@ -376,7 +381,7 @@ class Closures(Struct, frozen=True):
         return list(rows)
 
     def sure(self, number: int) -> list[Any]:
-        """As picked; NaN where rounding leaves open which closure has that number."""
+        """As ``picked``, with NaN where rounding leaves open which closure has that number."""
         rows = self.picked(number)
         merging = self.merging
         for owner in dict.fromkeys(self.whole[merging, 0].astype(int).tolist()):
@@ -385,12 +390,15 @@ class Closures(Struct, frozen=True):
         return rows
 
     def before(self, owner: int) -> int:
-        """How many closures of an element come before the first that rounding leaves open."""
+        """The number of closures of an element before the first that rounding leaves open."""
         mine = self.merging[self.whole[:, 0] == owner]
         return int(mine.argmax()) if mine.any() else len(mine)
 
     def merging_at(self, number: int) -> MergingError | None:
-        """What to raise where it is open which closure of the first element has a number."""
+        """The error for a closure number that rounding leaves open; None if certain.
+
+        It concerns the first element.
+        """
         before = self.before(0)
         if before < number and self.merging[self.whole[:, 0] == 0].any():
             return MergingError(before + 1, number)
@@ -398,7 +406,7 @@ class Closures(Struct, frozen=True):
 
 
 def joined(parts: Sequence[Closures]) -> Closures:
-    """The closures of some elements after those of others."""
+    """The closures of several parts, with the elements renumbered in sequence."""
     if len(parts) == 1:
         return parts[0]
     before = np.cumsum([0, *(part.size for part in parts)])
@@ -413,14 +421,14 @@ def joined(parts: Sequence[Closures]) -> Closures:
 
 
 def sign_table(count: int) -> list[tuple[int, ...]]:
-    """Every set of so many signs."""
+    """Every combination of ``count`` signs."""
     rows: list[tuple[int, ...]] = [()]
     for _ in range(count):
         rows = [(*row, sign) for row in rows for sign in (1, -1)]
     return rows
 
 
-# --- where rounding leaves open how many closures there are, balls decide ------------------------
+# --- balls decide where rounding leaves the number of closures open ------------------------------
 
 
 def run_settled(
@@ -431,7 +439,10 @@ def run_settled(
     overrides: Mapping[int, Any] | None = None,
     begun: Trace | None = None,
 ) -> Trace:
-    """As run, in doubles. Raises StepFailed, of MergingError where balls do not decide either."""
+    """Run the program in doubles, as ``run`` does.
+
+    Raises StepFailed, caused by MergingError where balls do not decide either.
+    """
     while True:
         try:
             return run(program, needed, scene.values, FLOAT, overrides=overrides, begun=begun)
@@ -443,8 +454,10 @@ def run_settled(
 
 
 def ways(scene: Scene, program: Program, number: int, known: Sequence[Any]) -> int:
-    """In how many ways a step closes its group on known floats; how many of them are sure to come
-    before two that merge, where balls do not decide whether these have."""
+    """The number of ways in which a step closes its group on known floats.
+
+    Where balls do not decide whether two closures merge, the number of certain ones before them.
+    """
     step = program.steps[number]
     trying = closing(step).trying
     closures = trying.closures_of(known)
@@ -457,7 +470,7 @@ def ways(scene: Scene, program: Program, number: int, known: Sequence[Any]) -> i
 
 
 def newly_settled(scene: Scene, program: Program, failed: StepFailed) -> bool:
-    """Whether balls now tell the closures of a group and were not asked before."""
+    """Whether balls now determine the closures of a group, having not been used before."""
     known, settled = failed.args_found, closing(failed.step).trying.settled
     if known in settled:
         return False
@@ -466,7 +479,7 @@ def newly_settled(scene: Scene, program: Program, failed: StepFailed) -> bool:
 
 
 def settle(scene: Scene, program: Program, step: Step, known: tuple[Any, ...]) -> None:
-    """Let the trial of a step keep what balls tell of its closures on known floats."""
+    """Store in a step's trial its closures on known floats, as far as balls determine them."""
     from graphkin.construction.higher_class.refining import merged
 
     trying = closing(step).trying

@@ -1,6 +1,6 @@
-"""Where a train stands whose wheels turn one another in a loop: how far the tried link has turned.
+"""The position of a train whose wheels turn one another in a loop: the angle of the tried link.
 
-What the last contact misses grows in proportion to how far the tried link has turned (Willis).
+The error at the last contact is linear in the angle of the tried link (Willis).
 """
 
 from __future__ import annotations
@@ -37,26 +37,27 @@ from graphkin.structure.pairs import Contact, SlippingName
 from graphkin.text.errors import Problem, Sought
 
 FREE = 1e-12
-"""Ratios that differ less than this leave the tried link free."""
+"""Ratios that differ by less than this leave the tried link free."""
 
 
 class ContactMisclosure(LineMisclosure, frozen=True, kw_only=True):
-    """The gap at a contact, across its radius: between the images of both wheels there.
+    """The gap at a contact, across its radius, between the images of both wheels.
 
-    ``ends`` are the ends of the radius, ``start`` is the known wheel's image, ``tip`` the other's.
+    ``ends`` are the ends of the radius, ``start`` is the known wheel's image and ``tip`` the other
+    wheel's image.
     """
 
     ends: tuple[str, str]
 
     def fields(self, drawing: Drawing) -> tuple[str, Mapping[str, str]]:
-        """The image of the known wheel; of accelerations the parallel to the radius through it."""
+        """The known wheel's image; for accelerations, the parallel to the radius through it."""
         start = drawing.lettered(self.start)
         key = "image" if drawing.kind == "velocity" else "radius"
         return key, {"bar": bar(*self.ends), "s": start}
 
 
 class SettledTurn(Determined, frozen=True, kw_only=True):
-    """The ``turn`` of a tried ``link``, which a contact settles with all wheels between."""
+    """The ``turn`` of a tried ``link``, which a contact determines through all wheels between."""
 
     gives: ClassVar[tuple[str, ...]] = ("turn",)
     has_angle: ClassVar[bool] = False
@@ -66,7 +67,7 @@ class SettledTurn(Determined, frozen=True, kw_only=True):
     turn: int
 
     def undetermined(self, args: Sequence[Any]) -> Problem:
-        """The ratios of the wheels cancel."""
+        """The problem of wheel ratios that cancel."""
         return Problem(
             f"position of link {self.link}",
             f"the wheels of links {', '.join(self.wheels)} let link {self.link} turn as it likes",
@@ -77,7 +78,7 @@ class SettledTurn(Determined, frozen=True, kw_only=True):
 
 
 def position(pen: Pen, group: CoupledTrain, each: Each) -> None:
-    """The tried link at its angle, and one wheel after the other on its pin."""
+    """Place the tried link at its angle, then each wheel on its pin."""
     link, (base,) = group.tried.link, bases(pen.scene, group.tried)
     pen.bases[link] = base
     settle_turn(pen, link, turn_of_tried(pen, group))
@@ -91,21 +92,22 @@ def position(pen: Pen, group: CoupledTrain, each: Each) -> None:
 
 @by_contact
 def touch_last(pen: Pen, contact: Contact) -> None:
-    """Where the wheels touch that close the train."""
+    """Place the contact point of the wheels that close the train."""
     touch_wheels(pen, contact, contact.links[0])
 
 
 @action("closing-turn")
 def closing_turn(missed: Real, rate: Real) -> Real:
-    """The angle at which a miss vanishes that grows at a ``rate`` from what nought misses.
+    """The angle at which an error is zero, if the error is ``missed`` at angle zero.
 
-    One that does not grow leaves the link free: it raises ZeroDivisionError on a scalar.
+    The error grows by ``rate`` per radian. A rate of zero leaves the link free: raises
+    ZeroDivisionError on a scalar.
     """
     return -missed / pick(below(abs(rate), FREE), 0 * rate, rate)
 
 
 def turn_of_tried(pen: Pen, group: CoupledTrain) -> int:
-    """How far the tried link has turned, in radians: where the last contact misses nothing."""
+    """The angle of the tried link, in radians, at which the error at the last contact is zero."""
     own = group.closing
     with pen.on(Part.POSITION, Plane.NUMBERS):
         nought, one = pen.given("nought"), pen.given("one")
@@ -125,7 +127,7 @@ def turn_of_tried(pen: Pen, group: CoupledTrain) -> int:
 
 @by_contact
 def rate_rolled(pen: Pen, contact: Contact, link: str, rates: Mapping[str, int]) -> int:
-    """How fast a wheel turns while only the links of some ``rates`` do (Willis)."""
+    """The rate at which a wheel turns while only the links of ``rates`` turn (Willis)."""
     side = seen_from(pen, contact, link)
     with pen.on(Part.POSITION, Plane.NUMBERS):
         found = (rates.get(each, pen.given("nought")) for each in (contact.arm or "", side.other))
@@ -136,10 +138,10 @@ def rate_rolled(pen: Pen, contact: Contact, link: str, rates: Mapping[str, int])
 
 
 def known_rims(pen: Pen, group: CoupledTrain, plan: Plan) -> dict[str, int]:
-    """The images of known wheels where those of a train touch them, drawn before its own.
+    """Draw the images of known wheels at their contacts with the train, before the train's own.
 
-    Of velocities the last one by the name of the point of the train's own last wheel, which has the
-    same.
+    For velocities, the last image is returned under the name of the point of the train's own last
+    wheel, which has the same image.
     """
     for contact in (*(wheel.contact for wheel in group.chain), group.last):
         for link in {*contact.links} - {*group.links}:
@@ -150,9 +152,9 @@ def known_rims(pen: Pen, group: CoupledTrain, plan: Plan) -> dict[str, int]:
 
 
 def missed(pen: Pen, group: CoupledTrain | Higher, plan: Plan) -> ContactMisclosure:
-    """What a plan misses where a link touches another at last: across the radius.
+    """The misclosure of a plan at the last contact of two links, across the radius.
 
-    They must not slip. Of a group that is no train each has its own image there.
+    The contact must not slip. In a group that is no train, each link has its own image there.
     """
     contact, own = group.last, group.closing
     assert isinstance(contact, Contact)

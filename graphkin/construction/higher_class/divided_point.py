@@ -1,6 +1,7 @@
 """Points of the right plan: each divides the line through its two trials in the same ratio.
 
-Where a line on which a point must lie is known, it cuts the line of that point's trials.
+Where a line through a point's image is known, the point is where that line crosses the line of its
+trials.
 """
 
 from __future__ import annotations
@@ -30,25 +31,24 @@ from graphkin.structure.pairs import Pin, Sliding
 from graphkin.text import MINUS
 
 SHARE = "*λ*"
-"""Markup of the share of the way between two trials at which nothing is missed."""
+"""Symbol of the fraction of the way between two trials at which the misclosure is zero."""
 ROUNDING = 1e-12
-"""A share of the way between two trials that is no more than this is zero but for rounding."""
+"""Fractions of the way between two trials up to this size are rounding, and count as zero."""
 
 
 @action("between", move=Move(DIVIDE, two))
 def between(first: Point, second: Point, part: Real) -> Point:
-    """The point that divides the way from the first trial's point to the second's so."""
+    """The point at the fraction ``part`` of the way from a point's first trial to its second."""
     return first + (second - first) * part
 
 
 @action("line-through", move=Move(JOIN, two))
 def line_through(first: Point, second: Point) -> Line:
-    """The line through two points."""
     return Line(first, second - first)
 
 
 class Divided(Construction, frozen=True, kw_only=True):
-    """A value of the right plan between those of ``first`` and ``second`` trial, by the share."""
+    """A value of the right plan between the values of two trials, ``first`` and ``second``."""
 
     gives: ClassVar[tuple[str, ...]] = ("value",)
 
@@ -62,11 +62,11 @@ class DividedRate(Divided, GivesRate, frozen=True, kw_only=True):
     """The rate of the tried link itself."""
 
     def rate_reason(self, drawing: Drawing) -> str:
-        """It is divided as every line of the two trials is."""
+        """The reason: the rate is divided as every line of the two trials is."""
         return "why.trials"
 
     def rate_relation(self, drawing: Drawing, link: str, tail: tuple[str, str, str]) -> Relation:
-        """It is divided as every line of the two trials is."""
+        """The relation that divides the rate as every line of the two trials is divided."""
         numbers = (self.first, self.second, self.share)
         first, second, share = (float(drawing.trace.values[number]) for number in numbers)
         share = share if abs(share) > ROUNDING else 0.0
@@ -83,7 +83,7 @@ class DividedRate(Divided, GivesRate, frozen=True, kw_only=True):
 
 
 class CrossedLine(JoinsPoints, frozen=True):
-    """The line through two trials of a point, and where a line known before them cuts it."""
+    """The line through two trials of a point, and its crossing with a line known before them."""
 
     gives: ClassVar[tuple[str, ...]] = ("line", "crossing")
     lines: ClassVar[Mapping[str, str]] = {"line": "the line of the trials"}
@@ -97,46 +97,46 @@ class CrossedLine(JoinsPoints, frozen=True):
     crossing: int
 
     def clause(self, drawing: Drawing, role: str) -> str:
-        """The line, by the names of the trials."""
+        """The clause for the line, by the names of the trials."""
         if role != "line":
             return ""
         a, b = (drawing.lettered(number) for number in (self.first, self.second))
         return drawing.words("step.line-through", a=a, b=b)
 
     def marks(self, canvas: Canvas, role: str) -> None:
-        """The line, a little beyond all three points."""
+        """Draw the line, a little beyond all three points."""
         if role == "line":
             canvas.line(CHAIN_LINES, "")
 
     def marks_aside(self, canvas: Canvas, role: str) -> None:
-        """The same in a trial plan."""
+        """Draw the line in a trial plan."""
         self.marks(canvas, role)
 
 
 class DividedPoint(Divided, FindsImage, frozen=True, kw_only=True):
-    """The image of a ``point``: where its line is crossed, or divided as another one's is."""
+    """The image of a ``point``: at the crossing on its line, or where it divides that line."""
 
     point: str
     crossed: CrossedLine | None = None
 
     def reason(self, drawing: Drawing, role: str) -> str:
-        """Why it lies there: on both lines that cross, or divided as every line of the trials."""
+        """The reason: a crossing of lines, or the same division as of every trial line."""
         return "why.meet" if self.is_crossed(drawing.trace.values) else "why.trials"
 
     def comes_along(self, role: str, found: Container[int]) -> bool:
-        """An arrow brings the one that a crossing finds, by which the others are divided.
+        """Whether an arrow brings in the image: one at a crossing, or one under a sliding point.
 
-        Or the one under a sliding point, through which that point's components lead.
+        By the crossing, the lines of other points are divided. The components of the sliding point
+        pass through the image under it.
         """
         return is_under(self.point) or self.is_crossed(found)
 
     def is_crossed(self, found: Container[int]) -> bool:
-        """Whether a crossing that is drawn finds it."""
+        """Whether a drawn crossing finds the image."""
         return self.crossed is not None and self.crossed.crossing in found
 
     @property
     def sought(self) -> str:
-        """The point whose image a crossing finds."""
         return self.point
 
     def said_before(self, drawing: Drawing, role: str) -> tuple[int, ...]:
@@ -146,38 +146,39 @@ class DividedPoint(Divided, FindsImage, frozen=True, kw_only=True):
         return self.crossed.line, self.crossed.locus
 
     def point_sentence(self, drawing: Drawing, role: str) -> str:
-        """Where the lines meet; nothing of a point that is divided: one sentence tells of all."""
+        """The sentence for the crossing; empty for divided points, which share one sentence."""
         if not self.is_crossed(drawing.trace.values):
             return ""
         name = drawing.trace.program.steps[self.value].name
         return drawing.words("step.meet", name=symbol(name))
 
     def point_apart(self, drawing: Drawing, role: str) -> str:
-        """Where both lines meet."""
+        """The sentence for the crossing, on its own."""
         if not self.is_crossed(drawing.trace.values):
             return ""
         name = drawing.trace.program.steps[self.value].name
         return drawing.words("step.meet-apart", name=symbol(name))
 
     def marks(self, canvas: Canvas, role: str) -> None:
-        """The point, with the line of its trials where no other step draws it."""
+        """Draw the point, with the line of its trials where no other step draws that line."""
         self.draw_line(canvas)
         canvas.image()
 
     def marks_aside(self, canvas: Canvas, role: str) -> None:
-        """The same in a trial plan, whose points are smaller."""
+        """Draw the point in a trial plan, where points are smaller."""
         self.draw_line(canvas)
         canvas.image_aside()
 
     def draw_line(self, canvas: Canvas) -> None:
-        """The line of its trials where no other step draws it."""
+        """Draw the line of its trials where no other step draws that line."""
         if not self.is_crossed(canvas.drawing.trace.values):
             canvas.through(*map(canvas.value, (self.first, self.second, self.value)))
 
     def ratio(self, drawing: Drawing, first: float, second: float) -> dict[str, str]:
-        """How it divides the line of its trials, and beyond which of them, if not between.
+        """The ratio in which the point divides the line of its trials, and the trial it is beyond.
 
-        ``first`` and ``second`` are the gaps, or parts of the line, of one sign on one side.
+        ``first`` and ``second`` are the gaps, or parts of the line. They have the same sign where
+        the point is not between the trials.
         """
         numbers = (self.first, self.second, self.value)
         one, two, point = (drawing.lettered(number) for number in numbers)
@@ -202,7 +203,7 @@ def trials_of(layers: list[dict[Target, int]], quantity: str, point: str) -> tup
 def crossings(
     pen: Pen, group: CoupledTrain | Higher, images: GroupImages, layers: list[dict[Target, int]]
 ) -> dict[str, CrossedLine]:
-    """The point that a line known before the trials finds by a crossing, and how."""
+    """The crossing of the point whose line is known before the trials, by the point; else empty."""
     quantity = images.plan.quantity
     moved = [of for what, of in layers[0] if what == quantity]
     tried = {of for of in moved if len({*trials_of(layers, quantity, of)}) > 1}
@@ -216,9 +217,9 @@ def crossings(
 def crossed_point(
     pen: Pen, group: CoupledTrain | Higher, quantity: str, tried: set[str]
 ) -> str | None:
-    """The point whose right image lies on a line that is known before the trials; None for none.
+    """The point whose right image lies on a line known before the trials; None if there is none.
 
-    ``tried`` are the points that two trials move.
+    ``tried`` are the points that differ between the two trials.
     """
     match group.last:
         case Tie(_, Pin(point=p), Pin(point=q)):
@@ -232,7 +233,7 @@ def crossed_point(
 def crossing(
     pen: Pen, group: CoupledTrain | Higher, images: GroupImages, of: str, ends: tuple[int, int]
 ) -> CrossedLine:
-    """Where the line through both trials of a point cuts the line on which it must lie."""
+    """Draw the crossing of the line through both trials of a point with the point's known line."""
     locus = locus_of(pen, group, images, of)
     with images.plan.drawn(pen), pen.hands_way():
         line = pen.draw(line_through, *ends)
@@ -240,7 +241,10 @@ def crossing(
 
 
 def locus_of(pen: Pen, group: CoupledTrain | Higher, images: GroupImages, of: str) -> int:
-    """The line on which a pin must lie in the plan: square to its bar, or parallel to its guide."""
+    """Draw the line in the plan on which a pin must lie.
+
+    The line is perpendicular to the pin's bar, or parallel to its guide.
+    """
     last, plan = group.last, images.plan
     assert isinstance(last, Tie)
     if isinstance(last.second, Sliding):

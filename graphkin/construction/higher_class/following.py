@@ -1,8 +1,8 @@
-"""One closure of a group followed along the motion, without looking for the others again.
+"""One closure of a group followed along the motion, without a new search for the others.
 
-The last places say where it will be next, and Newton's method leads from there to where the group
-closes. A step is taken only if it leads close to the prediction. Where the closure meets another
-one, the driver turns back along it: that place is found as the farthest one of a smooth curve.
+The last positions predict the next one, and Newton's method leads from the prediction to a closure.
+A step is accepted only if the closure is close to the prediction. Where the closure meets another
+one, the driver turns back along the path; that fold is the extreme point of a smooth curve.
 """
 
 from __future__ import annotations
@@ -20,43 +20,46 @@ from graphkin.numbers.common_roots import roots_beside
 
 Reals = Any
 End = Literal["open", "fold", "stop"]
-"""How a way ends: it goes on, it meets another closure, or nothing closes beyond."""
+"""How a path ends: it goes on, it meets another closure, or nothing closes beyond."""
 
 FIRST, LONGEST = 1e-6, 1 / 90
-"""The first step and the longest one, in parts of the usual way."""
+"""The first and the longest step, as fractions of the usual range of the driver."""
 LEAST, ENOUGH = 1e-3, 1e-10
-"""The step below which a fold or a leap is tried, and the one below which the way ends."""
+"""The step below which a fold or a leap is tried, and the step below which the path ends."""
 NEAR, SURE, FAR, MOST = 0.05, 1e-7, 0.05, 0.7
-"""How far from its prediction a closure may lie: in parts of the step of the links, by rounding, in
-radians. The step of a link in radians is ``MOST`` at most."""
+"""Limits on a closure's distance from its prediction, and on a link's step.
+
+``NEAR`` is a fraction of the links' step, ``SURE`` allows for rounding and ``FAR`` is in radians.
+The step of a link is at most ``MOST`` radians.
+"""
 START = 1e-2
-"""The first step of a link, in radians, which nothing predicts."""
+"""The first step of a link, in radians, for which there is no prediction."""
 GOOD, GROW, SHRINK = 0.01, 2.0, 4.0
-"""A miss, in parts of the step, after which the next step grows; how steps grow and shrink."""
+"""The error, as a fraction of the step, below which steps grow; their growth and shrinkage."""
 LEAPS = (3e-5, 1e-4, 3e-4, 1e-3, 3e-3, 1e-2)
-"""Steps with which a place is passed at which two closures cross, in parts of the usual way."""
+"""Steps that pass a crossing of two closures, as fractions of the usual range."""
 LEAP_NEAR = 0.01
-"""As NEAR, for such a step."""
+"""As ``NEAR``, for such a step."""
 ORDER = 4
-"""Places from which the next one is predicted, and between which a way is interpolated."""
+"""Number of places in a prediction, and in an interpolation along a path."""
 LOOK_BACK = 60
-"""Last places among which these are looked for."""
+"""Number of last places from which those of a prediction are chosen."""
 MOST_PLACES = 50_000
-"""Steps tried along one way."""
+"""The most steps that are tried along one path."""
 ON_FOLD, ROUNDS = 9, 3
-"""Places beside a fold from which it is found, and how often they are laid closer to it."""
+"""Number of places near a fold that locate it, and number of times they are moved closer to it."""
 TURN_BACK = 0.7
-"""How far ahead a fold is looked for, in radians."""
+"""How far ahead a fold is searched for, in radians."""
 BETWEEN = 0.3
-"""How far a closure may lie from its interpolation, in parts of the way between its neighbours."""
+"""Largest distance from an interpolated closure, as a fraction of its neighbours' distance."""
 MERGED = 1e-4
-"""Sine of crossing below which it is open which of two closures that meet has a number."""
+"""Sine of crossing below which the numbers of two closures that meet are open."""
 AT_FOLD = 1e-7
-"""How near to a fold, in parts of the way, the interpolation holds by itself."""
+"""Fraction of the path near a fold in which the interpolation is used without refinement."""
 
 
 class Place(NamedTuple):
-    """One place of a way: u, what is tried (n,), the dyads' signs (k,), the links' angles (L,)."""
+    """One place of a path: u, trial values (n,), signs (k,) of dyads, angles (L,) of links."""
 
     at: float
     tried: Reals
@@ -65,14 +68,14 @@ class Place(NamedTuple):
 
     @property
     def state(self) -> Reals:
-        """What is tried, and the angles."""
+        """The trial values followed by the angles."""
         return np.concatenate([self.tried, self.angles])
 
 
 class GroupOnWay(Struct, frozen=True, dict=True):
-    """A group of a mechanism that moves: ``known`` gives what it is drawn from, arrays at u (N,).
+    """A group of a moving mechanism; ``known`` gives its known values, as arrays, at u (N,).
 
-    ``usual`` is the way that the driver usually goes, by which steps are measured.
+    ``usual`` is the driver's usual range, by which steps are measured.
     """
 
     trying: Trying
@@ -82,7 +85,7 @@ class GroupOnWay(Struct, frozen=True, dict=True):
     # --- one closure, followed -------------------------------------------------------------------
 
     def begun(self, at: float, number: int) -> Reals | None:
-        """The row of the closure of a number at a place; None where it has none."""
+        """The row of the closure with a given number at u; None where there is none."""
         row = self.closures(np.array([at])).picked(number)[0][1:]
         return None if np.isnan(row).any() else row
 
@@ -93,9 +96,9 @@ class GroupOnWay(Struct, frozen=True, dict=True):
         stop: float,
         seen: Callable[[float, Reals], None] = lambda at, row: None,
     ) -> FollowedClosure:
-        """The way of a closure from one place to another, or as far as it goes.
+        """The path of a closure from one place to another, or as far as it goes.
 
-        ``seen`` learns of each place, in order, with what closes the group there.
+        ``seen`` is called for each place, in order, with the values that close the group there.
         """
         tried, signs, _ = self.trying.split(row)
         here, way = np.array([start]), 1.0 if stop > start else -1.0
@@ -137,9 +140,9 @@ class GroupOnWay(Struct, frozen=True, dict=True):
     def step_to(
         self, at: float, found: Sequence[Place], size: Reals, near: float
     ) -> tuple[Place | None, float]:
-        """The next place of a way, and its miss in parts of the step; None where it is not sure.
+        """The next place of a path, and its error relative to the step; None if not certain.
 
-        A dyad that is stretched on the way goes on with its other sign.
+        A dyad that is stretched flat on the way continues with its other sign.
         """
         last = found[-1]
         guess = predicted(found, at)
@@ -162,7 +165,7 @@ class GroupOnWay(Struct, frozen=True, dict=True):
         return None, np.inf
 
     def leap(self, found: Sequence[Place], stop: float, size: Reals) -> Place | None:
-        """A place beyond one at which two closures cross: there no step leads near enough."""
+        """A place beyond a crossing of two closures, where no ordinary step comes close enough."""
         if len(found) < ORDER:
             return None
         way = np.sign(stop - found[-1].at)
@@ -176,10 +179,10 @@ class GroupOnWay(Struct, frozen=True, dict=True):
         return None
 
     def fold(self, found: Sequence[Place], way: float, size: Reals) -> list[Place] | None:
-        """The places from the last one to where the way meets another closure; None where none is
-        near.
+        """The places from the last one to the fold with another closure; None if none is near.
 
-        One of the tried values leads there, and u follows it: it is farthest at the fold.
+        One of the trial values is the parameter of this part of the path. As a function of it, u
+        has its extreme at the fold.
         """
         if len(found) < ORDER:
             return None
@@ -228,7 +231,7 @@ class GroupOnWay(Struct, frozen=True, dict=True):
         return [Place(r[0], r[1:], last.signs, a) for r, a in zip(rows, angles, strict=True)]
 
     def closed_led(self, start: Reals, lead: int, signs: Reals, unit: float, size: Reals) -> Reals:
-        """Rows (K, 1 + n) of u and what is tried, in which all closes while one value leads."""
+        """Rows (K, 1 + n) of u and closed trial values, with the value ``lead`` fixed."""
         free = [k for k in range(start.shape[1]) if k != 1 + lead]
         scale = np.array([unit, *size])[free]
 
@@ -244,7 +247,7 @@ class GroupOnWay(Struct, frozen=True, dict=True):
         return found
 
     def closed(self, at: Reals, tried: Reals, signs: Reals) -> tuple[Reals, Reals]:
-        """What is tried (K, n) beside some values, where all closes, and the links' angles (K, L).
+        """Trial values (K, n) of closures near given ones, and the angles of the links (K, L).
 
         NaN where Newton's method does not lead to a closure.
         """
@@ -254,12 +257,11 @@ class GroupOnWay(Struct, frozen=True, dict=True):
             return found, self.angles(self.trying.found(known, found, signs))
 
     def drawn(self, at: Reals, tried: Reals, signs: Reals) -> Reals:
-        """The angles of the links (K, L)."""
         with np.errstate(all="ignore"):
             return self.angles(self.trying.found(self.known(at), tried, signs))
 
     def angles(self, found: dict[int, Any]) -> Reals:
-        """The angles of the links (K, L) among results; NaN where one faces the wrong way."""
+        """The angles of the links (K, L) among results; NaN where a link faces the wrong way."""
         angles = np.stack([phase(found[n]) for n in self.trying.axes], axis=1)
         for one in self.trying.unknowns:
             if one.facing is not None:
@@ -267,7 +269,7 @@ class GroupOnWay(Struct, frozen=True, dict=True):
         return angles
 
     def sizes(self, at: Reals) -> Reals:
-        """What tried values and angles are measured by: a radian, or how far a link is tried."""
+        """The units of trial values and angles: a radian, or the range of a tried coordinate."""
         scale = self.trying.scales(self.known(at), 1)[0]
         return np.concatenate([scale, np.ones(len(self.trying.axes))])
 
@@ -285,10 +287,10 @@ class GroupOnWay(Struct, frozen=True, dict=True):
         return np.array([self.number(every.of(n), row) for n, row in enumerate(rows)])
 
     def met(self, at: tuple[float, float], first: Reals, last: Reals) -> float | None:
-        """Where two closures meet that there are at one of two places and not at the other; None
-        where not just two are left over.
+        """The u at which two closures meet that exist at only one of two places.
 
-        The closures at both are given in rows (M, ...).
+        ``first`` and ``last`` hold the closures at both places in rows (M, ...). None where the
+        counts do not differ by two.
         """
         here, there = at if len(first) > len(last) else at[::-1]
         more, fewer = (first, last) if len(first) > len(last) else (last, first)
@@ -303,7 +305,7 @@ class GroupOnWay(Struct, frozen=True, dict=True):
         return None
 
     def number(self, every: Reals, row: Reals) -> int:
-        """Which of all closures (M, n + k + 1) at one place a row is, counted from one."""
+        """The number of a row among all closures (M, n + k + 1) at one place; 0 if uncertain."""
         if not len(every) or not row[-1] > MERGED:
             return 0
         away = self.apart(every, row)
@@ -312,9 +314,9 @@ class GroupOnWay(Struct, frozen=True, dict=True):
         return best + 1 if away[best] < min(SURE * 10, others.min(initial=np.inf)) else 0
 
     def paired(self, at: tuple[float, float], first: Reals, second: Reals) -> PairedClosures | None:
-        """All closures at two u, each of the first (M, n) with the nearest one of the second.
+        """All closures at two u, each of the first (M, n) paired with the nearest of the second.
 
-        None where they do not match one to one, with the same signs.
+        None where they do not match one to one with the same signs.
         """
         if len(first) != len(second) or not len(first):
             return None
@@ -329,8 +331,7 @@ class GroupOnWay(Struct, frozen=True, dict=True):
         return PairedClosures(at, before, after, signs)
 
     def numbers_led(self, pairs: PairedClosures, way: FollowedClosure, at: Reals) -> Reals | None:
-        """As numbers, from all closures as they lead on between two places; None where one of them
-        is not sure."""
+        """As ``numbers``, from closures interpolated between two places; None if uncertain."""
         count, places = len(pairs.first), len(at)
         share = np.tile((at - pairs.at[0]) / (pairs.at[1] - pairs.at[0]), count)[:, None]
         owner, which = np.tile(np.arange(places), count), np.repeat(np.arange(count), places)
@@ -348,7 +349,7 @@ class GroupOnWay(Struct, frozen=True, dict=True):
         return np.array([self.number(every.of(n), row) for n, row in enumerate(rows)])
 
     def apart(self, every: Reals, row: Reals) -> Reals:
-        """How far closures in rows (M, ...) are from another: in what is tried, and in signs."""
+        """The distances of closures (M, ...) from another, in trial values and signs."""
         (tried, signs, _), (other, turned, _) = self.trying.split(every), self.trying.split(row)
         way = abs(tried - other)
         turning = np.array([one.turns for one in self.trying.unknowns])
@@ -358,8 +359,7 @@ class GroupOnWay(Struct, frozen=True, dict=True):
 
 
 class PairedClosures(NamedTuple):
-    """All closures of a group at two u: what is tried (M, n) at the first and the last, and the
-    signs (M, k) at both."""
+    """All closures of a group at two u: trial values (M, n) at both, and common signs (M, k)."""
 
     at: tuple[float, float]
     first: Reals
@@ -368,9 +368,9 @@ class PairedClosures(NamedTuple):
 
 
 class FollowedClosure(Struct, frozen=True, eq=False):
-    """One closure of a group at rising u (N,): what is tried (N, n), the dyads' signs (N, k).
+    """One closure of a group at rising u (N,): trial values (N, n), signs of the dyads (N, k).
 
-    ``ends`` says how the way ends below and above.
+    ``ends`` says how the path ends below and above.
     """
 
     at: Reals
@@ -380,11 +380,11 @@ class FollowedClosure(Struct, frozen=True, eq=False):
 
     @property
     def width(self) -> int:
-        """How many numbers close the group: what is tried, and the signs."""
+        """The number of values that close the group: trial values and signs."""
         return int(self.tried.shape[1] + self.signs.shape[1])
 
     def within(self, low: float, high: float) -> FollowedClosure:
-        """The part from one u to another, with the next places beyond both."""
+        """The part of the path between two u, with the next places beyond both."""
         first = max(int(np.searchsorted(self.at, low, side="right")) - 1, 0)
         last = min(int(np.searchsorted(self.at, high)) + 1, len(self.at))
         ends: tuple[End, End] = (
@@ -395,11 +395,11 @@ class FollowedClosure(Struct, frozen=True, eq=False):
         return FollowedClosure(self.at[part], self.tried[part], self.signs[part], ends)
 
     def moved(self, by: float) -> FollowedClosure:
-        """The same way at other places."""
+        """The same path with all places shifted."""
         return replace(self, at=self.at + by)
 
     def joined(self, other: FollowedClosure, turning: Sequence[bool]) -> FollowedClosure:
-        """With the places of another that follow on these; angles go on without a leap."""
+        """This path with the places of another that follow; angles continue without a jump."""
         before = self.at < other.at[0]
         at = np.append(self.at[before], other.at)
         tried = np.concatenate([self.tried[before], other.tried])
@@ -409,21 +409,21 @@ class FollowedClosure(Struct, frozen=True, eq=False):
         return FollowedClosure(at, tried, signs, (self.ends[0], other.ends[1]))
 
     def row_at(self, end: float) -> Reals:
-        """What closes the group at one of the places of the way; its sine is not told."""
+        """The values that close the group at a place of the path; the sine is a placeholder, 1."""
         n = int(np.searchsorted(self.at, end))
         return np.array([*self.tried[n], *self.signs[n], 1.0])
 
     def covers(self, at: Reals) -> Reals:
-        """Which u lie on the way."""
+        """A mask of the u that lie on the path."""
         return (self.at[0] <= at) & (at <= self.at[-1])
 
     def lost(self, at: Reals) -> Reals:
-        """Which u lie beyond an end at which the way ends for good."""
+        """A mask of the u beyond an end at which the path ends for good."""
         low, high = (end != "open" for end in self.ends)
         return (low & (at < self.at[0])) | (high & (at > self.at[-1]))
 
     def end_between(self, low: float, high: float) -> tuple[float, End] | None:
-        """Where, and how, the way ends for good between two places; None where it does not."""
+        """The u and the kind of a final end between two places; None if there is none."""
         for end, at in zip(self.ends, (float(self.at[0]), float(self.at[-1])), strict=True):
             if end != "open" and low <= at <= high:
                 return at, end
@@ -432,9 +432,9 @@ class FollowedClosure(Struct, frozen=True, eq=False):
     def closed(
         self, group: GroupOnWay, number: int, at: Reals, known: Sequence[Reals]
     ) -> tuple[Any, ...]:
-        """What closes the group at each u (K,), as its solver gives it; NaN where it does not.
+        """The values that close the group at each u (K,), as its solver gives them; else NaN.
 
-        Where the way was not followed, the closure of a number is sought.
+        Where the path was not followed, the closure with the given number is searched for.
         """
         rows = self.rows(group, at, known)
         rest = np.flatnonzero(~self.covers(at) & ~self.lost(at))
@@ -444,9 +444,9 @@ class FollowedClosure(Struct, frozen=True, eq=False):
         return group.trying.parts(np.column_stack([np.arange(len(rows)), rows]))
 
     def rows(self, group: GroupOnWay, at: Reals, known: Sequence[Reals] | None = None) -> Reals:
-        """The rows (K, n + k + 1) at each u, closed from between the places on both sides.
+        """The rows (K, n + k + 1) at each u, closed from the interpolation between places.
 
-        NaN off the way, and where rounding leaves open which closure it is.
+        NaN off the path, and where rounding leaves open which closure it is.
         """
         trying, count = group.trying, self.tried.shape[1]
         rows = np.full((len(at), count + self.signs.shape[1] + 1), np.nan)
@@ -479,8 +479,10 @@ class FollowedClosure(Struct, frozen=True, eq=False):
         return rows
 
     def beside_ends(self, group: GroupOnWay, at: Reals, between: Reals, after: Reals) -> Reals:
-        """The rows (K, n + k + 1) where Newton's method does not tell: at a fold the interpolation
-        holds, elsewhere the nearest of all closures is taken; NaN where that is not sure.
+        """The rows (K, n + k + 1) where Newton's method fails.
+
+        Near a fold, the interpolation is used. Elsewhere, the nearest of all closures is taken; NaN
+        where that is not certain.
         """
         trying, count = group.trying, self.tried.shape[1]
         rows = np.full((len(at), count + self.signs.shape[1] + 1), np.nan)
@@ -506,10 +508,10 @@ class FollowedClosure(Struct, frozen=True, eq=False):
         return rows
 
     def between(self, at: Reals, after: Reals) -> Reals:
-        """What is tried (K, n) at some u, by the polynomial through the nearest places.
+        """The trial values (K, n) at some u, by the polynomial through the nearest places.
 
-        ``after`` is the number of the first place beyond each. Towards a fold the way goes like a
-        root, so that it is laid through the places in another measure.
+        ``after`` is the index of the first place beyond each u. Near a fold the path behaves like a
+        square root, so the polynomial uses another parameter.
         """
         places, wanted = self.even(self.at), self.even(at)
         some = min(ORDER, len(places))
@@ -523,7 +525,7 @@ class FollowedClosure(Struct, frozen=True, eq=False):
         return found
 
     def even(self, at: Reals) -> Reals:
-        """A measure of the way in which what is tried goes smoothly, up to its folds."""
+        """A parameter of the path in which the trial values are smooth up to the folds."""
         low, high = (end == "fold" for end in self.ends)
         below, above = np.maximum(at - self.at[0], 0), np.maximum(self.at[-1] - at, 0)
         if low and high:
@@ -551,11 +553,11 @@ def predicted(found: Sequence[Place], at: float) -> Reals:
 
 
 def turned_signs(signs: Reals) -> Reals:
-    """All sets of signs in which one or two are turned."""
+    """All sets of signs with one or two signs reversed."""
     some = [(k,) for k in range(len(signs))] + [*combinations(range(len(signs)), 2)]
     return np.array([[-s if k in turned else s for k, s in enumerate(signs)] for turned in some])
 
 
 def wrapped(angle: Reals) -> Reals:
-    """Angles within half a turn of nought."""
+    """Angles reduced to half a turn either side of zero."""
     return (angle + np.pi) % (2 * np.pi) - np.pi

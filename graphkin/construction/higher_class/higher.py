@@ -1,6 +1,6 @@
-"""Groups of class III and higher: one link is tried all round, and a locus says where it fits.
+"""Groups of class III and higher: one link is tried until a locus shows that it fits.
 
-Once the place of one link is known the others follow as dyads.
+Once the position of that link is known, the others follow as dyads.
 """
 
 from __future__ import annotations
@@ -30,47 +30,46 @@ from graphkin.structure.joints import partner
 from graphkin.structure.pairs import Pin, Sliding
 
 Each = Callable[[Pen, Group, tuple[Base, ...]], None]
-"""How one group is put down: the function of the compiler for one of the three plans."""
+"""The compiler's function that draws one group, for one of the three plans."""
 
 
 def part_of(closing: tuple[Any, ...] | float, place: int) -> Any:
-    """One of the values that close a group; not a number where nothing closes it."""
+    """One of the values that close a group; NaN where nothing closes it."""
     return closing if isinstance(closing, float) else closing[place]
 
 
 @action("part", margin=lambda closing, place: part_of(closing, -1))
 def part(closing: tuple[Any, ...] | float, place: int) -> Any:
-    """One of the values that close a group: the tried one, or a dyad's sign."""
+    """One of the values that close a group: the trial value, or a dyad's sign."""
     return part_of(closing, place)
 
 
 @action("excess")
 def excess(p: Point, q: Point, length: Real) -> Real:
-    """By how much two points stand farther apart than a bar is long."""
+    """The distance between two points, less the length of a bar."""
     return abs(q - p) - length
 
 
 @action("from-to")
 def from_to(p: Point, q: Point) -> Point:
-    """The way from one point to another."""
     return q - p
 
 
 @action("on-line")
 def on_line(line: Line, point: Point) -> Point:
-    """A point in the axes of a line: how far along it, and how far to its left."""
+    """A point in the axes of a line: distance along it, and distance to its left."""
     return (point - line.point) * line.along.conjugate() / abs(line.along)
 
 
 @action("beside-line")
 def beside_line(line: Line, point: Point) -> Real:
-    """How far a point stands to the left of a line."""
+    """The distance of a point to the left of a line."""
     return cross(line.along, point - line.point) / abs(line.along)
 
 
 @action("sine-between")
 def sine_between(axis: Point, other: Point) -> Real:
-    """Sine of the angle from one direction to another; nought where they agree or are opposed."""
+    """Sine of the angle between two directions; zero where they agree or are opposed."""
     return cross(other, axis)
 
 
@@ -88,19 +87,21 @@ def inverse(seconds: Real) -> Real:
 
 @action("reach")
 def reach(line: Line, *rest: Any) -> Real:
-    """How far from a line's own point the bars of a group allow: ``rest`` are so many lengths,
-    then the known points, then how many lengths there are."""
+    """The distance along a line, from its own point, that the bars of a group allow.
+
+    ``rest`` holds the lengths, then the known points, then the number of lengths.
+    """
     return 1.01 * spanned(line.point, *rest)
 
 
 @action("span")
 def span(*rest: Any) -> Real:
-    """How far bars and the places of known points reach together: as for reach, without a line."""
+    """The total reach of bars and known points; ``rest`` is as in ``reach``."""
     return spanned(rest[rest[-1]], *rest)
 
 
 def spanned(start: Point, *rest: Any) -> Real:
-    """The sum of lengths and of how far points lie from one."""
+    """The sum of lengths and of the distances of points from one point."""
     *values, count = rest
     total: Real = 0.0
     for number, value in enumerate(values):
@@ -109,7 +110,7 @@ def spanned(start: Point, *rest: Any) -> Real:
 
 
 def position(pen: Pen, group: Higher, each: Each) -> None:
-    """The mechanism to scale: the tried link where the locus says, then dyad by dyad."""
+    """Draw the position: the tried link where the locus fits, then dyad by dyad."""
     trying, inputs = trial_of(pen, group, each)
     number, dyads = closure_of(pen.scene, group), choosing_dyads(group)
     counted, traced = counted_by(pen, group), tuple(traced_points(pen, group))
@@ -124,9 +125,9 @@ def position(pen: Pen, group: Higher, each: Each) -> None:
 
 
 def counted_by(pen: Pen, group: Higher) -> str:
-    """The first written link whose angle differs between closures: known links do not hold it.
+    """The first written link whose angle differs between closures.
 
-    Slides hold the angle of one link to another, and so do drivers that turn them.
+    Known links fix the angles of links that slide on them, or that drivers turn against them.
     """
     scene = pen.scene
     joined = [{k.name, slide.on} for k in scene.links.values() for slide in k.slides]
@@ -151,9 +152,9 @@ def build(
     tried: Iterator[int],
     closed: Callable[[Higher], None] = lambda group: None,
 ) -> None:
-    """The whole group in the plane, from the tried values of it and of those within it.
+    """Draw the whole group in the plane, from the trial values of it and of the groups within it.
 
-    ``closed`` is called of each where its links stand, from the innermost outwards.
+    ``closed`` is called for each group once its links are placed, from the innermost outwards.
     """
     place_trial(pen, group, next(tried))
     for member in group.chain:
@@ -169,7 +170,7 @@ def build(
 
 
 def place_trial(pen: Pen, group: Higher, tried: int) -> None:
-    """The tried link: turned about its pin, or set along its guide or track."""
+    """Place the tried link: turn it about its pin, or set it along its guide or track."""
     trial, (base,) = group.tried, bases(pen.scene, group.tried)
     pen.bases[trial.link] = base
     match trial.pair:
@@ -182,7 +183,7 @@ def place_trial(pen: Pen, group: Higher, tried: int) -> None:
 
 
 def trial_of(pen: Pen, group: Higher, each: Each) -> tuple[Trying, list[int]]:
-    """The program of the trial, and the steps of what it takes as known."""
+    """The program of the trial, and the steps that it takes as known."""
     fork = TrialPen(pen)
     tried = {one.links: fork.input_step() for one in group.nested}
     dyads = choosing_dyads(group)
@@ -220,7 +221,7 @@ def trial_of(pen: Pen, group: Higher, each: Each) -> tuple[Trying, list[int]]:
 
 
 def unknown(pen: TrialPen, group: Higher, whole: Higher, tried: int) -> Unknown:
-    """What is tried of a group of a ``whole``, what closes it, and how far it is tried."""
+    """The unknown of a group within a ``whole``: its trial value, its misfit and its range."""
     fit, pair = misfit(pen, group), group.tried.pair
     if isinstance(pair, Pin):
         return Unknown(tried, True, *fit)
@@ -229,9 +230,9 @@ def unknown(pen: TrialPen, group: Higher, whole: Higher, tried: int) -> Unknown:
 
 
 def traced_points(pen: Pen, group: Higher) -> list[str]:
-    """The points whose loci the hand draws: the ends of the last link that do not stand already.
+    """The points whose loci are drawn by hand: the ends of the last link that are not yet placed.
 
-    None where none shows the fit: what guides the last link must stand.
+    Empty where no point shows the fit: the guide of the last link must be placed.
     """
     match group.last:
         case Tie(_, Pin(point=p), Pin(point=q)):
@@ -242,12 +243,12 @@ def traced_points(pen: Pen, group: Higher) -> list[str]:
 
 
 def stands(pen: Pen, link: str) -> bool:
-    """Whether a link stands already."""
+    """Whether a link is already placed."""
     return link == FRAME or pen.has("axis", link)
 
 
 class Misfit(NamedTuple):
-    """What must vanish, the point whose locus it is read from, and what must be positive."""
+    """The quantity that must vanish, the point whose locus shows it, and what must be positive."""
 
     size: int
     locus: int
@@ -255,10 +256,10 @@ class Misfit(NamedTuple):
 
 
 def misfit(pen: Pen, group: Higher) -> Misfit:
-    """By how much the last link, or the driver that comes last, does not fit a trial.
+    """The misfit of the last link, or of the driver that comes last, at a trial.
 
-    What a driver gives is read from how far the tried link moves: at a dead point that link moves
-    and the driver's own does not.
+    For a driver, the locus is that of the tried link: at a dead point the tried link moves and the
+    driver's own link does not.
     """
     match group.last:
         case Tie(link, Pin(point=p), Pin(point=q)):
@@ -294,7 +295,7 @@ def tried_point(pen: Pen, trial: TriedLink) -> int:
 
 
 def turn_misfit(pen: Pen, driver: Driver, group: Higher) -> Misfit:
-    """By how much a link is turned otherwise than its driver says."""
+    """The difference between a link's angle and the angle that its driver gives."""
     lead = axis(pen, driver.link)
     if driver.of:
         lead = pen.draw(
@@ -318,7 +319,7 @@ def slide_of(pen: Pen, driver: Driver) -> Sliding:
 
 
 def reach_of(pen: Pen, group: Higher) -> int:
-    """How far along its guide the tried link may have to be looked for: what lengths allow."""
+    """The range along its guide in which the tried link is searched for, from the lengths."""
     pair = group.tried.pair
     assert not isinstance(pair, Pin)
     line = led_by(pair).line(pen)
@@ -328,16 +329,16 @@ def reach_of(pen: Pen, group: Higher) -> int:
 
 
 def span_of(pen: Pen, group: Higher) -> int:
-    """How far along a guide that moves a link of a group may have to be looked for."""
+    """The range along a moving guide in which a link of a group is searched for."""
     lengths = lengths_of(pen, group)
     known = [pen.the("position", p) for p in known_points(pen, group)]
     return pen.draw(span, *lengths, *known, extra=(len(lengths),))
 
 
 def lengths_of(pen: Pen, group: Higher) -> list[int]:
-    """The lengths of the bars of a group, and those that its drivers set.
+    """The lengths of the bars of a group, and the lengths that its drivers set.
 
-    A cam's centre of curvature is no end of a bar: it follows once the group stands.
+    A cam's centre of curvature is not the end of a bar: it follows once the group is placed.
     """
     lengths = [
         bar_length(pen, name, points[0], point)
@@ -351,14 +352,14 @@ def lengths_of(pen: Pen, group: Higher) -> list[int]:
 
 
 def known_points(pen: Pen, group: Higher) -> list[str]:
-    """The points of a group that known links have too."""
+    """The points of a group that are also on known links."""
     parent = pen.parent if isinstance(pen, TrialPen) else pen
     points = dict.fromkeys(p for name in group.links for p in pen.scene.link(name).points)
     return [point for point in points if parent.has("position", point)]
 
 
 class TrialPen(Pen):
-    """Writes a program of its own; ``inputs`` maps each of its inputs to the real pen's step."""
+    """Writes a program of its own; ``inputs`` maps each of its inputs to the parent pen's step."""
 
     def __init__(self, parent: Pen) -> None:
         super().__init__(parent.scene)
@@ -374,7 +375,7 @@ class TrialPen(Pen):
     def given(
         self, form: str, *quantities: Any, name: str = "", of: int | str | None = None
     ) -> int:
-        """A value that the scene states comes in too, so that it may vary in a batch."""
+        """A given value of the scene, taken as an input so that it may vary in a batch."""
         number = self.parent.given(form, *quantities, name=name, of=of)
         key = ("given", number)
         if key not in self.shared:
@@ -383,23 +384,23 @@ class TrialPen(Pen):
         return self.shared[key]
 
     def keep_inputs(self, *results: int | None) -> None:
-        """Let go of the inputs that neither a step nor a result uses, such as a driver's speed."""
+        """Drop the inputs that neither a step nor a result uses, such as a driver's speed."""
         used = {*results, *(arg for step in self.steps for arg in step.args)}
         self.inputs = {own: known for own, known in self.inputs.items() if own in used}
 
     def peek(self, number: int) -> Any:
-        """Value of a step at the scene's own numbers; None where it hangs on what is tried."""
+        """Value of a step at the scene's own numbers; None where it depends on a trial value."""
         for step, known in self.inputs.items():
             if step not in self.peeked:
                 self.peeked[step] = self.parent.peek(known)
         return super().peek(number)
 
     def has(self, quantity: str, of: str) -> bool:
-        """True when a quantity has been constructed here, or by the real pen."""
+        """Whether a quantity has been constructed here or by the parent pen."""
         return super().has(quantity, of) or self.parent.has(quantity, of)
 
     def the(self, quantity: str, of: str) -> int:
-        """The step that carries a quantity; one of the real pen's comes in as an input."""
+        """The step of a quantity; a step of the parent pen becomes an input."""
         if not super().has(quantity, of):
             number = self.input_step()
             self.inputs[number] = self.parent.the(quantity, of)

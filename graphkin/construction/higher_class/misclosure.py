@@ -1,7 +1,8 @@
-"""What a trial plan misses at the link or driver that comes last, and how it is measured.
+"""The misclosure of a trial plan at the last link or driver, and how it is measured.
 
-The gap lies across the line on which the plan's point should be: perpendicular to the bar that
-closes the group, or parallel to its guide. Of a driver it is what the plan has less what is given.
+The gap is measured across the line on which the plan's point should lie: perpendicular to the bar
+that closes the group, or parallel to its guide. For a driver, the misclosure is the value in the
+plan less the given value.
 """
 
 from __future__ import annotations
@@ -27,21 +28,21 @@ from graphkin.scene.model import Driver
 
 @action("lacks")
 def lacks(p: Point, q: Point, image_p: Point, image_q: Point, wanted: Point) -> Real:
-    """What a bar's trial images miss along the bar."""
+    """The error of a bar's trial images, along the bar."""
     bar = q - p
     return dot(bar, image_q - image_p - wanted) / abs(bar)
 
 
 @action("lacks")
 def lacks_across(line: Line, start: Point, image: Point) -> Real:
-    """What a sliding point's trial image misses across its guide."""
+    """The error of a sliding point's trial image, across its guide."""
     return cross(line.along, image - start) / abs(line.along)
 
 
 class Misclosure(Construction, frozen=True, kw_only=True):
     """The gap of a trial plan: the step of its ``size``, positive to one side.
 
-    It is drawn unless a crossing tells how the right plan divides, at the step ``settled``.
+    The gap is drawn unless a crossing, at the step ``settled``, shows how the right plan divides.
     """
 
     gives: ClassVar[tuple[str, ...]] = ("size",)
@@ -50,24 +51,24 @@ class Misclosure(Construction, frozen=True, kw_only=True):
     settled: int | None = None
 
     def amount(self, drawing: Drawing) -> float:
-        """Its size in the unit of the plan."""
+        """The size in the unit of the plan."""
         return float(drawing.settled(drawing.trace.values[self.size]))
 
     def point(self, drawing: Drawing) -> str:
-        """Markup of the point, or the vector of the plan, at which it is measured."""
+        """Markup of the point, or the vector of the plan, at which the gap is measured."""
         raise NotImplementedError
 
     def fields(self, drawing: Drawing) -> tuple[str, Mapping[str, str]]:
-        """The key of the words for the line from which it is measured, and what fills them."""
+        """The key of the words for the line from which the gap is measured, and their fields."""
         return "given", {}
 
     def line(self, drawing: Drawing) -> str:
-        """The line on which the plan's point should be."""
+        """The words for the line on which the plan's point should lie."""
         key, fields = self.fields(drawing)
         return drawing.words(f"step.gap-{key}", **fields)
 
     def relation(self, drawing: Drawing, name: str) -> Relation:
-        """The gap as it is read off the plan."""
+        """The relation for the gap as read from the plan."""
         scale = scale_of(drawing, drawing.plane) / 1000
         size, (key, fields) = self.amount(drawing), self.fields(drawing)
         figures = f"{figure(drawing, scale)}·{within(drawing, size / scale)}"
@@ -76,7 +77,7 @@ class Misclosure(Construction, frozen=True, kw_only=True):
         return Relation(name, "", figures, answer(drawing, size), unit, remark)
 
     def draw_gap(self, canvas: Canvas, foot: Any, start: Any, tip: Any, across: Any) -> None:
-        """What is laid off, the line from its end on which the point should be, the way to it."""
+        """Draw the part laid off, the line from its end for the point, and the gap."""
         end, along = tip - across * canvas.value(self.size), 1j * across
         reach, beyond = dot(along, end - start), BEYOND / 2 / canvas.mm
         low, high = smaller(reach, 0.0) - beyond, larger(reach, 0.0) + beyond
@@ -85,11 +86,11 @@ class Misclosure(Construction, frozen=True, kw_only=True):
         canvas.leg("gap", CHAIN_LINES, tip, end)
 
     def is_measured(self, drawing: Drawing) -> bool:
-        """Whether it is drawn, and measured on a sheet."""
+        """Whether the gap is drawn, and measured on a sheet."""
         return self.settled not in drawing.trace.values
 
     def reason(self, drawing: Drawing, role: str) -> str:
-        """Why it is measured."""
+        """The reason why the gap is measured."""
         return "why.gaps" if self.is_measured(drawing) else ""
 
 
@@ -99,33 +100,32 @@ class DrawnMisclosure(Misclosure, frozen=True, kw_only=True):
     tip: int
 
     def point(self, drawing: Drawing) -> str:
-        """Its letter."""
         return drawing.lettered(self.tip)
 
     def marks(self, canvas: Canvas, role: str) -> None:
-        """The gap, where no crossing settles it."""
+        """Draw the gap, where no crossing replaces it."""
         if self.is_measured(canvas.drawing):
             self.draw(canvas)
 
     @abstractmethod
     def draw(self, canvas: Canvas) -> None:
-        """Draw it."""
+        """Draw the gap."""
 
 
 class LineMisclosure(DrawnMisclosure, frozen=True, kw_only=True):
-    """The gap across a ``line`` on which the image should lie: that through an image ``start``."""
+    """The gap across the line ``along`` through the image ``start``, where the image belongs."""
 
     along: int
     start: int
 
     def draw(self, canvas: Canvas) -> None:
-        """From the line to the point."""
+        """Draw the gap from the line to the point."""
         along, start, tip = map(canvas.value, (self.along, self.start, self.tip))
         self.draw_gap(canvas, start, start, tip, 1j * along.along / abs(along.along))
 
 
 class BarMisclosure(DrawnMisclosure, frozen=True, kw_only=True):
-    """The gap along a bar between the images of its ends, ``wanted`` what is known along it."""
+    """The gap along a bar between the images of its ends; ``wanted`` is the known part along it."""
 
     p: int
     q: int
@@ -133,7 +133,7 @@ class BarMisclosure(DrawnMisclosure, frozen=True, kw_only=True):
     wanted: int
 
     def fields(self, drawing: Drawing) -> tuple[str, Mapping[str, str]]:
-        """Perpendicular to the bar, from the end of the component that is known."""
+        """The line perpendicular to the bar, from the end of the known component."""
         steps = drawing.trace.program.steps
         p, q = steps[self.p].name, steps[self.q].name
         fields = {"bar": bar(p, q), "s": drawing.lettered(self.foot), "p": symbol(p)}
@@ -143,19 +143,19 @@ class BarMisclosure(DrawnMisclosure, frozen=True, kw_only=True):
         return "square-end", {**fields, "a": component.symbol}
 
     def draw(self, canvas: Canvas) -> None:
-        """From the end of what is known to the point."""
+        """Draw the gap from the end of the known component to the point."""
         ends = (self.p, self.q, self.foot, self.tip, self.wanted)
         p, q, foot, tip, wanted = map(canvas.value, ends)
         self.draw_gap(canvas, foot, foot + wanted, tip, (q - p) / abs(q - p))
 
 
 class GuideMisclosure(LineMisclosure, frozen=True, kw_only=True):
-    """The gap across the guide of a ``block``, of the image of its point from what is known."""
+    """The gap across the guide of a ``block``, from the known part to the image of its point."""
 
     block: str
 
     def fields(self, drawing: Drawing) -> tuple[str, Mapping[str, str]]:
-        """Parallel to the guide, from the end of what is laid off."""
+        """The line parallel to the guide, from the end of the part laid off."""
         fields = {"guide": way_of(drawing, self.block)}
         program = drawing.trace.program
         laid = laid_off(program, self.start)
@@ -166,9 +166,9 @@ class GuideMisclosure(LineMisclosure, frozen=True, kw_only=True):
 
 
 class DrivenMisclosure(Misclosure, frozen=True, kw_only=True):
-    """What a plan has too much of a driver's given rate: the step that has it, ``found``.
+    """The excess of a driver's rate in a plan over the given rate; ``found`` is the rate's step.
 
-    Of a sliding driver ``start`` and ``tip`` are the images between which it is measured.
+    For a sliding driver, the rate is measured between the images ``start`` and ``tip``.
     """
 
     driver: Driver
@@ -177,15 +177,15 @@ class DrivenMisclosure(Misclosure, frozen=True, kw_only=True):
     tip: int | None = None
 
     def is_measured(self, drawing: Drawing) -> bool:
-        """It is computed."""
+        """False: this misclosure is computed."""
         return False
 
     def has(self, drawing: Drawing) -> float:
-        """What the plan has of it."""
+        """The driver's rate in the plan."""
         return float(drawing.trace.values[self.found])
 
     def point(self, drawing: Drawing) -> str:
-        """The vector along the guide; nothing for a driver that turns."""
+        """The vector along the guide; empty for a driver that turns."""
         if self.start is None or self.tip is None:
             return ""
         program = drawing.trace.program
@@ -195,7 +195,7 @@ class DrivenMisclosure(Misclosure, frozen=True, kw_only=True):
         return symbol(start.name) + symbol(tip.name)
 
     def relation(self, drawing: Drawing, name: str) -> Relation:
-        """What the plan has, less what is given."""
+        """The relation: the rate in the plan, less the given rate."""
         found, size = self.has(drawing), self.amount(drawing)
         turns = self.driver.kind == "turn"
         if turns:

@@ -1,10 +1,11 @@
-"""A closure of a group of class III or higher in numbers of another kind than doubles.
+"""A closure of a group of class III or higher, in a kind of number other than doubles.
 
-Doubles tell which closure is meant. From there one is led to the value in the kind asked for; balls
-prove it: what is cut cannot but fit in between. Beside a place where two closures merge the misfit
-is a parabola whose least value is as small as rounding. Its vertex is found in balls, and the
-misfit there tells: of another sign than the curvature two closures lie to both sides, of the same
-sign none does.
+Doubles determine which closure is meant. Refinement leads from there to the value in the kind asked
+for. In balls, a change of sign proves that the cut fits in between.
+
+Near a place where two closures merge, the misfit is a parabola whose least value is of the size of
+rounding. Its vertex is found in balls, and the misfit there decides. If its sign is opposite to
+that of the curvature, a closure lies on each side; if the signs agree, there is none.
 """
 
 from __future__ import annotations
@@ -29,16 +30,18 @@ from graphkin.numbers.kinds import in_doubles, middle
 from graphkin.numbers.plane import cross
 
 NEAR = 1e-3
-"""How near closures that merge lie, in radians or parts of their trial value."""
+"""The distance within which closures merge, in radians or as a fraction of their trial value."""
 ROUNDS = 40
 """Most steps of Newton's method towards a vertex."""
 FINE = 2.0**-12
-"""Second trial of a secant beside a vertex, in parts of the way to it."""
+"""Second trial of a secant near a vertex, as a fraction of the distance to the vertex."""
 
 
 class Closing(Struct, frozen=True):
-    """One closure: its trial value (rad or m) and the sine of crossing, doubles, or balls where
-    balls have found it, and its signs."""
+    """One closure: its trial value (rad or m), its signs and the sine of crossing.
+
+    The trial value and the sine are doubles, or balls where balls have found them.
+    """
 
     tried: Any
     signs: tuple[float, ...]
@@ -53,7 +56,7 @@ def closing_of(row: Any) -> Closing:
 def merged(trying: Any, known: Sequence[Any], closures: Any, kind: Kind) -> list[Closing]:
     """Every closure in order, on known balls, of the first element of closures in doubles.
 
-    Raises ValueError where balls of this kind do not tell whether there are two or none.
+    Raises ValueError where balls of this kind do not decide between two closures and none.
     """
     found: list[Closing] = []
     seen: list[Closing] = []
@@ -70,19 +73,19 @@ def merged(trying: Any, known: Sequence[Any], closures: Any, kind: Kind) -> list
 
 
 def beside(trying: Any, one: Closing, other: Closing) -> bool:
-    """Whether two closures that merge are those of one vertex."""
+    """Whether two closures that merge belong to the same vertex."""
     return one.signs == other.signs and abs(one.tried - other.tried) < NEAR * size(
         trying, one.tried
     )
 
 
 def size(trying: Any, tried: Any) -> Any:
-    """What lengths of a trial are measured in: a radian, or the trial value itself (m)."""
+    """The unit of a trial: a radian, or the trial value itself (m)."""
     return 1 if trying.first.turns else abs(tried) or 1
 
 
 def both(chain: TrialChain, start: float) -> list[Closing]:
-    """The two closures beside a vertex near a start, in order; none where the misfit stays away."""
+    """The two closures near a vertex, in order; none where the misfit does not reach zero."""
     step = chain.kind.number(size(chain.trial, start)) * quarter(chain.kind)
     vertex = vertex_near(chain, start, step)
     least, (before, after) = chain.misfit(vertex), sides(chain, vertex, step)
@@ -103,7 +106,7 @@ def both(chain: TrialChain, start: float) -> list[Closing]:
 
 
 def quarter(kind: Kind) -> Any:
-    """The power of a half with a quarter of the bits of balls: a step of differences."""
+    """A half to the power of a quarter of the balls' bits: the step of differences."""
     from flint import arb, ctx
 
     return arb(2) ** -(ctx.prec // 4)
@@ -115,7 +118,7 @@ def sides(chain: TrialChain, tried: Any, step: Any) -> tuple[Any, Any]:
 
 
 def vertex_near(chain: TrialChain, start: float, step: Any) -> Any:
-    """Where the misfit turns back, by Newton's method on its differences."""
+    """The trial value at which the misfit turns back, by Newton's method on its differences."""
     tried = chain.kind.number(start)
     for _ in range(ROUNDS):
         before, after = sides(chain, tried, step)
@@ -130,7 +133,7 @@ def vertex_near(chain: TrialChain, start: float, step: Any) -> Any:
 
 
 def found_beside(chain: TrialChain, start: Any, step: Any) -> Any:
-    """The closure near a start, proved; the other one lies farther away than a step."""
+    """The closure near a start, proved; the other one is farther away than a step."""
     return proved(chain.misfit, by_secant(chain.middle_misfit, middle(start), step), abs(step))
 
 
@@ -142,7 +145,7 @@ def sine_of(chain: TrialChain, tried: Any, step: Any) -> Any:
 
 
 def in_order(chain: TrialChain, low: Any, high: Any) -> bool:
-    """Whether the first of two closures has the smaller number: by the first axis that differs."""
+    """Whether the first of two closures has the smaller number, by the first axis that differs."""
     for first, second in zip(chain.axes(low), chain.axes(high), strict=True):
         turn = cross(first, second)
         if turn > 0 or turn < 0:
@@ -151,18 +154,18 @@ def in_order(chain: TrialChain, low: Any, high: Any) -> bool:
 
 
 FLAT = 1e-6
-"""How near the end of a window a closure lies beside it, in radians or parts of its size."""
+"""Distance from a window's end within which a closure is near it, in radians or relative."""
 ASIDE = 2.0**-15
-"""Root of the distance to an end at which the misfit on both signs tells its curve between."""
+"""Square root of the distance from an end at which the misfit on both signs is sampled."""
 CONFUSED = 0.01
-"""How near another closure is that one may be taken for, in radians or parts of its size."""
+"""Distance within which two closures may be confused, in radians or relative."""
 
 
 def closed_in(trying: Any, known: Sequence[Any], number: int, kind: Kind) -> tuple[Any, ...]:
-    """Trial value, signs and the sine of crossing in one closure, in the kind of what is known.
+    """Trial value, signs and sine of crossing in one closure, in the kind of the known values.
 
-    Raises ClosingError where there is no such closure, ValueError where a ball does not tell that
-    the group closes, and MergingError where it does not tell which closure has the number.
+    Raises ClosingError where there is no such closure. Raises ValueError where a ball does not
+    prove that the group closes, and MergingError where it leaves the closure's number open.
     """
     doubles = [in_doubles(value) for value in known]
     if kind.name == "ball" and not trying.several:
@@ -173,9 +176,10 @@ def closed_in(trying: Any, known: Sequence[Any], number: int, kind: Kind) -> tup
 def refined(
     trying: Any, known: Sequence[Any], closed: Sequence[Any], kind: Kind
 ) -> tuple[Any, ...]:
-    """A closure in doubles, ``closed``, in the kind of what is known: values, signs and sine.
+    """Refine a closure in doubles, ``closed``, in the kind of the known values.
 
-    Raises ValueError where a ball does not tell that the group closes.
+    Returns values, signs and sine. Raises ValueError where a ball does not prove that the group
+    closes.
     """
     size = len(trying.unknowns)
     signs, sine = closed[size:-1], closed[-1]
@@ -188,7 +192,7 @@ def refined(
 
 
 def together(chain: TrialChain, start: Sequence[Any]) -> Sequence[Any]:
-    """The trial values of a closure of several unknowns, from doubles."""
+    """The trial values of a closure with several unknowns, from doubles."""
     if hasattr(start[0], "shape") and start[0].shape:
         return start if chain.kind.name == "float32" else by_newton_arrays(chain.misfits, start)
     if chain.kind.name != "ball":
@@ -199,7 +203,7 @@ def together(chain: TrialChain, start: Sequence[Any]) -> Sequence[Any]:
 def closed_in_balls(
     trying: Any, known: Sequence[Any], doubles: Sequence[Any], number: int, kind: Kind
 ) -> tuple[Any, ...]:
-    """As closed_in, in balls: where rounding leaves open which closures there are balls decide."""
+    """As ``closed_in``, in balls, which decide where rounding leaves the closures open."""
     closures = trying.closures_of(doubles)
     closings = [closing_of(row) for row in closures.table if row[0] == 0]
     if merging := closures.merging_at(number):
@@ -218,7 +222,7 @@ def closed_in_balls(
 
 
 def closing(chain: TrialChain, found: Sequence[Any], sine: Any) -> tuple[Any, ...]:
-    """What closes a group, in the kind of a chain: the trial values, signs, sine of crossing."""
+    """The values that close a group, in a chain's kind: trial values, signs, sine of crossing."""
     rest = (each if is_ball(each) else chain.kind.number(each) for each in (*chain.signs, sine))
     return (*chain.trial.placed(found), *rest)
 
@@ -226,9 +230,10 @@ def closing(chain: TrialChain, found: Sequence[Any], sine: Any) -> tuple[Any, ..
 def refuse_confused(
     chain: TrialChain, value: Any, one: Closing, closings: Sequence[Closing]
 ) -> None:
-    """Closures with the signs of one are surely others, and on the side where doubles find them.
+    """Raise ValueError unless ``one`` is proved distinct from the other closures with its signs.
 
-    Only those that lie so near that a secant might lead from one to the other are looked at.
+    The others must lie on the side where doubles find them. Only those so near that a secant might
+    lead from one to the other are checked.
     """
     turns, tried = chain.trial.first.turns, one.tried
     for each in closings:
@@ -242,7 +247,7 @@ def refuse_confused(
 
 
 class Aim(NamedTuple):
-    """The chain whose closure is refined, where that starts, and how far the second trial lies."""
+    """The chain whose closure is refined, its start, and the distance to the second trial."""
 
     chain: TrialChain
     start: Any
@@ -250,10 +255,10 @@ class Aim(NamedTuple):
 
 
 def aimed(chain: TrialChain, start: Any) -> Aim:
-    """Where the secant towards a closure starts, from its double.
+    """The start of the secant towards a closure, from its double.
 
-    Beside the end of a window, where a dyad is stretched flat and doubles do not tell its sign, the
-    curve of both signs is followed through the end.
+    Near the end of a window, a dyad is stretched flat and doubles do not determine its sign. There,
+    the curve of both signs is followed through the end.
     """
     turns = chain.trial.first.turns
     if hasattr(start, "shape") and start.shape:
@@ -270,7 +275,7 @@ def aimed(chain: TrialChain, start: Any) -> Aim:
 
 
 def beside_flat(chain: TrialChain, k: int, start: Any, step: Any) -> Aim:
-    """As aimed, where the dyad of a sign is stretched flat a step away from a start."""
+    """As ``aimed``, where the dyad of a sign is stretched flat a step away from a start."""
     end = by_secant(lambda tried: chain.reach(k, tried), start, step or APART)
     way = 1 if chain.reach(k, end + abs(step) + APART) > 0 else -1
     sides = {sign: chain.with_sign(k, sign) for sign in (-1.0, 1.0)}

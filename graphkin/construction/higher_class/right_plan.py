@@ -25,37 +25,37 @@ from graphkin.structure.pairs import Pin
 
 @action("to-corner")
 def along_component(start: Point, tip: Point, component: Point) -> Vector:
-    """The first leg of a way from one point of a plan to another: a component laid off."""
+    """The first leg of a path from one point of a plan to another: a component laid off."""
     return Vector(start, start + component)
 
 
 @action("from-corner")
 def after_component(start: Point, tip: Point, component: Point) -> Vector:
-    """The last leg of a way between two points of a plan, from the end of a component laid off."""
+    """The last leg of such a path, from the end of the component laid off."""
     return Vector(start + component, tip)
 
 
 @action("to-corner")
 def along_way(start: Point, tip: Point, foot: Point, corner: Point) -> Vector:
-    """The first leg of such a way: as long as the one from a foot to a corner elsewhere."""
+    """The first leg of a path, equal to the vector from a foot to a corner elsewhere."""
     return Vector(start, start + (corner - foot))
 
 
 @action("from-corner")
 def after_way(start: Point, tip: Point, foot: Point, corner: Point) -> Vector:
-    """The last leg of such a way."""
+    """The last leg of such a path."""
     return Vector(start + (corner - foot), tip)
 
 
 @action("to-corner")
 def before_component(start: Point, tip: Point, component: Point) -> Vector:
-    """The first leg of a way whose last one is a component, laid off backwards from its tip."""
+    """The first leg of a path whose last leg is a component laid off backwards from its tip."""
     return Vector(start, tip - component)
 
 
 @action("from-corner")
 def last_component(start: Point, tip: Point, component: Point) -> Vector:
-    """A component as the last leg of a way between two points of a plan."""
+    """A component as the last leg of a path between two points of a plan."""
     return Vector(tip - component, tip)
 
 
@@ -71,7 +71,7 @@ def settle(
     crossed: dict[str, CrossedLine],
     rims: dict[str, int],
 ) -> None:
-    """Every point of the right plan, on the lines through its two trials."""
+    """Draw every point of the right plan, on the line through its two trials."""
     first, second = layers
     settled: dict[tuple[int, int], str] = {}
     for (quantity, of), one in first.items():
@@ -111,18 +111,18 @@ def settle(
 
 
 def in_order(ends: tuple[str, str], found: list[str]) -> tuple[str, ...]:
-    """The ends of the bar that closes a group, the one that is known or found first before."""
+    """The ends of the bar that closes a group, the end that is known or found first in front."""
     return tuple(sorted(ends, key=lambda end: found.index(end) if end in found else -1))
 
 
 def own_rate(pen: Pen, link: str) -> bool:
-    """Whether no two points of a link tell how it turns: the tried link with one pin."""
+    """Whether two points cannot give a link's rate: a tried link with one pin."""
     base = pen.bases.get(link)
     return base is not None and base.end is None and link not in pen.leads and pen.turns(link)
 
 
 def finish(pen: Pen, plan: Plan, point: str, closing: tuple[str, ...]) -> None:
-    """The arrows to a point of the right plan; none against the end of a bar that is found last."""
+    """Draw the arrows to a point of the right plan, but not that of the ``closing`` bar."""
     moved = [base for base in pen.bases.values() if pen.has(plan.quantity, base.start)]
     starts = {b.start for b in moved if point == b.end}
     starts = starts or {b.start for b in moved if point in b.others}
@@ -135,10 +135,11 @@ def finish(pen: Pen, plan: Plan, point: str, closing: tuple[str, ...]) -> None:
 
 
 def relative_arrows(pen: Pen, name: str) -> None:
-    """The arrows of the right plan about the point of a link under a sliding one (name P@2).
+    """Draw the arrows of the right plan for the point of a link under a sliding one (name P@2).
 
-    One is its velocity about the base of its link, the other that of the sliding point against it.
-    At a fixed pivot it is known first: one is its own, the other that of the base about it.
+    One is its velocity about the base of its link; the other is the sliding point's velocity
+    relative to it. At a fixed pivot, the point is known first: the arrows are its own velocity and
+    the base's velocity about it.
     """
     point, link = ends_of(name)
     here, start = pen.the("velocity", name), pen.bases[link].start
@@ -156,11 +157,11 @@ def relative_arrows(pen: Pen, name: str) -> None:
 
 
 def components(pen: Pen, group: CoupledTrain | Higher, tried: range) -> None:
-    """The arrows of the components in the right plan, and of the velocities that they start from.
+    """Draw the arrows of the components in the right plan, and of the velocities that give them.
 
-    What is laid off there is what the second trial, at the steps ``tried``, has laid off, for it
-    does not hang on what is tried: components that follow from velocities. What closes the way to a
-    point is its tangential component, or the acceleration along a guide.
+    The components laid off are those of the second trial, at the steps ``tried``: they follow from
+    velocities and do not depend on the trial value. The path to a point is closed by its tangential
+    component, or by its acceleration along a guide.
     """
     right = {
         number: pen.targets[target]
@@ -181,7 +182,7 @@ def components(pen: Pen, group: CoupledTrain | Higher, tried: range) -> None:
 
 
 def carried_legs(pen: Pen, right: dict[int, int], number: int) -> None:
-    """Normal and tangential component of a point that a link of known turning carries."""
+    """Draw the normal and tangential component of a point on a link of known rotation."""
     turned = pen.steps[number].of
     if not isinstance(turned, TurnedAcceleration) or turned.image != number or number not in right:
         return
@@ -191,9 +192,10 @@ def carried_legs(pen: Pen, right: dict[int, int], number: int) -> None:
 
 
 def sliding_legs(pen: Pen, right: dict[int, int], number: int) -> None:
-    """The component that turning gives a sliding point, and its relative acceleration.
+    """Draw the Coriolis component of a sliding point, and its relative acceleration.
 
-    Where the point of the guide under it is sought, the way is gone backwards from the sliding one.
+    Where the point of the guide under it is the unknown, the path runs backwards from the sliding
+    point.
     """
     found = slid(pen.steps[number])
     if found is None:
@@ -217,9 +219,10 @@ def legs(
     args: tuple[int, ...],
     names: tuple[str, str, str],
 ) -> None:
-    """The arrows of both legs of a way in the plan, each under the sign of its component.
+    """Draw the arrows of both legs of a path in the plan, each with the sign of its component.
 
-    ``names`` are the index of the whole, the point that moves, and that about which it does.
+    ``names`` are the index of the whole vector, the moving point, and the point that it moves
+    about.
     """
     index, of, about_which = names
     foot = next(filter(None, (foot_of(sign, index) for sign in kinds)))
@@ -244,6 +247,6 @@ def normals_of(pen: Pen, group: CoupledTrain | Higher) -> list[tuple[str, str, i
 
 
 def points_on(pen: Pen, link: str) -> set[str]:
-    """The points of a link, and its point under another's if it is constructed by that."""
+    """The points of a link, with its base's end where that is under another link's point."""
     base = pen.bases.get(link)
     return {*pen.scene.link(link).points, *([base.end] if base and base.end else [])}

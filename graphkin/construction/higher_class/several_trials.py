@@ -1,8 +1,8 @@
-"""Groups in which several links are tried at once: where all that was cut fits again.
+"""Groups in which several links are tried at once until all cuts fit.
 
-Cells of a grid in which no misfit can vanish are left out as soon as the links tried so far tell
-it. What is found in the others is a closure. One may be missed whose dyads can be drawn only within
-less than a step of the grid, or that all but merges with another.
+Cells of a grid in which no misfit can vanish are dropped as soon as the links tried so far show
+this. The closures are found in the remaining cells. The search may miss a closure whose dyads can
+be drawn only within less than a grid step, or one that nearly merges with another.
 """
 
 from __future__ import annotations
@@ -25,30 +25,34 @@ from graphkin.numbers.common_roots import (
 )
 
 ACROSS = {2: 120, 3: 32, 4: 12}
-"""Steps of the grid along each unknown, by how many are tried before any misfit tells anything."""
+"""Grid steps along each unknown, by the number of unknowns tried before a misfit is known."""
 FEWER = 60
-"""Steps along each where two of more do."""
+"""Grid steps along each unknown where the first two of more than two give a misfit."""
 TOGETHER = 64
-"""Elements that are closed at once."""
+"""Number of elements that are closed at once."""
 MOST = 1_000_000
-"""Places at which cells are looked at together."""
+"""Number of places at which cells are examined together."""
 MIDDLE, WIDER = 0.9, 2.0
-"""A misfit ranges as far as this share of its values, in the middle, so many times over at most:
-where lines are all but parallel it grows without bound, and no cell would ever be left out."""
+"""The middle fraction of a misfit's values, and the largest multiple of it taken as the range.
+
+Near parallel lines a misfit grows without bound; without this limit no cell would be dropped.
+"""
 TRACES = 40
-"""Places to both sides of a closure at which a locus is drawn."""
+"""Number of places on each side of a closure at which a locus is drawn."""
 TRACED = 0.02
-"""How far they lie apart, in radians or parts of the way that is tried."""
+"""Spacing of these places, in radians or as a fraction of the tried range."""
 TRACING = 4
-"""Steps of Newton's method for each."""
+"""Steps of Newton's method for each place."""
 
 
 class SeveralTrials(Trying, frozen=True, dict=True):
-    """A trial of several links at once, and where it fits: trial values are rows of an array."""
+    """A trial of several links at once; trial values are rows of an array."""
 
     def loci(self, known: Sequence[Any], value: Sequence[Any]) -> list[Any]:
-        """Where the traced points go beside a closure while the outermost link is tried, those
-        within closed each time: (N,) each, as far as they close."""
+        """The loci of the traced points near a closure while the outermost link is tried.
+
+        The groups within are closed each time. Arrays (N,) each, as far as they close.
+        """
         start = self.row_of(value)
         size, traced = len(self.unknowns), self.traced
         here = [np.broadcast_to(np.atleast_1d(each), 2) for each in known]
@@ -70,7 +74,7 @@ class SeveralTrials(Trying, frozen=True, dict=True):
         return [np.concatenate([b[:0:-1], o]) for b, o in zip(back, on, strict=True)]
 
     def closed_within(self, known: Sequence[Any], tried: Array, signs: Array) -> Array:
-        """Trial values at which all groups within close, that of the outermost as it is."""
+        """Trial values at which all groups within close, with that of the outermost kept."""
         inner = self.unknowns[1:]
 
         def missed(row: Array, share: Array) -> Array:
@@ -88,11 +92,10 @@ class SeveralTrials(Trying, frozen=True, dict=True):
         return np.array([*map(float, (*self.numbers(value), *value[len(self.unknowns) :]))])
 
     def together(self, known: Sequence[Any], size: int) -> int:
-        """How many elements are closed at once."""
         return TOGETHER
 
     def work(self, known: Sequence[Any]) -> int:
-        """How many steps run where everything that closes is sought on known values, at least."""
+        """A lower bound on the number of steps run in a search for all closures on known values."""
         places = (self.across + 1) ** self.dense
         return int(places * 2 ** len(self.signs) * len(self.ready.moving))
 
@@ -125,25 +128,25 @@ class SeveralTrials(Trying, frozen=True, dict=True):
         return self.ordered(known, size, owner[row], tried, signs[row], touching)
 
     def grid_of_shares(self) -> tuple[Array, Array]:
-        """Where the shares of each unknown begin, and how far they go."""
+        """The start and the range of the shares of each unknown."""
         start, way = np.array([one.shares for one in self.unknowns], dtype=float).T
         return start, way
 
-    # --- cells in which all may vanish -----------------------------------------------------------
+    # --- cells in which all misfits may vanish ---------------------------------------------------
 
     @cached_property
     def looked_at(self) -> Ready:
-        """What gives the misfits, and what the dyads are drawn of."""
+        """The program for the misfits and for the values from which the dyads are drawn."""
         drawn = (arg for choice in self.choices if choice for arg in choice[2])
         return self.readied((*(one.misfit for one in self.unknowns), *drawn))
 
     @cached_property
     def stages(self) -> tuple[GridStage, ...]:
-        """What each further unknown lets one look at, from the outermost inwards."""
+        """What each further unknown determines, from the outermost inwards."""
         steps = [one.tried for one in self.unknowns]
 
         def least(number: int) -> int:
-            """With how many unknowns a step can be run."""
+            """The number of unknowns that a step depends on."""
             behind = {*self.program.behind((number,))}
             return max((k for k, tried in enumerate(steps, 1) if tried in behind), default=1)
 
@@ -165,17 +168,18 @@ class SeveralTrials(Trying, frozen=True, dict=True):
 
     @cached_property
     def dense(self) -> int:
-        """How many unknowns have to be tried before any misfit tells anything."""
+        """The number of unknowns that must be tried before any misfit is known."""
         return next(k for k, stage in enumerate(self.stages, 1) if stage.misfits)
 
     @property
     def across(self) -> int:
-        """Steps of the grid along each unknown."""
+        """Grid steps along each unknown."""
         return ACROSS[self.dense] if self.dense > 2 or len(self.unknowns) == 2 else FEWER
 
     def cells(self, known: Sequence[Any], scale: Array) -> tuple[Cells, Array]:
-        """The cells of the grid in which all misfits may vanish on known scalars, each by its row
-        of signs and the number of its steps along each unknown, and how far each misfit ranges.
+        """The grid cells in which all misfits may vanish on known scalars, and each misfit's range.
+
+        A cell has its row of signs and its step number along each unknown.
         """
         row, place = np.zeros(1, dtype=int), np.empty((1, 0), dtype=int)
         ranges = np.zeros(len(self.unknowns))
@@ -199,8 +203,9 @@ class SeveralTrials(Trying, frozen=True, dict=True):
     def extended(
         self, stage: GridStage, known: Sequence[Any], scale: Array, row: Array, place: Array
     ) -> Corners:
-        """Cells (C, k) with each step along one more unknown, and each set of signs that it asks:
-        what is found at their corners.
+        """Extend cells (C, k) by each step along one more unknown, and by each set of new signs.
+
+        Returns the values at the corners of the cells.
         """
         size, across = place.shape[1], self.across
         start, way = self.grid_of_shares()
@@ -240,8 +245,11 @@ class SeveralTrials(Trying, frozen=True, dict=True):
 
 
 class GridStage(NamedTuple):
-    """What one further unknown lets one look at: the program for it, the unknowns whose misfits
-    it tells, how far dyads reach, and the signs on which these depend."""
+    """The quantities that one further unknown determines.
+
+    They are the program for them, the unknowns whose misfits are known, the reaches of dyads, and
+    the signs on which these depend.
+    """
 
     ready: Ready
     misfits: tuple[int, ...]
@@ -250,11 +258,11 @@ class GridStage(NamedTuple):
 
 
 class Corners(NamedTuple):
-    """Cells (C, k), their rows, and what is found where they are taken along one more unknown.
+    """Cells (C, k), their rows, and the values at their corners along one more unknown.
 
-    ``misfits`` and ``reaches`` are those at nodes, for sets of signs and for places along that
-    unknown: arrays of a ``shape``; ``which`` has the nodes of each cell (C, 2^k), and ``codes``
-    what each set of signs adds to a row.
+    ``misfits`` and ``reaches`` are arrays of a ``shape``: nodes, sets of signs, and places along
+    that unknown. ``which`` has the nodes of each cell (C, 2^k), and ``codes`` the number that each
+    set of signs adds to a row.
     """
 
     row: Array
@@ -267,14 +275,13 @@ class Corners(NamedTuple):
 
     @property
     def spans(self) -> list[Array]:
-        """The least value of each misfit, where the middle ones begin and end, and the largest; NaN
-        without any."""
+        """Least, start of middle, end of middle and largest value of each misfit, or NaN."""
         shares = (0.0, (1 - MIDDLE) / 2, (1 + MIDDLE) / 2, 1.0)
         finite = (each[np.isfinite(each)] for each in self.misfits)
         return [np.quantile(x, shares) if x.size else np.full(len(shares), np.nan) for x in finite]
 
     def kept(self, ranges: Array, side: Array) -> tuple[Array, Array]:
-        """The cells along one more unknown in which all misfits may vanish: rows and places."""
+        """The cells, with one more unknown, in which all misfits may vanish: rows and places."""
         cells = len(self.row), self.shape[1], self.shape[2] - 1
         keep = np.ones(cells, dtype=bool)
         if self.misfits or self.reaches:
@@ -290,11 +297,11 @@ class Corners(NamedTuple):
         return codes, np.column_stack([self.place[cell], step])
 
     def ends(self, value: Array) -> tuple[Array, Array]:
-        """The least and the largest at the corners of each cell."""
+        """The least and the largest value at the corners of each cell."""
         return self.over(np.fmin, value), self.over(np.fmax, value)
 
     def over(self, both: Any, value: Array) -> Array:
-        """What all corners of each cell make of a value."""
+        """Combine a value over all corners of each cell with the function ``both``."""
         value = both(value[..., :-1], value[..., 1:])
         found = value[self.which[:, 0]]
         for nodes in self.which.T[1:]:
@@ -306,7 +313,7 @@ class Corners(NamedTuple):
 
 
 class DrawnChain:
-    """What is looked at, of rows (K,) at shares (K, n): each row has its element and its signs."""
+    """The quantities of rows (K,) at shares (K, n); each row has its element and its signs."""
 
     def __init__(
         self, trying: SeveralTrials, known: Sequence[Any], owner: Array, signs: Array, scales: Array
@@ -315,21 +322,20 @@ class DrawnChain:
         self.known = [array[:1] if (array == array[0]).all() else array for array in known]
 
     def trials(self, row: Array, share: Array) -> tuple[list[Array], Array, Array]:
-        """What is known, what is tried and the signs."""
+        """The known values, the trial values and the signs."""
         owner = self.owner[row]
         here = [array if len(array) == 1 else array[owner] for array in self.known]
         return here, self.trying.valued(share, self.scales[owner]), self.signs[row]
 
     def missed(self, row: Array, share: Array) -> Array:
-        """The misfits (K, n)."""
         return self.trying.misfits(*self.trials(row, share))
 
     def reach(self, k: int, row: Array, share: Array) -> Array:
-        """How far the dyad of a sign can be drawn (K,)."""
+        """How far the dyad of a sign is drawable (K,): positive where it can be drawn."""
         return self.trying.drawable(k, *self.trials(row, share))
 
     def at(self, row: Array, share: Array) -> tuple[list[Array], list[Array]]:
-        """Each misfit, and how far each dyad can be drawn, in their order: (K,) each."""
+        """Each misfit, and how far each dyad is drawable, in their order: (K,) each."""
         found = self.trying.run(self.trying.looked_at, *self.trials(row, share))
         choices = [choice for choice in self.trying.choices if choice is not None]
         misfits = [found[one.misfit] for one in self.trying.unknowns]

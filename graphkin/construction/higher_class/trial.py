@@ -1,5 +1,7 @@
-"""The trial of a group of class III or higher: a program of its own, run on arrays of trials, or on
-one scene in any kind of number."""
+"""The trial of a group of class III or higher: a program of its own.
+
+It runs on arrays of trial values, or on one scene in any kind of number.
+"""
 
 from __future__ import annotations
 
@@ -26,24 +28,23 @@ from graphkin.numbers.kinds import middle
 from graphkin.numbers.plane import cross
 
 SAMPLES = 360
-"""Trial positions of a round."""
+"""Trial positions in one revolution."""
 MOST = 400_000
 """Trial positions run at once."""
 START = 0.123e-3
-"""The angle with which a round begins: not one at which a link is drawn."""
+"""The angle at which a revolution of trials begins: one at which links are hardly ever drawn."""
 A_TURN = 24
 """Trial positions for each turn of a wheel on its track."""
 FAR = 1.565
-"""Angle whose tangent is how far along a guide a link is tried, in parts of what bars reach."""
+"""Angle whose tangent is the range tried along a guide, in units of the bars' reach."""
 
 
 class Unknown(Struct, frozen=True):
-    """What a trial tries: the step ``tried``, a unit vector (``turns``) or a coordinate (m), and
-    what closes it: the ``misfit``, the ``locus``, which moves as it is tried, to tell the angle of
-    crossing, and what must be positive at a true fit (``facing``).
+    """An unknown of a trial: the step ``tried``, a unit vector (``turns``) or a coordinate (m).
 
-    ``reach`` holds how far a coordinate may have to be tried (m), ``rim`` the radius of a wheel
-    that is tried along its track (m).
+    Its ``misfit`` must vanish. Its ``locus`` moves with the trial value and gives the angle of
+    crossing. ``facing`` must be positive at a true fit. ``reach`` holds the range of a coordinate
+    (m), and ``rim`` the radius of a wheel that is tried along its track (m).
     """
 
     tried: int
@@ -56,39 +57,40 @@ class Unknown(Struct, frozen=True):
 
     @property
     def ends(self) -> tuple[int | None, ...]:
-        """The steps at which it is looked at."""
+        """The steps whose values the search uses."""
         return self.misfit, self.locus, self.facing, self.reach, self.rim
 
     @property
     def shares(self) -> tuple[float, float]:
-        """Where its shares begin and how far they go: a round, a guide, a way along a track."""
+        """The start and the range of its shares: a revolution, a guide, or a path along a track."""
         if self.turns:
             return START, 2 * pi
         return (-FAR, 2 * FAR) if self.rim is None else (-1.0, 2.0)
 
     def number(self, value: Any) -> Any:
-        """The angle of a unit vector in radians; a coordinate as it is."""
+        """The angle of a unit vector in radians; a coordinate unchanged."""
         return phase(value) if self.turns else value
 
     def value(self, number: Any) -> Any:
-        """The unit vector at an angle in radians; a coordinate as it is."""
+        """The unit vector at an angle in radians; a coordinate unchanged."""
         return turn_by(number) if self.turns else number
 
     def valued(self, share: Any, scale: Any) -> Any:
-        """Its trial values from shares: angles, or coordinates in parts of how far they reach.
+        """Its trial values from shares: angles, or coordinates in units of their reach.
 
-        A guide is tried to both ends: others may lead the link farther than bars reach.
+        A guide is tried to infinity both ways: other links may move the link farther than the bars
+        reach.
         """
         return scale * (share if self.turns or self.rim is not None else np.tan(share))
 
 
 class Trial(Struct, frozen=True, dict=True):
-    """The program of a trial: its inputs, what is tried, the signs of its dyads.
+    """The program of a trial: its inputs, its unknowns, the signs of its dyads.
 
-    ``inputs`` are overridden by what is known, ``unknowns`` from the outermost group inwards by
-    unit vectors and coordinates, ``signs`` by ±1; ``axes`` are the links' x axes in the order in
-    which closures are numbered, ``traced`` the points whose loci a hand draws. Trial values are
-    rows of an array, a column for each unknown: angles, and coordinates in metres.
+    ``inputs`` are overridden by known values; ``unknowns``, from the outermost group inwards, by
+    unit vectors and coordinates; ``signs`` by ±1. ``axes`` are the links' x axes in the order in
+    which closures are numbered. ``traced`` are the points whose loci are drawn by hand. Trial
+    values are rows of an array, with a column for each unknown: angles, and coordinates in metres.
     """
 
     program: Program
@@ -101,7 +103,7 @@ class Trial(Struct, frozen=True, dict=True):
 
     @property
     def first(self) -> Unknown:
-        """What is tried of the whole group."""
+        """The unknown of the whole group."""
         return self.unknowns[0]
 
     @property
@@ -110,18 +112,18 @@ class Trial(Struct, frozen=True, dict=True):
         return len(self.unknowns) > 1
 
     def numbers(self, closed: Sequence[Any]) -> list[Any]:
-        """What is tried in a closure, as angles and coordinates."""
+        """The trial values of a closure, as angles and coordinates."""
         return [one.number(each) for one, each in zip(self.unknowns, closed, strict=False)]
 
     def placed(self, numbers: Iterable[Any]) -> tuple[Any, ...]:
-        """What is tried at angles and coordinates, as unit vectors and coordinates."""
+        """Unit vectors and coordinates from angles and coordinates."""
         return tuple(one.value(each) for one, each in zip(self.unknowns, numbers, strict=True))
 
-    # --- what is run ---------------------------------------------------------------------------
+    # --- runs of the program -------------------------------------------------------------------
 
     @cached_property
     def results(self) -> tuple[int, ...]:
-        """The steps whose values are looked at."""
+        """The steps whose values the search uses."""
         each = [(one.misfit, one.locus, one.facing) for one in self.unknowns]
         own = (number for some in each for number in some if number is not None)
         return (*own, *self.traced, *self.axes)
@@ -132,28 +134,28 @@ class Trial(Struct, frozen=True, dict=True):
         return frozenset((*self.inputs, *(one.tried for one in self.unknowns), *self.signs))
 
     def readied(self, keep: tuple[int, ...]) -> Ready:
-        """The part of the program that gives some steps, made ready for arrays of trials."""
+        """The part of the program that gives some steps, prepared for arrays of trials."""
         needed = self.program.behind(keep)
         return made_ready(self.program, needed, self.values, keep, self.outside)
 
     @cached_property
     def ready(self) -> Ready:
-        """What gives all results."""
+        """The program for all results."""
         return self.readied(self.results)
 
     @cached_property
     def missing(self) -> Ready:
-        """What gives the misfits."""
+        """The program for the misfits."""
         return self.readied(tuple(one.misfit for one in self.unknowns))
 
     def run(self, ready: Ready, known: Sequence[Any], tried: Any, signs: Any) -> Mapping[int, Any]:
-        """What a part of the program gives for arrays of trial values and of signs."""
+        """The results of a part of the program for arrays of trial values and of signs."""
         overrides = self.overrides(known, tried, signs)
         with np.errstate(all="ignore"):
             return run_moving(ready, self.values, batch_kind(), overrides=overrides).values
 
     def found(self, known: Sequence[Any], tried: Any, signs: Any) -> dict[int, Any]:
-        """The results for arrays of trial values and of signs, known values given per element."""
+        """The results for arrays of trial values and of signs, with known values per element."""
         found = self.run(self.ready, known, tried, signs)
         return {n: np.broadcast_to(found[n], len(tried)) for n in self.results}
 
@@ -165,7 +167,7 @@ class Trial(Struct, frozen=True, dict=True):
 
     @cached_property
     def choices(self) -> tuple[tuple[Ready, Any, tuple[int, ...]] | None, ...]:
-        """For each sign: what its dyad is drawn of, made ready, and how far that reaches."""
+        """For each sign: the prepared program of its dyad's arguments, and the dyad's reach."""
         found: list[tuple[Ready, Any, tuple[int, ...]] | None] = []
         for sign in self.signs:
             steps = (each for each in self.program.steps if sign in each.args)
@@ -179,7 +181,7 @@ class Trial(Struct, frozen=True, dict=True):
         return tuple(found)
 
     def drawable(self, k: int, known: Sequence[Any], tried: Any, signs: Any) -> Any:
-        """How far the dyad of a sign can be drawn: positive where it can, by the signs before."""
+        """How far the dyad of a sign is drawable, by the signs before it; positive if it is."""
         choice = self.choices[k]
         assert choice is not None
         ready, reaches, args = choice
@@ -189,7 +191,7 @@ class Trial(Struct, frozen=True, dict=True):
 
     @cached_property
     def crossings(self) -> tuple[tuple[Ready, tuple[int, ...]], ...]:
-        """The lines that cross in a point of the trial, made ready: parallel ones are its poles."""
+        """The pairs of crossing lines in the trial, prepared; where parallel, it has poles."""
         found: list[tuple[Ready, tuple[int, ...]]] = []
         for number in self.program.behind((self.first.misfit,)):
             step = self.program.steps[number]
@@ -198,7 +200,7 @@ class Trial(Struct, frozen=True, dict=True):
         return tuple(found)
 
     def crossing(self, n: int, known: Sequence[Any], tried: Any, signs: Any) -> Any:
-        """The area of the directions of two lines that cross: zero where they are parallel."""
+        """The cross product of the directions of two lines: zero where they are parallel."""
         ready, args = self.crossings[n]
         found = self.run(ready, known, tried, signs)
         with np.errstate(all="ignore"):
@@ -206,17 +208,19 @@ class Trial(Struct, frozen=True, dict=True):
             return np.broadcast_to(cross(first.along, second.along), len(tried))
 
     def overrides(self, known: Sequence[Any], tried: Any, signs: Any) -> dict[int, Any]:
-        """What the program takes from outside; the signs may be only the first few."""
+        """The program's values from outside; the signs may be only the first few."""
         found = dict(zip(self.inputs, known, strict=True))
         for one, each in zip(self.unknowns, tried.T, strict=True):
             found[one.tried] = one.value(each)
         return found | {self.signs[k]: signs[:, k] for k in range(signs.shape[1])}
 
-    # --- where it is tried ---------------------------------------------------------------------
+    # --- range of the trial --------------------------------------------------------------------
 
     def scales(self, known: Sequence[Any], size: int) -> Any:
-        """What the trial values of each element are measured by, a column for each unknown: for
-        coordinates how far (m) they may have to be tried, as bars allow."""
+        """The units of each element's trial values, with a column for each unknown.
+
+        For coordinates, the unit is the range (m) that the bars allow.
+        """
         each = (1.0 if u.reach is None else self.at_start(known, u.reach) for u in self.unknowns)
         return np.stack([np.broadcast_to(scale, size) for scale in each], axis=1)
 
@@ -226,7 +230,7 @@ class Trial(Struct, frozen=True, dict=True):
         return np.stack([one.valued(*each) for one, *each in columns], axis=1)
 
     def shares(self, known: Sequence[Any], size: int) -> Any:
-        """Where each element is tried: angles of a round, or shares of a way to both sides."""
+        """The shares at which each element is tried: a revolution, or a range to both sides."""
         if self.first.turns:
             return self.grid(known, size)
         if self.first.rim is None:
@@ -239,7 +243,7 @@ class Trial(Struct, frozen=True, dict=True):
         return np.broadcast_to(row, (size, len(row)))
 
     def work(self, known: Sequence[Any]) -> int:
-        """How many steps run where everything that closes is sought on known values, at least.
+        """A lower bound on the number of steps run in a search for all closures on known values.
 
         Each sign doubles the windows in which the rest is tried.
         """
@@ -247,14 +251,14 @@ class Trial(Struct, frozen=True, dict=True):
         return int(tried * (2 ** (len(self.signs) + 1) - 1) * len(self.ready.moving))
 
     def grid(self, known: Sequence[Any], size: int) -> Any:
-        """The trial values of each element: a round, or as far to both sides as can be needed."""
+        """The trial values of each element: a revolution, or the range to both sides."""
         if self.first.turns:
             round_ = np.linspace(0, 2 * np.pi, SAMPLES + 1) + START
             return np.broadcast_to(round_, (size, SAMPLES + 1))
         return self.scales(known, size) * np.linspace(-1, 1, 2 * SAMPLES + 1)
 
     def at_start(self, known: Sequence[Any], step: int) -> Any:
-        """A step that does not hang on what is tried."""
+        """The value of a step that does not depend on the trial value."""
         overrides = dict(zip(self.inputs, known, strict=True))
         with np.errstate(all="ignore"):
             needed = self.program.behind((step,))
@@ -265,7 +269,7 @@ class Trial(Struct, frozen=True, dict=True):
 
 
 class TrialChain:
-    """The trial chain of a group on one scene: its misfits at trial values, in a kind."""
+    """The trial chain of a group on one scene: its misfits at trial values, in a kind of number."""
 
     def __init__(self, trial: Trial, known: Sequence[Any], signs: Sequence[float], kind: Kind):
         self.trial, self.kind, self.signs = trial, kind, signs
@@ -273,7 +277,7 @@ class TrialChain:
         self.needed: dict[tuple[int, ...], tuple[int, ...]] = {}
 
     def misfits(self, tried: Sequence[Any], known: Mapping[int, Any] | None = None) -> list[Any]:
-        """By how much each group misses; ValueError where the chain cannot be drawn."""
+        """The misfit of each group; raises ValueError where the chain cannot be drawn."""
         unknowns = self.trial.unknowns
         facing = [one.facing for one in unknowns if one.facing is not None]
         found = self.drawn(tried, (*(one.misfit for one in unknowns), *facing), known)
@@ -282,7 +286,7 @@ class TrialChain:
         return found[: len(unknowns)]
 
     def middles(self, tried: Sequence[Any]) -> list[Any]:
-        """The middles of the misfits, in balls, of the middles of what is known."""
+        """The midpoints of the misfits, in balls, for the midpoints of the known values."""
         known = {number: middle(value) for number, value in self.known.items()}
         return [middle(each) for each in self.misfits(tried, known)]
 
@@ -304,14 +308,14 @@ class TrialChain:
             raise ValueError("the chain of the trial cannot be drawn") from failed
         return [trace.values[n] for n in wanted]
 
-    # --- of one link that is tried ---------------------------------------------------------------
+    # --- one link tried --------------------------------------------------------------------------
 
     def misfit(self, tried: Any) -> Any:
-        """By how much the last link misses; ValueError where the chain cannot be drawn."""
+        """The misfit of the last link; raises ValueError where the chain cannot be drawn."""
         return self.misfits((tried,))[0]
 
     def middle_misfit(self, tried: Any) -> Any:
-        """The middle of the misfit, in balls, of the middles of what is known."""
+        """The midpoint of the misfit, in balls, for the midpoints of the known values."""
         return self.middles((tried,))[0]
 
     def axes(self, tried: Any) -> list[Any]:
@@ -323,13 +327,13 @@ class TrialChain:
         return self.drawn((tried,), (self.trial.first.locus,))[0]
 
     def reach(self, k: int, tried: Any) -> Any:
-        """How far the dyad of a sign can be drawn, positive where it can: its middle, in balls."""
+        """How far the dyad of a sign is drawable: positive where it can be; a midpoint in balls."""
         choice = self.trial.choices[k]
         assert choice is not None
         _, reaches, args = choice
         return middle(reaches(*self.drawn((tried,), args)))
 
     def with_sign(self, k: int, sign: float) -> TrialChain:
-        """The same with another sign of a dyad."""
+        """The same chain with another sign of a dyad."""
         signs = [*self.signs[:k], sign, *self.signs[k + 1 :]]
         return TrialChain(self.trial, tuple(self.known.values()), signs, self.kind)

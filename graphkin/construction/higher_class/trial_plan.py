@@ -1,6 +1,6 @@
-"""One of two trial plans: its points bear a tag, its marks are thin and grey, one sentence says it.
+"""One of two trial plans: tagged points, thin grey marks, and one sentence.
 
-A line through points that fall together, or a figure without size, is not drawn.
+A line through coincident points, or a figure of zero size, is not drawn.
 """
 
 from __future__ import annotations
@@ -43,10 +43,10 @@ SECOND = tuple(TAGS)[1]
 
 
 class TrialPlan(Struct, AuxiliaryPlan, frozen=True, eq=False):
-    """The plan of one ``rate`` of the tried ``link``; the ``first`` of two, or the one after it.
+    """The plan for one ``rate`` of the tried ``link``; ``first`` is the plan that it repeats.
 
-    One for a group within a group belongs to a trial plan of that, its ``whole``; ``within`` has
-    the first of those that belong to it, by the links of their groups.
+    The trial plan of a group within a group belongs to a trial plan of the outer group, its
+    ``whole``. ``within`` has the first of those that belong to it, by the links of their groups.
     """
 
     tag: str
@@ -58,39 +58,39 @@ class TrialPlan(Struct, AuxiliaryPlan, frozen=True, eq=False):
 
     @property
     def repeats(self) -> bool:
-        """The second plan repeats the lines of the first."""
+        """Whether the plan repeats the lines of an earlier one."""
         return self.first is not None
 
     @property
     def depth(self) -> int:
-        """Within how many trial plans it lies."""
+        """The number of trial plans around this one."""
         return 0 if self.whole is None else 1 + self.whole.depth
 
     @property
     def is_second(self) -> bool:
-        """Whether it is the second of its two."""
+        """Whether it is the second of its pair."""
         return self.tag.endswith(SECOND)
 
     def reason(self, name: str) -> str:
-        """Why one tries, or does so again."""
+        """The reason for a first or second trial."""
         again = "why.trial_again" if self.is_second else "why.trial"
         return again if name == f"trial{self.tag}" else ""
 
     def turned_by(self, rate: int) -> str:
-        """The tried link."""
+        """The tried link, for the plan's own rate; else empty."""
         return self.link if rate == self.rate else ""
 
     def points(self, drawing: Drawing) -> list[int]:
-        """The steps that find its points, in their order."""
+        """The steps that find its points, in order."""
         steps = drawing.trace.program.steps
         return sorted(n for n, plan in drawing.auxiliary.items() if plan is self and steps[n].name)
 
-    # --- points that fall together ---------------------------------------------------------------
+    # --- coincident points -----------------------------------------------------------------------
 
     def falls_on(self, drawing: Drawing, number: int) -> str:
-        """The point on which one of its own falls with all that it is drawn from; else nothing.
+        """The point on which a point and all that it is drawn from coincide; else empty.
 
-        One that moves as another does says so itself.
+        A translated image has its own sentence for this.
         """
         steps = drawing.trace.program.steps
         step = steps[number]
@@ -106,14 +106,14 @@ class TrialPlan(Struct, AuxiliaryPlan, frozen=True, eq=False):
         return self.falls_on(drawing, before[0]) or steps[before[0]].name
 
     def is_idle(self, drawing: Drawing, number: int) -> bool:
-        """Whether a line finds only points which fall on where it begins."""
+        """Whether a line finds only points that coincide with its start."""
         users = drawing.children.get(number, ())
         return bool(users) and all(self.falls_on(drawing, user) for user in users)
 
     # --- marks -----------------------------------------------------------------------------------
 
     def marks(self, canvas: Canvas, number: int) -> None:
-        """A line as far as it is needed, or a leg and the point at its end."""
+        """Draw a line as far as needed, or a leg and the point at its end."""
         drawing = canvas.drawing
         step = drawing.trace.program.steps[number]
         if isinstance(step.of, CrossedLine | DividedPoint):
@@ -128,11 +128,14 @@ class TrialPlan(Struct, AuxiliaryPlan, frozen=True, eq=False):
             canvas.leg(step.name, OWN_LINES, canvas.value(start), canvas.value(number))
         canvas.image_aside()
 
-    # --- in words --------------------------------------------------------------------------------
+    # --- sentences -------------------------------------------------------------------------------
 
     def sentences(self, drawing: Drawing, number: int) -> Iterator[Sentence]:
-        """One sentence for the points of the plan, with the last; those that trials within it lead
-        to are told for themselves, and what follows from them in one more."""
+        """The sentence for the points of the plan, at the last point.
+
+        Points found by trials within have their own sentences, and the points that follow from
+        those share one more.
+        """
         step = drawing.trace.program.steps[number]
         if isinstance(step.of, DividedPoint):
             yield Sentence(number, step.name, point_told(drawing, number))
@@ -145,19 +148,19 @@ class TrialPlan(Struct, AuxiliaryPlan, frozen=True, eq=False):
                 yield Sentence(number, f"trial{self.tag}", markup, tuple(named))
 
     def runs(self, drawing: Drawing) -> list[list[int]]:
-        """Its points in runs: those before trials within it, and those that follow from these."""
+        """Its points in runs: before the trials within it, and following from them."""
         steps = drawing.trace.program.steps
         parts = groupby(self.points(drawing), lambda n: isinstance(steps[n].of, DividedPoint))
         return [[*run] for is_divided, run in parts if not is_divided]
 
     def begins(self, drawing: Drawing, named: Sequence[int]) -> bool:
-        """Whether some points are those with which it begins."""
+        """Whether some points include the first of the plan."""
         return self.points(drawing)[0] in named
 
     def told_in_parts(
         self, drawing: Drawing, named: Sequence[int]
     ) -> Iterator[tuple[int, int, str]]:
-        """Points of it line by line: the step of the point, that which ends a part, its words."""
+        """The points line by line: the point's step, the step that ends a part, and the words."""
         for under, run in groupby(named, lambda number: self.falls_on(drawing, number)):
             if under:
                 fallen = [*run]
@@ -169,7 +172,7 @@ class TrialPlan(Struct, AuxiliaryPlan, frozen=True, eq=False):
                 yield from ((number, step, markup) for step, markup in parts)
 
     def introduced(self, drawing: Drawing, how: str, *, first: bool) -> str:
-        """A part of it after what it is; in the ``first`` one, after what it assumes too."""
+        """A part of the plan, introduced by its name; the ``first`` part also by its assumption."""
         key = f"step.trial{'' if self.whole is None else '-in'}-{2 if self.is_second else 1}"
         fields = {"plan": symbol(tag_words(self.whole.tag))} if self.whole is not None else {}
         if not first:
@@ -180,7 +183,7 @@ class TrialPlan(Struct, AuxiliaryPlan, frozen=True, eq=False):
         return drawing.words(key, what=what, amount=size, how=how, **fields)
 
     def told_in_full(self, drawing: Drawing, named: Sequence[int]) -> Iterator[str]:
-        """Its points one by one; those that fall on what they are drawn from in one."""
+        """Its points one by one; coincident points together."""
         for under, run in groupby(named, lambda number: self.falls_on(drawing, number)):
             if under:
                 yield falling(drawing, [*run], under)
@@ -188,7 +191,7 @@ class TrialPlan(Struct, AuxiliaryPlan, frozen=True, eq=False):
                 yield from (point_told(drawing, number) for number in run)
 
     def told_again(self, drawing: Drawing, named: Sequence[int]) -> Iterator[str]:
-        """Points of it: in full where other lengths or more lines than in the first are drawn."""
+        """Its points briefly; in full where lengths or lines differ from the first plan's."""
         assert self.first is not None
         steps = drawing.trace.program.steps
         first = {steps[n].letter: n for n in self.first.points(drawing)}
@@ -208,7 +211,7 @@ class TrialPlan(Struct, AuxiliaryPlan, frozen=True, eq=False):
                 yield of_many(drawing, "normals-again", list(run))
 
     def assumed(self, drawing: Drawing, named: Sequence[int]) -> tuple[str, str]:
-        """What it assumes, and its amount with its unit."""
+        """The assumed rate, and its amount with its unit."""
         steps, values = drawing.trace.program.steps, drawing.trace.values
         for number in named:
             step = steps[number]
@@ -227,10 +230,10 @@ class TrialPlan(Struct, AuxiliaryPlan, frozen=True, eq=False):
                 return symbol(f"{drawing.rate.letter}_{kind.link}"), turning
         return "", ""
 
-    # --- in figures ------------------------------------------------------------------------------
+    # --- relations -------------------------------------------------------------------------------
 
     def slid(self, drawing: Drawing, vector: DrivenSlide, rate: float) -> Relation:
-        """What it assumes of a slider along its guide."""
+        """The assumed rate of a slider along its guide."""
         name = symbol(f"{drawing.sliding.letter}_{vector.point}{self.tag}")
         drawn = in_mm(drawing.words, drawn_in(drawing, drawing.plane, rate))
         remark = drawing.words("calculation.chosen_drawn", drawn=drawn)
@@ -239,7 +242,7 @@ class TrialPlan(Struct, AuxiliaryPlan, frozen=True, eq=False):
     def turned(
         self, drawing: Drawing, vector: LaidOffAboutPivot, link: str, rate: float
     ) -> Relation:
-        """What an assumed turning gives a pin, perpendicular to its bar: rate times bar."""
+        """A pin's vector from an assumed rotation, perpendicular to its bar: rate times bar."""
         p, q = vector.p, vector.q
         length, part = length_of(drawing, p, q), "" if drawing.kind == "velocity" else "^τ"
         drawn = in_mm(drawing.words, drawn_in(drawing, drawing.plane, rate * length))
@@ -255,9 +258,9 @@ class TrialPlan(Struct, AuxiliaryPlan, frozen=True, eq=False):
 
 
 def trial_lengths(drawing: Drawing) -> Iterator[Relation]:
-    """Each vector that an assumed rate gives, in the order of drawing; none where that is zero.
+    """Each vector that an assumed rate gives, in the order of drawing; none where it is zero.
 
-    What a driver gives along a guide is told of the first trial alone, for both lay off the same.
+    A driver's vector along a guide is the same in both trials, and is given for the first alone.
     """
     told: set[int] = set()
     for number, step, _ in drawing.steps(drawing.plane):
@@ -277,13 +280,13 @@ def trial_lengths(drawing: Drawing) -> Iterator[Relation]:
 
 
 def begun_by(step: Step) -> int | None:
-    """The rate by which a step lays off a vector, with which a trial begins; None for others."""
+    """The rate with which a trial begins, if a step lays off its vector; None for other steps."""
     kind = construction(step)
     return kind.tried_rate(step.role) if isinstance(kind, LaidOffByRate) else None
 
 
 def drawn_from(drawing: Drawing, number: int) -> Iterator[int]:
-    """The steps of the named points of the plan from which a step is drawn."""
+    """The steps of the plan's named points from which a step is drawn."""
     steps = drawing.trace.program.steps
     for arg in steps[number].args:
         if steps[arg].plane is drawing.plane:
@@ -293,7 +296,7 @@ def drawn_from(drawing: Drawing, number: int) -> Iterator[int]:
 def turned_again(drawing: Drawing, number: int) -> str:
     """How a point of the second plan is found whose centripetal component is that of the first.
 
-    Nothing of any other point.
+    Empty for any other point.
     """
     kind = construction(drawing.trace.program.steps[number])
     if not isinstance(kind, TurnedAcceleration) or kind.is_steady:
@@ -310,7 +313,7 @@ def point_told(drawing: Drawing, number: int) -> str:
 
 
 def falling(drawing: Drawing, numbers: Sequence[int], under: str) -> str:
-    """The words for points of a trial plan that fall on the one ``under`` them."""
+    """The words for points of a trial plan that coincide with the point ``under``."""
     key = "falls" if len(numbers) == 1 else "fall-together"
     return of_many(drawing, key, numbers, s=symbol(under))
 
@@ -322,17 +325,17 @@ def of_many(drawing: Drawing, key: str, numbers: Sequence[int], **fields: str) -
 
 
 def has_many_digits(size: float) -> bool:
-    """Whether a number has more digits than two, to six."""
+    """Whether a number has more than two significant digits, rounded to six."""
     return len(f"{abs(size):.5e}".split("e")[0].rstrip("0")) > len("1.5")
 
 
 def amount(drawing: Drawing, size: float, unit: str) -> str:
-    """An amount with its unit; zero without."""
+    """An amount with its unit; zero without a unit."""
     return f"{figure(drawing, size)} {unit}" if size else "0"
 
 
 def leg_start(drawing: Drawing, step: Step) -> int | None:
-    """The step from which one lays off a vector of the plan; None where two lines cross."""
+    """The step from which a step lays off a vector of the plan; None where two lines cross."""
     if step.action is None or isinstance(step.of, CrossedImage | ImageOfLink | TranslatedImage):
         return None
     start = step.args[0]

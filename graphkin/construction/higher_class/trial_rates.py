@@ -1,7 +1,7 @@
-"""What two trial plans are drawn with: round numbers that keep them about as large as the result.
+"""The rates of two trial plans: round numbers that keep the plans about as large as the result.
 
-What a trial misses grows in proportion to what was tried, so any two rates lead to the same plan.
-On paper those serve best whose plans fit beside the right one and whose points stand well apart.
+The misclosure is linear in the trial rate, so any two rates lead to the same plan. On paper, the
+best rates give plans that fit with the right one and points that are well apart.
 """
 
 from __future__ import annotations
@@ -22,36 +22,40 @@ from graphkin.numbers.arithmetic import larger, smaller
 from graphkin.scene.model import Scene
 
 ROUND = {1.0: 0.0, 1.5: 0.1, 2.0: 0.0, 3.0: 0.05, 4.0: 0.05, 5.0: 0.0, 6.0: 0.05, 8.0: 0.1}
-"""First digits of the numbers that are tried, and what each is worse than the roundest."""
+"""First digits of the rates tried, and the penalty of each relative to the roundest."""
 APART = 0.45
-"""How far apart, in parts of the right plan, some point of the two trials shall stand."""
+"""Required distance between the two trials of some point, as a fraction of the right plan."""
 LARGER = 1.25
-"""How much larger than the right plan alone it may be with its trials."""
+"""Allowed size of the plan with its trials, relative to the right plan alone."""
 TOO_LARGE = 2.0
-"""The same from which numbers are looked for that are less round."""
+"""Relative size above which less round numbers are also tried."""
 WITHIN = (0.15, 0.85)
-"""Where between its trials the right plan shall lie."""
+"""Required range of the right plan's position between its trials."""
 BESIDE = 0.75
-"""What a number of further digits beside the right rate is worse than a round one, for each trial.
+"""Penalty of a rate with further digits near the right rate, for each trial.
 
-Where the group hardly holds, a round rate that is not just the right one moves points far away.
+Where the group is nearly singular, a round rate that is not quite the right one moves points far
+away.
 """
 STEPS = {1.0: 0.0, 2.0: 0.05, 5.0: 0.05}
-"""First digits of the steps of which such numbers are multiples, and what each is worse."""
+"""First digits of the steps of which such rates are multiples, and the penalty of each."""
 MOVING = 0.8
-"""What a first trial is worse in which the link moves than one in which it is at rest."""
+"""Penalty of a first trial in which the link moves rather than rests."""
 FARTHEST = 1.0
-"""How far from the right rate a link may be at rest in a trial, in parts of the rate that moves all
-points as far as the right plan reaches, where the driver has moved on."""
+"""Largest distance of a rate of zero from the right rate, once the driver has moved on.
+
+The unit is the rate that moves all points by the reach of the right plan.
+"""
 
 Box = tuple[float, float, float, float]
 """Left, bottom, right and top of the upright box around some points and the pole."""
 
 
 class Spread(Struct, frozen=True):
-    """The points of a plan by the rate that is tried: ``start`` at nought, ``way`` for each unit.
+    """The points of a plan as functions of the trial rate: ``start`` at zero, ``way`` per unit.
 
-    ``rate`` is the right one, ``whole`` how far the right plan reaches from its pole.
+    ``rate`` is the right one; ``whole`` is the distance from the pole to the right plan's farthest
+    point.
     """
 
     start: tuple[complex, ...]
@@ -60,18 +64,18 @@ class Spread(Struct, frozen=True):
     whole: float
 
     def box(self, rate: float) -> Box:
-        """The box of the plan of a rate."""
+        """The box of the plan at a rate."""
         points = [0j, *(p + rate * w for p, w in zip(self.start, self.way, strict=True))]
         xs, ys = [p.real for p in points], [p.imag for p in points]
         return min(xs), min(ys), max(xs), max(ys)
 
     @property
     def reach(self) -> float:
-        """How far a unit of the rate moves the point that it moves farthest."""
+        """The largest distance that a unit of the rate moves a point."""
         return max(map(abs, self.way))
 
     def fault(self, first: float, second: float, large: float) -> float:
-        """How badly two trials are drawn and read: too large, too near, both on one side."""
+        """The penalty of two trials: too large, too close together, or both on one side."""
         share = (self.rate - first) / (second - first)
         near = APART - abs(second - first) * self.reach / self.whole
         outside = max(WITHIN[0] - share, share - WITHIN[1])
@@ -79,10 +83,10 @@ class Spread(Struct, frozen=True):
 
 
 def trial_rates(scene: Scene, program: Program) -> dict[int, float]:
-    """The two rates for each pair of trial plans, by the steps that hold them: those of a group
-    first, then those within its trial plans, which are as large as these make them.
+    """The two rates for each pair of trial plans, by the steps that hold them.
 
-    Raises StepFailed where the mechanism does not close.
+    Rates of groups come first. The rates within their trial plans depend on these. Raises
+    StepFailed where the mechanism does not close.
     """
     divided = [each.value for each in constructions(program, Divided)]
     wanted = {*divided} & {*program.targets.values()}
@@ -100,7 +104,7 @@ def trial_rates(scene: Scene, program: Program) -> dict[int, float]:
 
 
 def spread_of(program: Program, found: Mapping[int, Any], trials: TwoTrials) -> Spread | None:
-    """The plans of all rates, from two of them; None where nothing moves, so that any rate does."""
+    """The plans of all rates, from two; None where nothing moves, so that any rate will do."""
     one, two = (found[number] for number in trials.rates)
     start, way, whole = [], [], 0.0
     for point in trials.divided(program):
@@ -120,13 +124,14 @@ def followed_rates(
     chosen: Mapping[int, float],
     run: Callable[[Mapping[int, Any]], Mapping[int, Any]],
 ) -> dict[int, Any]:
-    """The rates at another place of the driver: trial plans keep their size beside the right one.
+    """The rates at another position of the driver, where trial plans keep their relative size.
 
-    A link at rest in a trial stays at rest where that is not too far from the right rate, measured
-    by the rate that moves all points as far as the right plan reaches; elsewhere it is tried at
-    this distance. Another rate is as far from the right one as before. ``drawn`` are the values
-    where the rates were chosen, ``run`` gives those at the other place by the rates, in any kind
-    of number.
+    A link at rest in a trial stays at rest if zero is not too far from the right rate. The unit of
+    that distance is the rate that moves all points by the reach of the right plan. Otherwise it is
+    tried at the largest allowed distance. Other rates keep their distance from the right rate.
+
+    ``drawn`` holds the values where the rates were chosen. ``run`` gives the values at the other
+    position from the rates, in any kind of number.
     """
     rates: dict[int, Any] = dict(chosen)
     for together in levels_of(program):
@@ -144,7 +149,7 @@ def followed_rates(
 
 
 def right_rate(program: Program, found: Mapping[int, Any], trials: TwoTrials) -> tuple[Any, Any]:
-    """The rate that fits, and the one that moves all points as far as the right plan reaches."""
+    """The right rate, and the rate that moves all points by the reach of the right plan."""
     one, two = (found[number] for number in trials.rates)
     points = [point for point in trials.divided(program) if point.value in found]
     reach = sum(abs(found[point.value]) for point in points)
@@ -161,9 +166,9 @@ def levels_of(program: Program) -> list[list[TwoTrials]]:
 
 
 def chosen_rates(spread: Spread) -> tuple[float, float]:
-    """The two trials that can be drawn and read best, the link at rest in the first if it may.
+    """The two trials that are best to draw and read; in the first, the link rests if it may.
 
-    Round numbers, unless even the best of these draw a plan far too large.
+    The numbers are round, unless even the best round ones draw a plan far too large.
     """
     enough = APART * spread.whole / spread.reach
     size = abs(spread.rate) or enough
@@ -177,7 +182,7 @@ def chosen_rates(spread: Spread) -> tuple[float, float]:
 
 
 def best_of(spread: Spread, worse: Mapping[float, float]) -> tuple[float, float]:
-    """The best two of some rates, each with what it is worse."""
+    """The best two of some rates, given the penalty of each."""
     faults = {}
     for first, second in product(worse, worse):
         if abs(first) < abs(second):
@@ -187,7 +192,7 @@ def best_of(spread: Spread, worse: Mapping[float, float]) -> tuple[float, float]
 
 
 def enlarged(spread: Spread, *rates: float) -> float:
-    """How much larger than the right plan alone it is with the trials of some rates."""
+    """The size of the plan with trials at some rates, relative to the right plan alone."""
     right = spread.box(spread.rate)
     return longest(right, *map(spread.box, rates)) / longest(right)
 
@@ -199,7 +204,7 @@ def longest(*boxes: Box) -> float:
 
 
 def candidates(least: float, most: float) -> Iterator[tuple[float, float]]:
-    """Round numbers of both signs in a range and a little beyond, each with what it is worse."""
+    """Round numbers of both signs in a range and a little beyond, each with its penalty."""
     for power in range(floor(log10(least)) - 1, floor(log10(most)) + 2):
         for digit, worse in ROUND.items():
             size = digit * 10.0**power if power >= 0 else digit / 10.0**-power
@@ -208,8 +213,7 @@ def candidates(least: float, most: float) -> Iterator[tuple[float, float]]:
 
 
 def beside(rate: float, enough: float) -> Iterator[tuple[float, float]]:
-    """Numbers on both sides of a rate, in steps of about ``enough`` and less, each with what it is
-    worse."""
+    """Numbers near a rate, in steps of about ``enough`` and less, each with its penalty."""
     power = floor(log10(enough))
     for digit, worse in STEPS.items():
         for exponent in (power, power - 1):

@@ -1,6 +1,6 @@
-"""Velocities and accelerations of higher groups: two trial plans, and the share that fits.
+"""Velocities and accelerations of higher groups: two trial plans, and the share between them.
 
-What a trial misses grows in proportion to what was tried (method of two plans, false position).
+The misclosure is linear in the trial rate (method of two plans, false position).
 """
 
 from __future__ import annotations
@@ -61,12 +61,12 @@ from graphkin.structure.joints import partner
 from graphkin.structure.pairs import Pin, Sliding
 
 TAGS = tuple(MARKED)
-"""What the points of the two plans bear behind their names."""
+"""The tags of the points of the two plans, behind their names."""
 
 
 @action("far")
 def far(p: Point, *others: Point) -> Real:
-    """How far some points lie from a point in the mean."""
+    """The mean distance of some points from a point."""
     total: Real = 0.0
     for other in others:
         total = total + abs(other - p)
@@ -75,22 +75,22 @@ def far(p: Point, *others: Point) -> Real:
 
 @action("share")
 def share(first: Real, second: Real) -> Real:
-    """Where between two trials the misfit vanishes: it grows in proportion."""
+    """The fraction of the way between two trials at which a linear misclosure is zero."""
     return first / (first - second)
 
 
 @action("share-on-line")
 def share_on_line(first: Point, second: Point, found: Point) -> Real:
-    """The same share as it is measured on the line of the two trials of a point."""
+    """The same fraction, measured on the line of the two trials of a point."""
     way = second - first
     return dot(way, found - first) / dot(way, way)
 
 
 class TwoTrials(ClosesGroup, SaidInParts, frozen=True):
-    """The share of the way from the first trial plan to the second at which nothing is missed.
+    """The fraction of the way between two trial plans at which the misclosure is zero.
 
-    ``gaps`` are what the ``plans`` miss. Where a crossing finds a point, the share is ``measured``
-    on the line of its trials.
+    ``gaps`` are the misclosures of the ``plans``. Where a crossing finds a point, the fraction is
+    ``measured`` on the line of its trials.
     """
 
     gives: ClassVar[tuple[str, ...]] = ("share", "measured")
@@ -103,37 +103,36 @@ class TwoTrials(ClosesGroup, SaidInParts, frozen=True):
 
     @property
     def closes(self) -> tuple[str, ...]:
-        """The links of the group."""
         return self.group.links
 
     @property
     def rates(self) -> tuple[int, int]:
-        """The steps of the rates that are tried."""
+        """The steps of the trial rates."""
         return self.plans[0].rate, self.plans[1].rate
 
     @property
     def depth(self) -> int:
-        """Within how many trial plans its own lie."""
+        """The number of trial plans around its own."""
         return self.plans[0].depth
 
     @property
     def symbol(self) -> str:
-        """Markup of the share, with the tag of the plan to which its trials lead, if of a trial."""
+        """Markup of the fraction, with the tag of the trial plan around it, if any."""
         whole = self.plans[0].whole
         return SHARE if whole is None else symbol(f"λ{whole.tag}")
 
     def divided(self, program: Program) -> Iterator[DividedPoint]:
-        """The points of the right plan that it divides."""
+        """The points of the right plan that this fraction divides."""
         return (p for p in constructions(program, DividedPoint) if p.share == self.share)
 
-    # --- in words --------------------------------------------------------------------------------
+    # --- sentences -------------------------------------------------------------------------------
 
     def reason(self, drawing: Drawing, role: str) -> str:
-        """Why it is found from what the trials miss, where no crossing finds it."""
+        """The reason for a fraction from the gaps, where no crossing gives it."""
         return "why.gaps" if role == "share" and self.measured not in drawing.trace.values else ""
 
     def sentence_alone(self, drawing: Drawing, role: str) -> str:
-        """What the trials miss: between which points the gaps are measured, how large they are."""
+        """The misclosures: between which points the gaps are measured, and their sizes."""
         if role != "share":
             return ""
         first, second = self.gaps
@@ -149,7 +148,7 @@ class TwoTrials(ClosesGroup, SaidInParts, frozen=True):
             yield self.share, drawing.words("step.share-second", **fields)
 
     def gaps_in_words(self, drawing: Drawing) -> dict[str, str]:
-        """The points at which both gaps are measured, from which lines, and how large they are."""
+        """The points and lines between which both gaps are measured, and the gaps' sizes."""
         mm, (first, second) = on_paper(drawing), self.gaps
         one, two = (gap.amount(drawing) for gap in self.gaps)
         side = "alike" if one * two > 0 else "opposite"
@@ -163,10 +162,10 @@ class TwoTrials(ClosesGroup, SaidInParts, frozen=True):
             "other": second.line(drawing),
         }
 
-    # --- in figures ------------------------------------------------------------------------------
+    # --- relations -------------------------------------------------------------------------------
 
     def relations(self, drawing: Drawing) -> Iterator[Relation]:
-        """Where between the trials the right plan lies: what they miss grows in proportion."""
+        """The position of the right plan between the trials, from their misclosures."""
         values = drawing.trace.values
         points = [p for p in self.divided(drawing.trace.program) if p.value in values]
         crossed = [p for p in points if self.measured in values and p.is_crossed(values)]
@@ -204,7 +203,7 @@ class TwoTrials(ClosesGroup, SaidInParts, frozen=True):
 
 
 def driver_missed(drawing: Drawing, first: DrivenMisclosure, second: DrivenMisclosure) -> str:
-    """What the trials miss of what a driver gives, in mm of the plan or in its rate."""
+    """The errors of the trials in a driver's given motion, in mm of the plan or in its rate."""
     found, sizes = first.has(drawing), {}
     sizes["a"], sizes["b"] = found, second.has(drawing)
     sizes["given"] = found - first.amount(drawing)
@@ -227,7 +226,7 @@ def driver_missed(drawing: Drawing, first: DrivenMisclosure, second: DrivenMiscl
 
 
 def with_trials_together(drawing: Drawing, found: list[Sentence]) -> list[Sentence]:
-    """The points that divide the lines of two trials said in one sentence, of each two trials."""
+    """The sentences, with one for all points that divide the lines of the same two trials."""
     steps = drawing.trace.program.steps
     divided: dict[int, dict[Sentence, DividedPoint]] = {}
     for said in found:
@@ -241,7 +240,7 @@ def with_trials_together(drawing: Drawing, found: list[Sentence]) -> list[Senten
 def divided_together(
     drawing: Drawing, found: list[Sentence], share: int, points: dict[Sentence, DividedPoint]
 ) -> list[Sentence]:
-    """The points of one ``share`` said in one sentence."""
+    """The sentences, with one for all points of one ``share``."""
     values = drawing.trace.values
     crossed = [said for said, point in points.items() if point.is_crossed(values)]
     divided = [said for said in points if said not in crossed]
@@ -263,8 +262,9 @@ def divided_together(
 
 
 def gaps_of(drawing: Drawing, point: DividedPoint) -> tuple[float, float]:
-    """What the trials miss, in mm of the plan or in a rate; where a crossing finds a point, the
-    parts into which it divides the line of its own trials.
+    """The misclosures of the trials, in mm of the plan or as rates.
+
+    Where a crossing finds a point, the parts into which it divides the line of its own trials.
     """
     steps, values, mm = drawing.trace.program.steps, drawing.trace.values, on_paper(drawing)
     if point.is_crossed(values):
@@ -278,7 +278,7 @@ def gaps_of(drawing: Drawing, point: DividedPoint) -> tuple[float, float]:
 
 
 def divided_alone(drawing: Drawing, point: DividedPoint) -> str:
-    """How the line of the trials of one point is divided: as the gaps are, or another's line is."""
+    """How the line of a point's trials is divided: as the gaps, or as another such line."""
     values = drawing.trace.values
     alike = (
         p for p in constructions(drawing.trace.program, DividedPoint) if p.share == point.share
@@ -295,7 +295,7 @@ def divided_alone(drawing: Drawing, point: DividedPoint) -> str:
 
 
 def of_trials(drawing: Drawing) -> Iterator[Relation]:
-    """What two trial plans lay off, and where between them the right one lies."""
+    """The vectors laid off in two trial plans, and the position of the right plan between them."""
     yield from trial_lengths(drawing)
     for number, step, _ in drawing.steps(Plane.NUMBERS):
         kind = construction(step)
@@ -304,17 +304,17 @@ def of_trials(drawing: Drawing) -> Iterator[Relation]:
 
 
 def on_paper(drawing: Drawing) -> float:
-    """The millimetres of paper that a unit of the plan takes up."""
+    """The millimetres of paper for a unit of the plan."""
     return 1000 / scale_of(drawing, drawing.plane)
 
 
-# --- planning them -------------------------------------------------------------------------------
+# --- compilation ---------------------------------------------------------------------------------
 
 
 def two_trials(images: GroupImages, pen: Pen, group: CoupledTrain | Higher, each: Each) -> None:
-    """Two wrong plans give the right one: what is missed is linear in what is tried.
+    """Draw two trial plans, and the right one, as the misclosure is linear in the trial rate.
 
-    What accelerations follow from velocities is known by then.
+    Acceleration components that follow from velocities are known by then.
     """
     layers, gaps, begun = list[dict[Target, int]](), list[Misclosure](), []
     plan = images.plan
@@ -351,7 +351,7 @@ def two_trials(images: GroupImages, pen: Pen, group: CoupledTrain | Higher, each
 
 
 def plans_of(pen: Pen, group: CoupledTrain | Higher, plan: Plan) -> tuple[TrialPlan, TrialPlan]:
-    """The two trial plans of a group; those of one within a group lie within its trial plans."""
+    """The two trial plans of a group; those of a group within a group belong to its trial plans."""
     whole, link = pen.auxiliary, group.tried.link
     assert whole is None or isinstance(whole, TrialPlan)
     tag = whole.tag if whole is not None else ""
@@ -368,8 +368,11 @@ def plans_of(pen: Pen, group: CoupledTrain | Higher, plan: Plan) -> tuple[TrialP
 
 @action("pace")
 def pace(bar: Real, *rest: Any) -> Real:
-    """How fast drivers move together, or 1 where all are at rest: ``rest`` are what they give, and
-    how many of them turn; those that slide do so by bars."""
+    """The common pace of all drivers, or 1 where all are at rest.
+
+    ``rest`` holds the given rates, those that turn first, then the number that turn. A sliding rate
+    is divided by ``bar``.
+    """
     *given, turning = rest
     total: Real = 0.0
     for number, value in enumerate(given):
@@ -378,11 +381,11 @@ def pace(bar: Real, *rest: Any) -> Real:
 
 
 def trial_value(pen: Pen, group: CoupledTrain | Higher, plan: Plan) -> int:
-    """The second trial: as fast as the drivers turn, or slide by a bar in that time.
+    """The second trial: the rate at which the drivers turn, or slide by a bar.
 
-    An acceleration is as large as the squares of that and of how fast the link has been found to
-    turn make it, with what the drivers give: a trial far too small misses nearly as much as none,
-    and digits are lost. On paper a round number takes its place (trial_rates).
+    An acceleration is the sum of the squares of that rate and of the link's own rate, plus the
+    drivers' accelerations. A trial far too small has nearly the misclosure of a trial at rest, and
+    digits are lost. On paper, a round number takes its place (trial_rates).
     """
     drivers = pen.scene.drivers
     one_turns = len(drivers) == 1 and drivers[0].kind == "turn"
@@ -402,7 +405,7 @@ def trial_value(pen: Pen, group: CoupledTrain | Higher, plan: Plan) -> int:
 
 
 def pace_of(pen: Pen, plan: Plan, bar: int | None) -> int:
-    """How fast all drivers of a scene move together, by their speeds or by their accelerations."""
+    """The common pace of all drivers of a scene, by their speeds or by their accelerations."""
     kinds = sorted(pen.scene.drivers, key=lambda driver: driver.kind != "turn")
     turning = sum(driver.kind == "turn" for driver in kinds)
     given = [getattr(pen.drive(driver), plan.given) for driver in kinds]
@@ -411,7 +414,7 @@ def pace_of(pen: Pen, plan: Plan, bar: int | None) -> int:
 
 
 def slid_rate(pen: Pen, group: CoupledTrain | Higher, bar: int | None) -> int:
-    """How fast the tried link moves along the line that leads it, in bars a second."""
+    """The rate of the tried link along its guiding line, in bars per second."""
     pair, point = group.tried.pair, pen.bases[group.tried.link].start
     assert bar is not None and not isinstance(pair, Pin)
     under = image_under(pen, partner(pair, group.tried.link), point, VELOCITY)
@@ -420,14 +423,14 @@ def slid_rate(pen: Pen, group: CoupledTrain | Higher, bar: int | None) -> int:
 
 
 def places_of(pen: Pen, group: CoupledTrain | Higher) -> list[int]:
-    """Where the points of a group stand, that of the tried link first."""
+    """The positions of the points of a group, the tried link's first."""
     start = pen.bases[group.tried.link].start
     points = dict.fromkeys((start, *(p for n in group.links for p in pen.scene.link(n).points)))
     return [pen.the("position", point) for point in points]
 
 
 def move_trial(pen: Pen, group: CoupledTrain | Higher, images: GroupImages, value: int) -> None:
-    """The tried link in a trial plan."""
+    """Draw the motion of the tried link in a trial plan."""
     trial, base, plan = group.tried, pen.bases[group.tried.link], images.plan
     match trial.pair:
         case Pin(point=pivot):
@@ -440,7 +443,7 @@ def move_trial(pen: Pen, group: CoupledTrain | Higher, images: GroupImages, valu
 
 
 def missed(pen: Pen, group: CoupledTrain | Higher, images: GroupImages) -> Misclosure:
-    """What a trial plan misses at the link or driver that comes last."""
+    """The misclosure of a trial plan at the link or driver that comes last."""
     last, plan = group.last, images.plan
     if not isinstance(last, Tie | Driver):
         return coupled_train.missed(pen, group, plan)
@@ -476,7 +479,7 @@ def missed(pen: Pen, group: CoupledTrain | Higher, images: GroupImages) -> Miscl
 
 
 def missed_slide(pen: Pen, driver: Driver, images: GroupImages) -> Misclosure:
-    """What a trial plan misses of a given sliding speed or acceleration."""
+    """The misclosure of a trial plan for a given sliding speed or acceleration."""
     pair, plan = slide_of(pen, driver), images.plan
     first = pen.scene.link(driver.link).points[0]
     given = getattr(pen.drive(driver), plan.given)

@@ -1,4 +1,4 @@
-"""Links turned about a pivot: to the angle of a driver, or to one at which a group closes."""
+"""Links turned about a pivot: to the angle of a driver, or to an angle at which a group closes."""
 
 from __future__ import annotations
 
@@ -33,20 +33,22 @@ def mark_off(line: Line, length: Real, sense: int = 1) -> Point:
 
 @action("arm")
 def arm(pivot: Point, direction: Point, start: Point, end: Point, base: Point, tip: Point) -> Point:
-    """A point of a turning link from the direction of one of its lines (start to end)."""
+    """A point of a turning link, from the direction of one of its lines (start to end)."""
     line = end - start
     return pivot + direction * (tip - base) * (abs(line) / line)
 
 
 @action("arm")
 def arm_by_axis(pivot: Point, direction: Point, base: Point, tip: Point) -> Point:
-    """A point of a turning link from the direction of the link's own x axis."""
+    """A point of a turning link, from the direction of the link's own x axis."""
     return pivot + direction * (tip - base)
 
 
 class DrivenCrank(Construction, frozen=True, kw_only=True):
-    """A bar of a driven ``link`` from its ``pivot``: laid off to its ``tip``, called ``name``, on
-    the ``line`` at the driver's angle."""
+    """A bar of a driven ``link`` from its ``pivot`` to its ``tip``, called ``name``.
+
+    The bar is laid off on the ``line`` at the driver's angle.
+    """
 
     gives: ClassVar[tuple[str, ...]] = ("line", "tip")
     reasons: ClassVar[Mapping[str, str]] = {"tip": "why.crank"}
@@ -61,18 +63,18 @@ class DrivenCrank(Construction, frozen=True, kw_only=True):
     tip: int
 
     def marks(self, canvas: Canvas, role: str) -> None:
-        """The end of the line, beyond the bar."""
+        """Draw the end of the line, beyond the bar."""
         if role == "line":
             canvas.line_end(self.pivot)
 
     def said_before(self, drawing: Drawing, role: str) -> tuple[int, ...]:
-        """The line."""
+        """The line, which comes before the tip."""
         return (self.line,) if role == "tip" else ()
 
     def clause(self, drawing: Drawing, role: str) -> str:
-        """The line at its angle: to the axis of the frame, or to a line of a moving link.
+        """The clause for the line at its angle to the frame's axis, or to a line of a moving link.
 
-        Where the pivot ends that link's bar it is the bar produced.
+        Where the pivot ends that link's bar, the line is measured from the bar produced.
         """
         scene, words = drawing.scene, drawing.words
         driver = next(d for d in scene.drivers if d.link == self.link)
@@ -87,14 +89,13 @@ class DrivenCrank(Construction, frozen=True, kw_only=True):
         return words("step.ray-produced" if ends else "step.ray-against", line=line, **fields)
 
     def point_sentence(self, drawing: Drawing, role: str) -> str:
-        """The bar laid off."""
+        """The sentence that lays off the bar."""
         p, name = symbol(self.pivot), symbol(self.name)
         return drawing.words("step.mark-off", p=p, q=name, name=name)
 
 
 class TurnedLink(Construction, frozen=True, kw_only=True):
-    """The ``tip``, called ``name``, of a ``link`` that is turned about its ``pivot`` as ``turn``
-    says."""
+    """The ``tip``, called ``name``, of a ``link`` turned about its ``pivot`` to ``turn``."""
 
     gives: ClassVar[tuple[str, ...]] = ("tip",)
     reasons: ClassVar[Mapping[str, str]] = {"tip": "why.turned_link"}
@@ -109,7 +110,7 @@ class TurnedLink(Construction, frozen=True, kw_only=True):
     tip: int
 
     def point_sentence(self, drawing: Drawing, role: str) -> str:
-        """By its angle; by that of the bar in the plane where it was found with a group."""
+        """The sentence for the tip by its angle, or by the bar's angle if found with a group."""
         words, spot = drawing.words, drawing.standing.spot
         fields = {"p": symbol(self.pivot), "name": symbol(self.name)}
         if not is_found_by_closing(drawing.trace.program.steps[self.turn]):
@@ -121,7 +122,10 @@ class TurnedLink(Construction, frozen=True, kw_only=True):
 def turn_about(
     pen: Pen, link: str, ends: tuple[str, str | None], line: tuple[str, ...], turn: int
 ) -> None:
-    """Set a link at its pivot so that one of its lines (its x axis if none) has a direction."""
+    """Place a link at its pivot so that one of its lines has a given direction.
+
+    With an empty ``line``, the direction is that of the link's x axis.
+    """
     pivot, tip = ends
     start = pen.the("position", pivot)
     if not line:

@@ -42,17 +42,17 @@ class CompassArc(Construction, frozen=True, kw_only=True):
     arc: int
 
     def marks(self, canvas: Canvas, role: str) -> None:
-        """As much of the arc as finds the point."""
+        """Draw the part of the arc that finds the point."""
         canvas.arc(self.centre + self.point)
 
     def clause(self, drawing: Drawing, role: str) -> str:
-        """By the bar."""
+        """The clause for the arc, by the bar that is its radius."""
         opening = stated_bar(drawing, (self.centre, self.point), self.radius)
         return drawing.words("step.compass", p=symbol(self.centre), bar=opening)
 
 
 def stated_bar(drawing: Drawing, ends: tuple[str, str], length: int) -> str:
-    """A bar whose ``length`` the scene states; where it does not, with that on paper, in mm."""
+    """The name of a bar, with its drawn length in mm unless the scene gives its ``length``."""
     name = bar(*ends)
     if drawing.trace.program.steps[length].given is None:
         name += f" ({drawn_amount(drawing, float(drawing.trace.values[length]))})"
@@ -60,26 +60,26 @@ def stated_bar(drawing: Drawing, ends: tuple[str, str], length: int) -> str:
 
 
 def draw_arc(pen: Pen, ends: tuple[str, str], centre: int, radius: int) -> int:
-    """The arc about the first of two points on which the second lies."""
+    """Draw the arc about the first of two points on which the second lies."""
     arc = pen.draw(compass, centre, radius)
     pen.make(CompassArc(centre=ends[0], point=ends[1], radius=radius, arc=arc))
     return arc
 
 
 COINCIDE = 1e-6
-"""Distance of two centres, in radii, below which they fall together."""
+"""Distance of two centres below which they coincide, as a fraction of the radius."""
 TOGETHER = 2.0**-25
-"""Distance of the centres of two equal circles, in parts of both radii, that may be rounding.
+"""Distance of two equal circles' centres that may be rounding, as a fraction of both radii.
 
-Beside a flat crossing rounding is as large as the root of eps.
+Near a flat crossing, rounding is as large as the square root of eps.
 """
 
 
 def arcs_reach(m: Circle, n: Circle, *_: Any) -> Any:
-    """By how much two circles meet: positive where they cross, negative where they do not.
+    """Positive where two circles cross, negative where they do not.
 
-    Equal circles that fall together do not: their centres may stay together on all the way, and
-    where the circles cross is then rounding.
+    Coincident equal circles count as not crossing: their centres may coincide along a whole motion,
+    and a crossing would then be rounding.
     """
     distance, most = abs(n.centre - m.centre), m.radius + n.radius
     least, hidden = abs(m.radius - n.radius), TOGETHER * most
@@ -94,13 +94,15 @@ def arcs_reach(m: Circle, n: Circle, *_: Any) -> Any:
     move=CUTS,
 )
 def arcs_meet(m: Circle, n: Circle, side: int) -> Point:
-    """Where two arcs meet, on one side of the way from the first centre to the second."""
+    """The point where two arcs meet, on one side of the line from one centre to the other."""
     return circle_meets_circle(m, n, side)
 
 
 class DyadByArcs(Determined, frozen=True, kw_only=True):
-    """The ``pin`` called ``name``, in which the arcs ``near`` about ``left`` and ``far`` about
-    ``right`` meet."""
+    """The ``pin`` called ``name``, in which two arcs meet.
+
+    They are ``near``, about ``left``, and ``far``, about ``right``.
+    """
 
     gives: ClassVar[tuple[str, ...]] = ("pin",)
     reasons: ClassVar[Mapping[str, str]] = {"pin": "why.arcs"}
@@ -118,33 +120,33 @@ class DyadByArcs(Determined, frozen=True, kw_only=True):
     pin: int
 
     def symbols(self) -> Mapping[str, str]:
-        """The outer pins."""
+        """The symbols of the outer pins."""
         return {"p": symbol(lettered(self.left)), "q": symbol(lettered(self.right))}
 
     def point_sentence(self, drawing: Drawing, role: str) -> str:
-        """Where they meet, and on which side of the line of their centres."""
+        """The sentence for the crossing of the arcs, with its side of the line of centres."""
         return drawing.words("step.arcs-meet.say", **self.place(drawing))
 
     def point_apart(self, drawing: Drawing, role: str) -> str:
-        """Where both arcs meet."""
+        """The sentence for the crossing of the arcs, on its own."""
         return drawing.words("step.arcs-meet.apart", **self.place(drawing))
 
     def place(self, drawing: Drawing) -> Mapping[str, str]:
-        """Its letter, and its side."""
+        """The pin's letter and its side."""
         side = side_words(drawing, self.pin, self.name, (self.left, self.right))
         return {"name": symbol(self.name), "side": side}
 
     @property
     def reaching(self) -> str:
-        """Bars whose ends come together."""
+        """The expected bars, whose ends can meet."""
         return f"bars {self.left}{self.name} and {self.right}{self.name} that can meet"
 
     def in_line(self, steps: Sequence[Step], nearly: str) -> str:
-        """The two bars."""
+        """The words for two bars in line."""
         return f"{self.left}{self.name} and {self.right}{self.name} are {nearly}in line"
 
     def undetermined(self, args: Sequence[Any]) -> Problem | None:
-        """Of two bars of one length whose outer pins fall together the pin may stand anywhere."""
+        """The problem of two equal bars whose outer pins coincide, so that the pin is open."""
         first, second = args[:2]
         least = TOGETHER * first.radius
         apart = abs(first.centre - second.centre), abs(first.radius - second.radius)
@@ -161,7 +163,7 @@ class DyadByArcs(Determined, frozen=True, kw_only=True):
         )
 
     def at_end(self, steps: Sequence[Step], loci: Sequence[Any]) -> tuple[str, str] | None:
-        """The three pins in line, or both outer ones at one place."""
+        """The three pins in line, or the outer pins coincident, at the end of the range."""
         if not loci:
             return None
         near, far = loci
@@ -171,7 +173,10 @@ class DyadByArcs(Determined, frozen=True, kw_only=True):
 
 
 def side_words(drawing: Drawing, number: int, name: str, centres: tuple[str, str]) -> str:
-    """On which side of the way between the centres two arcs meet in a point: as the scene says."""
+    """The words for the side of the line of centres on which two arcs meet.
+
+    The centres are in the scene's own order.
+    """
     side = which_side(drawing, number)
     if centres[::-1] in stated_ways(drawing, name):
         centres, side = centres[::-1], -side
@@ -180,7 +185,7 @@ def side_words(drawing: Drawing, number: int, name: str, centres: tuple[str, str
 
 
 def stated_ways(drawing: Drawing, name: str) -> Iterator[tuple[str, str]]:
-    """The ways of which the scene says on which side a point lies."""
+    """The lines for which the scene says on which side a point lies."""
     branch = drawing.scene.branches.get(name)
     if isinstance(branch, Side):
         yield branch.first, branch.second
@@ -198,7 +203,7 @@ def meet_arcs(
     *side: int,
     sign: tuple[int, ...],
 ) -> int:
-    """The pin in which two arcs meet: on a stated side, or on that which a step says."""
+    """Draw the pin in which two arcs meet, on a stated side or on the side that a step gives."""
     pin = pen.draw(arcs_meet, *arcs, *side, name=name, extra=sign)
     left, right = centres
     pen.make(DyadByArcs(name=name, left=left, right=right, near=arcs[0], far=arcs[1], pin=pin))

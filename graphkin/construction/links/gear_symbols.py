@@ -17,13 +17,13 @@ from graphkin.scene.model import FRAME
 FEW, MANY = 2, 12
 """Least and most teeth drawn on either side of a pitch point."""
 FEWEST = 14
-"""A wheel with so few teeth gets them all."""
+"""Number of teeth up to which all teeth of a wheel are drawn."""
 FINE = 0.5
-"""Modules smaller than this, in mm of paper, are drawn without teeth."""
+"""Module below which a wheel is drawn without teeth, in mm of paper."""
 ROOT = 1.25
-"""Depth of a tooth below the pitch line, in modules; above it is one."""
+"""Depth of a tooth below the pitch line, in modules; its height above is one module."""
 FOOT, TOP = 0.28, 0.10
-"""Half the width of a tooth at its root and at its top, in parts of the pitch."""
+"""Half the width of a tooth at its root and at its top, as fractions of the pitch."""
 BASE = 3.2
 """Width of a rack below its teeth, in mm."""
 
@@ -34,7 +34,7 @@ def polar(centre: XY, radius: float, angle: float) -> XY:
 
 
 def gear(drawing: Drawing, field: Field, disc: Disc) -> Iterator[Mark]:
-    """A gear: its tip circle with teeth where it meshes, and its pitch circle chain-dotted."""
+    """Draw a gear: its tip circle with teeth where it meshes, and its pitch circle chain-dotted."""
     centre, radius, name = field(disc.centre), disc.radius * field.mm, disc.link
     ring, module = disc.wheel.inside, disc.module * field.mm
     corners = outline(disc, meshes(drawing, disc), radius, module)
@@ -47,9 +47,10 @@ def gear(drawing: Drawing, field: Field, disc: Disc) -> Iterator[Mark]:
 
 
 class Mesh(NamedTuple):
-    """Where a gear meshes: the direction (radians), 0 for a tooth there or 0.5 for a gap.
+    """A mesh of a gear: its direction (radians), and the shift of its teeth.
 
-    ``shown`` teeth are drawn on either side of that place, as far as the tips overlap.
+    The shift is 0 for a tooth in that direction and 0.5 for a gap. ``shown`` teeth are drawn on
+    either side of that place, as far as the tips overlap.
     """
 
     way: float
@@ -58,7 +59,7 @@ class Mesh(NamedTuple):
 
 
 def meshes(drawing: Drawing, disc: Disc) -> list[Mesh]:
-    """Where a gear meshes with others or with racks."""
+    """The meshes of a gear with other gears or with racks."""
     found = []
     for touch in drawing.standing.touches:
         if disc in (touch.disc, touch.other):
@@ -74,7 +75,7 @@ def meshes(drawing: Drawing, disc: Disc) -> list[Mesh]:
 
 
 def overlapping(touch: Touch) -> int:
-    """How many teeth on either side of the pitch point lie where two gears' tips overlap."""
+    """The number of teeth on either side of the pitch point where two gears' tips overlap."""
     mine, other = touch.disc, touch.other
     bend = 1 / mine.radius
     if other is not None:
@@ -87,7 +88,7 @@ def overlapping(touch: Touch) -> int:
 def outline(
     disc: Disc, found: Sequence[Mesh], radius: float, module: float
 ) -> Iterator[tuple[float, float]]:
-    """The outline of a gear as (radius in mm, angle): teeth at its meshes, elsewhere its tips."""
+    """The outline of a gear as (radius in mm, angle): teeth at meshes, elsewhere the tip circle."""
     inward = -1 if disc.wheel.inside else 1
     tip, root = radius + inward * module, radius - inward * ROOT * module
     count = round(2 * disc.radius / disc.module)
@@ -108,7 +109,7 @@ def outline(
 
 
 def teeth_at(found: Sequence[Mesh], pitch: float, count: int) -> list[float]:
-    """The middles of the teeth that are drawn, from 0 to a full turn."""
+    """The middle angles of the teeth that are drawn, from 0 to a full turn."""
     if not found:
         return []
     if count <= FEWEST or sum(2 * mesh.shown + 3 for mesh in found) >= count:
@@ -125,12 +126,12 @@ def teeth_at(found: Sequence[Mesh], pitch: float, count: int) -> list[float]:
 
 
 def teeth_beside(touch: Touch) -> int:
-    """How many pitches of a rack's teeth are drawn on either side of its pitch point."""
+    """The number of pitches of a rack's teeth drawn on either side of its pitch point."""
     return overlapping(touch) + 1
 
 
 def rack(field: Field, touch: Touch, low: float, high: float) -> Iterator[Mark]:
-    """A rack: its outline with teeth about the pitch point, its pitch line chain-dotted."""
+    """Draw a rack: its outline with teeth about the pitch point, its pitch line chain-dotted."""
     module, side = touch.disc.module * field.mm, touch.side
     at, way, name = field(touch.at), field.way(touch.along), touch.on
     pitch, tip, root = pi * module, -side * module, side * ROOT * module

@@ -1,4 +1,4 @@
-"""Links that fit by themselves: bars that no step lays off, as their pins are found without."""
+"""Idle links: bars that no step lays off, because their pins are found without them."""
 
 from __future__ import annotations
 
@@ -16,16 +16,16 @@ IDLE = "idle"
 
 
 def points_of(step: Step) -> set[str]:
-    """The points of which the sentence of a step speaks."""
+    """The points that the sentence of a step names."""
     kind = construction(step)
     return {step.name, *(kind.points if kind is not None else ())}
 
 
 def idle_sentences(drawing: Drawing) -> Iterator[Sentence]:
-    """Each bar that no step lays off, because its pins stand without it: an idle link.
+    """Sentences for each bar that no step lays off, because its pins are placed without it.
 
-    One at which a group is closed is none, though it is tried until it fits. With it what stands
-    for a cam.
+    A bar at which a group is closed is not idle: it is tried until it fits. Links that represent a
+    cam have their own sentences.
     """
     told = [
         points_of(step)

@@ -1,4 +1,4 @@
-"""The numbers of links: inside their plates, or beside their bars where these stand alone."""
+"""The numbers of links: inside their plates, or next to their bars."""
 
 from __future__ import annotations
 
@@ -23,19 +23,19 @@ from graphkin.numbers.plane import cross
 from graphkin.scene.model import FRAME, Link
 
 LONG = 14.0
-"""Length of a sliding link's own bar, in mm, from which its number stands there."""
+"""Length of a sliding link's own bar, in mm, from which its number is placed there."""
 EDGE = 0.8
-"""How far a number in a plate stays from its sides, in mm."""
+"""Distance of a plate's number from the plate's sides, in mm."""
 SHARES = (0.5, 0.4, 0.6, 0.3, 0.7, 0.2, 0.8)
-"""Where along a bar its number may stand, the likeliest first."""
+"""Positions of a number along a bar, in order of preference."""
 ENOUGH = 6.0
-"""How far the middle of a number is from other links, in mm, where more is no better."""
+"""Distance of a number's middle from other links, in mm, beyond which more does not count."""
 HALF = 4.0
-"""Half the part of a bar that its number belongs to, in mm, at most."""
+"""Half the part of a bar to which its number belongs, in mm, at most."""
 SHIFT = 8.0
-"""What it costs, in mm of room, to stand at the end of a bar and not at its middle."""
+"""Cost of a place at the end of a bar instead of its middle, in mm of clearance."""
 PARTS = 8
-"""Into how many parts the sides of a plate are divided to find where there is most room."""
+"""Number of parts into which the sides of a plate are divided in the search for room."""
 
 
 class Body(NamedTuple):
@@ -46,7 +46,7 @@ class Body(NamedTuple):
     box: Rect
 
     def near(self, start: complex, end: complex, far: float) -> bool:
-        """False where its box is farther than so much from the box of a line."""
+        """Whether its box is within a distance of the box of a line."""
         left, top, right, low = self.box
         return (
             min(start.real, end.real) - far <= right
@@ -56,11 +56,11 @@ class Body(NamedTuple):
         )
 
     def apart(self, place: complex) -> float:
-        """How far a place is from it; zero inside a plate."""
+        """The distance of a place from it; zero inside a plate."""
         return 0.0 if self.holds(place) else min(away_from(place, side) for side in self.sides)
 
     def holds(self, place: complex) -> bool:
-        """True for a place inside a plate."""
+        """Whether a place is inside a plate."""
         if not self.corners:
             return False
         turns = [cross(q - p, place - p) > 0 for p, q in self.sides]
@@ -68,7 +68,7 @@ class Body(NamedTuple):
 
 
 def draw_numbers(board: FieldContent, drawing: Drawing, field: Field) -> None:
-    """The number or name of each link in its balloon."""
+    """Draw the number or name of each link in its balloon."""
     bodies = {name: body_of(drawing, field, link) for name, link in drawing.scene.links.items()}
     for name, link in drawing.scene.bare.links.items():
         others = [body for other, body in bodies.items() if body and other != name]
@@ -89,7 +89,7 @@ def wish(
     body: Body | None,
     others: Sequence[Body],
 ) -> Label | None:
-    """Where a link's number is to stand: at its plate, its bar, its block or its wheel."""
+    """The preferred place of a link's number: at its plate, its bar, its block or its wheel."""
     aside = number_side(drawing, field, link.name)
     if body is not None and body.corners:
         (start, end), *_ = body.sides
@@ -107,7 +107,7 @@ def wish(
 def labelled(
     link: Link, subject: XY | tuple[XY, XY], away: XY | None = None, sign: str = ""
 ) -> Label:
-    """A link's number, or the sign of one of its wheels, that wants a place at a subject."""
+    """The label of a link, with its number or the sign of one of its wheels, at a subject."""
     said = escape(sign or link.name)
     return Label(said, "", subject, 2.5, link.name, away=away, priority=3, ring=True)
 
@@ -131,9 +131,9 @@ def around(places: Sequence[complex]) -> Rect:
 
 
 def label_inside(link: Link, body: Body, others: Sequence[Body]) -> Label | None:
-    """A number inside its plate, where it is farthest from the sides and from other links.
+    """A label inside its plate, where it is farthest from the sides and from other links.
 
-    None where there is no room for it.
+    None where there is no room.
     """
     wide = max(NUMBER, (extent(escape(link.name), 2.5)[0] + NUMBER) / 2)
     sides = [*body.sides, *(side for other in others for side in other.sides)]
@@ -156,7 +156,7 @@ def within(corners: Sequence[complex]) -> Iterator[complex]:
 
 
 def label_beside(link: Link, start: complex, end: complex, others: Sequence[Body]) -> Label:
-    """A number beside its bar, on the side and at the place where it is farthest from others."""
+    """A label next to its bar, on the side and at the place farthest from other links."""
     length = abs(end - start)
     way = (end - start) / length
     off = (NUMBER + GAP) * 1j * way
@@ -183,10 +183,10 @@ def guide_bar_of(board: FieldContent, link: Link) -> tuple[XY, XY] | None:
 
 
 def settle_in_plates(board: FieldContent) -> None:
-    """Set the numbers of plates at places inside them that are clear of all that is drawn.
+    """Place the numbers of plates inside them, clear of all marks.
 
-    Each stands there before other labels seek their places; where there is no such place, it seeks
-    one as they do.
+    They are placed before other labels. A number without such a place is left to be placed with the
+    others.
     """
     from shapely import MultiLineString, Point, Polygon, box, buffer, get_parts, union_all
     from shapely.ops import nearest_points
@@ -203,12 +203,12 @@ def settle_in_plates(board: FieldContent) -> None:
         body = Polygon(plates[label.name].points).buffer(-wide - EDGE)
         near = MultiLineString(lines).intersection(body.buffer(wide + EDGE))
         taken = [*get_parts(near), *(box(*rect) for rect in board.taken)]
-        free = body - union_all(buffer(taken, wide + EDGE))  # at once it takes twenty times as long
+        free = body - union_all(buffer(taken, wide + EDGE))  # one union: 20 times as fast
         if free.is_empty:
             waiting.append(label)
             continue
         assert isinstance(y, float)
         place = nearest_points(free, Point(x + wide + GAP, y))[0]
         board.marks += label.marks(Spot(place.x, place.y, None, True))
-        board.taken.append(place.buffer(wide).bounds)  # no leader cuts its ring
+        board.taken.append(place.buffer(wide).bounds)  # keeps leaders off its ring
     board.labels = waiting

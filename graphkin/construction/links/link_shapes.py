@@ -1,6 +1,6 @@
-"""The shape of each link in its own axes, from the lengths, angles and sides that the scene says.
+"""The shape of each link in its own axes, from the lengths, angles and sides in the scene.
 
-Nothing here is drawn: it gives the ratios by which a point of a plate follows from two others.
+Nothing is drawn here: the shapes give the ratios by which a plate's point follows from two others.
 """
 
 from __future__ import annotations
@@ -31,7 +31,10 @@ from graphkin.scene.model import (
 
 @action("step-along")
 def step_along(start: Point, first: Point, second: Point, length: Real, sense: int) -> Point:
-    """A point at a distance from ``start`` the way from ``first`` to ``second``, or back."""
+    """A point at a distance from ``start``, in the direction from ``first`` to ``second``.
+
+    ``sense`` is -1 for the opposite direction.
+    """
     way = second - first
     return start + way * (sense * length / abs(way))
 
@@ -51,12 +54,12 @@ def angled(vertex: Point, arm: Point, turn: Point, length: Real) -> Point:
 
 @action("beside")
 def brought_back(start: Point, point: Point, axis: Point, here: Point) -> Point:
-    """A point in its link's axes, from where it and another stand."""
+    """A point in its link's axes, from the positions of it and of another point."""
     return here + (point - start) * axis.conjugate()
 
 
 def local_place(pen: Pen, link: str, point: str) -> int:
-    """Position of a point in its link's axes; all of a link are written down with the first."""
+    """Position of a point in its link's axes; the first call places all points of the link."""
     if link not in pen.placed:
         placed = pen.placed[link] = {}
         with pen.on(Part.SHAPE, Plane.NUMBERS):
@@ -68,9 +71,10 @@ def local_place(pen: Pen, link: str, point: str) -> int:
 
 
 def place_found(pen: Pen, link: str, point: str) -> int:
-    """The local position of a point that a cam's law sets, from where it stands.
+    """The local position of a point placed by a cam's law, from its position in the plane.
 
-    In the bar of an equivalent linkage the axis leads from the centre to the roller's.
+    In the bar of an equivalent linkage, the axis runs from the centre of curvature to the roller's
+    centre.
     """
     if link in pen.scene.cam_links:
         points = pen.scene.link(link).points
@@ -88,7 +92,11 @@ def place_found(pen: Pen, link: str, point: str) -> int:
 
 
 def ratio_of(pen: Pen, base: Base, point: str) -> int:
-    """(C - A)/(B - A) of a point C of a link on its base; from places where that is not its own."""
+    """(C - A)/(B - A) for a point C of a link on its base AB.
+
+    If the end of the base is not the link's own point, the ratio is computed from positions in the
+    plane.
+    """
     assert base.end is not None
     key = ("ratio", base.link, base.start, base.end, point)
     if key not in pen.shared:
@@ -104,7 +112,7 @@ def ratio_of(pen: Pen, base: Base, point: str) -> int:
 
 
 def bar_length(pen: Pen, link: str, p: str, q: str) -> int:
-    """Length of a bar: as the scene gives it where it does, else from the shape."""
+    """Length of a bar: from the scene where it is given, else from the shape."""
     for placing in pen.scene.link(link).placings:
         for first, second, quantity in lengths_of(placing):
             if {first, second} == {p, q}:
@@ -138,11 +146,11 @@ def place(pen: Pen, placing: Placing, placed: dict[str, int], name: str = "") ->
             return pen.draw(angled, *corner, turn, pen.given("length", length), name=name)
 
 
-# --- the bodies of links: bars whose points lie in line, plates around the others -----------------
+# --- bodies of links: bars whose points lie in line, plates around the others ---------------------
 
 
 FLAT = 1e-6
-"""How far beside a bar, in parts of its length, a point still counts as on it."""
+"""Distance from a bar within which a point counts as on it, as a fraction of the bar's length."""
 
 
 def farthest(places: list[complex]) -> tuple[complex, complex]:
@@ -168,7 +176,7 @@ def corners_of(drawing: Drawing, link: Link) -> list[complex] | None:
 
 
 def is_all_wheel(drawing: Drawing, link: str) -> bool:
-    """True for a link whose points all lie on one of its wheels: it needs no bar or plate."""
+    """Whether all points of a link lie on one of its wheels, so that it needs no bar or plate."""
     places = places_of(drawing, link)
     return any(
         all(abs(place - disc.centre) <= disc.radius * (1 + 1e-6) for place in places)
@@ -178,8 +186,11 @@ def is_all_wheel(drawing: Drawing, link: str) -> bool:
 
 
 def hull(places: list[complex], flat: float = FLAT) -> list[complex]:
-    """The corners of the convex figure around places, in order around it, but for those nearly in
-    line with others (``flat``, in parts of its size); two where all lie in line."""
+    """The corners of the convex hull of places, in order around it.
+
+    Corners nearly in line with others are left out (``flat``, as a fraction of the size); two
+    corners remain where all places lie in line.
+    """
     ordered = sorted(places, key=lambda p: (p.real, p.imag))
     ordered = [p for i, p in enumerate(ordered) if not i or p != ordered[i - 1]]
     least = flat * max(abs(p - ordered[0]) for p in ordered) ** 2

@@ -32,7 +32,7 @@ from graphkin.scene.model import Link
 
 
 def draw_frame(board: FieldContent, drawing: Drawing, field: Field) -> None:
-    """What the task sheet shows of the mechanism: pivots, fixed wheels, lines of guides."""
+    """Draw the parts of the mechanism on the task sheet: pivots, fixed wheels, lines of guides."""
     for link in drawing.scene.links.values():
         draw_guide_line(board, drawing, field, link)
         draw_track_line(board, drawing, field, link)
@@ -46,7 +46,7 @@ def draw_frame(board: FieldContent, drawing: Drawing, field: Field) -> None:
 
 
 def draw_ground(board: FieldContent, drawing: Drawing, field: Field) -> None:
-    """The grounds of the fixed pivots, without their pins."""
+    """Draw the grounds of the fixed pivots, without their pins."""
     for name, (way, height) in grounds_of(drawing, field.mm).items():
         ground = [*pivot_ground(field(drawing.positions[name]), field.way(way), height)]
         board.marks += ground
@@ -55,7 +55,7 @@ def draw_ground(board: FieldContent, drawing: Drawing, field: Field) -> None:
 
 
 def letter(board: FieldContent, drawing: Drawing, field: Field, name: str) -> None:
-    """The letter of a point: of the frame's aside of its ground, of others away from their bars."""
+    """Label a point with its letter, clear of a fixed point's ground or away from its bars."""
     at = field(drawing.positions[name])
     if name in drawing.scene.fixed_points:
         ground = ground_ways(drawing, field.mm).get(name, -1j)
@@ -69,12 +69,11 @@ def letter(board: FieldContent, drawing: Drawing, field: Field, name: str) -> No
 
 
 def moving_points(drawing: Drawing) -> set[str]:
-    """The points that moving links own."""
     return {point for link in drawing.scene.links.values() for point in link.points}
 
 
 def sharers(drawing: Drawing, point: str) -> int:
-    """How many links own a point, the frame among them; not those of a hollow about it."""
+    """The number of links that share a point, with the frame, without hollows about the point."""
     scene = drawing.scene
     return sum(
         point in link.points and not link.is_hollow_about(point)
@@ -83,7 +82,7 @@ def sharers(drawing: Drawing, point: str) -> int:
 
 
 def draw_guide_line(board: FieldContent, drawing: Drawing, field: Field, block: Link) -> None:
-    """The line of a fixed guide across the field, chain-dotted."""
+    """Draw the line of a fixed guide across the field, chain-dotted."""
     for slide in block.slides:
         line = drawing.guide(slide)
         if line is not None:
@@ -91,7 +90,7 @@ def draw_guide_line(board: FieldContent, drawing: Drawing, field: Field, block: 
 
 
 def draw_links(board: FieldContent, drawing: Drawing, field: Field) -> None:
-    """The links with their plates, bars, guides, blocks, wheels, profiles and pins."""
+    """Draw the links with their plates, bars, guides, blocks, wheels, profiles and pins."""
     draw_plates(board, drawing, field)
     draw_slides(board, drawing, field)
     draw_shapes(board, drawing, field)
@@ -99,7 +98,7 @@ def draw_links(board: FieldContent, drawing: Drawing, field: Field) -> None:
 
 
 def draw_plates(board: FieldContent, drawing: Drawing, field: Field) -> None:
-    """Wheels and plates, below everything else; arms below the wheels between which they lie."""
+    """Draw wheels and plates, below everything else; an arm is below the wheels that it carries."""
     plates = [x for x in drawing.scene.links.values() if corners_of(drawing, x) is not None]
     arms = [link for link in plates if bears_wheels(drawing, link)]
     for link in arms:
@@ -111,19 +110,19 @@ def draw_plates(board: FieldContent, drawing: Drawing, field: Field) -> None:
 
 
 def bears_wheels(drawing: Drawing, link: Link) -> bool:
-    """Whether wheels of two other links or more have their centres on a link."""
+    """Whether a link carries the centres of wheels of at least two other links."""
     wheels = {disc.link for disc in drawing.standing.discs if disc.wheel.centre in link.points}
     return len(wheels - {link.name}) > 1
 
 
 def draw_bars(board: FieldContent, drawing: Drawing, field: Field) -> None:
-    """Guides with their blocks, and what lies above them."""
+    """Draw guides with their blocks, and the parts above them."""
     draw_guides(board, drawing, field)
     draw_upper(board, drawing, field)
 
 
 def draw_guides(board: FieldContent, drawing: Drawing, field: Field) -> None:
-    """Guides and the bars that blocks slide on, then the blocks, and the ground that bears some."""
+    """Draw guides and the bars on which blocks slide, then blocks and the grounds under them."""
     for link in drawing.scene.links.values():
         draw_guide_line(board, drawing, field, link)
     draw_slides(board, drawing, field)
@@ -134,7 +133,7 @@ def draw_guides(board: FieldContent, drawing: Drawing, field: Field) -> None:
 
 
 def draw_slides(board: FieldContent, drawing: Drawing, field: Field) -> None:
-    """Tracks, guides and the bars that blocks slide on, then the blocks."""
+    """Draw tracks, guides and the bars on which blocks slide, then the blocks."""
     draw_tracks(board, drawing, field)
     draw_frame_guides(board, drawing, field)
     draw_bodies(board, drawing, field, carriers=True)
@@ -143,13 +142,13 @@ def draw_slides(board: FieldContent, drawing: Drawing, field: Field) -> None:
 
 
 def draw_upper(board: FieldContent, drawing: Drawing, field: Field) -> None:
-    """What lies above blocks, and the links' numbers."""
+    """Draw the parts above blocks, and the links' numbers."""
     draw_shapes(board, drawing, field)
     draw_numbers(board, drawing, field)
 
 
 def draw_shapes(board: FieldContent, drawing: Drawing, field: Field) -> None:
-    """The other bars, the sides of plates, profiles, and turns of wheels."""
+    """Draw the other bars, the sides of plates, profiles, and the angles of wheels."""
     draw_bodies(board, drawing, field, carriers=False)
     draw_outlines(board, drawing, field)
     draw_edges(board, drawing, field)
@@ -158,7 +157,7 @@ def draw_shapes(board: FieldContent, drawing: Drawing, field: Field) -> None:
 
 
 def draw_bodies(board: FieldContent, drawing: Drawing, field: Field, *, carriers: bool) -> None:
-    """The bars on which blocks slide, or all others."""
+    """Draw the bars on which blocks slide, or all others."""
     owners = {rail.owner for rail in rails_of(drawing)}
     for link in drawing.scene.links.values():
         if corners_of(drawing, link) is None and (link.name in owners) is carriers:
@@ -166,7 +165,7 @@ def draw_bodies(board: FieldContent, drawing: Drawing, field: Field, *, carriers
 
 
 def draw_outlines(board: FieldContent, drawing: Drawing, field: Field) -> None:
-    """The sides of plates once more, above the construction's lines along them."""
+    """Draw the sides of plates once more, above the construction lines along them."""
     for link in drawing.scene.links.values():
         if corners := corners_of(drawing, link):
             on_page = tuple(field(place) for place in corners)
@@ -174,7 +173,7 @@ def draw_outlines(board: FieldContent, drawing: Drawing, field: Field) -> None:
 
 
 def draw_pins(board: FieldContent, drawing: Drawing, field: Field) -> None:
-    """The pins with their letters; a circle more for each further link that a pin joins."""
+    """Draw the pins with their letters, with one more circle for each further link at a pin."""
     fixed, pinned = set(drawing.scene.fixed_points), moving_points(drawing)
     for name, place in drawing.positions.items():
         at, count = field(place), sharers(drawing, name)
@@ -187,7 +186,7 @@ def draw_pins(board: FieldContent, drawing: Drawing, field: Field) -> None:
 
 
 def draw_unbroken(board: FieldContent, drawing: Drawing, field: Field, name: str) -> None:
-    """The bars that go on through a pin at which others end."""
+    """Draw the bars that continue through a pin at which others end."""
     if sharers(drawing, name) < 2:
         return
     here = drawing.positions[name]
@@ -204,7 +203,7 @@ def draw_unbroken(board: FieldContent, drawing: Drawing, field: Field, name: str
 
 
 def draw_body(board: FieldContent, drawing: Drawing, field: Field, link: Link) -> None:
-    """A bar between two points, or a plate through more; a wheel is its own body."""
+    """Draw a bar between two points, or a plate through more; a wheel needs no further body."""
     if is_all_wheel(drawing, link.name):
         return
     places = places_of(drawing, link.name)
@@ -223,7 +222,7 @@ def draw_body(board: FieldContent, drawing: Drawing, field: Field, link: Link) -
 
 
 def outward(drawing: Drawing, field: Field, name: str) -> XY | None:
-    """The way from the middle of a point's neighbours to the point, on the page."""
+    """The direction from the middle of a point's neighbours to the point, on the page."""
     here = drawing.positions[name]
     near = [
         drawing.positions[other]

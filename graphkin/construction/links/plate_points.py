@@ -1,4 +1,4 @@
-"""The other points of a link once its base stands: by two arcs, in line, or by its axis."""
+"""The other points of a link whose base is placed: by two arcs, in line, or by its axis."""
 
 from __future__ import annotations
 
@@ -35,11 +35,11 @@ from graphkin.scene.link_points import is_under, lettered
 from graphkin.scene.model import FRAME, OnLine
 
 UNTURNED = 0.05
-"""A wheel that has turned by less, in degrees, is drawn as at the start."""
+"""Rotation of a wheel, in degrees, below which it is drawn as at the start."""
 
 
 class PlacedPoint(Construction, frozen=True, kw_only=True):
-    """A ``point`` of a ``link``, laid off from its point ``start`` as the link has turned."""
+    """A ``point`` of a ``link``, laid off from its point ``start`` at the link's angle."""
 
     gives: ClassVar[tuple[str, ...]] = ("point",)
     reasons: ClassVar[Mapping[str, str]] = {"point": "why.placed"}
@@ -53,12 +53,12 @@ class PlacedPoint(Construction, frozen=True, kw_only=True):
     point: int
 
     def turned(self, drawing: Drawing) -> float | None:
-        """By how many degrees its wheel has turned the link; None where none turns it."""
+        """The degrees by which its wheel has turned the link; None where no wheel turns it."""
         kind = rolled_turn(drawing, self.link)
         return None if kind is None else kind.since(drawing)
 
     def point_sentence(self, drawing: Drawing, role: str) -> str:
-        """By its distance, and its direction in the plane."""
+        """The sentence for the point, by its distance and its direction in the plane."""
         words, spot = drawing.words, drawing.standing.spot
         fields = {
             "name": symbol(self.name),
@@ -91,7 +91,7 @@ class PlacedPoint(Construction, frozen=True, kw_only=True):
 
 
 def of_rolled_turns(drawing: Drawing) -> Iterator[Relation]:
-    """How far the wheels have turned since the start that sentences tell, and what that takes."""
+    """The relations for the wheel rotations that sentences give, and for those behind them."""
     told: dict[str, float] = {}
     for each in constructions(drawing.trace.program, PlacedPoint):
         kind = rolled_turn(drawing, each.link) if each.is_turned(drawing) else None
@@ -100,7 +100,7 @@ def of_rolled_turns(drawing: Drawing) -> Iterator[Relation]:
 
 
 def with_starts_together(drawing: Drawing, found: list[Sentence]) -> list[Sentence]:
-    """The points of each wheel that stands as at the start said in one sentence: as given."""
+    """The sentences, with one for all points of each wheel that has not turned from the start."""
     steps = drawing.trace.program.steps
     alike: dict[tuple[str, str], list[Sentence]] = {}
     for said in found:
@@ -117,7 +117,7 @@ def with_starts_together(drawing: Drawing, found: list[Sentence]) -> list[Senten
 
 
 def place_point(pen: Pen, link: str, start: str, name: str) -> int:
-    """A point of a link that stands at another, ``start``, and is turned to its axis."""
+    """Draw a point of a link, from its point ``start`` and its axis."""
     ends = local_place(pen, link, start), local_place(pen, link, name)
     with pen.on(Part.POSITION, Plane.MECHANISM):
         here = pen.the("position", start), pen.the("axis", link)
@@ -127,18 +127,18 @@ def place_point(pen: Pen, link: str, start: str, name: str) -> int:
 
 
 CLEAR_CROSSING = 0.342
-"""Sine of 20 degrees: below it a plate point is found by similarity, not by two flat lines."""
+"""Sine of 20 degrees; below it a plate point is found by similarity, not by two flat lines."""
 IN_LINE = 1e-9
-"""How far beside its line, in parts of its distance, a plate point still counts as on it."""
+"""Distance of a plate point from its line that counts as zero, relative to its distance."""
 
 
-# --- what they are -------------------------------------------------------------------------------
+# --- constructions -------------------------------------------------------------------------------
 
 
 class PlatePoint(Construction, frozen=True, kw_only=True):
     """A ``point`` of a link, called ``name``, on its base from ``start`` to ``end``.
 
-    Its value is that of the figure similar to the link; by hand it is the ``corner``.
+    Its value comes from the figure similar to the link; by hand, the point is the ``corner``.
     """
 
     gives: ClassVar[tuple[str, ...]] = ("corner", "point")
@@ -152,15 +152,15 @@ class PlatePoint(Construction, frozen=True, kw_only=True):
     corner: int | None = None
 
     def reason(self, drawing: Drawing, role: str) -> str:
-        """Where a hand finds it."""
+        """The reason, where the point is found by hand."""
         return "why.arcs" if role == "point" and self.corner is not None else ""
 
     def symbols(self) -> Mapping[str, str]:
-        """The base."""
+        """The symbols of the ends of the base."""
         return {"p": symbol(lettered(self.start)), "q": symbol(lettered(self.end))}
 
     def point_sentence(self, drawing: Drawing, role: str) -> str:
-        """By the hand's way; by similarity where there is none."""
+        """The sentence for the construction by hand, or for the similarity where there is none."""
         if self.corner in drawing.trace.values:
             return self.by_hand(drawing)
         name, third = symbol(self.name), symbol(self.name)
@@ -169,7 +169,7 @@ class PlatePoint(Construction, frozen=True, kw_only=True):
         return drawing.words("step.similar-point", name=name, **figures)
 
     def by_hand(self, drawing: Drawing) -> str:
-        """How a hand finds it."""
+        """The sentence for the construction by hand."""
         return ""
 
 
@@ -180,11 +180,11 @@ class PlatePointByArcs(PlatePoint, frozen=True, kw_only=True):
     far: int
 
     def said_before(self, drawing: Drawing, role: str) -> tuple[int, ...]:
-        """Both arcs."""
+        """Both arcs, which come before the point."""
         return (self.near, self.far) if self.corner in drawing.trace.values else ()
 
     def by_hand(self, drawing: Drawing) -> str:
-        """Where they meet, and on which side of the base."""
+        """The sentence for the crossing of the arcs, with its side of the base."""
         assert self.corner is not None
         side = side_words(drawing, self.corner, self.name, (self.start, self.end))
         return drawing.words("step.arcs-meet.say", name=symbol(self.name), side=side)
@@ -198,7 +198,7 @@ class PointInLine(PlatePoint, frozen=True, kw_only=True):
     length: int
 
     def by_hand(self, drawing: Drawing) -> str:
-        """By its distance; beyond one of the ends on the bar produced."""
+        """The sentence for the distance laid off, beyond an end on the bar produced."""
         p, q, name = map(symbol, self.points)
         laid = stated_bar(drawing, (self.start, self.name), self.length)
         fields = {"bar": bar(self.start, self.end), "laid": laid, "name": name}
@@ -223,28 +223,28 @@ class PointOnLever(Construction, frozen=True, kw_only=True):
     point: int
 
     def point_sentence(self, drawing: Drawing, role: str) -> str:
-        """By its distance."""
+        """The sentence for the point by its distance."""
         name = symbol(self.name)
         return drawing.words("step.mark-off-lever", p=symbol(self.start), q=name, name=name)
 
 
-# --- drawing them --------------------------------------------------------------------------------
+# --- drawing -------------------------------------------------------------------------------------
 
 
 def arc(pen: Pen, link: str, centre: str, point: str) -> int:
-    """The arc on which a point of a bar lies about its other end."""
+    """Draw the arc about the other end of a bar on which a point of the bar lies."""
     length = bar_length(pen, link, centre, point)
     return draw_arc(pen, (centre, point), pen.the("position", centre), length)
 
 
 def plate_points(pen: Pen, base: Base) -> None:
-    """The other points of a link: by hand two arcs, in value the figure similar to the link."""
+    """Draw the other points of a link: by hand two arcs, in value a similar figure."""
     for point in base.others:
         if pen.has("position", point):
             continue
         if point in pen.scene.cam_centres:
             if pen.scene.cams[pen.scene.cam_centres[point]].carrier != FRAME:
-                continue  # with the follower, whose carrier may stand later
+                continue  # comes with the follower, whose carrier may be placed later
             from graphkin.construction.cams.cam_centre import curvature_centre
 
             found = curvature_centre(pen, point)
@@ -256,9 +256,9 @@ def plate_points(pen: Pen, base: Base) -> None:
 
 
 def set_by_axis(pen: Pen, base: Base, name: str) -> int:
-    """A point of a link that is turned to its axis already; on its own guide it is laid off.
+    """Draw a point of a link that already has its axis; a point on its own guide is laid off.
 
-    Once a point stands on the guide that turned the link, the others follow from it and the pivot.
+    Once a point lies on the guide that turned the link, the others follow from it and the pivot.
     """
     line = pen.shared.get(("swing", base.link))
     on_guide, sense = guide_point(pen, base, line) if line is not None else (None, 1)
@@ -279,8 +279,11 @@ def set_by_axis(pen: Pen, base: Base, name: str) -> int:
 
 
 def guide_point(pen: Pen, base: Base, line: int) -> tuple[str | None, int]:
-    """The point of a link to which the guide that turned it is written from its pivot (sense 1),
-    or from which it is written to the pivot (-1)."""
+    """The other point in the definition of the guide that turned a link, and a sense.
+
+    The sense is 1 if the guide runs from the pivot to that point, and -1 if it runs to the pivot.
+    The point is None where no guide is defined through the pivot.
+    """
     from graphkin.construction.guides.swung_guide import SwungGuide
 
     guide = pen.steps[line].of
@@ -293,7 +296,7 @@ def guide_point(pen: Pen, base: Base, line: int) -> tuple[str | None, int]:
 
 
 def set_by_base(pen: Pen, base: Base, name: str) -> int:
-    """A point of a link on its base: by hand an arc about each end, on its line the distance."""
+    """Draw a point of a link on its base: by hand an arc about each end, or a distance in line."""
     base = own_line(pen, base, name)
     assert base.end is not None
     ends = pen.the("position", base.start), pen.the("position", base.end)
@@ -319,9 +322,9 @@ def set_by_base(pen: Pen, base: Base, name: str) -> int:
 
 
 def own_line(pen: Pen, base: Base, name: str) -> Base:
-    """The two points between or beyond which a point is written, once they stand; else the base.
+    """The two points that define a point's line, once they are placed; otherwise the base.
 
-    About the ends of the base two arcs may meet flat there, where the line needs none.
+    About the ends of the base, two arcs may meet flat where the line needs no arcs.
     """
     for placing in pen.scene.link(base.link).placings:
         if placing.point == name and isinstance(placing, OnLine):
@@ -341,7 +344,7 @@ def similar_on(pen: Pen, kind: PlatePoint, start: int, end: int, ratio: int) -> 
 
 
 def crosses_well(pen: Pen, ratio: int) -> bool:
-    """True when the two bars to a plate point cross at an angle that a hand can draw."""
+    """Whether the two bars to a plate point cross at an angle that can be drawn by hand."""
     value = pen.peek(ratio)
     if value in (None, 0, 1):
         return False

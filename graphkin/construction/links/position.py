@@ -1,4 +1,4 @@
-"""The mechanism to scale, by compass and ruler: cranks by their angle, dyads by two loci."""
+"""The mechanism to scale, with compass and ruler: cranks by their angle, dyads by two loci."""
 
 from __future__ import annotations
 
@@ -20,11 +20,11 @@ from graphkin.structure.pairs import Joint, Pin, Sliding
 from graphkin.text.errors import Problem, StructureError
 
 FITS = 1e-6
-"""Misfit of an idle link, in parts of its length, that printed lengths may leave."""
+"""Misfit of an idle link, as a fraction of its length, that printed lengths may cause."""
 
 
 def frame(pen: Pen) -> None:
-    """Mark the fixed points."""
+    """Draw the fixed points."""
     done: dict[str, int] = {}
     with pen.on(Part.POSITION, Plane.MECHANISM):
         for placing in pen.scene.frame.placings:
@@ -36,7 +36,7 @@ def frame(pen: Pen) -> None:
 
 
 def crank(pen: Pen, group: Crank) -> None:
-    """The tip of a driven bar: the line at the driver's angle, and the bar laid off on it."""
+    """Draw the tip of a driven bar: the line at the driver's angle, and the bar laid off on it."""
     driver, link = group.driver, group.link
     given, ends = pen.drive(driver).position, (group.pivot, crank_tip(pen.scene, group))
     with pen.on(Part.POSITION, Plane.MECHANISM):
@@ -53,12 +53,12 @@ def crank(pen: Pen, group: Crank) -> None:
 
 
 def axis_line(link: Link) -> tuple[str, ...]:
-    """The two points along the x axis of a link given by lengths; none when it has its own axes."""
+    """The two points on the x axis of a link given by lengths; none if it has its own axes."""
     return link.points[:2] if any(isinstance(each, Apart) for each in link.placings) else ()
 
 
 def driven(pen: Pen, group: Driven) -> None:
-    """A point of a driven slider, or the centre of a driven wheel, at its coordinate."""
+    """Draw a point of a driven slider, or the centre of a driven wheel, at its coordinate."""
     led = led_by(group.pair)
     led.set_at(pen, group.link, led.driven(pen, group.driver, "position"))
 
@@ -67,7 +67,7 @@ def driven(pen: Pen, group: Driven) -> None:
 
 
 def dyad(pen: Pen, group: Dyad) -> None:
-    """What two links and three pairs leave free: one crossing of two loci."""
+    """Draw a dyad: two links and three pairs, placed by a crossing of two loci."""
     if isinstance(group, OnTwoPins):
         from graphkin.construction.guides.swung_guide import guide_by_pins
 
@@ -94,7 +94,7 @@ def dyad(pen: Pen, group: Dyad) -> None:
 
 
 def dyad_on(pen: Pen, group: Dyad, near: int) -> None:
-    """The inner pin of a dyad whose first bar keeps it on an arc that is drawn already."""
+    """Draw the inner pin of a dyad whose first bar already has its arc."""
     if isinstance(group.right, Pin):
         with pen.on(Part.POSITION, Plane.MECHANISM):
             assert isinstance(group.inner, Pin)
@@ -105,7 +105,7 @@ def dyad_on(pen: Pen, group: Dyad, near: int) -> None:
 
 
 def two_arcs(pen: Pen, group: Dyad, near: int, far: int) -> None:
-    """The inner pin of a dyad RRR: where two arcs meet."""
+    """Draw the inner pin of a dyad RRR, where two arcs meet."""
     assert isinstance(group.left, Pin) and isinstance(group.right, Pin)
     assert isinstance(group.inner, Pin)
     pin, centres = group.inner.point, (group.left.place, group.right.place)
@@ -116,7 +116,7 @@ def two_arcs(pen: Pen, group: Dyad, near: int, far: int) -> None:
 
 
 def bar_and_guide(pen: Pen, group: Dyad, near: int) -> None:
-    """The inner pin of a dyad RRP: the arc of the bar cuts the line that the guide leads it on."""
+    """Draw the inner pin of a dyad RRP, where the bar's arc cuts the pin's guide line."""
     assert isinstance(group.left, Pin) and isinstance(group.inner, Pin)
     assert not isinstance(group.right, Pin)
     left, pin, link = group.left.place, group.inner.point, group.links[1]
@@ -130,7 +130,7 @@ def bar_and_guide(pen: Pen, group: Dyad, near: int) -> None:
 
 
 def two_guides(pen: Pen, point: str, pairs: tuple[Joint, Joint], links: tuple[str, str]) -> None:
-    """A point that two guides lead: where their lines cross."""
+    """Draw a point that two guides determine, where their lines cross."""
     sides = zip(pairs, links, strict=True)
     leading = [(led_by(pair), link) for pair, link in sides if not isinstance(pair, Pin)]
     paths = [led.path(pen, link, point) for led, link in leading]
@@ -142,7 +142,7 @@ def two_guides(pen: Pen, point: str, pairs: tuple[Joint, Joint], links: tuple[st
 
 
 def tie(pen: Pen, group: Tie) -> None:
-    """A link between two known points: only its turning is left to know, on a guide."""
+    """Place a link between two known points: only its angle on a guide is unknown."""
     if isinstance(group.first, Sliding):
         point = pen.bases[group.link].start
         two_guides(pen, point, (group.first, group.second), (group.link, group.link))
@@ -152,7 +152,7 @@ def tie(pen: Pen, group: Tie) -> None:
 
 
 def refuse_misfit(pen: Pen, group: Tie) -> None:
-    """Raise StructureError for an idle link that its neighbours leave no room for."""
+    """Raise StructureError for an idle link that does not fit between its neighbours."""
     if not isinstance(group.first, Pin) or not isinstance(group.second, Pin | Sliding):
         return
     link, p = group.link, group.first.point
@@ -184,7 +184,7 @@ def refuse_misfit(pen: Pen, group: Tie) -> None:
 
 
 def beside_guide(pen: Pen, pair: Sliding, link: str, point: str) -> str:
-    """How far an idle block's pin stands beside its guide; nothing where that is as printed."""
+    """The words for an idle block's pin that is off its guide; empty within printed accuracy."""
     from graphkin.construction.guides.swung_guide import breadth_about
 
     at = pen.the("position", point)

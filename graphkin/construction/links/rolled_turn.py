@@ -1,4 +1,4 @@
-"""How far wheels have turned since the start: by the way along a track, or by another wheel."""
+"""The rotation of wheels from the start, by the distance along a track or by another wheel."""
 
 from __future__ import annotations
 
@@ -18,13 +18,14 @@ from graphkin.scene.model import FRAME, Driver, Wheel
 from graphkin.scene.quantity import Quantity
 
 SAME = 1e-6
-"""Angles nearer than this, in degrees, are the same."""
+"""Angles closer than this, in degrees, are equal."""
 
 
 class RolledTurn(Construction, frozen=True, kw_only=True):
-    """The ``turn`` in radians of a ``link``, as its wheel has turned it from that at the ``start``.
+    """The ``turn``, in radians, of a ``link`` that its wheel has turned.
 
-    ``leads`` are, by their names, the steps of how far the links have turned that it follows from.
+    ``start`` is the step of the angle at the start. ``leads`` are the steps for the rotation of the
+    links that it depends on, by their names.
     """
 
     gives: ClassVar[tuple[str, ...]] = ("turn",)
@@ -35,18 +36,18 @@ class RolledTurn(Construction, frozen=True, kw_only=True):
     leads: Mapping[str, int]
 
     def since(self, drawing: Drawing) -> float:
-        """By how many degrees it has turned."""
+        """The rotation from the start, in degrees."""
         now, start = (float(drawing.trace.values[each]) for each in (self.turn, self.start))
         return degrees(now - start)
 
     def lead(self, drawing: Drawing, link: str) -> float:
-        """By how many degrees a link has turned that it follows from; nought of the frame."""
+        """The rotation, in degrees, of a link that it depends on; zero for the frame."""
         return degrees(float(drawing.trace.values[self.leads[link]]))
 
     def relations(self, drawing: Drawing, told: dict[str, float]) -> list[Relation]:
-        """Its relation after those that it takes, of links that are not ``told`` before.
+        """Its relation, after the relations for the links that it depends on.
 
-        Nothing where one of those was told from another start.
+        Links in ``told`` have had theirs already. Empty where one of those was from another start.
         """
         found: list[Relation] = []
         known = dict(told)
@@ -65,15 +66,15 @@ class RolledTurn(Construction, frozen=True, kw_only=True):
         return [*found, *self.own(drawing)]
 
     def own(self, drawing: Drawing) -> Iterator[Relation]:
-        """How it follows from them."""
+        """Its own relation."""
         raise NotImplementedError
 
 
 class TurnOnTrack(RolledTurn, frozen=True, kw_only=True):
-    """A wheel called ``sign`` that came a ``way`` along a straight track on link ``on``.
+    """A wheel called ``sign`` that has rolled a ``way`` along a straight track on link ``on``.
 
-    The ``radius`` is negative to the right of the track. The way is counted from the point
-    ``through`` to the place ``touching``; ``driver`` is the one that gives it, if one does.
+    The ``radius`` is negative to the right of the track. The way is measured from the point
+    ``through`` to the contact ``touching``. ``driver`` is the driver that gives the way, if any.
     """
 
     sign: str
@@ -85,7 +86,7 @@ class TurnOnTrack(RolledTurn, frozen=True, kw_only=True):
     driver: Driver | None
 
     def own(self, drawing: Drawing) -> Iterator[Relation]:
-        """The way, where it is measured, and what it is in degrees about the radius."""
+        """The distance rolled, where it is measured, and the rotation in degrees from it."""
         words = drawing.words
         way, radius = (float(drawing.trace.values[each]) for each in (self.way, self.radius))
         s, r = str(of_wheel("s", self.sign)), of_wheel("r", self.sign)
@@ -117,8 +118,9 @@ class TurnOnTrack(RolledTurn, frozen=True, kw_only=True):
 class TurnOnWheel(RolledTurn, frozen=True, kw_only=True):
     """A wheel that turns with another, both about points of an ``arm`` (Willis).
 
-    ``wheels`` are it and that of the ``other`` link, ``signs`` what they are called, ``radii`` the
-    steps of theirs: of unlike signs where both turn alike against the arm.
+    ``wheels`` are this wheel and the wheel of the ``other`` link, ``signs`` their names, and
+    ``radii`` the steps of their radii. The radii have opposite signs where both wheels turn in the
+    same sense relative to the arm.
     """
 
     arm: str
@@ -128,7 +130,7 @@ class TurnOnWheel(RolledTurn, frozen=True, kw_only=True):
     radii: tuple[int, int]
 
     def own(self, drawing: Drawing) -> Iterator[Relation]:
-        """Against the arm by the radii, or by the numbers of teeth."""
+        """The rotation relative to the arm, by the radii or by the numbers of teeth."""
         own, other = (float(drawing.trace.values[each]) for each in self.radii)
         alike, letter, sizes = own * other < 0, "r", (abs(other), abs(own))
         teeth = [float(each.teeth.si(drawing.scene.values)) for each in self.wheels if each.teeth]
@@ -155,12 +157,12 @@ class TurnOnWheel(RolledTurn, frozen=True, kw_only=True):
 
 
 def in_tenths(drawing: Drawing, degrees: float) -> str:
-    """An angle as sentences tell it, in tenths of a degree."""
+    """An angle as sentences print it, in tenths of a degree."""
     return drawing.words.fixed(degrees, 1)
 
 
 def read_turn(drawing: Drawing, link: str, angle: float) -> Relation:
-    """By how many degrees a link has turned that a driver turns, or as is measured."""
+    """The relation for a link's rotation in degrees, driven or measured."""
     driven = any(
         driver.kind == "turn" and (driver.link, driver.against) == (link, FRAME)
         for driver in drawing.scene.drivers
@@ -170,12 +172,12 @@ def read_turn(drawing: Drawing, link: str, angle: float) -> Relation:
 
 
 def turn_symbol(link: str) -> str:
-    """Symbol of the angle by which a link has turned since the start."""
+    """Symbol of the angle by which a link has turned from the start."""
     return f"Δ*φ*_{{{escape(link)}}}"
 
 
 def rolled_turn(drawing: Drawing, link: str) -> RolledTurn | None:
-    """How its wheel has turned a link; None for others, and where that is not known."""
+    """The rotation of a link by its wheel; None for other links, and where it is not known."""
     program = drawing.trace.program
     number = program.targets.get(("turned", link), -1)
     if number not in drawing.trace.values:
@@ -185,33 +187,34 @@ def rolled_turn(drawing: Drawing, link: str) -> RolledTurn | None:
 
 
 def willis(arm: str, track: str, ratio: str, *, alike: bool) -> str:
-    """By how much, or how fast, a wheel turns with another, in symbols or in figures.
+    """The rotation, or the rate, of a wheel that turns with another, in symbols or in figures.
 
-    Without an ``arm`` about fixed pivots. Both may turn ``alike`` against it.
+    With an empty ``arm``, both turn about fixed pivots. ``alike`` means in the same sense relative
+    to the arm.
     """
     if not arm:
         return f"{'' if alike else '−'}{bracketed(track)}·{ratio}"
     return f"{arm} {'+' if alike else '−'} ({bracketed(track)} − {bracketed(arm)})·{ratio}"
 
 
-# --- how far a link has turned whose pins leave whole turns open, though wheels depend on them ----
+# --- links whose whole turns their pins leave open, though wheels depend on them ------------------
 
 
 ROUND = 1e-9
-"""Radians by which rounding may put half a turn on its other side."""
+"""Angle, in radians, by which rounding may put half a turn on its other side."""
 
 
 @action("counted-near")
 def counted_near(axis: Point, heading: Point, angle: Real) -> Real:
-    """The angle in radians of an axis, within half a turn of that of a heading.
+    """The angle in radians of an axis, within half a turn of a heading's ``angle``.
 
-    An axis turned just half round from it, but for rounding, has turned ahead and not back.
+    An axis half a turn from the heading, up to rounding, has turned ahead and not back.
     """
     return angle + turned_ahead(axis * heading.conjugate())
 
 
 def turned_ahead(way: Point) -> Real:
-    """The angle of a direction: half a turn back, but for rounding, is half a turn ahead."""
+    """The angle of a direction; half a turn back, up to rounding, counts as half a turn ahead."""
     size = abs(way)
     quarter = phase(at(size * 0.0, size))
     since = phase(way)
@@ -233,5 +236,5 @@ class CountedTurn(Construction, frozen=True, kw_only=True):
 
 
 def counted_link(step: Step) -> str | None:
-    """The link whose whole turns a step says, its pins leaving them open; None for other steps."""
+    """The link whose whole turns a step counts near a given angle; None for other steps."""
     return step.of.link if isinstance(step.of, CountedTurn) else None

@@ -30,32 +30,32 @@ RIM = 2.4
 CONTACT = 0.6
 """Radius of the mark of a contact, in mm."""
 TOUCHED = "contact"
-"""The class of that mark."""
+"""The class of the mark of a contact."""
 SPARE = 60.0
-"""The farthest that a track is drawn on towards where it counts from, in mm."""
+"""The farthest that a track is extended towards the zero of its coordinate, in mm."""
 
 
 def draw_wheels(board: FieldContent, drawing: Drawing, field: Field) -> None:
-    """The wheels, the largest below."""
+    """Draw the wheels, the largest below."""
     for disc in drawing.standing.discs:
         board.marks += wheel(drawing, field, disc)
 
 
 def draw_tracks(board: FieldContent, drawing: Drawing, field: Field) -> None:
-    """The straight tracks that wheels roll on."""
+    """Draw the straight tracks on which wheels roll."""
     for _, marks in straight_tracks(drawing, field):
         board.marks += marks
 
 
 def straight_tracks(drawing: Drawing, field: Field) -> Iterator[tuple[Touch, list[Mark]]]:
-    """The marks of each straight track, with where its wheel touches it."""
+    """The marks of each straight track, with the contact of its wheel."""
     for touch in drawing.standing.touches:
         if touch.zero is not None:
             yield touch, list(within(track(drawing, field, touch), field.rect))
 
 
 def draw_track_line(board: FieldContent, drawing: Drawing, field: Field, link: Link) -> None:
-    """The line of a straight track of the frame across the field, chain-dotted."""
+    """Draw the line of a straight track of the frame across the field, chain-dotted."""
     standing = drawing.standing
     for rolling in link.rolls:
         zero = standing.carried(FRAME, rolling.through) if rolling.on == FRAME else None
@@ -65,7 +65,7 @@ def draw_track_line(board: FieldContent, drawing: Drawing, field: Field, link: L
 
 
 def draw_fixed_wheels(board: FieldContent, drawing: Drawing, field: Field) -> None:
-    """The wheels of the frame without their teeth, hatched, which the task sheet shows, too."""
+    """Draw the wheels of the frame, hatched and without teeth, as on the task sheet."""
     for disc in drawing.standing.discs:
         if disc.link == FRAME:
             centre, radius = field(disc.centre), disc.radius * field.mm
@@ -75,7 +75,7 @@ def draw_fixed_wheels(board: FieldContent, drawing: Drawing, field: Field) -> No
 
 
 def draw_touches(board: FieldContent, drawing: Drawing, field: Field) -> None:
-    """The spokes that show how far wheels have turned, and the marks of their contacts."""
+    """Draw the spokes that show the rotation of wheels, and the marks of their contacts."""
     for disc in drawing.standing.discs:
         board.marks += spokes(drawing, field, disc)
     for touch in drawing.standing.touches:
@@ -97,7 +97,7 @@ def is_parallel(touch: Touch, other: Disc) -> bool:
 
 
 def strands(field: Field, touch: Touch) -> Iterator[Mark]:
-    """The strands of a belt, common tangents of its wheels; open ones are produced to meet."""
+    """The strands of a belt, common tangents of its wheels; open ones are produced."""
     belt, other = touch.belt, touch.other
     if belt is None or other is None:
         return
@@ -115,7 +115,7 @@ def strands(field: Field, touch: Touch) -> Iterator[Mark]:
 
 
 def wheel(drawing: Drawing, field: Field, disc: Disc) -> Iterator[Mark]:
-    """One wheel: a disc, a ring, or a gear with its pitch circle."""
+    """The marks of one wheel: a disc, a ring, or a gear with its pitch circle."""
     centre, radius, name = field(disc.centre), disc.radius * field.mm, disc.link
     fixed, ring = disc.link == FRAME, disc.wheel.inside
     if disc.module:
@@ -141,7 +141,7 @@ def hatching(centre: XY, radius: float, *, outward: bool) -> Iterator[Mark]:
 
 
 def spokes(drawing: Drawing, field: Field, disc: Disc) -> Iterator[Mark]:
-    """A radius to each point on the wheel, or along its x axis: they show how far it has turned."""
+    """A radius to each point on the wheel, or along its x axis, to show the wheel's angle."""
     if disc.link == FRAME or disc.wheel.inside:
         return
     ends = [p for p in places_of(drawing, disc.link) if p != disc.centre]
@@ -154,7 +154,7 @@ def spokes(drawing: Drawing, field: Field, disc: Disc) -> Iterator[Mark]:
 
 
 def track(drawing: Drawing, field: Field, touch: Touch) -> Iterator[Mark]:
-    """A straight track: hatched if it is of the frame, a bar of its link if not; a rack's teeth."""
+    """The marks of a straight track: hatched on the frame, a bar on a link, or a rack."""
     low, high = track_ends(drawing, field, touch)
     on, side = touch.on, touch.side
     at, way = field(touch.at), field.way(touch.along)
@@ -192,7 +192,7 @@ def track_ends(drawing: Drawing, field: Field, touch: Touch) -> tuple[float, flo
 
 
 def seats(drawing: Drawing, field: Field, touch: Touch) -> list[float]:
-    """Where the blocks of a track's link stand on it, in mm from the contact."""
+    """The positions of the blocks of a track's link along the track, in mm from the contact."""
     return [
         dot(seat(drawing, way) - touch.at, touch.along) * field.mm
         for way in drawing.standing.guideways
@@ -203,7 +203,7 @@ def seats(drawing: Drawing, field: Field, touch: Touch) -> list[float]:
 def rack_ends(
     drawing: Drawing, field: Field, touch: Touch, low: float, high: float
 ) -> tuple[float, float]:
-    """The part of a track that has the body of a rack: clear of the guides of its link."""
+    """The part of a track with the body of a rack: clear of the guides of its link."""
     full = teeth_beside(touch) * pi * touch.disc.module * field.mm + BASE
     low, high = smaller(low, -full), larger(high, full)
     for place in seats(drawing, field, touch):
@@ -216,7 +216,7 @@ def rack_ends(
 def arm_to_track(
     drawing: Drawing, field: Field, touch: Touch, low: float, high: float
 ) -> Iterator[Mark]:
-    """The arm from a link's nearest point to its track, where the track misses all of them."""
+    """The arm from a link's nearest point to its track, where the track misses all points."""
     places = places_of(drawing, touch.on)
     if not places:
         return
@@ -239,7 +239,7 @@ def arm_to_track(
 
 
 def number_beside(drawing: Drawing, field: Field, link: Link) -> tuple[XY, XY] | None:
-    """The part of a link's first wheel at which its number stands."""
+    """The part of a link's first wheel at which its number is drawn."""
     for disc in drawing.standing.discs:
         if disc.sign == link.name:
             return part_of_rim(drawing, field, disc)
@@ -247,14 +247,14 @@ def number_beside(drawing: Drawing, field: Field, link: Link) -> tuple[XY, XY] |
 
 
 def part_of_rim(drawing: Drawing, field: Field, disc: Disc) -> tuple[XY, XY]:
-    """The part of a wheel's rim at which a number stands, away from what the wheel touches."""
+    """The part of a wheel's rim at which a number is drawn, away from the wheel's contacts."""
     away = free_side(drawing, disc)
     centre, radius = field(disc.centre), disc.outer * field.mm
     return polar(centre, radius, away - 0.2), polar(centre, radius, away + 0.2)
 
 
 def free_side(drawing: Drawing, disc: Disc) -> float:
-    """A direction (radians) from a wheel's centre that leads away from what it touches."""
+    """A direction (radians) from a wheel's centre, away from its contacts."""
     ways = [
         (touch.at - disc.centre) / abs(touch.at - disc.centre)
         for touch in drawing.standing.touches
@@ -273,11 +273,11 @@ def touching_points(drawing: Drawing, link: Link) -> list[str]:
 
 
 HALF = MARGIN
-"""How far a profile is drawn to each side of its contact, in mm: as far as there is room for."""
+"""Drawn length of a profile to each side of its contact, in mm, where there is room."""
 WIDEST = 60.0
-"""The same in degrees about its centre, at most."""
+"""Largest half-angle of a profile about its centre, in degrees."""
 ALL_ROUND = 180.0
-"""The same of a whole circle."""
+"""Half-angle of a whole circle, in degrees."""
 
 
 class Edge(NamedTuple):
@@ -290,18 +290,18 @@ class Edge(NamedTuple):
 
     @property
     def arm(self) -> complex:
-        """From its centre to the point on it."""
+        """The vector from its centre to the point on it."""
         return self.contact - self.centre
 
     def half(self, free: Real, values: Mapping[str, Any]) -> Real:
-        """Half its arc in degrees: as long as it is told to be, else ``free``, but not too wide."""
+        """Half the profile's arc in degrees: as given, or ``free`` up to a limit."""
         if self.profile.arc is None:
             return smaller(free, WIDEST)
         return degrees(float(self.profile.arc.si(values))) / 2
 
 
 def draw_edges(board: FieldContent, drawing: Drawing, field: Field) -> None:
-    """The profiles of all links. Raises PageError where one has no radius."""
+    """Draw the profiles of all links. Raises PageError where a profile has no radius."""
     for link in (drawing.scene.frame, *drawing.scene.links.values()):
         for edge in edges_of(link, drawing.positions):
             if abs(edge.arm) <= APART * drawing.standing.size:
@@ -325,7 +325,7 @@ def without_radius(edge: Edge) -> Problem:
 
 
 def edge_arc(drawing: Drawing, field: Field, edge: Edge) -> Arc | CircleMark:
-    """The arc of a profile about its contact, as long as it is told to be, or its whole circle."""
+    """The arc of a profile about its contact, with the given length, or its whole circle."""
     radius = abs(edge.arm) * field.mm
     middle = phase(edge.arm) * (180 / pi)
     half = edge.half(degrees(HALF) / radius, drawing.scene.values)

@@ -1,1 +1,1 @@
-"""Wheels, gears and racks: how they stand and move without slip."""
+"""Wheels, gears and racks: their positions, and their motion without slip."""

@@ -1,4 +1,4 @@
-"""Wheels that touch what they roll on: what is drawn for that, where, and where they put it."""
+"""Contacts of wheels with the tracks or wheels that they roll on: constructions and positions."""
 
 from __future__ import annotations
 
@@ -34,16 +34,17 @@ from graphkin.structure.groups import Geared, Spun, Train
 from graphkin.structure.pairs import Contact, contacts, meshes
 
 SAME = 1e-9
-"""Radii and angles nearer than this, in parts of themselves or in radians, are the same."""
+"""Radii and angles closer than this, relative or in radians, are equal."""
 
 P = ParamSpec("P")
 R = TypeVar("R")
 
 
 def by_contact(draw: Callable[Concatenate[Pen, P], R]) -> Callable[Concatenate[Pen, P], R]:
-    """All that a function draws is called for by the contact, or the group with one, it is given.
+    """Attribute all steps that a function draws to the contact among its arguments.
 
-    Steps inside that another effect calls for keep to that.
+    The contact may be in a group. Steps inside that are attributed to another effect keep that
+    effect.
     """
 
     @wraps(draw)
@@ -57,7 +58,7 @@ def by_contact(draw: Callable[Concatenate[Pen, P], R]) -> Callable[Concatenate[P
 
 
 def contact_among(args: tuple[Any, ...]) -> Contact:
-    """The contact among some arguments, or that of a group among them."""
+    """The contact among some arguments, or the contact of a group among them."""
     for arg in args:
         match arg:
             case Contact():
@@ -70,7 +71,7 @@ def contact_among(args: tuple[Any, ...]) -> Contact:
 
 
 class TouchingEffect(Struct, frozen=True):
-    """Why the steps that wheels call for are in or out: those in mesh, or those that only roll."""
+    """Why the steps for wheels in mesh, or for wheels that only roll, are in or left out."""
 
     effect: Effect
     in_mesh: bool
@@ -78,21 +79,21 @@ class TouchingEffect(Struct, frozen=True):
     lacks: str
 
     def touching(self, scene: Scene) -> list[str]:
-        """The wheels of a scene with what they touch: 3 on 0."""
+        """The wheels of a scene with what they touch, such as "3 on 0"."""
         found = (each for each in contacts(scene) if meshes(scene, each) is self.in_mesh)
         return [words_of(each) for each in found]
 
     def cause(self, scene: Scene) -> str:
-        """The wheels that bring it in."""
+        """The words for the wheels that call for the steps."""
         return f"{self.brings} {', '.join(self.touching(scene))}"
 
     def absence(self, scene: Scene) -> str:
-        """That there are none."""
+        """The words for their absence; empty where there are such wheels."""
         return "" if self.touching(scene) else self.lacks
 
 
 def words_of(contact: Contact) -> str:
-    """A wheel with what it touches, or runs with by a belt."""
+    """The words for a wheel and what it rolls on, or runs with by a belt."""
     wheel, on = contact.links
     other = "the frame" if on == FRAME else on
     return f"{wheel} with {other} by a belt" if contact.rolling.belt else f"{wheel} on {other}"
@@ -102,15 +103,14 @@ TOUCHING = (
     TouchingEffect("rolling", False, "without slip roll", "no wheel rolls along a track"),
     TouchingEffect("gears", True, "in mesh are", "no wheels are in mesh"),
 )
-"""The effects that only wheels have."""
 
 
-# --- the values of tracks, contacts, racks and rollers -------------------------------------------
+# --- values of tracks, contacts, racks and rollers -----------------------------------------------
 
 
 @action("radius-along")
 def radius_along(line: Line, radius: Real) -> Line:
-    """The line on which the centre of a wheel moves that rolls to the left of its track."""
+    """The path of the centre of a wheel that rolls to the left of its track."""
     return Line(line.point + 1j * line.along * (radius / abs(line.along)), line.along)
 
 
@@ -123,7 +123,7 @@ def contact_on_track(line: Line, centre: Point) -> Point:
 
 @action("contact-of-wheels")
 def contact_of_wheels(track_centre: Point, centre: Point, track: Real, wheel: Real) -> Point:
-    """The point of the line of centres where two wheels touch; a ring's radius is negative."""
+    """The contact of two wheels on their line of centres; a ring's radius is negative."""
     return track_centre + (centre - track_centre) * (track / (track + wheel))
 
 
@@ -131,7 +131,7 @@ def contact_of_wheels(track_centre: Point, centre: Point, track: Real, wheel: Re
 def rack_at(
     centre: Point, axis: Point, here: Point, there: Point, point: Point, radius: Real, way: Real
 ) -> Point:
-    """A point of a rack from the wheel that has rolled a way along its track (here to there)."""
+    """A point of a rack, from the wheel that has rolled a way along its track (here to there)."""
     line = there - here
     along = axis * (line / abs(line))
     return centre - along * at(way, radius) + axis * (point - here)
@@ -141,23 +141,24 @@ def rack_at(
 def between_tracks(
     own: Line, other: Line, lean: Real, radius: Real, other_radius: Real, way: int
 ) -> Real:
-    """Where between two parallel tracks a roller stands on the first, from how it turned.
+    """The coordinate of a roller between two parallel tracks, on the first, from its rotation.
 
-    On both tracks the way rolled gives the same turning; ``lean`` is how much farther the one has
-    the roller turned at its zero, way the sense of the second track against the first.
+    The distances rolled on both tracks give the same rotation. ``lean`` is the rotation at the zero
+    of the first track less that at the zero of the second. ``way`` is +1 for tracks of the same
+    sense and -1 for opposite ones.
     """
     unit = own.along / abs(own.along)
     shift = dot(unit, own.point - other.point)
     return -(lean * other_radius + way * shift) / (way - other_radius / radius)
 
 
-# --- what they are -------------------------------------------------------------------------------
+# --- constructions -------------------------------------------------------------------------------
 
 
 class Track(Construction, frozen=True, kw_only=True):
     """The ``line`` of a straight track, on which a ``wheel`` rolls as ``rolling`` says.
 
-    ``sign`` is what the wheel is called among those of its link.
+    ``sign`` is the wheel's name among the wheels of its link.
     """
 
     gives: ClassVar[tuple[str, ...]] = ("line",)
@@ -169,12 +170,12 @@ class Track(Construction, frozen=True, kw_only=True):
     line: int
 
     def line_name(self, steps: Sequence[Step], role: str) -> str:
-        """By the point that it is drawn through, or its wheel."""
+        """The track, by the point through which it is drawn, or by its wheel."""
         through = self.rolling.through
         return f"the line through {through}" if isinstance(through, str) else f"guide {self.wheel}"
 
     def clause(self, drawing: Drawing, role: str) -> str:
-        """That of the frame is there; that of a moving link is drawn through a point of it."""
+        """The clause for the track: on the frame, or through a point of a moving link."""
         if self.rolling.on == FRAME:
             return drawing.words("step.guide-named", guide=way_of(drawing, self.wheel))
         line = straight(drawing, self.rolling, on_paper=True)
@@ -184,9 +185,9 @@ class Track(Construction, frozen=True, kw_only=True):
 
 
 class CentrePath(Construction, frozen=True, kw_only=True):
-    """The ``line`` on which the ``centre`` of a ``wheel`` moves, beside its straight ``track``.
+    """The ``line`` of the ``centre`` of a ``wheel``, parallel to its straight ``track``.
 
-    ``sign`` is what the wheel is called among those of its link.
+    ``sign`` is the wheel's name among the wheels of its link.
     """
 
     gives: ClassVar[tuple[str, ...]] = ("line",)
@@ -201,18 +202,18 @@ class CentrePath(Construction, frozen=True, kw_only=True):
     line: int
 
     def path_name(self, drawing: Drawing) -> str:
-        """The path of the centre."""
+        """The words for the path of the centre."""
         return drawing.words("page.trajectory", of=symbol(self.centre))
 
     def clause(self, drawing: Drawing, role: str) -> str:
-        """Parallel to the track at the radius."""
+        """The clause for the parallel to the track at the radius."""
         return drawing.words("step.radius-along", k=escape(self.sign))
 
 
 class PointOfContact(Construction, frozen=True, kw_only=True):
     """The ``point``, called ``name``, in which a ``wheel`` touches what it rolls ``on``.
 
-    ``found_from`` are the steps of the values that give it.
+    ``found_from`` are the steps of the values that give the point.
     """
 
     gives: ClassVar[tuple[str, ...]] = ("point",)
@@ -226,7 +227,7 @@ class PointOfContact(Construction, frozen=True, kw_only=True):
     point: int
 
     def symbols(self) -> dict[str, str]:
-        """Its letter, that of the wheel's point, and both links."""
+        """The symbols of the contact, of the wheel's own point there, and of both links."""
         own = symbol(lettered(under(self.name, self.wheel)))
         both = {"k": escape(self.wheel), "g": escape(self.on)}
         return {"name": symbol(self.name), "t": own, **both}
@@ -235,36 +236,37 @@ class PointOfContact(Construction, frozen=True, kw_only=True):
 class ContactOnTrack(PointOfContact, frozen=True, kw_only=True):
     """The foot of the perpendicular from the wheel's centre to its straight track.
 
-    ``sign`` is what the wheel is called among those of its link.
+    ``sign`` is the wheel's name among the wheels of its link.
     """
 
     sign: str
 
     def said_before(self, drawing: Drawing, role: str) -> tuple[int, ...]:
-        """The track of a moving link, where no path of the centre tells of it."""
+        """The track of a moving link, unless the path of the wheel's centre includes it."""
         track, _ = self.found_from
         steps, users = drawing.trace.program.steps, drawing.children.get(track, ())
         told = any(isinstance(construction(steps[user]), CentrePath) for user in users)
         return () if told or self.on == FRAME else (track,)
 
     def point_sentence(self, drawing: Drawing, role: str) -> str:
-        """By the perpendicular."""
+        """The sentence for the foot of the perpendicular."""
         key = "contact-on-track" if self.on == FRAME else "contact-on-track-of"
         key = "contact-on-bar" if self.wheel == FRAME else key
         return drawing.words(f"step.{key}", **self.symbols() | {"k": escape(self.sign)})
 
 
 class ContactOfWheels(PointOfContact, frozen=True, kw_only=True):
-    """On the line of the centres, at the radius of one wheel from its centre.
+    """A contact on the line of centres, at the radius of one wheel from its centre.
 
-    ``signs`` are what the wheel and the other are called, the radius is that of ``about``.
+    ``signs`` are the names of the wheel and of the other one. The radius is that of the wheel
+    ``about``.
     """
 
     signs: tuple[str, str]
     about: tuple[str, Wheel]
 
     def point_sentence(self, drawing: Drawing, role: str) -> str:
-        """By the radius, of a gear from its module and number of teeth."""
+        """The sentence for the contact by a radius; a gear's follows from its module and teeth."""
         size = abs(float(drawing.trace.values[self.found_from[2]]))
         sign, wheel = self.about
         count = f" = *m*·{of_wheel('z', sign)}/2" if wheel.teeth else ""
@@ -278,9 +280,10 @@ class ContactOfWheels(PointOfContact, frozen=True, kw_only=True):
 
 
 class CentreOfBelt(PointOfContact, frozen=True, kw_only=True):
-    """Where common tangents of two wheels, which a ``belt`` is, meet the line of ``ends``.
+    """The crossing of the strands of a ``belt`` with the line of the wheels' centres, ``ends``.
 
-    There both wheels, as plates without bounds, have one velocity.
+    The strands are common tangents of the wheels. At the crossing, both wheels, extended as plates,
+    have the same velocity.
     """
 
     reasons: ClassVar[Mapping[str, str]] = {"point": "why.belt"}
@@ -289,7 +292,7 @@ class CentreOfBelt(PointOfContact, frozen=True, kw_only=True):
     ends: tuple[str, str]
 
     def point_sentence(self, drawing: Drawing, role: str) -> str:
-        """By the belt: by its strands themselves where it is crossed, else by them produced."""
+        """The sentence for the crossing of the strands, produced if the belt is open."""
         key = "centre-of-crossed-belt" if self.belt.crossed else "centre-of-open-belt"
         return drawing.words(f"step.{key}", bar=bar(*self.ends), **self.symbols())
 
@@ -297,7 +300,8 @@ class CentreOfBelt(PointOfContact, frozen=True, kw_only=True):
 class RackPoint(Construction, frozen=True, kw_only=True):
     """A ``point`` of a ``rack``, from the ``wheel`` that has rolled a ``way`` along it.
 
-    It is a rack by name where the wheel has teeth; a strand of a rope or a bar moves alike.
+    It is called a rack where the wheel has teeth; a strand of a rope or a bar moves in the same
+    way.
     """
 
     gives: ClassVar[tuple[str, ...]] = ("point",)
@@ -313,13 +317,13 @@ class RackPoint(Construction, frozen=True, kw_only=True):
         return any(wheel.teeth for wheel in drawing.scene.link(self.wheel).wheels)
 
     def reason(self, drawing: Drawing, role: str) -> str:
-        """It moves as far as the rim."""
+        """The reason: the rack moves as far as the rim."""
         if role != "point":
             return ""
         return "why.rack" if self.is_toothed(drawing) else "why.strand"
 
     def point_sentence(self, drawing: Drawing, role: str) -> str:
-        """By the arc that the wheel has turned through."""
+        """The sentence for the point by the arc through which the wheel has turned."""
         key = "step.rack-at" if self.is_toothed(drawing) else "step.strand-at"
         return drawing.words(
             "step.bar-at" if self.wheel == FRAME else key,
@@ -332,8 +336,8 @@ class RackPoint(Construction, frozen=True, kw_only=True):
 class RollerCentre(Construction, frozen=True, kw_only=True):
     """The ``centre`` of a roller between two tracks, on its ``path`` along the first of them.
 
-    ``where`` is its coordinate there, from how much farther the one track has the roller turned at
-    its zero, ``lean``, and the ``radii`` on both tracks.
+    ``where`` is its coordinate there. It follows from the difference ``lean`` of the roller's
+    angles at the zeros of the tracks, and from its ``radii`` on both tracks.
     """
 
     gives: ClassVar[tuple[str, ...]] = ("where", "centre")
@@ -347,12 +351,12 @@ class RollerCentre(Construction, frozen=True, kw_only=True):
     centre: int
 
     def is_halfway(self, drawing: Drawing) -> bool:
-        """Whether it has rolled as far on one of its tracks as on the other."""
+        """Whether the roller has rolled equally far on both tracks."""
         lean, one, two = (float(drawing.trace.values[n]) for n in (self.lean, *self.radii))
         return abs(lean) < SAME and abs(abs(one) - abs(two)) < SAME * abs(one)
 
     def point_sentence(self, drawing: Drawing, role: str) -> str:
-        """By its coordinate, or halfway."""
+        """The sentence for the centre by its coordinate, or halfway."""
         name = drawing.lettered(self.centre)
         if self.is_halfway(drawing):
             return drawing.words("step.set-halfway", name=name)
@@ -360,11 +364,11 @@ class RollerCentre(Construction, frozen=True, kw_only=True):
         return drawing.words("step.set-at", name=name, what=what)
 
 
-# --- their velocities ----------------------------------------------------------------------------
+# --- velocities ----------------------------------------------------------------------------------
 
 
 def of_contacts(drawing: Drawing) -> Iterator[Relation]:
-    """The velocities at contacts that the plan holds by another name, for nothing slips there."""
+    """The velocities at contacts that the plan holds under another name, as nothing slips there."""
     if drawing.kind != "velocity":
         return
     for contact, index, (tail, tip), key in at_contacts(drawing):
@@ -380,7 +384,7 @@ def of_contacts(drawing: Drawing) -> Iterator[Relation]:
 
 
 def at_contacts(drawing: Drawing) -> Iterator[tuple[str, str, tuple[int, int], str]]:
-    """The velocities at contacts that are used: contact, index, ends in the plan, what to say."""
+    """The velocities used at contacts: contact, index, ends in the plan, key of the words."""
     program, pole = drawing.trace.program, -1
     contacts = {each.point for each in constructions(program, PointOfContact)}
     for number, step, _ in drawing.steps(drawing.plane, Plane.NUMBERS):

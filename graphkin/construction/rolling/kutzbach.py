@@ -1,12 +1,13 @@
 """Kutzbach's plan of a gear train: its velocities over an axis, and its speeds from one pole.
 
-Beside the velocity plan an axis is drawn, on which the centres and pitch points of the wheels stand
-as far apart as on the mechanism; the lines on which they lie are folded on to it. Square to it the
-velocity of each is laid off. The tips of one link lie on one line, its ray, whose slope is its
-angular velocity: parallels to the rays through one pole cut the line of speeds in proportion.
+The axis is drawn next to the velocity plan. On the axis, the centres and pitch points of the wheels
+are as far apart as on the mechanism; lines through them are folded onto the axis. The velocity of
+each point is drawn perpendicular to the axis. The tips of one link lie on one line, its ray, whose
+slope is the angular velocity. Parallels to the rays through one pole cut the line of speeds in
+proportion to the angular velocities.
 
-Source: K. Kutzbach, Mehrgliedrige Radgetriebe und ihre Gesetze, Maschinenbau 6 (1927); as in
-G. Niemann and H. Winter, Maschinenelemente II, on epicyclic gears.
+Source: K. Kutzbach, Mehrgliedrige Radgetriebe und ihre Gesetze, Maschinenbau 6 (1927); as in G.
+Niemann and H. Winter, Maschinenelemente II, on epicyclic gears.
 """
 
 from __future__ import annotations
@@ -45,23 +46,23 @@ from graphkin.text.errors import Problem, StructureError
 from graphkin.text.markup import AND, NOTHING
 
 PLAN = "kutzbach"
-"""What a scene writes as [sheet] plan."""
+"""The value of [sheet] plan that asks for this plan."""
 BEGINNING = "turn.say.kutzbach"
-"""What a page says of it before a student draws it."""
+"""The key of the words on a page before a student draws the plan."""
 
 
-# --- the steps -----------------------------------------------------------------------------------
+# --- values --------------------------------------------------------------------------------------
 
 
 @action("ladder-axis")
 def axis_through(o: Point, p: Point, q: Point) -> Line:
-    """Through the pole the parallel to the line of centres."""
+    """The parallel to the line of centres through the pole."""
     return Line(o, q - p)
 
 
 @action("ladder-foot")
 def foot_beyond(before: Point, axis: Line, p: Point, q: Point, seconds: Real, side: int) -> Point:
-    """On the axis, as far from another foot as two points of the mechanism are apart."""
+    """A point on the axis, at the distance of two points of the mechanism from another foot."""
     return before + axis.along / abs(axis.along) * (side * abs(q - p) / seconds)
 
 
@@ -69,26 +70,29 @@ def foot_beyond(before: Point, axis: Line, p: Point, q: Point, seconds: Real, si
 def tip_over(
     foot: Point, axis: Line, p: Point, q: Point, o: Point, velocity: Point, side: int
 ) -> Point:
-    """Square to the axis the velocity of a point, which is square to its line from p to q."""
+    """The tip of a point's velocity, perpendicular to the axis over the point's foot.
+
+    The velocity itself is perpendicular to the line from ``p`` to ``q``.
+    """
     square = 1j * (q - p) / abs(q - p) * side
     return foot + 1j * axis.along / abs(axis.along) * dot(square, velocity - o)
 
 
 @action("ladder-ray")
 def ray_through(first: Point, last: Point, *others: Point) -> Line:
-    """The line through the tips of two points of a link, on which those of its others lie too."""
+    """The line through the tips of two points of a link, on which its other tips also lie."""
     return Line(first, last - first)
 
 
 @action("ladder-speeds")
 def line_of_speeds(start: Point, axis: Line) -> Line:
-    """Square to the axis the line on which speeds are cut off."""
+    """The line perpendicular to the axis on which speeds are cut off."""
     return Line(start, 1j * axis.along)
 
 
 @action("ladder-parallel")
 def parallel_to_ray(pole: Point, ray: Line) -> Line:
-    """Through the pole of speeds the parallel to a ray."""
+    """The parallel to a ray through the pole of speeds."""
     return Line(pole, ray.along)
 
 
@@ -96,18 +100,18 @@ def parallel_to_ray(pole: Point, ray: Line) -> Line:
 def speed_cut(
     start: Point, axis: Line, cut: Point, p: Point, q: Point, seconds: Real, pole: Point
 ) -> Real:
-    """The angular velocity that a cut tells: its distance from the axis over that of the pole."""
+    """The angular velocity at a cut: its distance from the axis over the pole's distance."""
     along = axis.along / abs(axis.along)
     return dot(1j * along, cut - start) / (dot(along, start - pole) * seconds)
 
 
 @action("ladder-kept")
 def kept(omega: Real) -> Real:
-    """The angular velocity of a link, as its ray tells it too."""
+    """The angular velocity of a link, unchanged; its ray gives the same value."""
     return omega
 
 
-# --- what they are -------------------------------------------------------------------------------
+# --- constructions -------------------------------------------------------------------------------
 
 
 class LadderAxis(Construction, frozen=True, kw_only=True):
@@ -125,22 +129,23 @@ class LadderAxis(Construction, frozen=True, kw_only=True):
     start: int
 
     def marks(self, canvas: Canvas, role: str) -> None:
-        """The axis as a chain line, with its first foot."""
+        """Draw the axis as a chain line, with its first foot."""
         if role == "axis":
             canvas.line(CHAIN_LINES, "")
         else:
             canvas.image()
 
     def point_sentence(self, drawing: Drawing, role: str) -> str:
-        """How the axis lies, and what stands on it."""
+        """The sentence for the direction of the axis and the points on it."""
         fields = {"bar": bar(self.p, self.q), "p": symbol(self.p), "name": symbol(self.name)}
         return drawing.words("step.ladder-axis", **fields)
 
 
 class LadderPoint(Construction, frozen=True, kw_only=True):
-    """The ``foot`` of a point on the axis, and the ``tip`` of its velocity square to that.
+    """The ``foot`` of a point on the axis, and over it the ``tip`` of the point's velocity.
 
-    ``before`` is the foot from which it is laid off; a fixed point is its own tip.
+    ``before`` is the foot from which it is laid off. A fixed point has no ``tip``: its foot is its
+    tip.
     """
 
     gives: ClassVar[tuple[str, ...]] = ("foot", "tip")
@@ -160,20 +165,20 @@ class LadderPoint(Construction, frozen=True, kw_only=True):
     tip: int | None
 
     def marks(self, canvas: Canvas, role: str) -> None:
-        """The point; over its foot the velocity."""
+        """Draw the point, and its velocity over its foot."""
         if role == "tip":
             canvas.leg("", "ordinate", canvas.value(self.foot), canvas.value(self.tip or 0))
         canvas.image()
 
     def drawn(self, drawing: Drawing, start: int, end: int) -> str:
-        """How long a way of the plan is drawn, by its letters."""
+        """The letters and the drawn length of a vector of the plan."""
         values = drawing.trace.values
         letters = drawing.lettered(start) + drawing.lettered(end)
         way = drawing.settled(abs(values[end] - values[start]))
         return f"{letters} = {plan_amount(drawing, Plane.VELOCITIES, way)}"
 
     def point_sentence(self, drawing: Drawing, role: str) -> str:
-        """How long the way to it is drawn, and the velocity over it."""
+        """The sentence for the drawn distance to the foot, or for the velocity over it."""
         if role == "foot":
             drawn = self.drawn(drawing, self.before, self.foot)
             return drawing.words("step.ladder-foot", p=symbol(self.point), drawn=drawn)
@@ -196,12 +201,12 @@ class LadderRay(JoinsPoints, frozen=True, kw_only=True):
     ray: int
 
     def marks(self, canvas: Canvas, role: str) -> None:
-        """The ray, with the link that it is of along it."""
+        """Draw the ray, labelled with its link."""
         canvas.leg("", "construction", canvas.value(self.first), canvas.value(self.last))
         canvas.locus("", escape(self.link))
 
     def sentence_alone(self, drawing: Drawing, role: str) -> str:
-        """Through which tips it goes."""
+        """The sentence for the tips through which the ray passes."""
         ends = (drawing.lettered(n) for n in (self.first, self.last))
         fields = dict(zip("ab", ends, strict=True))
         return drawing.words("step.ladder-ray", k=escape(self.link), **fields)
@@ -210,7 +215,7 @@ class LadderRay(JoinsPoints, frozen=True, kw_only=True):
 class SpeedPole(Construction, frozen=True, kw_only=True):
     """The ``pole`` of speeds on the axis, and the ``line`` of speeds through ``start``.
 
-    They stand as far apart as ``p`` and ``q``, the centre and the rim of a wheel.
+    Their distance is that of ``p`` and ``q``, the centre and the rim of a wheel.
     """
 
     gives: ClassVar[tuple[str, ...]] = ("pole", "start", "line")
@@ -231,14 +236,14 @@ class SpeedPole(Construction, frozen=True, kw_only=True):
     line: int
 
     def marks(self, canvas: Canvas, role: str) -> None:
-        """Both points, and the line."""
+        """Draw both points, and the line."""
         if role == "line":
             canvas.line()
         else:
             canvas.image()
 
     def point_sentence(self, drawing: Drawing, role: str) -> str:
-        """How far apart both stand; the pole is free."""
+        """The sentences for the pole, which is free, and for the distance of the line from it."""
         values = drawing.trace.values
         pole, start = (drawing.lettered(n) for n in (self.pole, self.start))
         if role == "pole":
@@ -248,7 +253,7 @@ class SpeedPole(Construction, frozen=True, kw_only=True):
         return drawing.words("step.ladder-speeds", pole=pole, name=start, drawn=drawn)
 
     def equations(self, drawing: Drawing, role: str) -> Iterator[Relation]:
-        """The scale of speeds: that of velocities over the length that the pole's distance is."""
+        """The scale of speeds: the scale of velocities over the length between pole and line."""
         if role == "line":
             scale, length = scale_of(drawing, Plane.VELOCITIES) / 1000, self.length(drawing)
             figures = f"{figure(drawing, scale)}/{figure(drawing, length)}"
@@ -265,7 +270,8 @@ class SpeedPole(Construction, frozen=True, kw_only=True):
 class SpeedRead(GivesRate, frozen=True, kw_only=True):
     """The speed of a ``link``: the ``cut`` of the ``parallel`` to its ray with the line of speeds.
 
-    ``rate`` is its angular velocity, ``read`` the same by the drawing; of a driven link neither.
+    ``rate`` is its angular velocity and ``read`` the same value from the drawing; a driven link has
+    neither.
     """
 
     gives: ClassVar[tuple[str, ...]] = ("parallel", "cut", "read", "rate")
@@ -280,19 +286,19 @@ class SpeedRead(GivesRate, frozen=True, kw_only=True):
     rate: int | None = None
 
     def marks(self, canvas: Canvas, role: str) -> None:
-        """The parallel from the pole to the point that it cuts off."""
+        """Draw the parallel from the pole to the point that it cuts off."""
         if role == "cut":
             pole = canvas.value(self.scale.pole)
             canvas.leg("", "construction", pole, canvas.value(self.cut))
             canvas.image()
 
     def point_sentence(self, drawing: Drawing, role: str) -> str:
-        """What the parallel cuts off."""
+        """The sentence for the point that the parallel cuts off."""
         pole, name = (drawing.lettered(number) for number in (self.scale.pole, self.cut))
         return drawing.words("step.ladder-speed", pole=pole, name=name, k=escape(self.link))
 
     def rate_relation(self, drawing: Drawing, link: str, tail: tuple[str, str, str]) -> Relation:
-        """The scale of speeds times what the parallel cuts off."""
+        """The relation: the scale of speeds times the length that the parallel cuts off."""
         values = drawing.trace.values
         start, cut = (drawing.lettered(number) for number in (self.scale.start, self.cut))
         scale = scale_of(drawing, Plane.VELOCITIES) / 1000 / self.scale.length(drawing)
@@ -301,15 +307,14 @@ class SpeedRead(GivesRate, frozen=True, kw_only=True):
         return Relation(symbol(f"ω_{link}"), f"*k*_n·{start}{cut}", figures, *tail)
 
 
-# --- saying it -----------------------------------------------------------------------------------
+# --- sentences -----------------------------------------------------------------------------------
 
 GROUPS = {"foot": LadderPoint, "tip": LadderPoint, "ray": LadderRay, "cut": SpeedRead}
-"""The roles whose steps are told in one sentence, and whose they are."""
+"""The roles whose steps share one sentence, and their constructions."""
 
 
 def with_ladder_together(drawing: Drawing, found: list[Sentence]) -> list[Sentence]:
-    """The points of the axis said in one sentence, and the velocities over it, the rays, what the
-    parallels cut off."""
+    """The sentences, with one each for all feet, all tips, all rays and all cuts."""
     steps = drawing.trace.program.steps
     for role, kind in GROUPS.items():
         own = [
@@ -325,7 +330,7 @@ def with_ladder_together(drawing: Drawing, found: list[Sentence]) -> list[Senten
 
 
 def short(drawing: Drawing, number: int) -> str:
-    """What is said of one of several steps of a kind, after what is said of all."""
+    """The words for one of several steps of a kind, after the words that they share."""
     steps = drawing.trace.program.steps
     kind, name = construction(steps[number]), drawing.lettered(number)
     match kind:
@@ -341,15 +346,15 @@ def short(drawing: Drawing, number: int) -> str:
     raise TypeError(f"{kind} is told alone")
 
 
-# --- kutzbach's plan drawn: which wheels it holds, and where they stand on its axis ---------------
+# --- drawing: the wheels in the plan, and their positions on its axis -----------------------------
 
 
 BESIDE = 0.2
-"""Room between the velocity plan and the axis, and between both plans, in parts of the axis."""
+"""Space from the velocity plan to the axis, and between the plans, as a fraction of the axis."""
 
 
 class OnAxis(NamedTuple):
-    """A point on the axis: its foot, its tip, and where it stands at the scene's own numbers."""
+    """A point on the axis: its foot, its tip, and its coordinate at the scene's own numbers."""
 
     foot: int
     tip: int
@@ -370,10 +375,10 @@ class Ladder:
         self.on: dict[str, list[OnAxis]] = {}
         self.axis, self.seconds = 0, 0
 
-    # --- finding its points ----------------------------------------------------------------------
+    # --- points ----------------------------------------------------------------------------------
 
     def refusal(self) -> str:
-        """Why a scene has no such plan; nothing where it has one."""
+        """The reason why a scene has no such plan; empty where it has one."""
         if any(each not in self.meshes for each in contacts(self.scene)):
             return "a belt, a rack or a rolling wheel belongs to it"
         if not self.meshes:
@@ -386,7 +391,7 @@ class Ladder:
         return ""
 
     def turner(self) -> Driver | None:
-        """The first driver that turns a link, not with the speed nought."""
+        """The first driver that turns a link at a speed other than zero."""
         for driver in self.scene.drivers:
             if driver.kind == "turn" and not driver.speed.is_zero():
                 return driver
@@ -398,7 +403,7 @@ class Ladder:
         return [centre for centre in found if centre not in self.scene.frame.points]
 
     def fixed(self) -> list[str]:
-        """The centres that stand still, and the pins of arms, in the order of the frame."""
+        """The fixed centres of wheels, and the fixed pins of arms, in the order of the frame."""
         every = (centre for each in self.meshes for centre in centres_of(each))
         arms = (arm[1] for centre in self.moving() if (arm := self.arm_of(centre)))
         found = {*every, *arms}
@@ -414,13 +419,13 @@ class Ladder:
         return None
 
     def spot(self, point: str) -> complex:
-        """Where a point stands at the scene's own numbers."""
+        """The position of a point at the scene's own numbers."""
         return complex(self.pen.peek(self.pen.the("position", point)))
 
-    # --- drawing it ------------------------------------------------------------------------------
+    # --- steps -----------------------------------------------------------------------------------
 
     def draw(self) -> None:
-        """The axis, its points, the rays, the pole of speeds and what the parallels cut off."""
+        """Draw the axis, its points, the rays, the pole of speeds and the cuts of the parallels."""
         pen, driver = self.pen, self.turner()
         assert driver is not None
         with pen.on(Part.SHAPE, Plane.NUMBERS):
@@ -438,7 +443,7 @@ class Ladder:
                 self.speed(link, ray, pole)
 
     def begin(self) -> None:
-        """The axis along the first line of centres, and the first fixed centre on it."""
+        """Draw the axis along the first line of centres, and the first fixed centre on it."""
         pen, first = self.pen, self.fixed()[0]
         every = dict.fromkeys(c for each in self.meshes for c in centres_of(each))
         other = next(centre for centre in (*every, *self.moving()) if centre != first)
@@ -454,7 +459,7 @@ class Ladder:
         self.centres[first] = OnAxis(start, start, 0.0)
 
     def place_fixed(self) -> None:
-        """The other fixed centres, each beyond one that its wheels touch, else beyond the first."""
+        """Draw the other fixed centres, each beyond a touching centre or beyond the first."""
         waiting = [centre for centre in self.fixed() if centre not in self.centres]
         while waiting:
             known, centre = next(self.reached(waiting), (next(iter(self.centres)), waiting[0]))
@@ -462,14 +467,14 @@ class Ladder:
             waiting.remove(centre)
 
     def reached(self, waiting: list[str]) -> Iterator[tuple[str, str]]:
-        """The centres on the axis with others whose wheels touch theirs."""
+        """The centres on the axis, with waiting centres whose wheels touch theirs."""
         for contact in self.meshes:
             for known, centre in (centres_of(contact), centres_of(contact)[::-1]):
                 if known in self.centres and centre in waiting:
                     yield known, centre
 
     def place_moving(self, centre: str) -> None:
-        """The centre of a planet, as far from the pin of its arm as the arm says."""
+        """Draw the centre of a planet, at the arm's length from the pin of its arm."""
         arm = self.arm_of(centre)
         assert arm is not None
         link, pin = arm
@@ -479,7 +484,7 @@ class Ladder:
             self.carry(wheel, self.centres[centre])
 
     def place_contact(self, contact: Contact) -> None:
-        """A pitch point on the line from a fixed centre; that of two planets is off the axis."""
+        """Draw a pitch point in line with a fixed centre; other pitch points are left out."""
         fixed = [c for c in centres_of(contact) if c in self.scene.frame.points]
         if not fixed:
             return
@@ -496,7 +501,7 @@ class Ladder:
                 self.carry(link, self.centres[own], self.centres[name])
 
     def put(self, point: str, before: str, line: tuple[str, str], side: int, moves: bool) -> None:
-        """A point on the axis, and over it its velocity."""
+        """Draw a point on the axis, and its velocity over it."""
         pen, start = self.pen, self.centres[before]
         ends = tuple(pen.the("position", end) for end in line)
         args = start.foot, self.axis, *ends, self.seconds
@@ -513,7 +518,7 @@ class Ladder:
         self.centres[point] = OnAxis(foot, foot if tip is None else tip, at)
 
     def velocity(self, point: str) -> int:
-        """The image of a point; of a pitch point that of either wheel."""
+        """The image of a point; for a pitch point, the image of either wheel's point."""
         if self.pen.has("velocity", point):
             return self.pen.the("velocity", point)
         links = next(c.links for c in self.meshes if contact_name(c) == point)
@@ -528,12 +533,12 @@ class Ladder:
         return [link.name for link in links if any(w.centre == centre for w in link.wheels)]
 
     def carry(self, link: str, *points: OnAxis) -> None:
-        """Points that a link carries, each once."""
+        """Add points to those that a link carries, each once."""
         own = self.on.setdefault(link, [])
         own += [point for point in points if point not in own]
 
     def ray(self, link: str) -> int:
-        """The ray of a link through the two of its tips that stand farthest apart."""
+        """Draw the ray of a link through the two of its tips that are farthest apart."""
         own = sorted(self.on[link], key=lambda each: each.at)
         if len(own) < 2 or own[-1].at - own[0].at == 0:
             raise StructureError(
@@ -544,8 +549,10 @@ class Ladder:
         return self.pen.make(LadderRay(link=link, first=ends[0], last=ends[1], ray=ray)).ray
 
     def speed_pole(self) -> SpeedPole:
-        """The pole of speeds beyond the ladder, and the line of speeds as far from it as the
-        smallest wheel's rim is from its centre."""
+        """Draw the pole of speeds beyond the last point, and the line of speeds.
+
+        Their distance is the radius of the smallest wheel.
+        """
         pen, contact = self.pen, min(self.meshes, key=self.smallest)
         far = max(self.centres.values(), key=lambda each: each.at)
         near = next(name for name, each in self.centres.items() if each.at == 0)
@@ -560,7 +567,7 @@ class Ladder:
         return pen.make(SpeedPole(p=p, q=str(q), pole=pole, start=start, line=line))
 
     def free_letter(self) -> str:
-        """The letter of the pole of speeds: one that no point of the scene has."""
+        """The letter of the pole of speeds, which no point of the scene has."""
         links = (self.scene.frame, *self.scene.links.values())
         taken = {point for link in links for point in link.points}
         return next(letter for letter in ("S", "H", "Z", "Sn") if letter not in taken)
@@ -574,7 +581,7 @@ class Ladder:
         return min(self.rim(centre, contact) for centre in centres_of(contact))
 
     def speed(self, link: str, ray: int, scale: SpeedPole) -> None:
-        """The point of a link on the line of speeds, and its angular velocity by it."""
+        """Draw the point of a link on the line of speeds, and its angular velocity from it."""
         pen = self.pen
         parallel = pen.draw(parallel_to_ray, scale.pole, ray)
         cut = pen.draw(meet, parallel, scale.line, name=f"n_{link}")
@@ -612,7 +619,10 @@ def problem(found: str) -> Problem:
 
 
 def draw_ladder(pen: Pen) -> None:
-    """Kutzbach's plan where a scene wants it. Raises StructureError where it cannot be drawn."""
+    """Draw Kutzbach's plan if the scene asks for it.
+
+    Raises StructureError where it cannot be drawn.
+    """
     if pen.scene.sheet.plan != PLAN:
         return
     ladder = Ladder(pen)

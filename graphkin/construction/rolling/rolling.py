@@ -1,4 +1,4 @@
-"""Wheels that roll without slip: where they touch, how they are turned, the contact's images."""
+"""Wheels that roll without slip: their contacts, their angles, and their positions."""
 
 from __future__ import annotations
 
@@ -65,37 +65,36 @@ def rolled_on_track(lead: Real, start: Real, coordinate: Real, radius: Real) -> 
 
 @action("way-rolled")
 def way_rolled(turn: Real, start: Real, radius: Real) -> Real:
-    """How far along its track a wheel has rolled when it has turned to an angle against it."""
+    """The distance rolled along a track, from the wheel's angle relative to the track."""
     return -(turn - start) * radius
 
 
 @action("less-axis")
 def less_axis(turn: Real, axis: Point) -> Real:
-    """An angle less that of a link that keeps its direction."""
+    """An angle less the angle of a link that keeps its direction."""
     return turn - turned_ahead(axis)
 
 
 @action("opposite")
 def opposite(number: Real) -> Real:
-    """A number with the other sign."""
     return -number
 
 
 @action("turned-to")
 def turned_to(before: Real, angle: Real, here: Point, there: Point) -> Real:
-    """The angle of a driven link, from that of one of its lines (here to there)."""
+    """The angle of a driven link, from the angle of one of its lines (here to there)."""
     return before + angle - phase(there - here)
 
 
 @action("turned-from")
 def turned_from(before: Real, angle: Real, here: Point, there: Point) -> Real:
-    """The angle of a link against which another is driven, from that of the other."""
+    """The angle of a link against which another is driven, from the angle of the other."""
     return before - angle + phase(there - here)
 
 
 @action("rolled-on-wheel")
 def rolled_on_wheel(turn_arm: Real, turn_track: Real, track: Real, wheel: Real) -> Real:
-    """How far a wheel has turned that rolls on another, both on one arm (Willis)."""
+    """The rotation of a wheel that rolls on another, both on one arm (Willis)."""
     return turn_arm - (turn_track - turn_arm) * (track / wheel)
 
 
@@ -112,11 +111,14 @@ def arm_between(
     wheel: Real,
     other_wheel: Real,
 ) -> Real:
-    """The angle of an arm whose planet rolls on two wheels that turned so far (Willis).
+    """The angle of an arm whose planet rolls on two wheels of known rotation (Willis).
 
-    Of both contacts: how far the track has turned, the arm's and the planet's angle at the start,
-    radii of the track and of the planet's wheel, a ring's negative. Equal ratios leave the arm
-    free: they raise ZeroDivisionError on a scalar.
+    For both contacts, the arguments are:
+    - the track's rotation;
+    - the angles of the arm and of the planet at the start;
+    - the radii of the track and of the planet's wheel, a ring's negative.
+
+    Equal ratios leave the arm free: they raise ZeroDivisionError on a scalar.
     """
     first, second = track / wheel, other_track / other_wheel
     near = planet - (turn + start) * first - start
@@ -128,11 +130,11 @@ def arm_between(
 def arm_rolled(
     turn: Real, start: Real, track_turn: Real, arm_start: Real, track: Real, wheel: Real
 ) -> Real:
-    """The angle of an arm whose wheel has turned so far on another (Willis).
+    """The angle of an arm whose wheel has turned by a known angle on another (Willis).
 
-    ``turn`` and ``start`` are the wheel's angles now and at the start, ``track_turn`` is how far
-    the other has turned since; radii of the other and of the wheel, a ring's negative. Equal ones
-    of a ring leave the arm free: they raise ZeroDivisionError on a scalar.
+    ``turn`` and ``start`` are the wheel's angles now and at the start; ``track_turn`` is the other
+    wheel's rotation since then. ``track`` and ``wheel`` are the radii; a ring's is negative. A ring
+    of equal radius leaves the arm free and raises ZeroDivisionError on a scalar.
     """
     return arm_start + (turn - start + track_turn * (track / wheel)) / (1 + track / wheel)
 
@@ -159,9 +161,9 @@ def track_of(pen: Pen, contact: Contact) -> int:
 
 @by_contact
 def radius_of(pen: Pen, contact: Contact, wheel: bool = True) -> int:
-    """The radius of a wheel, negative where it rolls to the right of a track or is a ring.
+    """The radius of a wheel, negative to the right of a track and for a ring.
 
-    So is that of the wheel from which an open belt comes.
+    The radius of the wheel from which an open belt comes is negative, too.
     """
     chosen = contact.wheel if wheel else contact.track
     assert chosen is not None
@@ -189,7 +191,7 @@ def path_of_centre(pen: Pen, contact: Contact) -> int:
 
 
 def start_turn(pen: Pen, contact: Contact, link: str) -> int:
-    """The angle in radians of a link's x axis in the position that the rolling counts from."""
+    """The angle in radians of a link's x axis in the position from which the rolling is counted."""
     angle = contact.rolling.start.get(link)
     with pen.on(Part.SHAPE, Plane.NUMBERS):
         return pen.given("nought") if angle is None else pen.given("number", angle)
@@ -197,7 +199,7 @@ def start_turn(pen: Pen, contact: Contact, link: str) -> int:
 
 @by_contact
 def driven_way(pen: Pen, driver: Driver, contact: Contact) -> int:
-    """How far a driver has rolled, or by turning has made roll, a wheel along a straight track."""
+    """The distance that a driver has made a wheel roll along a straight track."""
     if driver.kind == "roll":
         return pen.drive(driver).position
     with pen.on(Part.POSITION, Plane.NUMBERS):
@@ -207,7 +209,7 @@ def driven_way(pen: Pen, driver: Driver, contact: Contact) -> int:
 
 @by_contact
 def set_on_track(pen: Pen, contact: Contact, centre: str, way: int) -> None:
-    """A wheel that has rolled a way along a straight track: centre, contact, axis."""
+    """Place a wheel that has rolled a way along a straight track: centre, contact, axis."""
     path = path_of_centre(pen, contact)
     with pen.on(Part.POSITION, Plane.MECHANISM):
         found = set_point(pen, centre, contact.links, path, way)
@@ -217,7 +219,7 @@ def set_on_track(pen: Pen, contact: Contact, centre: str, way: int) -> None:
 
 @by_contact
 def touch(pen: Pen, contact: Contact) -> None:
-    """Where a wheel touches that stands, with what it rolls on."""
+    """Draw the contact of a placed wheel with what it rolls on."""
     if contact.track is not None:
         touch_wheels(pen, contact, contact.links[0])
     else:
@@ -226,7 +228,7 @@ def touch(pen: Pen, contact: Contact) -> None:
 
 @by_contact
 def touch_track(pen: Pen, contact: Contact) -> int:
-    """Where a wheel touches its straight track, as far along that."""
+    """Draw the contact of a wheel with its straight track, and return its coordinate there."""
     line, centre = track_of(pen, contact), pen.the("position", contact.wheel.centre)
     kind = partial(ContactOnTrack, sign=contact.sign_of(pen.scene, contact.links[0]))
     touching = mark_contact(pen, contact, kind, contact_on_track, line, centre)
@@ -236,7 +238,7 @@ def touch_track(pen: Pen, contact: Contact) -> int:
 
 @by_contact
 def slip(pen: Pen, contact: Contact) -> int:
-    """By how much a wheel has turned farther than it has rolled, as a length at its rim."""
+    """The angle of a wheel less its rolled angle, as a length at its rim."""
     own = contact.links[0]
     if contact.track is None:
         rolled = turned_along(pen, contact, touch_track(pen, contact))
@@ -248,7 +250,7 @@ def slip(pen: Pen, contact: Contact) -> int:
 
 @by_contact
 def touch_and_turn(pen: Pen, contact: Contact) -> None:
-    """A wheel whose centre stands: its contact with the straight track, and its axis."""
+    """Draw the contact of a wheel with a straight track, and set its axis; its centre is placed."""
     wheel, _ = contact.links
     way = touch_track(pen, contact)
     pen.want("rolled", wheel, way)
@@ -261,7 +263,7 @@ def touch_and_turn(pen: Pen, contact: Contact) -> None:
 
 
 def tell_on_track(pen: Pen, contact: Contact, turn: int) -> None:
-    """How a wheel came by its angle that touches its straight track so far along it."""
+    """Record how a wheel's angle follows from its coordinate along a straight track."""
     rolling, (wheel, on) = contact.rolling, contact.links
     assert rolling.through is not None
     lead, start, way, radius = pen.steps[turn].args
@@ -284,7 +286,7 @@ def tell_on_track(pen: Pen, contact: Contact, turn: int) -> None:
 
 @by_contact
 def turned_along(pen: Pen, contact: Contact, way: int) -> int:
-    """The angle of a wheel that touches its straight track so far along it."""
+    """The angle of a wheel, from its coordinate along its straight track."""
     wheel, on = contact.links
     with pen.on(Part.POSITION, Plane.NUMBERS):
         lead, start = angle_of(pen, on), start_turn(pen, contact, wheel)
@@ -294,7 +296,7 @@ def turned_along(pen: Pen, contact: Contact, way: int) -> int:
 def mark_contact(
     pen: Pen, contact: Contact, kind: Callable[..., PointOfContact], action: Action, *args: int
 ) -> int:
-    """The place of a contact, known under its name and as a point of either link."""
+    """Draw the point of a contact, under its name and as a point of either link."""
     name, (wheel, on) = contact_name(contact), contact.links
     if not pen.has("position", name):
         with pen.on(Part.POSITION, Plane.MECHANISM):
@@ -307,7 +309,7 @@ def mark_contact(
 
 @by_contact
 def geared(pen: Pen, group: Geared) -> None:
-    """A wheel on its pin, a rack on its guide, or a roller between two tracks: where it stands."""
+    """Place a wheel on its pin, a rack on its guide, or a roller between two tracks."""
     match group.pair:
         case Contact() as own:
             roller(pen, group, own)
@@ -321,7 +323,7 @@ def geared(pen: Pen, group: Geared) -> None:
 
 
 class ContactSide(Struct, frozen=True):
-    """A contact seen from one of its wheels: the other link, both wheels and both radii."""
+    """A contact from the side of one of its wheels: the other link, both wheels and both radii."""
 
     other: str
     own: Wheel
@@ -331,7 +333,7 @@ class ContactSide(Struct, frozen=True):
 
 
 def seen_from(pen: Pen, contact: Contact, link: str) -> ContactSide:
-    """A contact of two wheels as one of them sees it."""
+    """A contact of two wheels from the side of one of them."""
     assert contact.track is not None
     mine, its = radius_of(pen, contact), radius_of(pen, contact, wheel=False)
     if contact.links[0] == link:
@@ -340,7 +342,7 @@ def seen_from(pen: Pen, contact: Contact, link: str) -> ContactSide:
 
 
 def wheel_on_wheel(pen: Pen, group: Geared) -> None:
-    """A wheel on its pin: the contact on the line of centres, its turning by the radii."""
+    """Place a wheel on its pin: the contact on the line of centres, and its angle by the radii."""
     contact, link = group.contact, group.link
     assert contact.arm is not None
     if not contact.alike:
@@ -350,7 +352,7 @@ def wheel_on_wheel(pen: Pen, group: Geared) -> None:
 
 
 def touch_wheels(pen: Pen, contact: Contact, link: str) -> None:
-    """The contact of two wheels whose centres stand."""
+    """Draw the contact of two wheels whose centres are placed."""
     side = seen_from(pen, contact, link)
     centres = side.track.centre, side.own.centre
     ends = tuple(pen.the("position", centre) for centre in centres)
@@ -366,7 +368,7 @@ def touch_wheels(pen: Pen, contact: Contact, link: str) -> None:
 
 
 def roll_round(pen: Pen, contact: Contact, link: str) -> None:
-    """The axis of a wheel from its contact with another."""
+    """Set the axis of a wheel from its contact with another."""
     turn, arm, other = rolled_to(pen, contact, link), contact.arm, partner(contact, link)
     assert arm is not None
     settle_turn(pen, link, turn)
@@ -388,9 +390,9 @@ def roll_round(pen: Pen, contact: Contact, link: str) -> None:
 
 @by_contact
 def rolled_to(pen: Pen, contact: Contact, link: str, tried: Mapping[str, int] | None = None) -> int:
-    """The angle of a wheel from how far its arm and the wheel that it rolls on have turned.
+    """The angle of a wheel, from the rotation of its arm and of the wheel that it rolls on.
 
-    ``tried`` are the angles of links that do not stand.
+    ``tried`` holds the angles of links that are not placed.
     """
     side, arm = seen_from(pen, contact, link), contact.arm
     assert arm is not None
@@ -401,7 +403,7 @@ def rolled_to(pen: Pen, contact: Contact, link: str, tried: Mapping[str, int] | 
 
 
 def settle_turn(pen: Pen, link: str, turn: int) -> None:
-    """The angle of a link's x axis in radians, whole turns counted, and so its axis."""
+    """Set the angle of a link's x axis, in radians with whole turns, and thus its axis."""
     pen.counted.add(link)
     pen.want("turned", link, turn)
     pen.want("axis", link, pen.draw(axis_turned, turn))
@@ -409,7 +411,7 @@ def settle_turn(pen: Pen, link: str, turn: int) -> None:
 
 @by_contact
 def train(pen: Pen, group: Train) -> None:
-    """The arm of a planet between two wheels: how far they have turned says where it is."""
+    """Place the arm of a planet between two wheels, from the wheels' rotation."""
     sides = [seen_from(pen, contact, group.wheel) for contact in group.contacts]
     contact, centre = group.contacts[0], group.centre.point
     both = list(zip(group.contacts, sides, strict=True))
@@ -427,7 +429,7 @@ def train(pen: Pen, group: Train) -> None:
 
 
 def turned_by(pen: Pen, contact: Contact, link: str, tried: Mapping[str, int] | None = None) -> int:
-    """How far a link has turned since the start of a contact."""
+    """The rotation of a link from the start of a contact."""
     angle = tried[link] if tried and link in tried else angle_of(pen, link)
     if link == FRAME or link not in contact.rolling.start:
         return angle
@@ -438,8 +440,8 @@ def turned_by(pen: Pen, contact: Contact, link: str, tried: Mapping[str, int] | 
 def angle_of(pen: Pen, link: str) -> int:
     """The angle of a link's x axis in radians.
 
-    Whole turns are counted for driven links, for what contacts turn and for what slides along
-    either; for others it is that within half a turn of the angle that they count near.
+    Whole turns are counted for driven links, for links that contacts turn, and for links that slide
+    along either. For other links, the angle is within half a turn of the angle stated for them.
     """
     with pen.on(Part.POSITION, Plane.NUMBERS):
         if link == FRAME:
@@ -462,12 +464,12 @@ def angle_of(pen: Pen, link: str) -> int:
 
 
 def stands(pen: Pen, link: str) -> bool:
-    """Whether a link stands already: one against which a driver turns another may come later."""
+    """Whether a link is placed: a link against which a driver turns another may come later."""
     return link == FRAME or link in pen.bases
 
 
 def refuse_idle_turns(pen: Pen) -> None:
-    """Raise StructureError for stated turns of links that no wheel counts by their pins."""
+    """Raise StructureError for stated turns of links whose whole turns no wheel needs."""
     counted = {counted_link(step) for step in pen.steps}
     problems = []
     for link, rolling in stated_rolling(pen.scene).items():
@@ -485,7 +487,10 @@ def refuse_idle_turns(pen: Pen) -> None:
 
 
 def turned_with(pen: Pen, link: str) -> str | None:
-    """The next link towards a driven or a counted one along slides, with which a link turns."""
+    """The first link on the way along slides from a link to a driven or counted one.
+
+    All links on that way turn together.
+    """
     towards, waiting = {link: link}, [link]
     while waiting:
         here = waiting.pop(0)
@@ -506,7 +511,7 @@ def slid_on(link: Link) -> list[str]:
 
 
 def driven_from(pen: Pen, link: str) -> Driver | None:
-    """The driver that turns a link against one that stands before it, whichever it names first."""
+    """The driver that turns a link against one placed before it, in either order of naming."""
     order = [FRAME, *pen.bases]
     here = order.index(link) if link in order else len(order)
     before = set(order[:here])
@@ -516,7 +521,7 @@ def driven_from(pen: Pen, link: str) -> Driver | None:
 
 
 def driven_turn(pen: Pen, driver: Driver, link: str) -> int:
-    """The angle of the x axis of a link that a driver turns, whole turns counted."""
+    """The angle of the x axis of a link that a driver turns, with whole turns."""
     before = angle_of(pen, other_of(driver, link))
     angle = pen.driven_angle(driver)
     if driver.of:
@@ -527,7 +532,7 @@ def driven_turn(pen: Pen, driver: Driver, link: str) -> int:
 
 
 def roller(pen: Pen, group: Geared, own: Contact) -> None:
-    """A roller between two parallel tracks: where on the first it stands, then as any wheel."""
+    """Place a roller between two parallel tracks: by its coordinate, then as any wheel."""
     other = group.contact
     lines = [track_of(pen, each) for each in (own, other)]
     values = [pen.peek(line) for line in lines]
@@ -552,7 +557,7 @@ def roller(pen: Pen, group: Geared, own: Contact) -> None:
 
 
 def rack(pen: Pen, group: Geared, slide: Sliding) -> None:
-    """A rack on its guide: the wheel's turning says how far it has come along the track."""
+    """Place a rack on its guide: the wheel's angle gives its position along the track."""
     contact, link = group.contact, group.link
     point, wheel = pen.scene.link(link).points[0], contact.links[0]
     if wheel == link or contact.track is not None:

@@ -1,4 +1,4 @@
-"""The acceleration of a rolling point of contact against what it rolls on: along the radius."""
+"""The acceleration of a rolling contact point relative to what it rolls on: along the radius."""
 
 from __future__ import annotations
 
@@ -28,7 +28,7 @@ from graphkin.numbers.arithmetic import Point, Real
 
 @action("rolling-normal")
 def rolling_normal(centre: Point, contact: Point, omega: Real, omega_track: Real) -> Point:
-    """The acceleration of a wheel's point of contact against its straight track: to the centre."""
+    """The acceleration of a wheel's contact point relative to its straight track: to the centre."""
     relative = omega - omega_track
     return (centre - contact) * (relative * relative)
 
@@ -37,23 +37,23 @@ def rolling_normal(centre: Point, contact: Point, omega: Real, omega_track: Real
 def rolling_on_wheel(
     centre: Point, contact: Point, track: Point, omega: Real, omega_track: Real
 ) -> Point:
-    """The acceleration of a wheel's point of contact against that of the wheel it rolls on.
+    """The acceleration of a wheel's contact point relative to that of the wheel on which it rolls.
 
-    ``track`` is the centre of the latter. It is that on a straight track, made larger or smaller in
-    the ratio of the distances of that centre from the contact and from the wheel's own: the
-    diameter of the inflection circle takes the place of the radius (Euler, Savary).
+    ``track`` is the other wheel's centre. The acceleration is that on a straight track times a
+    ratio: that centre's distance from the contact over its distance from the wheel's own centre.
+    The diameter of the inflection circle takes the place of the radius (Euler, Savary).
     """
     relative = omega - omega_track
     return (centre - contact) * ((track - contact) / (track - centre)) * (relative * relative)
 
 
 class RollingNormal(Component, frozen=True, kw_only=True):
-    """a_ν = ω²·r of a point of contact against the one that it rolls on, laid off by number.
+    """a_ν = ω²·r of a rolling contact point relative to the touched one, laid off by number.
 
-    It leads along the radius from the point ``p`` to ``q``, whose places are ``foot`` and ``head``;
-    the link of the point turns by ``omega``, what it rolls on by ``omega_track``. From the image
-    ``start`` of the point that is touched it ends in the ``image`` of the one that rolls; that
-    is a bar's where it is ``on_bar``.
+    The vector runs along the radius from the point ``p`` to ``q``, at the positions ``foot`` and
+    ``head``. The point's link turns at ``omega``, the touched link at ``omega_track``. In the plan,
+    the vector runs from ``start``, the touched point's image, to ``image``, the rolling point's.
+    ``on_bar`` means that a bar rolls on a wheel.
     """
 
     gives: ClassVar[tuple[str, ...]] = ("vector", "image")
@@ -74,46 +74,46 @@ class RollingNormal(Component, frozen=True, kw_only=True):
     on_bar: bool = False
 
     def symbols(self) -> Mapping[str, str]:
-        """The ends of the radius."""
+        """The symbols of the ends of the radius."""
         return {"p": symbol(self.p), "q": symbol(self.q), "bar": bar(self.p, self.q)}
 
-    # --- saying it -------------------------------------------------------------------------------
+    # --- sentences -------------------------------------------------------------------------------
 
     def rate(self, drawing: Drawing) -> str:
-        """How fast it turns against what it rolls on."""
+        """The symbol of the link's rate relative to what it rolls on."""
         own, other = (rate_symbol(drawing, each) for each in (self.omega, self.omega_track))
         if not drawing.trace.values[self.omega]:
             return other
         return f"({own} − {other})" if drawing.trace.values[self.omega_track] else own
 
     def bars(self) -> tuple[tuple[str, str], ...]:
-        """The bars by whose lengths it is computed."""
+        """The bars whose lengths the acceleration is computed from."""
         return ((self.p, self.q),)
 
     def lengths(self, *lengths: str) -> str:
-        """What the square of its rate is multiplied by, of these bars."""
+        """The factor of the squared rate, from the lengths of these bars."""
         return "·".join(lengths)
 
     def formula(self, drawing: Drawing) -> str:
-        """The square of its rate, times the radius or what takes its place."""
+        """The squared rate, times the radius or the length that replaces it."""
         return f"{self.rate(drawing)}^2·{self.lengths(*(bar(*each) for each in self.bars()))}"
 
     def sentence(self, drawing: Drawing, *, first: bool) -> Wording:
-        """Nothing by itself: the image in which it ends tells of it."""
+        """Empty: the sentence for the image covers the component."""
         return Wording("", "")
 
     def point_sentence(self, drawing: Drawing, role: str) -> str:
-        """How it is laid off; why it is the whole acceleration, the first time."""
+        """How it is laid off; the first time, also why it is the whole acceleration."""
         first = next(self.alike(drawing))
         key = "step.lay-off-rolling-bar" if self.on_bar else "step.lay-off-rolling"
         return self.told(drawing, key if self is first else "step.lay-off-named")
 
     def alike(self, drawing: Drawing) -> Iterator[RollingNormal]:
-        """Those of its kind on a sheet, in order."""
+        """The components of its kind on a sheet, in order."""
         return (each for each in components_on(drawing) if type(each) is type(self))
 
     def told(self, drawing: Drawing, key: str, **fields: str) -> str:
-        """A sentence of how it is laid off."""
+        """A sentence for how it is laid off."""
         return drawing.words(
             key,
             s=drawing.lettered(self.start),
@@ -132,7 +132,7 @@ class RollingNormal(Component, frozen=True, kw_only=True):
         return "normals_turning"
 
     def relation(self, drawing: Drawing) -> Relation:
-        """Square of the relative turning times the radius, and its drawn length."""
+        """The squared relative rate times the radius, with the drawn length."""
         values, size = drawing.trace.values, drawing.settled(self.size(drawing))
         rate = abs(float(values[self.omega]) - float(values[self.omega_track]))
         lengths = self.lengths(*(figure(drawing, length_of(drawing, *bar)) for bar in self.bars()))
@@ -146,10 +146,13 @@ class RollingNormal(Component, frozen=True, kw_only=True):
             over=self.bars(),
         )
 
-    # --- marking it ------------------------------------------------------------------------------
+    # --- grading ---------------------------------------------------------------------------------
 
     def sizes(self, own: OwnSizes) -> Iterator[Size]:
-        """ω²·r of own values; none against a track that turns, for own rates have no sense."""
+        """ω²·r from the student's own values; none against a turning track.
+
+        The reason is that the student's own rates carry no sense.
+        """
         if any(track.size for track in own.turnings(self.omega_track)):
             return
         radius = own.length(self.foot, self.head)
@@ -157,14 +160,14 @@ class RollingNormal(Component, frozen=True, kw_only=True):
             yield Size((omega, omega), omega.size**2 * radius, radius)
 
     def power_of(self, args: tuple[int, ...]) -> int:
-        """It follows by itself: it is computed from the steps of the rates."""
+        """Zero: the component is computed from the steps of the rates."""
         return 0
 
 
 class RollingOnWheel(RollingNormal, frozen=True, kw_only=True):
-    """a_ν = ω²·r·R/(R ± r) of a point of contact against that of the wheel that it rolls on.
+    """a_ν = ω²·r·R/(R ± r) of a contact point relative to that of the wheel on which it rolls.
 
-    ``r`` names the centre of the other wheel, which stands at ``hub``.
+    ``r`` names the centre of the other wheel, whose position is ``hub``.
     """
 
     r: str
@@ -180,19 +183,19 @@ class RollingOnWheel(RollingNormal, frozen=True, kw_only=True):
         return f"{radius}·{far}/{apart}"
 
     def point_sentence(self, drawing: Drawing, role: str) -> str:
-        """How it is laid off; why it lies along the line of centres, the first time."""
+        """How it is laid off; the first time, also why it is along the line of centres."""
         first = self is next(self.alike(drawing))
         key = "step.lay-off-rolling-on" if first else "step.lay-off-named"
         return self.told(drawing, key, formula=self.formula(drawing))
 
     def sizes(self, own: OwnSizes) -> Iterator[Size]:
-        """That on a straight track, in the ratio of the distances of the other centre."""
+        """The sizes on a straight track, times the ratio of the distances of the other centre."""
         ratio = own.length(self.hub, self.foot) / own.length(self.hub, self.head)
         for size in super().sizes(own):
             yield Size(size.factors, size.size * ratio, size.bar)
 
 
-# --- planning it ---------------------------------------------------------------------------------
+# --- drawing -------------------------------------------------------------------------------------
 
 
 def rolled_image(
@@ -204,10 +207,10 @@ def rolled_image(
     *,
     on_bar: bool = False,
 ) -> int:
-    """The second image of a point that ``rolls``, from that of the point which it touches.
+    """Draw the second image of a point that ``rolls``, from the image of the point that it touches.
 
-    Its acceleration against it leads from the first of the ``ends`` to the second; a third is the
-    centre of the wheel that it rolls on. ``rates`` are the steps of the turning of its link and of
+    Its relative acceleration runs from the first of the ``ends`` to the second; a third is the
+    centre of the wheel on which it rolls. ``rates`` are the steps of the rates of its link and of
     what it rolls on.
     """
     foot, head, *hub = (pen.the("position", end) for end in ends)
@@ -236,10 +239,10 @@ def rolled_image(
 
 
 class CommonNormal(Construction, frozen=True, kw_only=True):
-    """The ``line`` through the image ``start`` of one point of contact, for that of the other.
+    """The ``line`` through one contact point's image ``start``, a locus of the other's image.
 
-    It is parallel to the radius from ``p`` to ``q``, for links that are ``belted`` to the line of
-    their centres.
+    The line is parallel to the radius from ``p`` to ``q``; for ``belted`` links, it is parallel to
+    their line of centres.
     """
 
     gives: ClassVar[tuple[str, ...]] = ("line",)
@@ -254,31 +257,31 @@ class CommonNormal(Construction, frozen=True, kw_only=True):
 
     @property
     def runs(self) -> Run:
-        """Along the radius."""
+        """The radius to which the line is parallel."""
         return Run(self.p + self.q)
 
     def symbols(self) -> Mapping[str, str]:
-        """The ends of the radius."""
+        """The symbols of the ends of the radius."""
         return {"p": symbol(self.p), "q": symbol(self.q), "bar": bar(self.p, self.q)}
 
     def clause(self, drawing: Drawing, role: str) -> str:
-        """The parallel to the radius."""
+        """The clause for the parallel to the radius."""
         start = drawing.lettered(self.start)
         key = "common-normal-belt" if self.belted else "common-normal"
         return drawing.words(f"step.{key}", s=start, **self.symbols())
 
     def marks(self, canvas: Canvas, role: str) -> None:
-        """The line, with the radius to which it is parallel."""
+        """Draw the line, labelled with the radius to which it is parallel."""
         canvas.locus(f"∥{self.p}{self.q}", f"∥ {bar(self.p, self.q)}")
 
     def equations(self, drawing: Drawing, role: str) -> Iterator[Relation]:
-        """Where wheels touch their accelerations differ along the common normal only."""
+        """The statement that accelerations at a contact differ along the common normal only."""
         key = "belted" if self.belted else "touching"
         yield Relation(drawing.words(f"calculation.{key}", bar=bar(self.p, self.q)))
 
 
 def common_normal(pen: Pen, start: int, ends: tuple[str, str], *, belted: bool = False) -> int:
-    """The parallel to the radius between two points, through an image."""
+    """Draw the parallel to the radius between two points, through an image."""
     line = pen.draw(along_bar, start, *(pen.the("position", end) for end in ends))
     p, q = map(letter, ends)
     pen.make(CommonNormal(p=p, q=q, belted=belted, start=start, line=line))

@@ -1,7 +1,7 @@
-"""A wheel, or a bar that rolls on a drum, whose own angle a driver gives: it leads what holds it.
+"""A wheel, or a bar that rolls on a drum, whose own angle a driver gives; it moves its holder.
 
-Where it touches a known link it moves with that. The holder, an arm or a block on a known pin, has
-turned as far as the rolling says.
+At the contact with a known link, both have the same velocity. The holder, an arm or a block on a
+known pin, has turned by the angle that the rolling gives.
 """
 
 from __future__ import annotations
@@ -28,7 +28,7 @@ from graphkin.structure.pairs import Pin
 
 
 def place(pen: Pen, group: Spun) -> None:
-    """The driven link at its angle, and its holder where that has brought it."""
+    """Place the driven link at its angle, and its holder accordingly."""
     turn = rolling.angle_of(pen, group.link)
     with pen.on(Part.POSITION, Plane.NUMBERS):
         if not pen.has("axis", group.link):
@@ -50,7 +50,7 @@ def place(pen: Pen, group: Spun) -> None:
 
 @by_contact
 def set_arm(pen: Pen, group: Spun, centre: str, turn: int) -> None:
-    """The arm turned about its pin, the wheel's centre, and where the wheel touches."""
+    """Place the arm, turned about its pin, the wheel's centre, and the contact."""
     contact, arm, pivot = group.contact, group.holder, group.pivot.point
     side = rolling.seen_from(pen, contact, group.link)
     ends = turn, rolling.start_turn(pen, contact, group.link)
@@ -64,7 +64,7 @@ def set_arm(pen: Pen, group: Spun, centre: str, turn: int) -> None:
 
 
 def as_rack(group: Spun) -> Geared:
-    """A bar that slides on its holder, seen as what its contact moves along that."""
+    """A bar that slides on its holder, as the rack that its contact moves along the holder."""
     return Geared(group.link, group.held, group.contact)
 
 
@@ -72,8 +72,10 @@ def as_rack(group: Spun) -> Geared:
 
 
 def move(images: GroupImages, pen: Pen, group: Spun) -> None:
-    """A plan: it turns at the given rate, and where it touches moves as the other's point does;
-    their accelerations differ along the normal alone."""
+    """Draw a plan: the link's rate is given, and its contact moves with the other's point.
+
+    The accelerations at the contact differ along the normal alone.
+    """
     images.turn_driven(pen, group)
     if isinstance(group.held, Pin):
         move_centre(pen, group, group.held.point, images.plan)
@@ -84,7 +86,7 @@ def move(images: GroupImages, pen: Pen, group: Spun) -> None:
 
 @by_contact
 def move_centre(pen: Pen, group: Spun, centre: str, plan: Plan) -> None:
-    """The image of a wheel's centre from that of its point of contact."""
+    """Draw the image of a wheel's centre from the image of its contact point."""
     contact, link = group.contact, group.link
     wheel_images.image_of_rim(plan, pen, contact, link, partner(contact, link))
     rim = under(contact_name(contact), link)
@@ -95,8 +97,11 @@ def move_centre(pen: Pen, group: Spun, centre: str, plan: Plan) -> None:
 
 
 def move_pinned(images: GroupImages, pen: Pen, group: Higher, each: Each) -> None:
-    """A plan: where wheels touch their tracks they have one velocity, and their accelerations
-    differ towards the centres only."""
+    """Draw a plan of wheels pinned at their contacts.
+
+    At a contact, both links have the same velocity, and their accelerations differ towards the
+    centres only.
+    """
     for wheel in group.wheels:
         wheel_images.image_of_rim(images.plan, pen, wheel.contact, wheel.own, wheel.known)
     for link in group.links:

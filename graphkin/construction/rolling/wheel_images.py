@@ -1,5 +1,4 @@
-"""The images of the points of wheels, and their rates: a wheel moves with its track where they
-touch."""
+"""The images of wheels' points, and their rates: a wheel moves with its track at the contact."""
 
 from __future__ import annotations
 
@@ -45,15 +44,15 @@ from graphkin.structure.pairs import Contact, Pin, Sliding
 
 @action("rate-by-radii")
 def rate_by_radii(rate: Real, track: Real, wheel: Real) -> Real:
-    """The rate of a wheel whose rim moves as that of another about a fixed pin, too."""
+    """The rate of a wheel that another drives at the rim, both about fixed pins."""
     return -rate * (track / wheel)
 
 
 class RateByRadii(GivesRate, frozen=True, kw_only=True):
-    """The ``rate`` of a wheel, the ``link``, from that of ``other`` which turns it.
+    """The ``rate`` of a wheel, the ``link``, from the rate of the ``other`` link, which turns it.
 
-    ``radii`` are the steps of the other's and of its own, negative for a ring or by an open belt,
-    ``signs`` what both wheels are called.
+    ``radii`` are the steps of the other's radius and of its own, negative for a ring or by an open
+    belt. ``signs`` are the names of both wheels.
     """
 
     gives: ClassVar[tuple[str, ...]] = ("rate",)
@@ -78,7 +77,7 @@ class RateByRadii(GivesRate, frozen=True, kw_only=True):
 
 @by_contact
 def turned_by_radii(pen: Pen, contact: Contact, link: str, turning: int) -> int:
-    """The rate of a wheel on a fixed pin; where the other's is nought whatever happens, that."""
+    """The rate of a wheel on a fixed pin; the other's rate itself where that is always zero."""
     if pen.is_nought(turning):
         return turning
     side = seen_from(pen, contact, link)
@@ -107,14 +106,14 @@ def given_speed(pen: Pen, driver: Driver, contact: Contact, which: str) -> int:
 
 @by_contact
 def touched(pen: Pen, contact: Contact, link: str, known: str) -> int:
-    """The image of one link's point of contact, from the other link."""
+    """The image of one link's contact point, from the other link."""
     name = contact_name(contact)
     return pen.want("velocity", under(name, link), image_under(pen, known, name, VELOCITY))
 
 
 @by_contact
 def geared(pen: Pen, group: Geared) -> None:
-    """A wheel or rack: the contact has the velocity of what it touches."""
+    """Draw a wheel or rack in the velocity plan; the touching points have one velocity."""
     link, contact = group.link, group.contact
     if contact.alike:
         return
@@ -153,7 +152,7 @@ def image_between(
     name: str = "",
     touching: tuple[str, ...] = (),
 ) -> int:
-    """The image of a wheel's centre, which divides the way of its two points of contact."""
+    """The image of a wheel's centre, which divides the line of its two contacts' images."""
     places = [pen.the("position", each) for each in (*rims, centre)]
     with pen.on(Part.SHAPE, Plane.NUMBERS):
         ratio = pen.draw(in_proportion, *places)
@@ -166,10 +165,10 @@ def image_between(
 
 @by_contact
 def second_touched(pen: Pen, contact: Contact, link: str, known: str) -> int:
-    """The second image of one link's point of contact, from its centre and the other link.
+    """The second image of one link's contact point, from the link's centre and the other link.
 
-    Rolling points move towards one another along the common normal only, so the parallel to it
-    through the other's image crosses the tangential line of the wheel.
+    The accelerations of two rolling points differ along the common normal only. So the parallel to
+    the normal through the other point's image crosses the tangential line of the wheel.
     """
     name = contact_name(contact)
     own = under(name, link)
@@ -185,7 +184,7 @@ def second_touched(pen: Pen, contact: Contact, link: str, known: str) -> int:
 
 @by_contact
 def train(pen: Pen, group: Train) -> None:
-    """A planet between two wheels: its centre divides the line of its contacts' images."""
+    """Draw a planet between two wheels: its centre divides the line of its contacts' images."""
     link, centre = group.wheel, group.centre.point
     names = [contact_name(contact) for contact in group.contacts]
     images = [touched(pen, each, link, partner(each, link)) for each in group.contacts]
@@ -195,10 +194,11 @@ def train(pen: Pen, group: Train) -> None:
 
 @by_contact
 def second_train(pen: Pen, group: Train) -> None:
-    """Second image of a planet's centre: normal about the arm's pin, and as the contacts move.
+    """Draw the second image of a planet's centre, from the arm's pin and from its contacts.
 
-    Along the arm the wheels push the planet as they like; across it the contacts' second images
-    say how its centre moves: as m, which divides their line as the centre divides the contacts'.
+    Along the arm, the contacts leave the centre's acceleration open. Across the arm, they give the
+    acceleration of m, which divides the line of their second images as the centre divides their own
+    line.
     """
     link, centre, pivot = group.wheel, group.centre.point, group.pivot.point
     names = [contact_name(contact) for contact in group.contacts]
@@ -219,7 +219,7 @@ def second_train(pen: Pen, group: Train) -> None:
 
 @by_contact
 def second_geared(pen: Pen, group: Geared) -> None:
-    """A wheel or rack in the acceleration plan, from the contact that settles it."""
+    """Draw a wheel or rack in the acceleration plan, from the contact that determines it."""
     link, contact = group.link, group.contact
     if contact.alike:
         return
@@ -236,9 +236,10 @@ def second_geared(pen: Pen, group: Geared) -> None:
 
 @by_contact
 def second_about_fixed_pin(pen: Pen, contact: Contact, link: str, known: str) -> None:
-    """Second images of the points of a wheel on a fixed pin, turned by a wheel on another.
+    """Draw second images of the points of a wheel on a fixed pin, turned by a wheel on another.
 
-    Its rates are the other's by the radii, so that a point is drawn without that where they touch.
+    Its rates follow from the other's by the radii, so its points are drawn without the contact's
+    image.
     """
     omega_of(pen, link)
     pen.want(EPSILON, link, turned_by_radii(pen, contact, link, omega_of(pen, known, EPSILON)))
@@ -252,7 +253,7 @@ def second_about_fixed_pin(pen: Pen, contact: Contact, link: str, known: str) ->
 
 
 def second_rack(pen: Pen, group: Geared, slide: Sliding) -> None:
-    """Second image of a rack's point: on the line of its guide, and square to it from the wheel."""
+    """Draw the second image of a rack's point: by its guide, and by the wheel across it."""
     link, contact = group.link, group.contact
     if pen.turns(link):
         turning_rack(pen, group)
@@ -270,9 +271,10 @@ def second_rack(pen: Pen, group: Geared, slide: Sliding) -> None:
 
 
 def turning_rack(pen: Pen, group: Geared) -> None:
-    """Second image of the point of a rack that turns with its guide: from its point of contact.
+    """Draw the second image of a point of a turning rack, from its contact point's image.
 
-    That moves against the wheel's straight away from the wheel's centre, as the wheel's to it.
+    The contact point's acceleration relative to the wheel's point is directed away from the wheel's
+    centre.
     """
     link, contact = group.link, group.contact
     second_image_of_rim(pen, contact, link, contact.links[0])
@@ -283,16 +285,19 @@ def turning_rack(pen: Pen, group: Geared) -> None:
 def turn_from_rim(
     pen: Pen, link: str, rim: str, point: str, plan: Plan, along: str | None = None
 ) -> None:
-    """The image of a point of a link whose rates are known, from that of its point of contact or
-    of its pin; ``along`` is the point from whose image a velocity leads too.
+    """Draw the image of a link's point, from the image of its contact point or pin.
 
-    There is no tangential component where a driver turns the link steadily.
+    The link's rates are known. ``along`` is the point from whose image a velocity arrow is drawn,
+    too. A link that a driver turns steadily has no tangential component.
     """
     plan.turn(pen, link, rim, point, steady=plan.is_steady(pen, link), along=along)
 
 
 def second_roller(pen: Pen, group: Geared, own: Contact) -> None:
-    """A roller between tracks: its points of contact move against them to its centre only."""
+    """Draw a roller between tracks; its contact points accelerate towards its centre only.
+
+    These accelerations are relative to the tracks.
+    """
     link, centre, contacts = group.link, own.wheel.centre, (own, group.contact)
     known = [partner(each, link) for each in contacts]
     first, second = (
@@ -314,7 +319,7 @@ def second_roller(pen: Pen, group: Geared, own: Contact) -> None:
 def turning_of_contacts(
     pen: Pen, link: str, rims: Sequence[str], images: tuple[int, int], plan: Plan
 ) -> None:
-    """The rate of a roller from the images of both its points of contact."""
+    """Set the rate of a roller from the images of both its contact points."""
     ends = pen.the("position", rims[0]), pen.the("position", rims[1])
     letters, index = (letter(rims[0]), letter(rims[1])), plan.index(pen, rims[1], rims[0])
     with pen.on(Part.RESULT, Plane.NUMBERS):
@@ -323,17 +328,18 @@ def turning_of_contacts(
 
 
 def image_of_rim(plan: Plan, pen: Pen, contact: Contact, own: str, known: str) -> int:
-    """The image of one link's point of contact in a plan, from that of the other's."""
+    """The image of one link's contact point in a plan, from the image of the other link's."""
     draw = touched if plan is VELOCITY else second_image_of_rim
     return draw(pen, contact, own, known)
 
 
 @by_contact
 def second_image_of_rim(pen: Pen, contact: Contact, own: str, known: str) -> int:
-    """The second image of a point of contact, from that of the point which it touches.
+    """The second image of a contact point, from the image of the point that it touches.
 
-    A wheel's moves towards its centre, on a straight track with the square of its turning times its
-    radius; a bar's away from the centre of the wheel on which the bar rolls.
+    A wheel's contact point accelerates towards the wheel's centre, on a straight track by the
+    square of its rate times its radius. A bar's accelerates away from the centre of the wheel on
+    which it rolls.
     """
     name = contact_name(contact)
     start = image_under(pen, known, name, ACCELERATION)
@@ -348,50 +354,49 @@ def second_image_of_rim(pen: Pen, contact: Contact, own: str, known: str) -> int
 
 
 class LedWheel(Struct, frozen=True):
-    """A wheel and what it touches: the straight track of a known link, or one that stands."""
+    """A wheel and what it touches: the straight track of a known link, or a placed wheel."""
 
     pair: Contact
 
     def line(self, pen: Pen) -> int:
-        """The line of the track."""
         return rolling.track_of(pen, self.pair)
 
     def path(self, pen: Pen, link: str, point: str) -> int:
-        """The line on which its centre is led."""
+        """The line on which its centre moves."""
         return rolling.path_of_centre(pen, self.pair)
 
     def direction(self, pen: Pen) -> int:
-        """A line along which its centre moves against the track."""
+        """A line along which its centre moves relative to the track."""
         return rolling.path_of_centre(pen, self.pair)
 
     def driven(self, pen: Pen, driver: Driver, which: str) -> int:
-        """What a driver gives its centre along the track: position, speed or acceleration."""
+        """The driver's position, speed or acceleration of the centre along the track."""
         if which == "position":
             return rolling.driven_way(pen, driver, self.pair)
         return given_speed(pen, driver, self.pair, which)
 
     def set_at(self, pen: Pen, link: str, where: int) -> None:
-        """The wheel where it has rolled a way along the track."""
+        """Place the wheel where it has rolled a way along the track."""
         centre = self.pair.led_point(pen.scene, link)
         rolling.set_on_track(pen, self.pair, centre, where)
 
     def finish(self, pen: Pen) -> None:
-        """Its point of contact and its turning, once its centre stands."""
+        """Draw its contact and set its angle, once its centre is placed."""
         rolling.touch_and_turn(pen, self.pair)
 
     def stand(self, pen: Pen) -> None:
-        """Where it touches what stands, whether it slips or not."""
+        """Draw its contact with a placed link, whether it slips or not."""
         rolling.touch(pen, self.pair)
 
     def slip(self, pen: Pen) -> int:
-        """By how much it has turned farther than it has rolled, as a length at its rim."""
+        """The wheel's angle less its rolled angle, as a length at its rim."""
         return rolling.slip(pen, self.pair)
 
     def touch(self, pen: Pen, plan: Plan) -> None:
-        """The image of its point of contact."""
+        """Draw the image of its contact point."""
         draw = touched if plan is VELOCITY else second_touched
         draw(pen, self.pair, *self.pair.links)
 
     def rim(self, pen: Pen) -> int | None:
-        """The radius that ties its turning to its coordinate."""
+        """The radius that relates its rotation to its coordinate."""
         return rolling.radius_of(pen, self.pair)

@@ -1,1 +1,1 @@
-"""The program as source: traced once, emitted as numpy, as a compiled loop or as JavaScript."""
+"""The program as source code: traced once, then emitted as numpy, a compiled loop or JavaScript."""

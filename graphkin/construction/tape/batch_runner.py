@@ -1,8 +1,8 @@
-"""Many variants the quickest way: step by step, by emitted numpy, or by a loop that numba compiles.
+"""Batches of variants run the fastest way: step by step, by emitted numpy, or by a numba loop.
 
-A program is traced and source is written once for what is asked of it; that costs some
-milliseconds, and compiling it a second or more. So small batches go step by step, and a batch goes
-the same way whatever has been run before: the ways differ by rounding alone.
+Tracing a program and writing its source takes some milliseconds, once for each request; compiling
+takes a second or more. So small batches run step by step. The choice depends only on the size of
+the batch, not on earlier runs; the results differ by rounding alone.
 """
 
 from __future__ import annotations
@@ -21,20 +21,20 @@ from graphkin.construction.tape.traced import UntraceableError, parts_named, tra
 from graphkin.numbers.arithmetic import batch_kind, np
 
 EMITTED_FROM = 2_000
-"""Variants from which source is written: a few such batches make up for it."""
+"""Number of variants from which source is written: a few such batches repay the cost."""
 COMPILED_FROM = 100_000
-"""Variants from which it is compiled, where numba is installed: seconds, once for each process."""
+"""Number of variants from which source is compiled by numba: it takes seconds per process."""
 
 LEAST: Literal["least"] = "least"
 Margins = bool | Literal["least"]
 Overrides = Mapping[int, Any]
-"""Values, or arrays of them, in place of those of steps."""
+"""Values, or arrays of values, that replace those of steps."""
 Way = Literal["steps", "numpy", "numba"]
 """Step by step on arrays, by emitted numpy, or by the compiled loop."""
 
 
 class BatchRequest(Struct, frozen=True):
-    """What is asked of a program: the steps to run, the values that enter, and what is kept."""
+    """A request to a program: the steps to run, the input values, and the results to keep."""
 
     needed: Sequence[int]
     values: Values
@@ -43,12 +43,12 @@ class BatchRequest(Struct, frozen=True):
     overrides: Overrides
 
     def key(self) -> tuple[Any, ...]:
-        """What the source of an order hangs on: all but the numbers in the arrays."""
+        """The part of the request on which its source depends: all but the arrays' numbers."""
         marks = marked(self.values), marked(self.overrides)
         return (tuple(self.needed), tuple(self.keep), self.margins, *marks)
 
     def size(self) -> int:
-        """How many variants there are."""
+        """The number of variants."""
         every = (*self.values.values(), *self.overrides.values())
         return max((len(value) for value in every if is_array(value)), default=1)
 
@@ -63,7 +63,7 @@ class BatchRequest(Struct, frozen=True):
 
 
 class BatchRunner(Struct):
-    """Runs a program on many variants; ``kept`` holds None for what source cannot follow."""
+    """Runs a program on many variants; ``kept`` holds None for a request that cannot be traced."""
 
     program: Program
     kept: dict[tuple[Any, ...], Emitted | None] = field(default_factory=dict)
@@ -78,11 +78,11 @@ class BatchRunner(Struct):
         overrides: Overrides | None = None,
         way: Way | None = None,
     ) -> Trace:
-        """As run_blocks: what cannot be drawn is NaN; the caller wraps it in numpy's errstate.
+        """As ``run_blocks``: NaN where the mechanism cannot be drawn; call under numpy's errstate.
 
-        ``overrides`` gives arrays in place of the values of steps; ``way`` states how, None leaves
-        it to the number of variants. What source cannot follow goes step by step. ``margins``
-        asks for all of them, or for the least of each variant.
+        ``overrides`` replaces the values of steps by arrays. ``way`` selects the method; None
+        selects it by the number of variants. A request that cannot be traced runs step by step.
+        ``margins`` asks for all margins, or for the least of each variant.
         """
         order = BatchRequest(needed, values, keep, margins, overrides or {})
         chosen = way or best_way(order.size())
@@ -92,7 +92,7 @@ class BatchRunner(Struct):
         return emitted.run(order.inputs(), order.size(), compiled=chosen == "numba")
 
     def by_steps(self, order: BatchRequest) -> Trace:
-        """The steps one after the other on arrays."""
+        """Run the steps one after another on arrays."""
         args = self.program, order.needed, order.values, batch_kind(), order.keep
         asked = bool(order.margins)
         if order.overrides:
@@ -102,7 +102,7 @@ class BatchRunner(Struct):
         return with_least_margin(trace) if order.margins == LEAST else trace
 
     def emitted(self, order: BatchRequest) -> Emitted | None:
-        """The program emitted for an order, once; None where source cannot follow it."""
+        """The program emitted for a request, cached; None where it cannot be traced."""
         key = order.key()
         if key not in self.kept:
             self.kept[key] = emitted_for(self.program, order)
@@ -110,19 +110,19 @@ class BatchRunner(Struct):
 
 
 def best_way(variants: int) -> Way:
-    """The way that pays for so many variants."""
+    """The fastest way for a number of variants."""
     if variants >= COMPILED_FROM and find_spec("numba") is not None:
         return "numba"
     return "numpy" if variants >= EMITTED_FROM else "steps"
 
 
 def marked(values: Mapping[Any, Any]) -> tuple[Any, ...]:
-    """Each name with its constant, or with the sort of array that it has."""
+    """Each name with its constant, or with the kind of its array."""
     return tuple((name, v.dtype.kind if is_array(v) else (v,)) for name, v in values.items())
 
 
 def emitted_for(program: Program, order: BatchRequest) -> Emitted | None:
-    """The program traced for an order, ready to be printed; None where it cannot be traced."""
+    """The program traced for a request, ready to be emitted; None where it cannot be traced."""
     asked = order.needed, order.values, order.keep, order.overrides
     try:
         graph, trace = traced(program, *asked, margins=bool(order.margins))

@@ -1,4 +1,4 @@
-"""A traced program as something to run: its source as numpy functions, or as a compiled loop."""
+"""A traced program that can be run: its source as numpy functions, or as a compiled loop."""
 
 from __future__ import annotations
 
@@ -67,17 +67,17 @@ LOOP = {
     "not": "not {}",
     "choose": "{1} if {0} else {2}",
 }
-"""An operation in a loop over single numbers."""
+"""The expression of an operation in a loop over single numbers."""
 CALLS = frozenset({"cos", "sin", "atan2"})
-"""Operations that call a library, number by number: they cannot go several variants at once."""
+"""Operations that call a library for each number: a compiler cannot vectorize them."""
 Column = tuple[int, ...]
-"""The nodes of what goes into one array: one of real numbers, two of points."""
+"""The nodes of one output array: one for real numbers, two for points."""
 STRIP = 64
-"""Variants that a compiled loop takes through its scratch, which stays in the nearest cache."""
+"""Variants in one strip of a compiled loop, so that its scratch stays in the nearest cache."""
 
 
 def last_uses(graph: Graph, order: Sequence[int]) -> dict[int, int]:
-    """After which node each node is no longer needed."""
+    """For each node, the last node that uses it."""
     last = {number: number for number in order}
     for number in order:
         last |= dict.fromkeys(graph.nodes[number].args, number)
@@ -85,7 +85,6 @@ def last_uses(graph: Graph, order: Sequence[int]) -> dict[int, int]:
 
 
 def shown(node: Node) -> str:
-    """A constant as source."""
     return repr(node.value)
 
 
@@ -93,7 +92,7 @@ def shown(node: Node) -> str:
 
 
 def numpy_source(graph: Graph, outputs: Sequence[int]) -> tuple[str, int]:
-    """Source of ``block(x, y, t)`` on arrays, and how many scratch arrays t it wants.
+    """Source of ``block(x, y, t)`` on arrays, and the number of scratch arrays t that it needs.
 
     ``x`` are the inputs by name, ``y`` the arrays to be filled with the outputs.
     """
@@ -109,7 +108,7 @@ def numpy_source(graph: Graph, outputs: Sequence[int]) -> tuple[str, int]:
 
 
 class ScratchArrays:
-    """Scratch arrays, each given to another node when the node in it has died."""
+    """Scratch arrays, each reused once the node in it is no longer needed."""
 
     def __init__(self, graph: Graph, order: Sequence[int], outputs: Sequence[int]) -> None:
         self.graph = graph
@@ -125,7 +124,7 @@ class ScratchArrays:
             self.dying.setdefault(end, []).append(number)
 
     def take(self, number: int) -> str:
-        """A scratch array for a node; what is only an output goes where it belongs at once."""
+        """A scratch array for a node, or the output array of a node that is only an output."""
         if number in self.dying.get(number, ()):
             return f"y{self.places[number].pop(0)}"
         if not self.free:
@@ -134,11 +133,11 @@ class ScratchArrays:
         return f"t{self.free.pop()}"
 
     def constant(self, value: str) -> str:
-        """A constant by a name: numpy takes an array of one number quicker than a plain one."""
+        """The name of a constant: numpy is faster with a one-number array than a plain number."""
         return self.constants.setdefault(value, f"k{len(self.constants)}")
 
     def written(self, number: int) -> list[str]:
-        """The lines that give a node its value and copy it to the outputs that it is."""
+        """The lines that compute a node and copy it to its outputs."""
         node = self.graph.nodes[number]
         lines = []
         if node.op == "number":
@@ -155,7 +154,7 @@ class ScratchArrays:
         return lines
 
     def statement(self, number: int, node: Node) -> str:
-        """The call that works out a node."""
+        """The call that computes a node."""
         args = [self.name[arg] for arg in node.args]
         if node.op in TRUTHS or node.op == "choose":
             function, letter = (TRUTHS[node.op], "c") if node.op in TRUTHS else ("where", "w")
@@ -173,8 +172,8 @@ class ScratchArrays:
 def loop_source(graph: Graph, columns: Sequence[Column], inputs: Sequence[str]) -> str:
     """Source of ``loop(size, x…, y…)``: a strip of variants at a time through a small scratch.
 
-    All that is worked on lies in one array at distances known beforehand, so that a compiler sees
-    that nothing overlaps and takes several variants at once. What calls a library goes first.
+    All intermediate values are in one array at known offsets. A compiler then sees that nothing
+    overlaps, and vectorizes the loop. Operations that call a library come first.
     """
     outputs = [number for column in columns for number in column]
     order = graph.needed(outputs)
@@ -202,7 +201,7 @@ def loop_source(graph: Graph, columns: Sequence[Column], inputs: Sequence[str]) 
 def rows_of(
     graph: Graph, order: Sequence[int], early: set[int], outputs: Iterable[int]
 ) -> dict[int, int]:
-    """The nodes that have a row of the scratch: inputs, outputs, what goes from loop to loop."""
+    """The nodes with a row of the scratch: inputs, outputs, and values that pass between loops."""
     wanted = set(outputs)
     for number in order:
         node = graph.nodes[number]
@@ -216,7 +215,7 @@ def rows_of(
 
 
 def statements(graph: Graph, phase: Sequence[int], kept: dict[int, int]) -> list[str]:
-    """One statement for each node of a loop; what another loop has left is read first."""
+    """One statement for each node of a loop, after reads of the values from another loop."""
     mine = set(phase)
     used = {arg for number in phase for arg in graph.nodes[number].args}
     lines = [f"v{arg} = {at(kept[arg])}" for arg in sorted(used - mine) if arg in kept]
@@ -250,16 +249,16 @@ def each(bound: int | str, *body: str) -> list[str]:
     return [f"        for i in range({bound}):", *(f"            {line}" for line in body)]
 
 
-# --- A traced program as something to run: its source as numpy functions, or as a compiled loop ---
+# --- running it -----------------------------------------------------------------------------------
 
 
 BLOCK = 8192
-"""Variants run at once by numpy: few enough for the cache, enough to pay for each call."""
+"""Variants in one numpy call: few enough for the cache, enough to repay the call."""
 RECORDS = (Ratio, Line, Circle, Vector)
 
 
 class Emitted(Struct, frozen=True, dict=True):
-    """A traced program: its graph, and the kept values and margins in its numbers."""
+    """A traced program: its graph, and the kept values and margins as traced numbers."""
 
     program: Program
     graph: Graph
@@ -281,19 +280,19 @@ class Emitted(Struct, frozen=True, dict=True):
 
     @cached_property
     def outputs(self) -> tuple[int, ...]:
-        """The nodes of all leaves: one of a number, two of a point."""
+        """The nodes of all leaves: one for a number, two for a point."""
         return tuple(node for column in self.columns for node in column)
 
     @cached_property
     def columns(self) -> tuple[Column, ...]:
-        """The same, leaf by leaf."""
+        """The nodes of each leaf: one for a number, two for a point."""
         return tuple(
             (leaf.node,) if leaf.down is None else (leaf.node, leaf.down) for leaf in self.leaves
         )
 
     @cached_property
     def by_numpy(self) -> tuple[Callable[..., None], int]:
-        """The source for arrays as a function, and how many scratch arrays it wants."""
+        """The numpy source as a function, and the number of scratch arrays that it needs."""
         import numpy
 
         source, rooms = numpy_source(self.graph, self.outputs)
@@ -303,7 +302,7 @@ class Emitted(Struct, frozen=True, dict=True):
 
     @cached_property
     def by_numba(self) -> Callable[..., None]:
-        """The source for single numbers as a loop that numba compiles at its first call."""
+        """The loop source as a function that numba compiles at its first call."""
         import numba
 
         source = loop_source(self.graph, self.columns, self.inputs)
@@ -327,7 +326,7 @@ class Emitted(Struct, frozen=True, dict=True):
         return Trace(self.program, values, margins)
 
     def in_blocks(self, arrays: Mapping[str, Any], filled: Sequence[Any], size: int) -> None:
-        """Fill arrays by numpy, a block at a time."""
+        """Fill the arrays by numpy, one block at a time."""
         flat = [(y.real, y.imag) if y.dtype.kind == "c" else (y,) for y in filled]
         columns = [part for parts in flat for part in parts]
         block, rooms = self.by_numpy
@@ -339,7 +338,7 @@ class Emitted(Struct, frozen=True, dict=True):
 
 
 def rooms_for(columns: Sequence[Column], size: int) -> list[Any]:
-    """An array for each column, all those of a kind in one piece of memory: quickest to be had."""
+    """An array for each column, with all arrays of a kind in one block of memory for speed."""
     points = sum(len(column) == 2 for column in columns)
     of_points = iter(np.empty((points, size), complex))
     of_numbers = iter(np.empty((len(columns) - points, size)))
@@ -354,7 +353,7 @@ def leaves_of(value: Any) -> list[TracedNumber]:
 
 
 def refilled(value: Any, filled: Iterator[Any]) -> Any:
-    """A value with an array in the place of each traced number."""
+    """A value with an array in place of each traced number."""
     if isinstance(value, RECORDS):
         return type(value)(*(refilled(part, filled) for part in value))
     return next(filled) if isinstance(value, TracedNumber) else value

@@ -1,6 +1,7 @@
-"""What a run reckons, as a graph of real operations: equal ones shared, constants folded.
+"""The computations of a run as a graph of real operations.
 
-A tracer fills it (tracer.py); printers turn it into source (emit.py). It knows neither.
+Equal operations are shared and constants are folded. Traced numbers fill the graph (traced.py), and
+it is emitted as source in emitted.py and javascript.py. The graph depends on neither.
 """
 
 from __future__ import annotations
@@ -10,11 +11,11 @@ from collections.abc import Callable, Iterable
 from typing import Any, NamedTuple
 
 COMMUTING = frozenset({"add", "mul", "min", "max", "equal", "both", "either"})
-"""Operations whose arguments may change places."""
+"""Operations whose arguments may be swapped."""
 
 
 class Node(NamedTuple):
-    """One operation on earlier nodes; ``value`` is that of a ``number``, ``name`` an input's."""
+    """One operation on earlier nodes; ``value`` is a constant's, ``name`` an input's."""
 
     op: str
     args: tuple[int, ...] = ()
@@ -23,7 +24,7 @@ class Node(NamedTuple):
 
 
 def quotient(a: float, b: float) -> float:
-    """A quotient as arrays have it: nothing raises, over nought it is infinite or NaN."""
+    """A quotient as numpy has it: division by zero gives infinity or NaN."""
     if b:
         return a / b
     return a * math.copysign(math.inf, b)
@@ -50,12 +51,13 @@ FOLD: dict[str, Callable[..., float]] = {
 
 
 class Graph:
-    """Operations in the order in which they were met; a node is known by its number.
+    """Operations in the order in which they were added; a node is identified by its number.
 
-    The same is put down once: ``known`` has operations by what they do and to which nodes, each in
-    its simplest form, numbers by all their bits, inputs by their names. ``squares`` are the nodes
-    that cannot be negative, ``units`` the pairs of nodes that are the parts of a unit vector;
-    ``now`` gives the value of a node where something is drawn, by which its marks are chosen.
+    Equal operations are stored once. ``known`` maps operations, in their simplest form and with the
+    nodes that they use, to nodes; it identifies constants by all their bits and inputs by name.
+    ``squares`` are the nodes that cannot be negative. ``units`` are the pairs of nodes that are the
+    parts of a unit vector. ``now`` gives the value of a node at the drawn position, by which marks
+    are chosen.
     """
 
     def __init__(self) -> None:
@@ -75,7 +77,7 @@ class Graph:
         return self.known[key]
 
     def number(self, value: float) -> int:
-        """A constant."""
+        """The node of a constant."""
         key = ("number", value.hex())
         if key not in self.known:
             self.known[key] = place = len(self.nodes)
@@ -84,7 +86,7 @@ class Graph:
         return self.known[key]
 
     def input(self, name: str) -> int:
-        """A number that differs from variant to variant."""
+        """The node of a number that differs from variant to variant."""
         key = ("input", name)
         if key not in self.known:
             self.known[key] = len(self.nodes)
@@ -92,14 +94,14 @@ class Graph:
         return self.known[key]
 
     def constant(self, number: int) -> float | None:
-        """The value of a node that is a constant, or None."""
+        """The value of a constant node; None for other nodes."""
         return self.constants.get(number)
 
     def do(self, op: str, *args: int) -> int:
-        """An operation on earlier nodes, in its simplest form.
+        """The node of an operation on earlier nodes, in its simplest form.
 
-        What is simplified keeps its value but for the last bits and for the sign of a nought;
-        nought times anything is nought, even where that thing cannot be drawn.
+        A simplification may change the last bits and the sign of a zero. Zero times anything is
+        zero, even where the other factor cannot be computed.
         """
         key = (op, args)
         found = self.known.get(key)
@@ -108,7 +110,7 @@ class Graph:
         return found
 
     def simplest(self, op: str, args: tuple[int, ...]) -> int:
-        """The node of an operation that was not met before."""
+        """The node of a new operation, in its simplest form."""
         known = self.constants
         if args[0] in known and op in FOLD and all(arg in known for arg in args):
             return self.number(float(FOLD[op](*(known[arg] for arg in args))))
@@ -119,7 +121,7 @@ class Graph:
         return self.put(op, tuple(sorted(args)) if op in COMMUTING else args)
 
     def sum_of_squares(self, a: int, b: int) -> int:
-        """a² + b²; where both are t times something t is taken out, so that equal lengths meet."""
+        """a² + b²; a common factor is taken out, so that equal lengths share nodes."""
         found = self.common_factor(a, b)
         if found is None:
             total = self.do("add", self.do("mul", a, a), self.do("mul", b, b))
@@ -132,7 +134,7 @@ class Graph:
         return total
 
     def common_factor(self, a: int, b: int) -> tuple[int, int, int] | None:
-        """A factor of two products and what is left of each, signs aside; None without one."""
+        """A common factor of two products and the rest of each, without signs, or None."""
         first, second = (self.nodes[self.unsigned(each)] for each in (a, b))
         if first.op == second.op == "mul" and a != b:
             for place, factor in enumerate(first.args):
@@ -142,17 +144,17 @@ class Graph:
         return None
 
     def unsigned(self, number: int) -> int:
-        """A node, or that whose negative it is."""
+        """A node, or the node of which it is the negative."""
         turned = self.negated(number)
         return number if turned is None else turned
 
     def negated(self, number: int) -> int | None:
-        """The node whose negative a node is, or None."""
+        """The node of which a node is the negative; None for other nodes."""
         node = self.nodes[number]
         return node.args[0] if node.op == "neg" else None
 
     def needed(self, outputs: Iterable[int]) -> list[int]:
-        """The nodes on which the outputs hang, in order: all others are dead."""
+        """The nodes on which the outputs depend, in order."""
         wanted = set(outputs)
         for number in range(max(wanted, default=-1), -1, -1):
             if number in wanted:
@@ -187,7 +189,10 @@ def simpler_difference(graph: Graph, a: int, b: int) -> int | None:
 
 
 def simpler_product(graph: Graph, a: int, b: int) -> int | None:
-    """x·1 is x, x·0 is 0; a minus is taken out, so that equal products meet; no l·l of a root."""
+    """x·1 is x, x·0 is 0; a minus sign moves out, so that equal products are shared.
+
+    A square root times itself loses the root.
+    """
     for one, other in ((a, b), (b, a)):
         node, inner = graph.nodes[one], graph.nodes[other]
         if node.op == "number":
@@ -205,7 +210,7 @@ def simpler_product(graph: Graph, a: int, b: int) -> int | None:
 
 
 def of_two_factors(graph: Graph, one: int, first: int, second: int) -> int | None:
-    """l·(l·x) is l²·x without the root in it, and constants go together."""
+    """l·(l·x) is l²·x without its root, and constants are multiplied together."""
     for same, rest in ((first, second), (second, first)):
         if same == one:
             squared = square_of_root(graph, one)
@@ -216,7 +221,7 @@ def of_two_factors(graph: Graph, one: int, first: int, second: int) -> int | Non
 
 
 def square_of_root(graph: Graph, number: int) -> int | None:
-    """The square of a distance, or of its inverse, without the root; None of anything else."""
+    """The square of a distance, or of its inverse, without the root; None for other nodes."""
     node = graph.nodes[number]
     if node.op == "over":
         below = square_of_root(graph, node.args[0])
@@ -240,13 +245,13 @@ def simpler_inverse(graph: Graph, a: int) -> int | None:
 
 
 def simpler_size(graph: Graph, a: int) -> int | None:
-    """The size of -x is that of x."""
+    """|-x| is |x|."""
     turned = graph.negated(a)
     return None if turned is None else graph.do("abs", turned)
 
 
 def of_squares(op: str) -> Callable[[Graph, int, int], int | None]:
-    """Two roots compare as what they are the roots of."""
+    """A rule that compares two square roots by their arguments."""
 
     def simpler(graph: Graph, a: int, b: int) -> int | None:
         first, second = graph.nodes[a], graph.nodes[b]
@@ -258,7 +263,7 @@ def of_squares(op: str) -> Callable[[Graph, int, int], int | None]:
 
 
 def simpler_choice(graph: Graph, condition: int, yes: int, no: int) -> int | None:
-    """Between two equals there is no choice; the smaller or larger of two has a name of its own."""
+    """A choice between equal nodes is that node; the smaller or larger of two is min or max."""
     if yes == no:
         return yes
     test = graph.nodes[condition]
@@ -278,4 +283,4 @@ SIMPLER: dict[str, Callable[..., int | None]] = {
     "at_most": of_squares("at_most"),
     "choose": simpler_choice,
 }
-"""The rules by which an operation becomes a simpler one."""
+"""The simplification rule of each operation."""

@@ -1,7 +1,7 @@
-"""A traced graph printed as JavaScript: the same straight line, for a page that moves by itself.
+"""A traced graph as JavaScript source: straight-line code, for a page that moves by itself.
 
-What is used once stands inside what uses it; everything else, and a long number that is used more
-than once, has a short name of its own.
+An expression that is used once is written inside its user. Every other expression, and a long
+number that is used more than once, has a short name.
 """
 
 from __future__ import annotations
@@ -25,7 +25,7 @@ SIGNS = {
     "not": "!{}",
     "choose": "{}?{}:{}",
 }
-"""Operations written with signs; each argument is a name, a number or stands in brackets."""
+"""Operations written with operators; each argument is a name, a number or in brackets."""
 CALLS = {
     "min": "min",
     "max": "max",
@@ -38,24 +38,25 @@ CALLS = {
     "sin45": "sin",
     "atan2": "atan2",
 }
-"""Operations that are functions of JavaScript's own Math."""
+"""Operations that are functions of JavaScript's Math."""
 MATH = "const {" + ",".join(sorted(set(CALLS.values()))) + "}=Math;"
-"""The line by which those functions are known by their names."""
+"""The line that declares those functions by name."""
 DEEP = 40
-"""How many operations stand inside one another at most: parsers have their limits."""
+"""Maximum nesting of operations: parsers have limits."""
 LONG = 6
-"""Letters from which on a number that is used again has a name."""
+"""Number of characters from which a repeated number gets a name."""
 BINDING = {"mul": 3, "over": 3, "add": 2, "sub": 2, "less": 1, "at_most": 1}
-"""How fast operations with signs hold together; what holds faster needs no brackets."""
+"""Precedence of operators; an argument with higher precedence needs no brackets."""
 DIGITS = "abcdefghijklmnopqrstuvwxyz"
 
 
 def script_source(
     graph: Graph, outputs: Sequence[int], inputs: Mapping[str, int], name: str
 ) -> str:
-    """Source of ``function name(x,y)``: y[i] becomes output i, x holds the inputs.
+    """Source of ``function name(x,y)``: it sets y[i] to output i; x holds the inputs.
 
-    ``inputs`` gives the place in x of each input of the graph by its name. Wants ``MATH`` before.
+    ``inputs`` maps each input's name to its index in x. The source needs the line ``MATH`` before
+    it.
     """
     body = "\n".join(Writer(graph, outputs, inputs).lines())
     return f"function {name}(x,y){{\n{body}\n}}\n"
@@ -72,7 +73,7 @@ class Writer:
             self.uses[number] += 1
         self.text: dict[int, str] = {}
         self.depth: dict[int, int] = {}
-        """How deep the operations lie in one another that stand for a node; names lie at 0."""
+        """Nesting depth of the operations in each node's text; a name has depth 0."""
 
     def lines(self) -> Iterator[str]:
         """The constants of the function in order, then its outputs."""
@@ -93,11 +94,11 @@ class Writer:
         yield f"[{results}].forEach((v,i)=>{{y[i]=+v}});"
 
     def plain(self, node: Node) -> str:
-        """A number or an input. A negative number has brackets: two signs must not meet."""
+        """A number or an input; a negative number has brackets, as two signs must not meet."""
         return written(node.value) if node.op == "number" else f"x[{self.inputs[node.name]}]"
 
     def expression(self, node: Node) -> str:
-        """An operation in terms of the texts before it."""
+        """An operation, in terms of the texts of its arguments."""
         if node.op in CALLS:
             return f"{CALLS[node.op]}({','.join([self.text[arg] for arg in node.args])})"
         last = len(node.args) - 1
@@ -105,9 +106,10 @@ class Writer:
         return SIGNS[node.op].format(*parts)
 
     def signed(self, number: int, op: str, last: bool) -> str:
-        """The text of a node beside the sign of another operation, in brackets where it needs them.
+        """The text of a node as an argument of another operator, in brackets where needed.
 
-        Products and sums are reckoned from the left, as the graph has them: no rounding changes.
+        Products and sums are evaluated from the left, as in the graph, so that rounding does not
+        change.
         """
         text, own = self.text[number], self.graph.nodes[number].op
         if not self.depth[number] or own not in SIGNS:
@@ -125,6 +127,6 @@ def written(value: float) -> str:
 
 
 def short_name(number: int) -> str:
-    """The name of a constant: one letter and digits, so that it is never a word of the language."""
+    """The name of a constant: one letter and digits, so that it is never a keyword."""
     rest, letter = divmod(number, len(DIGITS))
     return f"{DIGITS[letter]}{rest or ''}" if DIGITS[letter] not in "xy" else f"_{letter}{rest}"

@@ -1,7 +1,7 @@
-"""What a moving page reckons at each position of the driver: numbers that a graph gives, in order.
+"""The numbers that a moving page computes at each position of the driver: a graph's outputs.
 
-The same graph gives their values where the scene stands, so that what is drawn there can be put
-beside them.
+The same graph gives their values at the scene's own position, so that they can be compared with
+what is drawn there.
 """
 
 from __future__ import annotations
@@ -22,13 +22,13 @@ TRUTHS: Mapping[str, Callable[..., Any]] = {
     "not": lambda a: not a,
     "choose": lambda condition, yes, no: yes if condition else no,
 }
-"""The value of an operation that gives or asks a condition."""
+"""The value of an operation that gives or uses a condition."""
 NOWHERE = -1
-"""In the place of an output: there is none."""
+"""The index of an output that does not exist."""
 
 
 class TapeOutputs:
-    """The outputs of a graph: numbers and places by their first index; equal ones stand once."""
+    """The outputs of a graph: numbers and points by their first index, without duplicates."""
 
     def __init__(self, graph: Graph, inputs: Mapping[str, float]) -> None:
         self.graph, self.inputs = graph, dict(inputs)
@@ -36,30 +36,30 @@ class TapeOutputs:
         self.places: dict[tuple[int, ...], int] = {}
         self.values: list[Any] = []
         self.pages: dict[Any, TracedNumber] = {}
-        """Places of the page by field and point, each reckoned once."""
+        """Places on the page by field and point, each computed once."""
 
     def lifted(self, value: Any) -> TracedNumber:
-        """A number or point of the graph, also of a plain one."""
+        """A number or point of the graph, made from a plain one if needed."""
         return entered(self.graph, value)
 
     def number(self, value: Any) -> int:
-        """The place of a number among the outputs."""
+        """The index of a number among the outputs."""
         return self.put(self.lifted(value).node)
 
     def point(self, value: Any) -> int:
-        """The place of a point: its x there, its y next."""
+        """The index of a point's x among the outputs; its y comes next."""
         point = self.lifted(value)
         return self.put(point.node, point.imag.node)
 
     def put(self, *nodes: int) -> int:
-        """The place of some nodes that follow one another."""
+        """The index of some consecutive nodes."""
         if nodes not in self.places:
             self.places[nodes] = len(self.outputs)
             self.outputs.extend(nodes)
         return self.places[nodes]
 
     def now(self, value: Any) -> Any:
-        """A number, point or condition where the scene stands; what is not traced stays."""
+        """A number, point or condition at the scene's position; a plain value unchanged."""
         if isinstance(value, Truth):
             return self.value(value.node)
         if not isinstance(value, TracedNumber):
@@ -70,7 +70,7 @@ class TapeOutputs:
 
     @contextmanager
     def choosing(self) -> Iterator[None]:
-        """Marks are chosen here as they are drawn where the scene stands."""
+        """A context in which marks are chosen as at the scene's own position."""
         before, self.graph.now = self.graph.now, self.value
         try:
             yield
@@ -78,7 +78,7 @@ class TapeOutputs:
             self.graph.now = before
 
     def value(self, number: int) -> Any:
-        """The value of a node where the scene stands."""
+        """The value of a node at the scene's own position."""
         if number >= len(self.values):
             for node in self.graph.nodes[len(self.values) : number + 1]:
                 self.values.append(value_of(node, self.values, self.inputs))
@@ -86,7 +86,7 @@ class TapeOutputs:
 
 
 def value_of(node: Node, values: Sequence[Any], inputs: Mapping[str, float]) -> Any:
-    """The value of a node from those before it; NaN where there is none."""
+    """The value of a node from the values before it; NaN where it is undefined."""
     if node.op == "number":
         return node.value
     if node.op == "input":
@@ -101,7 +101,7 @@ def value_of(node: Node, values: Sequence[Any], inputs: Mapping[str, float]) -> 
 
 
 def runner(graph: Graph, outputs: Sequence[int]) -> Callable[[Mapping[str, Any]], list[Any]]:
-    """Some outputs as a function of arrays of inputs, each array of the same length."""
+    """Some outputs as a function of arrays of inputs, all of the same length."""
     from graphkin.construction.tape.emitted import ARRAYS
     from graphkin.construction.tape.emitted import TRUTHS as CONDITIONS
 

@@ -1,7 +1,8 @@
-"""Numbers that are nodes of a graph instead of values: they write down what is done to them.
+"""Numbers that are nodes of a graph instead of values: they record the operations on them.
 
-They stand where a batch has arrays and answer numpy's own functions, so a program runs on them
-unchanged. What hangs on the value itself (an ``if``, an index) cannot be traced and says so.
+They take the place of a batch's arrays and support numpy's functions, so a program runs on them
+unchanged. Code that needs the value itself (an ``if``, an index) cannot be traced and raises an
+error.
 """
 
 from __future__ import annotations
@@ -20,16 +21,16 @@ from graphkin.numbers.arithmetic import Kind, nearest_quarter, np, quarter_turns
 
 
 class UntraceableError(AttributeError, TypeError):
-    """A step whose way depends on a value, so that no straight line of source can follow it."""
+    """A step with a course that depends on a value, so that it has no straight-line source."""
 
 
 def refused(self: Traced, *_: Any) -> Any:
-    """Stop where a traced number is used as if it had a value."""
+    """Raise the error for a traced number that is used as a value."""
     raise UntraceableError("a step that looks at a value, other than by arithmetic.pick")
 
 
 class Traced:
-    """Something that a run reckons for each variant; ``shape`` as an array of variants has it."""
+    """A value that a run computes for each variant; ``shape`` imitates an array of variants."""
 
     __slots__ = ("graph",)
     __hash__ = None  # type: ignore[assignment]
@@ -42,21 +43,21 @@ class Traced:
     __len__ = __iter__ = __getitem__ = refused
 
     def drawn(self, node: int) -> Any:
-        """The value of a node where marks are drawn. Raises UntraceableError where none are."""
+        """The value of a node where marks are drawn. Raises UntraceableError elsewhere."""
         return refused(self) if self.graph.now is None else self.graph.now(node)
 
     def __getattr__(self, name: str) -> Any:
         raise UntraceableError(f"a step that asks an array for {name}")
 
     def __array_ufunc__(self, function: Any, method: str, *args: Any, **options: Any) -> Any:
-        """Numpy's functions of numbers."""
+        """Apply numpy's functions of numbers."""
         known = UFUNCS.get(function.__name__)
         if known is None or method != "__call__" or options:
             raise UntraceableError(f"numpy's {function.__name__}")
         return known(self.graph, *args)
 
     def __array_function__(self, function: Any, _: Any, args: Any, options: Any) -> Any:
-        """Numpy's choice, element by element, and the angle of a direction."""
+        """Apply numpy's ``where``, element by element, and the angle of a direction."""
         if function.__name__ == "where" and len(args) == 3 and not options:
             return chosen(self.graph, *args)
         if function.__name__ == "angle" and isinstance(self, TracedNumber) and not options:
@@ -65,7 +66,7 @@ class Traced:
 
 
 class Truth(Traced):
-    """A condition, true or false for each variant; what is drawn is chosen by it as it stands."""
+    """A condition, true or false for each variant; as a bool, it has its drawn value."""
 
     __slots__ = ("node",)
 
@@ -86,7 +87,7 @@ class Truth(Traced):
         return Truth(self.graph, self.graph.do("not", self.node))
 
     def joined(self, op: str, other: Any) -> Any:
-        """Two conditions as one; a plain truth decides at once."""
+        """Two conditions as one; a plain bool decides at once."""
         if isinstance(other, Truth):
             return Truth(self.graph, self.graph.do(op, self.node, other.node))
         return self if bool(other) == (op == "both") else bool(other)
@@ -119,11 +120,11 @@ class TracedNumber(Traced):  # noqa: PLW1641
         return TracedNumber(self.graph, self.below())
 
     def below(self) -> int:
-        """The node of the part along the y axis; that of a real number is nought."""
+        """The node of the part along the y axis; zero for a real number."""
         return self.graph.number(0.0) if self.down is None else self.down
 
     def conjugate(self) -> TracedNumber:
-        """The point seen in a mirror along the x axis."""
+        """The point reflected in the x axis."""
         if self.down is None:
             return self
         return TracedNumber(self.graph, self.node, self.graph.do("neg", self.down))
@@ -152,7 +153,7 @@ class TracedNumber(Traced):  # noqa: PLW1641
         return entered(self.graph, other).by_parts("sub", self)
 
     def by_parts(self, op: str, other: TracedNumber) -> TracedNumber:
-        """A sum or a difference."""
+        """A sum or a difference, by parts."""
         graph = self.graph
         along = graph.do(op, self.node, other.node)
         if self.down is None and other.down is None:
@@ -210,7 +211,7 @@ class TracedNumber(Traced):  # noqa: PLW1641
         return square(self).do("sqrt")
 
     def compared(self, op: str, other: Any, *, turned: bool = False) -> Any:
-        """A condition on two numbers; on two constants plainly true or false."""
+        """A condition on two numbers; a plain bool for two constants."""
         pair = (self, entered(self.graph, other))
         first, second = pair[::-1] if turned else pair
         values = [self.graph.constant(each.node) for each in (first, second)]
@@ -252,7 +253,7 @@ COMPARE: dict[str, Callable[..., bool]] = {
 
 
 def entered(graph: Graph, value: Any) -> TracedNumber:
-    """A plain number as a constant of the graph; what is traced as it is."""
+    """A plain number as a constant of the graph; a traced one unchanged."""
     if isinstance(value, TracedNumber):
         return value
     if isinstance(value, (float, Real)):
@@ -264,17 +265,16 @@ def entered(graph: Graph, value: Any) -> TracedNumber:
 
 
 def square(point: TracedNumber) -> TracedNumber:
-    """Square of a distance: lengths beyond 1e±150 would be out of range."""
+    """Square of a distance; lengths beyond 1e±150 would overflow or underflow."""
     return TracedNumber(point.graph, point.graph.sum_of_squares(point.node, point.below()))
 
 
 def root(graph: Graph, value: Any) -> TracedNumber:
-    """Square root of a real number."""
     return entered(graph, value).do("sqrt")
 
 
 def chosen(graph: Graph, condition: Any, yes: Any, no: Any) -> TracedNumber:
-    """One of two numbers or points by a condition."""
+    """One of two numbers or points, by a condition."""
     if not isinstance(condition, Truth):
         return entered(graph, yes if condition else no)
     first, second = entered(graph, yes), entered(graph, no)
@@ -295,7 +295,7 @@ def plain(op: str) -> Callable[..., TracedNumber]:
 
 
 def by_operator(function: Callable[..., Any]) -> Callable[..., Any]:
-    """An operator of Python on numbers entered in the graph."""
+    """A Python operator on numbers entered in the graph."""
     return lambda graph, *args: function(
         *(each if isinstance(each, Traced) else entered(graph, each) for each in args)
     )
@@ -317,16 +317,16 @@ UFUNCS: dict[str, Callable[..., Any]] = {
 """Numpy's functions by their names."""
 
 
-# --- A run that writes down what it reckons, on traced numbers in the place of arrays -------------
+# --- a run on traced numbers in place of arrays ---------------------------------------------------
 
 
 class TracedKind(Kind, frozen=True):
-    """The number kind of a tracer: as a batch, but an angle in degrees is known to be reduced."""
+    """The number kind of a tracer: as a batch, except that angles in degrees are reduced first."""
 
     def direction(self, degrees: Any) -> Any:
         """Unit vector at an angle in degrees.
 
-        Of an angle within 45 degrees the cosine follows from the sine without loss.
+        For an angle within 45 degrees, the cosine follows from the sine without loss of digits.
         """
         if not isinstance(degrees, TracedNumber):
             return Kind.direction(self, degrees)
@@ -340,7 +340,7 @@ class TracedKind(Kind, frozen=True):
 
 
 def traced_kind() -> TracedKind:
-    """Numbers that write down what is done to them."""
+    """The kind of numbers that record the operations on them."""
 
     def number(exact: Any) -> Any:
         return exact if isinstance(exact, Traced) else float(Fraction(exact))
@@ -357,9 +357,9 @@ def traced(
     *,
     margins: bool,
 ) -> tuple[Graph, Trace]:
-    """One run on traced numbers in the place of arrays: a trace of nodes of the graph.
+    """One run on traced numbers in place of arrays: the graph, and a trace of its nodes.
 
-    Raises UntraceableError for a step whose way depends on a value.
+    Raises UntraceableError for a step whose course depends on a value.
     """
     graph = Graph()
     ready = made_ready(program, needed, values, keep, frozenset(overrides))
@@ -372,7 +372,7 @@ def traced(
 
 
 def stand_in(graph: Graph, number: int, value: Any) -> Any:
-    """The traced number that stands for a step's own value; a plain one stands for itself."""
+    """The traced number that replaces a step's own array; a plain value unchanged."""
     if not is_array(value):
         return value
     x, y = parts_named(number)
@@ -380,5 +380,5 @@ def stand_in(graph: Graph, number: int, value: Any) -> Any:
 
 
 def parts_named(number: int) -> tuple[str, str]:
-    """Names of the inputs that stand for the value of a step; no parameter is called so."""
+    """Names of the inputs for the value of a step; no parameter can have these names."""
     return f"step {number}", f"step {number}, up"
