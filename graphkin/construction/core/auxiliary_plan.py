@@ -64,7 +64,7 @@ class AuxiliaryPlan(PlanAside):
 
 
 def auxiliary_plan(drawing: Drawing, number: int) -> AuxiliaryPlan | None:
-    """The auxiliary plan to which a step belongs alone; None for any other step."""
+    """The auxiliary plan that alone uses a step; None where there is no such plan."""
     plan = drawing.auxiliary.get(number)
     return plan if isinstance(plan, AuxiliaryPlan) else None
 

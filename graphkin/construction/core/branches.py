@@ -24,7 +24,7 @@ from graphkin.text.errors import Problem, StructureError, TakenOut, Written
 WAYS = '"forward"', '"backward"'
 """The larger and the smaller coordinate along a guide, as a scene writes them."""
 MISSING = "is missing"
-"""What a message says of a branch that is not written."""
+"""The wording for a branch that is not written."""
 
 
 def choosing(groups: tuple[Group, ...]) -> list[str]:

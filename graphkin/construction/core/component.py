@@ -149,7 +149,8 @@ class Component(Construction, frozen=True, kw_only=True):
             yield self.vector, self.sentence(drawing, first=True).markup
 
     def laid_alone(self, drawing: Drawing, **fields: str) -> str:
-        """The sentence for a component that leads to a known point; empty where none is needed."""
+        """The sentence for a component whose end is joined to a known point; empty if none is
+        needed."""
         return ""
 
     def stands_at(self, drawing: Drawing) -> int | None:
@@ -174,7 +175,8 @@ class Component(Construction, frozen=True, kw_only=True):
     def relation(self, drawing: Drawing) -> Relation:
         """The line of the component on the calculation page."""
 
-    # --- what students make of it ----------------------------------------------------------------
+    # --- marking students' work
+    # --------------------------------------------------------------------
 
     @abstractmethod
     def sizes(self, own: OwnSizes) -> Iterator[Size]:

@@ -48,8 +48,10 @@ class Drawing(Struct, frozen=True, dict=True):
     position of the mechanism on all sheets; None where this sheet alone decides. ``curves`` are the
     curves over the whole motion. ``computed`` gives, by symbol, the reason why a quantity is
     computed and not measured. ``driven`` holds driver angles in degrees that differ from the
-    scene's. ``chosen`` is the sheet that decides where marks have room and what is long enough for
-    a mark. Without it, the same scene at another position could decide otherwise.
+    scene's.
+
+    ``chosen`` is the sheet that decides where marks have room and which lengths are long enough for
+    a mark. At another position of the same scene the choice could be different.
     """
 
     kind: str

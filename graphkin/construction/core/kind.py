@@ -36,14 +36,14 @@ class ByHand(Enum):
 class Construction(Roles, frozen=True):
     """One construction: the steps of its roles are its fields.
 
-    For reports: ``titled`` says what is found, ``lines`` names the line of a role, ``guided`` is
-    the role of the block or wheel along whose guide its line lies.
+    For reports: ``titled`` says what is found, and ``lines`` names the line of a role. ``guided``
+    is the role of the block or wheel along whose guide its line lies.
 
     For sheets: ``reasons`` holds the key of the reason for a role's step. ``told_after`` lists the
     roles of the lines that a sentence names before its step. ``between`` lists the roles of the
     names of the points that it joins. ``imaged`` lists the roles of points marked with their
     letters in a plan. ``laid_at`` is the role of the step that lays off the distance of the first
-    and the last point of ``between``.
+    and the last of the joined points.
 
     For drawing by hand: ``pencil`` says how the mark of a role is made, where it is neither a
     marked point nor a line.
@@ -188,11 +188,11 @@ class GivesRate(Construction, frozen=True):
         return None
 
     def rate_reason(self, drawing: Drawing) -> str:
-        """The key of the reason for this way to find the rate."""
+        """The key of the reason why the rate is found in this way."""
         return "why.rate"
 
     def source_of_rate(self, drawing: Drawing) -> str:
-        """The source of the rate, as the sentence that uses it first says it."""
+        """The source of the rate, for the sentence that uses it first."""
         return ""
 
 

@@ -264,7 +264,7 @@ def is_along(block: Link, link: Link) -> bool:
 
 
 def number(drawing: Drawing, value: float) -> str:
-    """A computed number without trailing zeros and without a minus before zero."""
+    """A computed number without trailing zeros; zero has no minus sign."""
     return drawing.words.decimal(shortest(round(value, FINE) + 0.0))
 
 

@@ -31,7 +31,7 @@ from graphkin.numbers.plane import Circle, Ratio
 from graphkin.text import Words
 
 CHORDS, FINE = 240, 0.02
-"""Number of chords of a small circle, and the largest deviation (mm) of those of a large one."""
+"""Number of chords of a small circle, and the largest deviation (mm) of chords from a large one."""
 UNSEEN = 0.01
 """The largest deviation, in mm, of a polyline whose points are thinned out."""
 

@@ -310,8 +310,7 @@ def is_input(step: Step) -> bool:
 class ImageName(Struct, frozen=True):
     """The name of an image: small letter with primes, index of the point, and ``link`` if written.
 
-    An image whose name would be that of a point or of the pole gets an index of its own
-    (``apart``).
+    ``apart`` marks a name that would clash with a point or the pole: it gets an extra index.
     """
 
     small: str
@@ -327,11 +326,11 @@ class ImageName(Struct, frozen=True):
 
 
 def image_name(point: str, prime: str = "") -> ImageName:
-    """The name of a point's image: its small letter; a_3 for A@3; in the acceleration plan with a
-    ``prime``.
+    """The name of a point's image.
 
-    Two points in contact share one image in the velocity plan, unless the point's name says that
-    they slip.
+    It is the small letter of the point: a_3 for A@3, with a ``prime`` in the acceleration plan. Two
+    points in contact share one image in the velocity plan, unless the point's name says that they
+    slip.
     """
     name, link = ends_of(point)
     own = is_in_scene(point) or isinstance(point, SlippingName)
@@ -371,5 +370,5 @@ def against(pen: Pen, pin: str, pivot: str) -> str:
 
 
 def step_name(pen: Pen, number: int) -> str:
-    """The name of a step, which is that of its point in the plan."""
+    """The name of a step, which is also the name of its point in the plan."""
     return pen.steps[number].name

@@ -101,8 +101,8 @@ class Roles(Struct, frozen=True):
     """The steps of one construction by their roles: a record of step numbers.
 
     ``gives`` are the roles of the steps that it draws itself; a role that it does not use is None.
-    The other numbers are those of its inputs. ``corners`` are the roles of points on the mechanism
-    that have no name but need room.
+    The other numbers are the steps of its inputs. ``corners`` are the roles of points on the
+    mechanism that have no name but need room.
     """
 
     gives: ClassVar[tuple[str, ...]] = ()
@@ -207,7 +207,7 @@ class Program(Struct, frozen=True):
 
     @property
     def answers(self) -> tuple[Target, ...]:
-        """The targets that are motions, centres and poles: all that can be asked."""
+        """The targets that are motions, centres and poles: everything that a scene can request."""
         return tuple(target for target in self.targets if target[0] not in PLACES)
 
     def needed(self, targets: Iterable[Target], *, by_hand: bool = False) -> tuple[int, ...]:

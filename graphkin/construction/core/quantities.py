@@ -104,7 +104,7 @@ QUANTITIES = (
         *("c", "m/s²", "Coriolis", ()),
     ),
 )
-"""All quantities, in the order in which they are asked for."""
+"""All quantities, in the order of the keys of [ask]."""
 BY_TARGET = {each.target: each for each in QUANTITIES}
 ASKED = {
     key: tuple(each for each in QUANTITIES if key in each.asked_by)
@@ -118,7 +118,7 @@ WHOSE: dict[str, Whose] = {key: found[0].whose for key, found in ASKED.items()}
 def those(whose: Whose, *sorts: Sort) -> tuple[MotionQuantity, ...]:
     """The reported quantities of points, links or blocks, in the order of their derivatives.
 
-    With ``sorts`` only those of these sorts.
+    ``sorts`` restricts them to some sorts.
     """
     found = [e for e in QUANTITIES if e.whose == whose and (not sorts or e.sort in sorts)]
     return tuple(sorted(filter(lambda q: q.words, found), key=lambda q: KINDS.index(q.kind)))

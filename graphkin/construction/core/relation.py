@@ -19,9 +19,9 @@ from graphkin.text.markup import saying
 
 
 class Term(Struct, frozen=True):
-    """A vector by its ``symbol``: how many of magnitude and direction are ``known``, and how.
+    """A vector by its ``symbol``, with what is known of it before the equation is solved.
 
-    This is the knowledge before the equation is solved.
+    ``known`` counts the known ones of magnitude and direction; ``note`` says what they are.
     """
 
     symbol: str

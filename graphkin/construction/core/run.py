@@ -52,11 +52,11 @@ def run(
     ``hook`` may replace each value as it is found, as a drawing error does. ``overrides`` gives
     values to use in place of a step's own. ``by_hand`` lets composite steps take the value found by
     hand. ``begun`` is an earlier trace with the same values, at another scale of velocities or for
-    other targets: its values are kept where they do not depend on that scale.
+    other targets. Its values are kept where they do not depend on that scale.
 
     A step that only the construction by hand uses may be impossible, such as the normal to a
-    velocity that is zero. It is left out, with all that would follow from it. Raises StepFailed at
-    any other impossible step.
+    velocity that is zero. This step and all that would follow from it are left out. Raises
+    StepFailed at any other impossible step.
     """
     found: dict[int, Any] = {}
     margins: dict[int, Any] = {}
