@@ -33,8 +33,7 @@ SET_ON = {"velocity": set_on, "acceleration": set_on_twice}
 
 
 def show(pen: Pen, plan: Plan, tips: Iterable[str]) -> None:
-    """Draw the vectors of driven tips and of the requested points, on the mechanism and in the
-    plan."""
+    """Draw the vectors of driven tips and requested points, on the mechanism and in the plan."""
     names: tuple[str, ...] = getattr(pen.scene.ask, plan.quantity)
     asked = [constructed(pen, name, plan) for name in names]
     for point in asked:

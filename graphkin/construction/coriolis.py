@@ -58,13 +58,12 @@ from graphkin.text.markup import AND, COMMA, NOTHING, saying
 CORNERS = ("ef", "gh", "rs", "xy")
 """Letters for the corners of the triangle similar to the guide's."""
 
-# --- its value, and the steps by hand ---------------------------------------------------------
+# --- its value, and the steps by hand ------------------------------------------------------------
 
 
 @action("coriolis")
 def coriolis(omega: Real, image_under: Point, image: Point) -> Point:
-    """The Coriolis acceleration: 2·omega times the relative velocity, turned 90° by omega's
-    sense."""
+    """The Coriolis acceleration: 2·omega times the relative velocity, turned 90° with omega."""
     return 2j * (image - image_under) * omega
 
 
@@ -86,7 +85,7 @@ def coriolis_by_hand(base: Point, top: Point, seconds: Real) -> Point:
     return (top - base) / (seconds * seconds)
 
 
-# --- the component ----------------------------------------------------------------------------
+# --- the component -------------------------------------------------------------------------------
 
 
 class CoriolisComponent(TriangleComponent, frozen=True, kw_only=True):
@@ -224,15 +223,14 @@ class CoriolisComponent(TriangleComponent, frozen=True, kw_only=True):
                 yield number, kind
 
     def is_shown_before(self, drawing: Drawing) -> bool:
-        """Whether a triangle of another kind, or an earlier Coriolis triangle, shows the
-        velocity."""
+        """Whether another kind's triangle, or an earlier Coriolis one, shows the velocity."""
         assert self.velocity is not None
         number, kind = next(self.same_velocity(drawing.choosing), (None, None))
         if number is None:
             return False
         return number < self.velocity or not isinstance(kind, CoriolisComponent)
 
-    # --- its sentences ----------------------------------------------------------------------------
+    # --- its sentences ---------------------------------------------------------------------------
 
     def formula(self, drawing: Drawing) -> str:
         """2·ω·v, as markup."""
@@ -240,8 +238,7 @@ class CoriolisComponent(TriangleComponent, frozen=True, kw_only=True):
         return saying(f"2{rate_symbol(drawing, self.omega)}·{speed}", speed)
 
     def sentence(self, drawing: Drawing, *, first: bool) -> Wording:
-        """The instruction: its triangles in full the first time at a pivot, later its source or
-        value."""
+        """The instruction: its triangles in full first, later only its source or value."""
         if self.is_left_out(drawing):
             return Wording("short", self.left_out(drawing))
         fields = self.fields(drawing)
@@ -285,8 +282,7 @@ class CoriolisComponent(TriangleComponent, frozen=True, kw_only=True):
         return drawing.words("step.coriolis-longer", m=inverse(drawing, m))
 
     def why_computed(self, drawing: Drawing) -> str:
-        """The remark that its triangles are left out because of the scale; empty where they are
-        drawn."""
+        """The remark that the scale leaves no room for its triangles; empty where drawn."""
         if self.read is None or self.read in drawing.trace.values:
             return ""
         return drawing.words("step.coriolis-no-room")
@@ -308,8 +304,7 @@ class CoriolisComponent(TriangleComponent, frozen=True, kw_only=True):
             yield f"{rate_symbol(drawing, self.omega)} = 0"
 
     def in_full(self, drawing: Drawing, top: str) -> tuple[str, str]:
-        """The instruction for its triangles in two parts: the perpendicular, and the line that cuts
-        it.
+        """The instruction for its triangles in two parts: the perpendicular, and what cuts it.
 
         ``top`` is the key of the second part.
         """
@@ -357,8 +352,7 @@ class CoriolisComponent(TriangleComponent, frozen=True, kw_only=True):
         return drawing.words("step.coriolis-line-letter", **tip, **fields)
 
     def triangle_before(self, drawing: Drawing) -> TriangleComponent | None:
-        """The earlier triangle of another kind whose tip lies on the leaning line; None without
-        one."""
+        """The earlier triangle of another kind whose tip is on the leaning line, or None."""
         assert self.velocity is not None
         for number, kind in self.same_velocity(drawing):
             if number < self.velocity and not isinstance(kind, CoriolisComponent):
@@ -403,8 +397,7 @@ class CoriolisComponent(TriangleComponent, frozen=True, kw_only=True):
             laid_off(drawing, "quarter", size, v=v, omega=rate),
         )
 
-    # --- marking students' work
-    # --------------------------------------------------------------------
+    # --- marking students' work ------------------------------------------------------------------
 
     def sizes(self, own: OwnSizes) -> Iterator[Size]:
         """2·ω·v from the student's own values."""
@@ -433,7 +426,7 @@ def drawn(drawing: Drawing) -> Iterator[CoriolisComponent]:
             yield kind
 
 
-# --- reasons ----------------------------------------------------------------------------------
+# --- reasons -------------------------------------------------------------------------------------
 
 
 def guides_words(blocks: list[str]) -> str:
@@ -462,7 +455,7 @@ def no_moving_guide(scene: Scene) -> str:
     return f"the guide of {fixed[0]} does not turn"
 
 
-# --- writing its steps ------------------------------------------------------------------------
+# --- writing its steps ---------------------------------------------------------------------------
 
 
 def coriolis_of(
@@ -502,8 +495,7 @@ def coriolis_of(
 def similar_triangles(
     pen: Pen, link: str, tail: int, tip: int, point: str, index: str
 ) -> dict[str, Any]:
-    """The steps by hand: twice the relative velocity at the guide's pivot, and the similar
-    triangle.
+    """The steps by hand: twice the relative velocity at the pivot, and the similar triangle.
 
     Empty where no two points of the guide determine its rotation.
     """

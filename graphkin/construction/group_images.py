@@ -55,8 +55,7 @@ class GroupImages(Struct, frozen=True):
             self.plan.turn(pen, link, group.pivot, tip, steady=steady, along=group.pivot)
 
     def turn_driven(self, pen: Pen, group: Crank | Spun) -> None:
-        """Write the rate of a driven link: the given rate plus the rate of the link it turns
-        against."""
+        """Write the rate of a driven link: the given rate plus that of its counterpart."""
         driver, link, rate = group.driver, group.link, self.plan.rate
         found: int = getattr(pen.drive(driver), self.plan.given)
         against = other_of(driver, link)
@@ -72,14 +71,12 @@ class GroupImages(Struct, frozen=True):
         pen.want(rate, link, found)
 
     def driven(self, pen: Pen, group: Driven) -> None:
-        """Draw the image of a driven slider or wheel centre, along its guide with the given
-        value."""
+        """Draw the image of a driven slider or wheel centre, along its guide as given."""
         given = led_by(group.pair).driven(pen, group.driver, self.plan.given)
         self.slide_on(pen, group.pair, group.link, given)
 
     def slide_on(self, pen: Pen, pair: Leading, link: str, given: int) -> None:
-        """Draw the image of the guided point of a link, along its line with a given or tried
-        value."""
+        """Draw the image of a guided point, along its line with a given or tried value."""
         from graphkin.construction.drivers.driven_slide import slide_image
 
         plan, point = self.plan, pen.bases[link].start
@@ -102,8 +99,7 @@ class GroupImages(Struct, frozen=True):
         return led.end(pen, led.component(pen))
 
     def sliding(self, pen: Pen, block: str) -> None:
-        """Write the motion of a block along its guide, with the component due to the guide's
-        rotation."""
+        """Write the motion of a block along its guide, with the Coriolis component."""
         plan, pair, point = self.plan, pen.first_slide(block), pen.scene.link(block).points[0]
         start = image_under(pen, pair.links[1], point, plan)
         guide, end = known_guide(pen, pair), pen.the(plan.quantity, point)
@@ -158,8 +154,7 @@ class GroupImages(Struct, frozen=True):
     # --- the rest of a link ----------------------------------------------------------------------
 
     def plate_points(self, pen: Pen, base: Base) -> None:
-        """Draw the images of the other points of a link: their figure is similar to the link
-        (Mehmke)."""
+        """Draw the images of a link's other points: their figure is similar to it (Mehmke)."""
         if base.end is None:
             self.led_points(pen, base)
             return
@@ -187,8 +182,7 @@ class GroupImages(Struct, frozen=True):
     def two_lines(
         self, pen: Pen, bars: Sequence[BarVelocity | BarAcceleration]
     ) -> tuple[int, list[int]]:
-        """The image of a plate point by hand: lines for the bars to both ends of the base cross
-        in it."""
+        """The image of a plate point by hand, where the lines of two bars cross."""
         lines = []
         for bar in bars:
             vector = bar.component(pen)
@@ -198,8 +192,7 @@ class GroupImages(Struct, frozen=True):
             return crossed_image(pen, *(line for _, line in lines)), [end for end, _ in lines]
 
     def led_points(self, pen: Pen, base: Base) -> None:
-        """Draw the other points of a link that turns with its guide; on a translating link they
-        coincide."""
+        """Draw the other points of a link that turns with its guide, or only translates."""
         plan = self.plan
         for point in base.others:
             if pen.has(plan.quantity, point):

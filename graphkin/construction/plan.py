@@ -43,8 +43,7 @@ class Plan(Struct, frozen=True):
 
     @abstractmethod
     def arrows(self, pen: Pen, point: str, pivot: str | None = None) -> None:
-        """Draw the arrows to the image of a point: from the pole, and for a velocity from a
-        pivot's image."""
+        """Draw the arrows to the image of a point: from the pole, and from a pivot's image."""
 
     @abstractmethod
     def index(self, pen: Pen, pin: str, pivot: str) -> str:
@@ -58,8 +57,7 @@ class Plan(Struct, frozen=True):
     def turned(
         self, pen: Pen, link: str, pivot: str, pin: str, start: int, *, steady: bool = False
     ) -> int:
-        """The image of a pin from the image ``start`` of a pivot, by the known rates of their
-        link."""
+        """The image of a pin from ``start``, the pivot's image, by the rates of their link."""
 
     @abstractmethod
     def is_steady(self, pen: Pen, link: str) -> bool:
@@ -151,8 +149,7 @@ BY_RATE: dict[str, Plan] = {plan.rate: plan for plan in (VELOCITY, ACCELERATION)
 
 
 def omega_of(pen: Pen, link: str, quantity: str = VELOCITY.rate) -> int:
-    """The angular velocity or acceleration of a link, from its base or from the link that leads
-    it."""
+    """The angular velocity or acceleration of a link, from its base or from its leading link."""
     if link == FRAME:
         return pen.given("nought")
     if not pen.has(quantity, link):

@@ -168,7 +168,7 @@ def radius_of(disc: Disc) -> str:
     return of_wheel("r", disc.sign)
 
 
-# --- blocks on their guides -----------------------------------------------------------------------
+# --- blocks on their guides ----------------------------------------------------------------------
 
 
 def of_slides(drawing: Drawing) -> Iterator[Relation]:

@@ -1,6 +1,6 @@
 """The vector equations of a plan: motions about pins and along guides, and given motions.
 
-A vector that is computed and laid off, not found by a crossing, has its numbers.
+A vector that is computed and laid off, not found by a crossing, is given with its value.
 """
 
 from __future__ import annotations

@@ -34,8 +34,7 @@ class TangentialDirection(PerpendicularThrough, frozen=True, kw_only=True):
     reasons: ClassVar[Mapping[str, str]] = {"line": "why.tangential"}
 
     def clause(self, drawing: Drawing, role: str) -> str:
-        """The clause: through the end of the normal component, or through its start if it is too
-        short."""
+        """The clause: through the normal component's end, or its start if it is too short."""
         fields = {"vector": symbol(f"a_{self.index}^τ"), **self.symbols()}
         laid = laid_off(drawing.trace.program, self.start)
         if laid is not None and laid.is_short(drawing):

@@ -76,7 +76,7 @@ class TurnedAcceleration(LaidOffAboutPivot, GivenVector, EndsComponent, frozen=T
     def index_at(self, role: str) -> str:
         return self.index
 
-    # --- its sentences ----------------------------------------------------------------------------
+    # --- its sentences ---------------------------------------------------------------------------
 
     def said_before(self, drawing: Drawing, role: str) -> tuple[int, ...]:
         """The centripetal component before the tangential one."""
@@ -171,7 +171,7 @@ class TurnedAcceleration(LaidOffAboutPivot, GivenVector, EndsComponent, frozen=T
         return rate_symbol(drawing, self.epsilon, "ε")
 
 
-# --- writing its steps ------------------------------------------------------------------------
+# --- writing its steps ---------------------------------------------------------------------------
 
 
 def turned_image(

@@ -39,12 +39,11 @@ def acceleration_pole(o: Point, p: Point, q: Point, image_p: Point, image_q: Poi
 
 @action("acceleration-pole")
 def turned_pole(p: Point, image: Point, omega: Real, epsilon: Real) -> Ratio:
-    """The point of a link without acceleration, from one point's acceleration and the link's
-    rates."""
+    """The point of a link without acceleration, from one acceleration and the link's rates."""
     return Ratio(p, image, at(omega * omega, -epsilon))
 
 
-# --- the constructions ------------------------------------------------------------------------
+# --- the constructions ---------------------------------------------------------------------------
 
 
 class PoleRay(LineToCentre, frozen=True, kw_only=True):
@@ -87,8 +86,7 @@ class AccelerationPole(TwoPointCentre, frozen=True, kw_only=True):
         return tuple(rays)
 
     def mark_far(self, canvas: Canvas) -> None:
-        """Mark a far pole; at infinity with a note only: all points of the link have one
-        acceleration."""
+        """Mark a far pole; at infinity only a note says that all points accelerate equally."""
         drawing, value = canvas.drawing, self.value(canvas.drawing)
         if drawing.place(value) is not None:
             super().mark_far(canvas)
@@ -103,7 +101,7 @@ class AccelerationPole(TwoPointCentre, frozen=True, kw_only=True):
         return super().fields(drawing) | images | {"figure": figure}
 
 
-# --- writing its steps ------------------------------------------------------------------------
+# --- writing its steps ---------------------------------------------------------------------------
 
 
 def draw_pole(pen: Pen, base: Base) -> None:

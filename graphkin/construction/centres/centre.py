@@ -25,7 +25,7 @@ Places = dict[str, complex]
 """Places on a line by name."""
 
 
-# --- the lines that lead to a centre ----------------------------------------------------------
+# --- the lines that lead to a centre -------------------------------------------------------------
 
 
 @action("velocity-normal", move=Move(PERPENDICULAR, point_and_arrow))
@@ -95,15 +95,14 @@ class VelocityNormal(LineToCentre, frozen=True, kw_only=True):
         return {own or self.point: drawing.trace.values[self.place]}
 
 
-# --- the constructions ------------------------------------------------------------------------
+# --- the constructions ---------------------------------------------------------------------------
 
 
 class Centre(Construction, frozen=True, kw_only=True):
-    """A place of a link that may lie at infinity, with its letter; a Ratio that starts at
-    ``point``.
+    """A place of a link that may lie at infinity, with its letter.
 
-    ``found`` is its numerically stable value. ``crossing`` is the place found by hand, where its
-    ``ways`` meet.
+    It is a Ratio that starts at ``point``. ``found`` is its numerically stable value. ``crossing``
+    is the place found by hand, where its ``ways`` meet.
     """
 
     gives: ClassVar[tuple[str, ...]] = ("crossing", "found")
@@ -150,8 +149,7 @@ class Centre(Construction, frozen=True, kw_only=True):
         return not self.is_by_hand(canvas.drawing)
 
     def lines_to(self, drawing: Drawing) -> list[Places]:
-        """For each line to the centre, the places on it by name, the farthest from the centre
-        first.
+        """For each line to the centre, the places on it by name, the farthest first.
 
         Empty where one of the lines passes through no place, or the centre lies at infinity.
         """
@@ -166,7 +164,7 @@ class Centre(Construction, frozen=True, kw_only=True):
         """The circle on which it lies, after its style; None for most centres."""
         return None
 
-    # --- its sentences ----------------------------------------------------------------------------
+    # --- its sentences ---------------------------------------------------------------------------
 
     def oddity(self, drawing: Drawing) -> str:
         """The special case of a centre: "everywhere", or "far" for infinity; empty for others."""
@@ -215,8 +213,7 @@ class TwoPointCentre(Centre, frozen=True, kw_only=True):
         return [{point: drawing.standing.spot(lettered(point))} for point in points]
 
     def oddity(self, drawing: Drawing) -> str:
-        """The special case, also "still": the centre is a point of the bar that no lines lead
-        to."""
+        """The special case, also "still": it is a point of the bar that no lines lead to."""
         lost = self.crossing is not None and not self.is_by_hand(drawing)
         return super().oddity(drawing) or ("still" if lost else "")
 
@@ -296,7 +293,7 @@ def far_words(drawing: Drawing, value: Ratio, name: str, point: str) -> str:
     return words("page.far_centre", distance=away, **fields)
 
 
-# --- writing its steps ------------------------------------------------------------------------
+# --- writing its steps ---------------------------------------------------------------------------
 
 
 def centre_name(letter: str, link: str) -> str:

@@ -39,7 +39,7 @@ from graphkin.numbers.plane import Circle, Line, Ratio, cross, crossing_sine, do
 FLAT = 1e-3
 """Sine of the flattest crossing of two rays used to find an inflection pole by hand."""
 
-# --- its value, and the steps by hand ---------------------------------------------------------
+# --- its value, and the steps by hand ------------------------------------------------------------
 
 
 @action("inflection-pole")
@@ -92,7 +92,7 @@ def inflection_circle(p: Point, image_p: Point, omega: Real, pole: Ratio) -> Cir
     return Circle((centre + far) / 2, abs(far - centre) / 2)
 
 
-# --- the constructions ------------------------------------------------------------------------
+# --- the constructions ---------------------------------------------------------------------------
 
 
 class InflectionPoint(LineToCentre, frozen=True, kw_only=True):
@@ -215,11 +215,11 @@ class InflectionCircle(Centre, frozen=True, kw_only=True):
         return super().fields(drawing) | names
 
 
-# --- writing its steps ------------------------------------------------------------------------
+# --- writing its steps ---------------------------------------------------------------------------
 
 
 def draw_circle(pen: Pen, base: Base) -> None:
-    """Draw the inflection pole W of a link if requested, and the circle through I and W."""
+    """Draw the inflection pole W of a link, and the circle through I and W."""
     points = two_points(pen, base)
     if points is None:
         return

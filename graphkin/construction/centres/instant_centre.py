@@ -41,7 +41,7 @@ def instant_centre(o: Point, p: Point, q: Point, image_p: Point, image_q: Point)
     return Ratio(p, 1j * (image_p - o) * dot(bar, bar), cross(bar, image_q - image_p))
 
 
-# --- the construction -------------------------------------------------------------------------
+# --- the construction ----------------------------------------------------------------------------
 
 
 class InstantCentre(TwoPointCentre, SaidInParts, frozen=True, kw_only=True):
@@ -73,8 +73,7 @@ class InstantCentre(TwoPointCentre, SaidInParts, frozen=True, kw_only=True):
         super().marks(canvas, role)
 
     def mark_tips(self, canvas: Canvas) -> None:
-        """Draw the line through the tips of two parallel velocities, and velocities not yet
-        drawn."""
+        """Draw the line through the tips of two parallel velocities, and missing velocities."""
         drawing, pole = canvas.drawing, canvas.value(self.pole)
         drawn = {step.args[:3] for _, step, _ in drawing.on_mechanism if step.arrow}
         vectors = []
@@ -156,7 +155,7 @@ def arrows_set_on(drawing: Drawing) -> dict[tuple[int, int], int]:
     }
 
 
-# --- writing its steps ------------------------------------------------------------------------
+# --- writing its steps ---------------------------------------------------------------------------
 
 
 def draw_centre(pen: Pen, base: Base) -> None:

@@ -139,8 +139,7 @@ def cross(a: Spot, b: Spot) -> Spot:
 
 
 def sine(a: Spot, b: Spot) -> float:
-    """The sine of the angle between two unit vectors of points or lines; zero if these are
-    equal."""
+    """The sine of the angle between unit vectors of points or lines; zero if these are equal."""
     x, y, z = cross(a, b)
     return sqrt(x * x + y * y + z * z)
 
@@ -376,8 +375,7 @@ class Finder:
             return lines, self.pen.draw(meeting, *(line.line for line in lines))
 
     def line(self, pair: Pair, over: str) -> LineOfCentres | None:
-        """The line of the centres of a third link with two links; None where both lie at
-        infinity."""
+        """The line of a third link's centres with two links; None where both are at infinity."""
         ends = [ordered(self.links, end, over) for end in pair]
         sizes = (self.where.get(end, (0.0, 0.0, 1.0))[2] for end in ends)
         if all(abs(size) <= ENDLESS for size in sizes):

@@ -83,7 +83,7 @@ def normals_meet(m: Line, n: Line) -> Ratio:
     return meet_anywhere(m, n)
 
 
-# --- the constructions ------------------------------------------------------------------------
+# --- the constructions ---------------------------------------------------------------------------
 
 
 class LineOfCentres(LineToCentre, frozen=True, kw_only=True):
@@ -109,7 +109,7 @@ class LineOfCentres(LineToCentre, frozen=True, kw_only=True):
 
 
 class PairCentre(Centre, frozen=True, kw_only=True):
-    """The centre of ``link`` and the link before it, ``first``."""
+    """The centre of two links, ``first`` and ``link``, in the order of the scene."""
 
     first: str
 

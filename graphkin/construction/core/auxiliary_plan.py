@@ -15,13 +15,11 @@ class AuxiliaryPlan(PlanAside):
 
     @property
     def repeats(self) -> bool:
-        """Whether this plan repeats the lines of another plan and follows no equation of its
-        own."""
+        """Whether this plan repeats the lines of another plan, without equations of its own."""
         return False
 
     def reason(self, name: str) -> str:
-        """The key of the reason for drawing this plan, for its opening sentence; otherwise
-        empty."""
+        """The key of the reason for this plan, for its opening sentence; otherwise empty."""
         return ""
 
     def turned_by(self, rate: int) -> str:
@@ -39,20 +37,18 @@ class AuxiliaryPlan(PlanAside):
     def told_in_parts(
         self, drawing: Drawing, named: Sequence[int]
     ) -> Iterator[tuple[int, int, str]]:
-        """The points of this plan line by line: step of the point, last step of the part,
-        sentence."""
+        """The points of this plan by line: step of the point, last step of the part, sentence."""
         yield from ()
 
     def introduced(self, drawing: Drawing, how: str, *, first: bool) -> str:
-        """The sentence of a part, after what the part is.
+        """The sentence ``how`` of a part, after a phrase that names this plan.
 
-        For the ``first`` part the assumption comes before it too.
+        For the ``first`` part the phrase also states what the plan assumes.
         """
         return how
 
     def falls_on(self, drawing: Drawing, number: int) -> str:
-        """The point with which a point of this plan and all its sources coincide; otherwise
-        empty."""
+        """The point that coincides with a point of this plan and all its sources; else empty."""
         return ""
 
     def sentences(self, drawing: Drawing, number: int) -> Iterator[Sentence]:

@@ -197,7 +197,7 @@ def sides_of(known: Mapping[str, Base], dyad: Dyad) -> tuple[str, str, list[tupl
     """The point that closes a dyad in the plans, the point where it lies, and the free sides.
 
     Each side is a pair and the link that it holds. For an RPR dyad the closing point is the point
-    of the guide's link under the block's pin: it turns with the guide and slides along it.
+    of the guide's link under the block's pin. It turns with the guide and slides along it.
     """
     first, second = dyad.links
     match dyad.left, dyad.inner, dyad.right:
@@ -265,8 +265,8 @@ def geared_base(scene: Scene, group: Geared) -> Base:
 def no_construction(group: Group) -> StructureError:
     """The error for a group of links that cannot be constructed.
 
-    It names the limit: a track held by wheels alone, several driven guides in one group, a wheel
-    wedged between tracks that are not parallel, or too many links to try.
+    It names the limit. A straight track may be held by wheels and pins alone, or a wheel by tracks
+    that are not parallel. A group may have several drivers, or too many trial links.
     """
     hint = ""
     if not isinstance(group, Unresolved):

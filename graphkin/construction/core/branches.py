@@ -158,7 +158,7 @@ def in_place_of(scene: Scene, problem: Problem, names: Sequence[str]) -> Problem
     own = problem.place.partition(".")[2]
     ways = [each for each in problem.changes if isinstance(each, Written)]
     expected = " or ".join(f"{own} = {each.value}" for each in ways)
-    if len(ways) == 1:  # a closure, whose number means any number
+    if len(ways) == 1:  # a closure: any number is accepted
         expected = problem.expected
     return replace(
         problem,

@@ -75,8 +75,7 @@ class CamProfile(Struct, frozen=True, dict=True):
 
     @property
     def law_angles(self) -> Any:
-        """The angles counted along the law, in degrees from 0 to 360; for a plate lengths in
-        metres."""
+        """The angles along the law, in degrees from 0 to 360; for a plate lengths in metres."""
         start = self.cam.start.si(self.scene.values)
         if self.cam.slides:
             return self.cam.sense * (self.angles - float(start))
@@ -117,8 +116,7 @@ class CamProfile(Struct, frozen=True, dict=True):
 
     @cached_property
     def bar(self) -> tuple[complex, float]:
-        """The position of a lever's pin relative to the cam's pivot, and the length from pin to
-        tip."""
+        """A lever's pin relative to the cam's pivot, and the length from the pin to the tip."""
         lever, fixed = self.cam.lever, body(self.scene, self.cam.carrier)
         assert lever is not None
         own = body(self.scene, self.follower)
@@ -152,8 +150,7 @@ class CamProfile(Struct, frozen=True, dict=True):
 
     @property
     def prime(self) -> float:
-        """The radius of the prime circle, where the first roller's centre or the knife edge
-        rests."""
+        """The radius of the prime circle, where the first roller's centre or a knife rests."""
         return self.base + float(self.cam.roller.si(self.scene.values))
 
     @property
@@ -163,8 +160,7 @@ class CamProfile(Struct, frozen=True, dict=True):
 
     @property
     def height(self) -> Any:
-        """The coordinate of a sliding follower's point along its guide, from the foot of the
-        pivot."""
+        """The coordinate of a follower's point along its guide, from the foot of the pivot."""
         if self.cam.slides:
             along, aside = self.guide
             path = Line(1j * along * aside, along)
@@ -245,16 +241,14 @@ class CamProfile(Struct, frozen=True, dict=True):
 
     @property
     def face(self) -> float:
-        """The necessary length of a flat face: to both sides of the pivot's foot, or from the
-        pin."""
+        """The length of a flat face: to both sides of the pivot's foot, or from the pin."""
         if self.cam.lever is None:
             return float(abs(self.flat.slope).max())
         return float(((self.flat.contact - self.bar[0]) * self.way.conj()).real.max())
 
     @property
     def pressure(self) -> Any:
-        """The pressure angle at each angle, in degrees: between common normal and path of the
-        tip."""
+        """The pressure angles in degrees, between the common normal and the path of the tip."""
         lever = self.cam.lever
         if self.is_flat:
             if lever is None:

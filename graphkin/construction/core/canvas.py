@@ -54,8 +54,7 @@ class Canvas(Protocol):
         """The part of the step's own circle that finds the points on it."""
 
     def right_angle(self, toward: Any) -> None:
-        """The right-angle mark at the start of the step's line, against the direction to a
-        point."""
+        """The right-angle mark where the step's line starts, against the direction to a point."""
 
     def swing(self, centre: Any, end: Any) -> None:
         """The arc along which a point was turned about a centre."""
@@ -63,7 +62,7 @@ class Canvas(Protocol):
     def opening(self, name: str, centre: Any, end: Any) -> None:
         """The part of an arc about a centre that finds a point on it."""
 
-    # --- plans -------------------------------------------------------------------------------
+    # --- plans -----------------------------------------------------------------------------------
 
     def locus(self, name: str, text: str) -> None:
         """The step's own line beyond the points on it, with a label along it."""
@@ -87,10 +86,9 @@ class Canvas(Protocol):
         """A thin line in a given style, on a line through a point, from one distance to another."""
 
     def through(self, first: Any, second: Any, third: Any) -> None:
-        """A chain line through two distinct points and a third point, extended a little beyond
-        them."""
+        """A chain line through two distinct points and a third, extended a little beyond."""
 
-    # --- centres -----------------------------------------------------------------------------
+    # --- centres ---------------------------------------------------------------------------------
 
     def centre(self, value: Ratio) -> bool:
         """The circle and cross of a centre with its letter; False where it lies off the field."""
@@ -110,8 +108,7 @@ class Canvas(Protocol):
         """A text for something off the field, placed where the ray to it leaves the field."""
 
     def through_tips(self, one: tuple[Any, Any], other: tuple[Any, Any]) -> None:
-        """The line through the tips of two parallel vectors, each given by its tail and
-        direction."""
+        """The line through the tips of two parallel vectors, each as tail and direction."""
 
     def note(self, text: str) -> None:
         """A text at the foot of the field."""

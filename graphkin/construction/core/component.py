@@ -100,13 +100,12 @@ class Component(Construction, frozen=True, kw_only=True):
 
     @classmethod
     def cause(cls, scene: Scene) -> str:
-        """What in a scene causes this effect; empty where the effect depends only on the
-        question."""
+        """What in a scene causes this effect; empty where only the question does."""
         return ""
 
     @classmethod
     def absence(cls, scene: Scene) -> str:
-        """What in a scene rules out this effect; empty where it depends only on the question."""
+        """What in a scene rules out this effect; empty where only the question does."""
         return ""
 
     # --- in words and figures --------------------------------------------------------------------
@@ -149,22 +148,19 @@ class Component(Construction, frozen=True, kw_only=True):
             yield self.vector, self.sentence(drawing, first=True).markup
 
     def laid_alone(self, drawing: Drawing, **fields: str) -> str:
-        """The sentence for a component whose end is joined to a known point; empty if none is
-        needed."""
+        """The sentence where only a vector along a guide remains after it; else empty."""
         return ""
 
     def stands_at(self, drawing: Drawing) -> int | None:
-        """The step of the pin where this figure is drawn if other figures are too; otherwise
-        None."""
+        """The pin's step where this figure is drawn if other figures are too; otherwise None."""
         return None
 
     def picked_from(self, picks: Picks) -> tuple[str | None, ...]:
-        """The points from which its action of the palette is drawn."""
+        """The inputs of its palette action."""
         return ()
 
     def shown_between(self) -> tuple[int | None, ...]:
-        """The steps of the two points of the mechanism between which it is drawn; otherwise
-        empty."""
+        """The steps of the two points between which it is drawn on the mechanism; or empty."""
         return ()
 
     @abstractmethod
@@ -175,8 +171,7 @@ class Component(Construction, frozen=True, kw_only=True):
     def relation(self, drawing: Drawing) -> Relation:
         """The line of the component on the calculation page."""
 
-    # --- marking students' work
-    # --------------------------------------------------------------------
+    # --- marking students' work ------------------------------------------------------------------
 
     @abstractmethod
     def sizes(self, own: OwnSizes) -> Iterator[Size]:
@@ -184,8 +179,7 @@ class Component(Construction, frozen=True, kw_only=True):
 
     @abstractmethod
     def power_of(self, args: tuple[int, ...]) -> int:
-        """The power of a rate or speed in the component; ``args`` are the steps that it is read
-        from."""
+        """The power of a rate or speed in the component; ``args`` are the steps of its reading."""
 
     def proportions(self, values: Mapping[int, Any], seconds: Any) -> Iterator[tuple[str, Any]]:
         """The ratio of its velocity to its bar, where that ratio decides whether it can be drawn.
@@ -240,8 +234,7 @@ class TriangleComponent(Component, frozen=True, kw_only=True):
         """The letter of a corner without its index; empty if the role is not a corner."""
 
     def letter(self, drawing: Drawing, role: str) -> str:
-        """The letter of a corner, with its index only where another triangle has the same
-        letter."""
+        """The letter of a corner, with its index only where another triangle has that letter."""
         own, name = self.corner_letter(role), drawing.trace.program.steps[getattr(self, role)].name
         others = ((construction(step), step.role) for _, step in drawing.normals)
         alike = [

@@ -32,8 +32,7 @@ class Determined(Construction, frozen=True):
     has_mirror: ClassVar[bool] = False
 
     def in_line(self, steps: Sequence[Step], nearly: str) -> str:
-        """The points that are collinear or perpendicular where it fails, after ``nearly`` if
-        flat."""
+        """The collinear or perpendicular points where it fails, after ``nearly`` if flat."""
         return ""
 
     @property

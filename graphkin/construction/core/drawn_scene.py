@@ -154,8 +154,7 @@ class Drawing(Struct, frozen=True, dict=True):
         return self.standing.positions
 
     def corners(self) -> Iterator[complex]:
-        """The corners of the boxes of wheels, cams and profiles, the contact points and the
-        blocks."""
+        """The corners of wheels, cams and profiles, the contact points and the blocks."""
         for disc in self.standing.discs:
             yield disc.centre + disc.outer * (1 + 1j)
             yield disc.centre - disc.outer * (1 + 1j)
@@ -299,8 +298,10 @@ class Drawing(Struct, frozen=True, dict=True):
         return max((abs(v.tip - v.tail) for v in vectors), default=0.0)
 
     def turning(self, link: str) -> float | None:
-        """The angular velocity or acceleration of a link on this sheet; zero where it is
-        rounding."""
+        """The angular velocity or acceleration of a link on this sheet; zero for rounding.
+
+        None where the sheet does not find it.
+        """
         value = self.trace.value(self.rate.target, link)
         if value is None:
             return None

@@ -254,7 +254,7 @@ def quantities(scene: Scene) -> Iterator[Quantity]:
     yield from quantities_within((scene.frame, *scene.links.values(), *scene.drivers))
 
 
-# --- slides, wheels and closures, in words ------------------------------------------------------
+# --- slides, wheels and closures, in words -------------------------------------------------------
 
 
 def of_guide(drawing: Drawing, link: Link, slide: Slide) -> str:
@@ -301,7 +301,7 @@ def which_way(drawing: Drawing, link: Link, slide: Slide) -> str:
 
 
 def stated_way(scene: Scene, link: Link, slide: Slide) -> Branch | None:
-    """The stated branch of a block, or of a guided pin that has a way."""
+    """The stated branch of a block, or of a guided pin whose branch is a way."""
     led = (
         scene.link(slide.on).points if link.rolls else (*scene.link(slide.on).points, *link.points)
     )
@@ -310,7 +310,7 @@ def stated_way(scene: Scene, link: Link, slide: Slide) -> Branch | None:
 
 
 def is_led(drawing: Drawing, link: Link, slide: Slide) -> bool:
-    """Whether the known point of a block guides its slide, which starts at the given end."""
+    """Whether a guide is drawn from its first end through the known point of its block."""
     if not slide.along or not slide.offset.is_zero():
         return False
     ends = slide.along[0], link.points[0]

@@ -127,7 +127,7 @@ class Construction(Roles, frozen=True):
             canvas.image()
 
 
-# --- interfaces of some kinds of constructions -------------------------------------------------
+# --- interfaces of some kinds of constructions ---------------------------------------------------
 
 
 class LaidLength(Struct, frozen=True):
@@ -166,7 +166,7 @@ class FindsImage(Construction, frozen=True):
     @property
     @abstractmethod
     def sought(self) -> str:
-        """The point whose image is found; empty where the place does not determine it."""
+        """The point whose image is found; empty where similarity finds the image."""
 
 
 class FallsOnImage(Construction, frozen=True):
@@ -225,8 +225,7 @@ class SaidInParts(Construction, frozen=True):
 
 
 class JoinsPoints(Construction, frozen=True):
-    """A construction whose lines reach to the points that they pass through; ``joins`` are their
-    roles."""
+    """A construction with lines as far as the points they pass through; ``joins`` are its roles."""
 
     joins: ClassVar[frozenset[str]]
 
@@ -262,7 +261,7 @@ def constructions(program: Program, kind: type[K]) -> Iterator[K]:
     return (each for each in found.values() if isinstance(each, kind))
 
 
-# --- sentences ---------------------------------------------------------------------------------
+# --- sentences -----------------------------------------------------------------------------------
 
 
 class Sentence(Struct, frozen=True):

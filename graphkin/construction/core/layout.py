@@ -79,7 +79,7 @@ class Held(NamedTuple):
 def held_beside(box: Extent, poles: Iterable[Point], mm: Real, plan: Real) -> Held:
     """The contents of a mechanism's field next to a plan of width ``plan`` (mm).
 
-    Works for one sheet and for arrays of sheets.
+    The numbers may be arrays with one entry for each sheet.
     """
     whole = AREA[2] - AREA[0]
     most = larger(whole - larger(plan + 2 * MARGIN, LEAST_FIELD), LEAST_FIELD)

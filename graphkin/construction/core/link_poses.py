@@ -78,8 +78,7 @@ APART = 1e-9
 
 
 class Touch(Struct, frozen=True):
-    """The contact of a wheel and its track; ``along`` is the positive direction of a straight
-    track.
+    """The contact of a wheel and its track; ``along`` is a straight track's positive direction.
 
     ``zero`` is the origin of a straight track; ``other`` is the wheel that forms a circular track.
     """
@@ -148,8 +147,7 @@ class LinkPoses(Struct, frozen=True, dict=True):
         return self.places[letters]
 
     def name_at(self, place: complex) -> str:
-        """The name of a drawn point at a place that belongs to no link; empty where there is
-        none."""
+        """The name of a drawn point at a place that belongs to no link; empty without one."""
         near = APART * self.size
         found = (n for n in self.known if not is_in_scene(n) and not is_under(n))
         return next((lettered(n) for n in found if abs(self.known[n] - place) <= near), "")
@@ -254,8 +252,7 @@ class LinkPoses(Struct, frozen=True, dict=True):
         return tuple(found)
 
     def beside_wheels(self, way: Guideway) -> complex:
-        """The place where a block of the frame is drawn: its point, moved clear of a wheel on
-        its link."""
+        """The place where a block of the frame is drawn: its point, clear of a wheel there."""
         found = way.at
         for touch in reversed(self.touches):
             if touch.on != way.block or abs(cross(touch.along, way.along)) > ALONG:
@@ -266,8 +263,7 @@ class LinkPoses(Struct, frozen=True, dict=True):
         return found
 
     def on_line(self, own: list[Disc], rolling: Rolling) -> Touch | None:
-        """The contact with a straight track: the foot of the perpendicular from the wheel's
-        centre."""
+        """The contact with a straight track: the foot of the normal from the wheel's centre."""
         axis, zero = self.axis(rolling.on), self.carried(rolling.on, rolling.through)
         if axis is None or zero is None or rolling.angle is None or not own:
             return None
@@ -281,8 +277,7 @@ class LinkPoses(Struct, frozen=True, dict=True):
         return Touch(rolling, disc, at, along, zero)
 
     def on_wheel(self, own: list[Disc], rolling: Rolling) -> Touch | None:
-        """The contact with a circular track, on the line of centres of the two wheels that
-        touch."""
+        """The contact with a circular track, on the line of centres of the two wheels."""
         others = [disc for disc in self.discs if disc.link == rolling.on]
         if rolling.belt is not None:
             return self.by_belt(own, others, rolling, rolling.belt)

@@ -58,8 +58,7 @@ def arrow_of(drawing: Drawing, tail: int, tip: int) -> Step | None:
 
 
 def fallen(drawing: Drawing, number: int) -> int:
-    """The image with which an image always coincides, on a translating link; else the image
-    itself."""
+    """The image with which another coincides, on a translating link; else that image itself."""
     kind = construction(drawing.trace.program.steps[number])
     return kind.falls_on if isinstance(kind, FallsOnImage) else number
 
@@ -149,8 +148,7 @@ def sense(words: Words, value: Any) -> str:
 
 
 def driver_index(driver: Driver) -> str:
-    """The index of a driver as markup: its link, and the link that it moves against if that
-    moves."""
+    """The index of a driver as markup: its link, and a moving link that it turns against."""
     index = escape(driver.link)
     return index if driver.against == FRAME else f"{index}/{escape(driver.against)}"
 

@@ -100,7 +100,7 @@ def middle_of(part: Polyline, share: float) -> XY:
     return part.points[-1]
 
 
-# --- the drawing of one plane, and helpers for every kind of step ------------------------------
+# --- the drawing of one plane, and helpers for every kind of step --------------------------------
 
 
 EDGE = 3.0
@@ -176,7 +176,7 @@ def stretched(start: XY, end: XY) -> tuple[XY, XY]:
     return (start[0] - far * dx, start[1] - far * dy), (start[0] + far * dx, start[1] + far * dy)
 
 
-# --- marks of a plan's steps: labelled lines, points, poles, arrows ----------------------------
+# --- marks of a plan's steps: labelled lines, points, poles, arrows ------------------------------
 
 
 SAME = 0.01
@@ -278,7 +278,7 @@ def arrow_class(step: Step, plot: Plot) -> str:
     return f"relative-{plot.colour}"
 
 
-# --- the canvas of paper -----------------------------------------------------------------------
+# --- the canvas of paper -------------------------------------------------------------------------
 
 
 P = ParamSpec("P")
@@ -404,8 +404,7 @@ class PaperCanvas(Struct, frozen=True):
 
     @stroke
     def line(self, look: str = "construction", name: str | None = None) -> bool:
-        """Draw the step's own line as far as the layout says; False where the field holds none
-        of it."""
+        """Draw the step's own line as the layout says; False where the field holds none of it."""
         return self.own(look, name)
 
     @stroke
@@ -435,8 +434,7 @@ class PaperCanvas(Struct, frozen=True):
             marks.append(Arc(*centre, radius, *span, "compass", name, self.number))
 
     def own(self, look: str, name: str | None = None) -> bool:
-        """Draw the step's own line within the current stroke; False where the field holds none
-        of it."""
+        """Draw the step's own line within the stroke; False where the field holds none of it."""
         ends = line_part(self.plot, self.value(self.number), *self.plot.layout.spans[self.number])
         if ends:
             self.thin(*ends, look, name)
@@ -481,7 +479,7 @@ class PaperCanvas(Struct, frozen=True):
         arc = Arc(*at, radius, *span, "compass", name, self.number)
         self.plot.board.marks.append(arc)
 
-    # --- plans -------------------------------------------------------------------------------
+    # --- plans -----------------------------------------------------------------------------------
 
     @property
     def is_aside(self) -> bool:
@@ -496,8 +494,7 @@ class PaperCanvas(Struct, frozen=True):
 
     @stroke
     def image(self) -> None:
-        """Draw the step's own point of the plan with its letter; nothing if the point has no
-        letter."""
+        """Draw the step's own point of the plan with its letter, if it has a letter."""
         if not self.is_aside:
             put_point(self.plot, self.number, self.step, self.value(self.number))
 
@@ -547,12 +544,11 @@ class PaperCanvas(Struct, frozen=True):
             ends = self.plot.field(first + low * unit), self.plot.field(first + high * unit)
             self.thin(*ends, CHAIN_LINES, "")
 
-    # --- centres -----------------------------------------------------------------------------
+    # --- centres ---------------------------------------------------------------------------------
 
     @stroke
     def centre(self, value: Ratio) -> bool:
-        """Draw the circle and cross of a centre with its letter; False where it is off the
-        field."""
+        """Draw the circle and cross of a centre with its letter; False if it is off the field."""
         point = self.drawing.place(value)
         if point is None or not self.plot.field.holds(point, WITHIN):
             return False

@@ -253,7 +253,7 @@ class Pen:
         return drive.angle
 
     def turner(self, link: str) -> str | None:
-        """The link whose points give the rotation of a link; None for a driven link."""
+        """The link whose two points give the rotation of a link; None where there is none."""
         while link in self.bases and self.bases[link].end is None and link in self.leads:
             link = self.leads[link]
         return link if link in self.bases and self.bases[link].end is not None else None
@@ -362,8 +362,7 @@ def about(pen: Pen, pin: str, pivot: str) -> str:
 
 
 def against(pen: Pen, pin: str, pivot: str) -> str:
-    """The index of a relative velocity; B alone about a fixed point or the point of a fixed
-    link."""
+    """The index of a relative velocity; B alone about a fixed point or a contact at rest."""
     rests = pen.the("velocity", pivot) == pen.pole(Plane.VELOCITIES)
     fixed = pivot in pen.scene.frame.points or (not is_in_scene(pivot) and rests)
     return letter(pin) if fixed else letter(pin) + letter(pivot)

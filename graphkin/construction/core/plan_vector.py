@@ -8,8 +8,7 @@ from graphkin.construction.core.program import Plane, Roles, Step
 
 
 class PlanVector(Roles, frozen=True):
-    """A velocity or acceleration, by ``letter`` and ``index``: of point ``q``, about ``p`` if
-    given.
+    """A velocity or acceleration, by ``letter`` and ``index``: of ``q``, about ``p`` if given.
 
     ``sign`` marks the components of an acceleration: ν, τ, c, r; it is empty for a whole vector.
     ``foot`` is the letter of the point where a component ends, or where it begins if it is laid

@@ -116,14 +116,12 @@ class Roles(Struct, frozen=True):
                 yield role, number
 
     def comes_along(self, role: str, found: Container[int]) -> bool:
-        """Whether an arrow brings along the step of a role, once the inputs of that step are
-        there."""
+        """Whether an arrow brings along the step of a role, once its inputs are there."""
         return False
 
 
 class PlanAside:
-    """An auxiliary plan next to the right one; the ``tag`` is appended to the names of its
-    points."""
+    """An auxiliary plan next to the right one; its points' names end with the ``tag``."""
 
     tag: str
 
@@ -265,8 +263,7 @@ class Program(Struct, frozen=True):
         return found.issuperset(step.args)
 
     def descendants(self, number: int, among: Iterable[int] | None = None) -> frozenset[int]:
-        """The steps whose values depend on a step, itself included; ``among`` limits the search,
-        in order."""
+        """The steps that depend on a step, itself included; ``among`` limits them, in order."""
         found = {number}
         for later in range(number + 1, len(self.steps)) if among is None else among:
             if not found.isdisjoint(self.steps[later].args):

@@ -1,7 +1,7 @@
 """The quantities of a motion: owner, notation, printed form and sheet of each.
 
-Every table of quantities is made from these: what [ask] asks for, what a solution holds, and the
-names and units in reports, forms and measurements on paper.
+Every table of quantities is made from these. They define the keys of [ask], the fields of a
+solution, and the names and units in reports, forms and measurements.
 """
 
 from __future__ import annotations
@@ -143,8 +143,7 @@ def motion_value(motion: Any, quantity: MotionQuantity) -> Any:
 
 
 def names_asked(ask: Ask, quantity: MotionQuantity) -> tuple[str, ...]:
-    """The points, links or pairs for which [ask] asks the quantity itself, not a curve through
-    it."""
+    """The points, links or pairs for which [ask] asks the quantity itself, not a curve."""
     keys = (key for key in quantity.asked_by if key != "centrodes")
     return tuple(name for key in keys for name in getattr(ask, key))
 

@@ -30,8 +30,7 @@ class Term(Struct, frozen=True):
 
 
 class VectorEquation(Struct, frozen=True):
-    """A vector as one or more ``sums`` of others; without sums, what is known of the vector
-    alone."""
+    """A vector as one or more ``sums`` of others, or alone with what is known of it."""
 
     whole: Term
     sums: tuple[tuple[Term, ...], ...] = ()
@@ -160,8 +159,7 @@ UNSEEN = 0.1
 
 
 def value_of(words: Words, size: float, length: OnPaper) -> str:
-    """The value of a vector with a drawn length in mm; in two digits where it is next to
-    nothing."""
+    """The value of a vector with a drawn length in mm; in two digits where it is tiny."""
     return words.significant(size, 2 if length < UNSEEN else 4)
 
 
@@ -218,7 +216,7 @@ def squared(figures: str) -> str:
     return f"({figures})^2" if "·" in figures else f"{figures}^2"
 
 
-# --- lengths at a scale other than that of a plan ----------------------------------------------
+# --- lengths at a scale other than that of a plan ------------------------------------------------
 
 
 def set_length(drawing: Drawing, vector: str) -> str:

@@ -131,7 +131,7 @@ def not_a_way(along: Any) -> bool:
     return not hasattr(along, "shape") and along == 0
 
 
-# --- running a program on arrays: shared values once, the rest in blocks -----------------------
+# --- running a program on arrays: shared values once, the rest in blocks -------------------------
 
 
 BLOCK = 2048
@@ -277,8 +277,7 @@ def is_array(value: Any) -> bool:
 
 
 def room_for(value: Any, size: int) -> Any:
-    """Arrays of the whole length for a block's value; a value shared by all variants stays as
-    is."""
+    """Arrays of the whole length for a block's value; a shared value stays as it is."""
     if isinstance(value, Ratio):
         return Ratio(*(room_for(part, size) for part in value))
     return np.empty(size, value.dtype) if isinstance(value, np.ndarray) else value

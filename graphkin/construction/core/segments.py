@@ -62,8 +62,7 @@ def letter_at(drawing: Drawing, number: int) -> str:
 
 
 def told(drawing: Drawing, letter: str, own: Step) -> str:
-    """The letter at an end of a segment; a foot that is not drawn has the letter of the other
-    end."""
+    """The letter at an end of a segment; for a foot not drawn, the letter of the other end."""
     for number, step, _ in drawing.steps(drawing.plane):
         vector = plan_vector(step)
         if step is own or vector is None or vector.foot != letter or letter not in vector.ends:

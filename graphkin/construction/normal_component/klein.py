@@ -1,7 +1,7 @@
 """Klein's construction for a slider-crank whose crank turns at a constant speed.
 
 Take the crank itself as its velocity turned by 90°. Then every turned velocity lies on the
-mechanism: the slider's is perpendicular to its guide, and the slider's velocity about the crank pin
+mechanism: the slider's is perpendicular to its guide. The slider's velocity about the crank pin
 lies along the rod. One circle has that last velocity as its radius, another has the rod as its
 diameter. Their common chord cuts off the normal component on the rod, and the slider's acceleration
 on the parallel to its guide.
@@ -47,7 +47,7 @@ from graphkin.structure.pairs import Joint, Pin, Sliding
 from graphkin.text.errors import Problem, StructureError
 from graphkin.text.markup import AND
 
-# --- its value, and the steps by hand ---------------------------------------------------------
+# --- its value, and the steps by hand ------------------------------------------------------------
 
 
 @action("square-to-guide")
@@ -89,7 +89,7 @@ def klein_by_hand(pin: Point, foot: Point, omega: Real) -> Point:
     return omega * omega * (pin - foot)
 
 
-# --- the component ----------------------------------------------------------------------------
+# --- the component -------------------------------------------------------------------------------
 
 
 class KleinComponent(NormalComponent, frozen=True, kw_only=True):
@@ -156,8 +156,7 @@ class KleinComponent(NormalComponent, frozen=True, kw_only=True):
         return smaller(super().room(canvas), canvas.size(pin - pivot) - canvas.size(corner - pivot))
 
     def marks(self, canvas: Canvas, role: str) -> None:
-        """Draw the turned velocities on the mechanism, both circles, and the points on their
-        chord."""
+        """Draw the turned velocities, both circles, and the points on their chord."""
         assert self.whole is not None
         value, drawing = canvas.value, canvas.drawing
         match role:
@@ -181,7 +180,7 @@ class KleinComponent(NormalComponent, frozen=True, kw_only=True):
         """The piece of the rod that the chord cuts off."""
         return self.foot, self.pivot
 
-    # --- its sentences ----------------------------------------------------------------------------
+    # --- its sentences ---------------------------------------------------------------------------
 
     def drawing_words(self, drawing: Drawing, fields: Mapping[str, str], *, first: bool) -> Wording:
         """The construction in full, each time."""
@@ -211,7 +210,7 @@ class KleinComponent(NormalComponent, frozen=True, kw_only=True):
         return "normals_klein"
 
 
-# --- writing its steps ------------------------------------------------------------------------
+# --- writing its steps ---------------------------------------------------------------------------
 
 
 def crank_of(pen: Pen, sides: list[tuple[Joint, str]]) -> Base | None:
@@ -262,8 +261,7 @@ def klein_component(pen: Pen, crank: Base, sides: list[tuple[Joint, str]], pin: 
 
 
 def component_in_dyad(pen: Pen, sides: list[tuple[Joint, str]], pivot: str, pin: str) -> int:
-    """The normal component of a pin about a pivot of its dyad, by the method that the scene asks
-    for."""
+    """The normal component of a pin about a pivot of its dyad, by the scene's method."""
     crank = crank_of(pen, sides)
     if crank is None:
         return normal_component(pen, pivot, pin)

@@ -48,13 +48,12 @@ from graphkin.numbers.plane import Line
 from graphkin.scene.model import Scene
 from graphkin.text.markup import AND, COMMA, saying
 
-# --- its value, and the steps by hand ---------------------------------------------------------
+# --- its value, and the steps by hand ------------------------------------------------------------
 
 
 @action("normal")
 def normal(pivot: Point, pin: Point, image_pivot: Point, image_pin: Point) -> Point:
-    """The normal component of a pin's acceleration about a pivot: v·(v/l), towards the pivot
-    (Rivals).
+    """The normal component of a pin's acceleration about a pivot: v·(v/l), inwards (Rivals).
 
     The product is taken in this order so that no square overflows; 4·eps relative error.
     """
@@ -82,7 +81,7 @@ def normal_by_hand(pin: Point, end: Point, seconds: Point) -> Point:
     return (end - pin) / (seconds * seconds)
 
 
-# --- the component ----------------------------------------------------------------------------
+# --- the component -------------------------------------------------------------------------------
 
 PICKED = (("at", ("point",)), ("on", ("bar",)), ("velocity", ("arrow",)))
 """The inputs of its action on a page: the pin, the bar, and the velocity about the other end."""
@@ -161,8 +160,7 @@ class NormalComponent(TriangleComponent, frozen=True, kw_only=True):
         yield canvas.value(self.end) - pin
 
     def marks(self, canvas: Canvas, role: str) -> None:
-        """Draw the velocity at the pin, the perpendicular at its tip, and the piece it cuts off
-        the bar."""
+        """Draw the velocity at the pin, the perpendicular at its tip, and the piece cut off."""
         assert self.tip is not None and self.cut is not None and self.end is not None
         value, pin = canvas.value, canvas.value(self.pin)
         pivot = value(self.pivot)
@@ -183,7 +181,7 @@ class NormalComponent(TriangleComponent, frozen=True, kw_only=True):
                 canvas.vector(self.name, self.look, pin, value(self.end))
                 canvas.point(self.letter(canvas.drawing, role), value(self.end))
 
-    # --- its sentences ----------------------------------------------------------------------------
+    # --- its sentences ---------------------------------------------------------------------------
 
     def formula(self, drawing: Drawing) -> str:
         """v²/l, as markup."""
@@ -191,8 +189,7 @@ class NormalComponent(TriangleComponent, frozen=True, kw_only=True):
         return saying(f"{speed}^2/{bar(self.p, self.q)}", speed)
 
     def sentence(self, drawing: Drawing, *, first: bool) -> Wording:
-        """The instruction: its right triangle in full the first time, later its source or its
-        value."""
+        """The instruction: its right triangle in full first, later its source or its value."""
         if self.is_left_out(drawing):
             return Wording("short", self.left_out(drawing))
         size = self.size(drawing)
@@ -267,8 +264,7 @@ class NormalComponent(TriangleComponent, frozen=True, kw_only=True):
             over=((self.p, self.q),),
         )
 
-    # --- marking students' work
-    # --------------------------------------------------------------------
+    # --- marking students' work ------------------------------------------------------------------
 
     @property
     def ends(self) -> tuple[int, int, int, int]:
@@ -293,7 +289,7 @@ class NormalComponent(TriangleComponent, frozen=True, kw_only=True):
         return 2 if args == self.ends else 0
 
 
-# --- writing its steps ------------------------------------------------------------------------
+# --- writing its steps ---------------------------------------------------------------------------
 
 
 def normal_component(
@@ -339,8 +335,7 @@ def normal_component(
 def right_triangle(
     pen: Pen, places: tuple[int, int], images: tuple[int, int], point: str, index: str
 ) -> dict[str, int]:
-    """The right triangle: velocity at the pin, perpendicular at its tip, cut, half turn (figure
-    4)."""
+    """The triangle: velocity at the pin, perpendicular at its tip, cut, half turn (figure 4)."""
     seconds = pen.seconds()
     pivot, pin = places
     names = [f"{bare(point)}{prime}_{index}" for prime in PRIMES]
@@ -371,7 +366,7 @@ def lay_off_normal(pen: Pen, pivot: str, pin: str, vector: int) -> int:
     return end
 
 
-# --- several in one sentence ------------------------------------------------------------------
+# --- several in one sentence ---------------------------------------------------------------------
 
 
 def with_normals_together(drawing: Drawing, found: list[Sentence]) -> list[Sentence]:

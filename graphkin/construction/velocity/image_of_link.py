@@ -194,7 +194,7 @@ class ImageOfLink(Construction, frozen=True, kw_only=True):
             bare.remove(whole)
         yield from bare
 
-    # --- its sentences ----------------------------------------------------------------------------
+    # --- its sentences ---------------------------------------------------------------------------
 
     def reason(self, drawing: Drawing, role: str) -> str:
         """The key of the reason: similarity, or the lines that find the image by hand."""
@@ -253,7 +253,7 @@ def is_same(
     return max(ends) <= max(side) and all(abs(values[a] - values[b]) <= near for a, b in pairs)
 
 
-# --- writing its steps ------------------------------------------------------------------------
+# --- writing its steps ---------------------------------------------------------------------------
 
 
 def image_of_link(

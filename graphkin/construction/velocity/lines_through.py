@@ -53,13 +53,12 @@ class PerpendicularThrough(AboutPivot, frozen=True, kw_only=True):
         return Run(self.p + self.q, square=True)
 
     def reason(self, drawing: Drawing, role: str) -> str:
-        """The reason: the bar keeps its length; for a pivot at rest, its image is the pole."""
+        """The key of the reason: a bar keeps its length; a pivot at rest has the pole as image."""
         at_rest = self.index == self.whole and not self.touch
         return "why.perpendicular_at_rest" if at_rest else super().reason(drawing, role)
 
     def clause(self, drawing: Drawing, role: str) -> str:
-        """The clause with the point through which the line passes; contact points share one
-        image."""
+        """The clause with the point that the line passes through; contact points share one."""
         start = drawing.trace.program.steps[self.start].name
         key = "square-to"
         if self.touch:
@@ -106,8 +105,7 @@ class ParallelThrough(AlongGuide, frozen=True, kw_only=True):
     line: int
 
     def reason(self, drawing: Drawing, role: str) -> str:
-        """The reason: relative to its guide a block moves, and accelerates, only along the
-        guide."""
+        """The key of the reason: relative to its guide, a block only moves along the guide."""
         velocity = drawing.trace.program.steps[self.line].plane is Plane.VELOCITIES
         return "why.along" if velocity else "why.along_acceleration"
 
@@ -149,8 +147,7 @@ class ParallelThrough(AlongGuide, frozen=True, kw_only=True):
 
 
 def parallel_through(pen: Pen, start: int, along: int, guide: str) -> int:
-    """The parallel to a line of the mechanism, such as a block's guide, through a point of a
-    plan."""
+    """The parallel to a line of the mechanism, such as a guide, through a point of a plan."""
     line = pen.draw(parallel_to, start, along)
     pen.make(ParallelThrough(guide=guide, start=start, line=line))
     return line

@@ -108,8 +108,7 @@ class AlongGuide(Construction, frozen=True, kw_only=True):
         return next((name for name in found if name), default)
 
     def motion_of(self, drawing: Drawing, sought: str, size: str = "") -> Relation:
-        """The motion of a point along a guide: alone for a fixed guide, else with the guide's
-        motion.
+        """The motion of a point along a guide, with the guide's own motion if it moves.
 
         Of the sliding point and the point beneath it, the point ``sought`` is unknown. ``size`` is
         the magnitude along the guide where it is given or tried.
@@ -141,8 +140,7 @@ class AlongGuide(Construction, frozen=True, kw_only=True):
         return as_relation(VectorEquation(whole, (tuple(terms),)))
 
     def rests(self, drawing: Drawing, point: str) -> str:
-        """The remark that a fixed point has zero velocity or acceleration; empty for a moving
-        point."""
+        """The remark that a fixed point has a zero vector; empty for a moving point."""
         fixed = point in drawing.scene.frame.points
         return f"{symbol(f'{drawing.vector.letter}_{point}')} = 0" if fixed else ""
 

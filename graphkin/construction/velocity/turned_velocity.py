@@ -64,8 +64,7 @@ class LaidOffAboutPivot(AboutPivot, LaidOffByRate, frozen=True, kw_only=True):
         return self.link in (driver.link, driver.against)
 
     def by_turning(self, drawing: Drawing, rate: int, sign: str) -> Relation:
-        """The vector from a known rate: rate times bar, or rate squared times bar towards the
-        pivot."""
+        """The vector from a known rate: rate times bar, or rate squared times bar inwards."""
         value = drawing.rate_size(rate, "acceleration" if sign == "τ" else "velocity")
         length = length_of(drawing, self.p, self.q)
         square, letter = "^2" if sign == "ν" else "", "ε" if sign == "τ" else "ω"
@@ -181,8 +180,7 @@ class TurnedVelocity(LaidOffAboutPivot, GivenVector, frozen=True, kw_only=True):
         }
 
     def point_sentence(self, drawing: Drawing, role: str) -> str:
-        """The sentence on how it is laid off: as long as the drawn bar where the driver sets the
-        scale."""
+        """The sentence on how it is laid off: as long as the bar if the driver sets the scale."""
         fields = self.fields(drawing, role)
         if has_no_length(drawing, self.image):
             return drawing.words(falls(drawing, self.image, fields["s"]), **fields)

@@ -29,8 +29,7 @@ def omega(p: Point, q: Point, image_p: Point, image_q: Point) -> Real:
 
 @action(EPSILON)
 def epsilon(p: Point, q: Point, image_p: Point, image_q: Point) -> Real:
-    """The angular acceleration from the tangential part of a relative acceleration, with its
-    sense."""
+    """The angular acceleration from the tangential part of a relative acceleration."""
     bar = q - p
     return cross(bar, image_q - image_p) / dot(bar, bar)
 
@@ -122,7 +121,7 @@ def turning_of_link(
     return pen.make(found).rate
 
 
-# --- the rate of a crank on a moving link: the rate of that link plus the given one -----------
+# --- the rate of a crank on a moving link: the rate of that link plus the given one --------------
 
 
 class SummedRate(GivesRate, frozen=True, kw_only=True):
