@@ -1,1 +1,1 @@
-"""What a hand draws: steps, their values, marks and words, a folder for each kind."""
+"""Everything drawn by hand: steps with their values, marks and words, one folder for each kind."""

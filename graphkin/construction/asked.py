@@ -1,4 +1,4 @@
-"""What is asked of points: in its plan an arrow from the pole, and the same on the mechanism."""
+"""The vectors of the requested points: arrows from the pole, and on the mechanism."""
 
 from __future__ import annotations
 
@@ -18,26 +18,26 @@ from graphkin.scene.link_points import ends_of
 
 @action("set-on", move=Move(TRANSFER, vector_at_point))
 def set_on(point: Point, o: Point, image: Point, seconds: Real) -> Vector:
-    """A velocity of the plan set on the mechanism at its point."""
+    """A velocity of the plan, set on the mechanism at its point."""
     return Vector(point, point + (image - o) * seconds)
 
 
 @action("set-on-twice", move=Move(TRANSFER, vector_at_point))
 def set_on_twice(point: Point, o: Point, image: Point, seconds: Real) -> Vector:
-    """An acceleration of the plan set on the mechanism at its point."""
+    """An acceleration of the plan, set on the mechanism at its point."""
     return Vector(point, point + (image - o) * (seconds * seconds))
 
 
 SET_ON = {"velocity": set_on, "acceleration": set_on_twice}
-"""What sets a vector of each plan on the mechanism."""
+"""The action that sets a vector of each plan on the mechanism."""
 
 
 def show(pen: Pen, plan: Plan, tips: Iterable[str]) -> None:
-    """The vectors of driven tips and of what is asked, on the mechanism, and their arrows."""
+    """Draw the vectors of driven tips and requested points, on the mechanism and in the plan."""
     names: tuple[str, ...] = getattr(pen.scene.ask, plan.quantity)
     asked = [constructed(pen, name, plan) for name in names]
     for point in asked:
-        if pen.the(plan.quantity, point) != pen.pole(plan.plane):  # as that of a fixed point is
+        if pen.the(plan.quantity, point) != pen.pole(plan.plane):  # a fixed point has no arrow
             plan.arrows(pen, point)
     for point in dict.fromkeys((*tips, *asked)):
         ends = pen.the("position", point), pen.pole(plan.plane), pen.the(plan.quantity, point)
@@ -47,7 +47,7 @@ def show(pen: Pen, plan: Plan, tips: Iterable[str]) -> None:
 
 
 def constructed(pen: Pen, name: str, plan: Plan) -> str:
-    """The point that a name asks about, its image found: A for A@3 where link 3 owns A."""
+    """The point that a name asks about, with its image found: A for A@3 where link 3 owns A."""
     point, link = ends_of(name)
     if not link:
         return name

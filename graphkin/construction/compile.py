@@ -38,17 +38,18 @@ from graphkin.structure.groups import (
 from graphkin.text.errors import Problem, StructureError
 
 Work = Callable[[Pen, Any], None]
-"""What draws a group in one of the drawings."""
+"""A function that draws a group in one of the drawings."""
 PLANS = VELOCITIES, ACCELERATIONS
-"""What draws both plans."""
+"""The drawing functions of both plans."""
 Standing = list[tuple[Group, tuple[Base, ...]]]
 """Each group with the bases of its links."""
 
 
 def write(scene: Scene, groups: tuple[Group, ...], *, fitted: bool = True) -> Program:
-    """The program of a mechanism, everything included. Raises StructureError, all at once.
+    """The complete program of a mechanism.
 
-    Also for idle links without room in the stated closure, unless these need not be ``fitted``.
+    Raises StructureError with all problems at once. With ``fitted`` this includes idle links that
+    do not fit the stated closure.
     """
     standing = stand(scene, groups)
     pen = Pen(scene)
@@ -75,7 +76,10 @@ def write(scene: Scene, groups: tuple[Group, ...], *, fitted: bool = True) -> Pr
 
 
 def stand(scene: Scene, groups: tuple[Group, ...]) -> Standing:
-    """The groups with their bases; every missing branch and construction is listed at once."""
+    """The groups with their bases.
+
+    Raises StructureError that lists every missing branch and construction.
+    """
     problems: list[Problem] = []
     standing: Standing = []
     told: set[str] = set()
@@ -95,9 +99,9 @@ def stand(scene: Scene, groups: tuple[Group, ...]) -> Standing:
 
 
 def work_of(group: Group) -> tuple[Work, Work, Work]:
-    """What a kind of group draws to scale, as velocities and as accelerations.
+    """The functions that draw a kind of group: to scale, in the velocity plan, in the other plan.
 
-    What only some mechanisms have is loaded for these.
+    Modules that only some mechanisms need are imported here.
     """
     match group:
         case Crank():
@@ -146,19 +150,19 @@ def work_of(group: Group) -> tuple[Work, Work, Work]:
 
 
 def both(draw: Callable[..., None]) -> tuple[Work, Work]:
-    """What draws a group alike in both plans."""
+    """The drawing functions for both plans, from one that serves both."""
     first, second = (partial(draw, images) for images in PLANS)
     return first, second
 
 
 def each_in(draw: Callable[..., None]) -> tuple[Work, Work]:
-    """The same of what draws other groups in the course of it."""
+    """The drawing functions for both plans, from one that also draws other groups."""
     first, second = (partial(draw, each, each=partial(in_plan, each)) for each in PLANS)
     return first, second
 
 
 def place(pen: Pen, group: Group, found: tuple[Base, ...]) -> None:
-    """The mechanism to scale: one group."""
+    """Draw one group of the mechanism to scale."""
     pen.bases |= {base.link: base for base in found}
     pen.leads |= leads_of(group)
     work_of(group)[0](pen, group)
@@ -167,12 +171,12 @@ def place(pen: Pen, group: Group, found: tuple[Base, ...]) -> None:
 
 
 def own_bases(group: Group, found: tuple[Base, ...]) -> tuple[Base, ...]:
-    """The links that are finished with their group; higher classes finish theirs one by one."""
+    """The bases of links finished with their group; higher classes finish theirs one by one."""
     return () if isinstance(group, CoupledTrain | Higher) else found
 
 
 def write_turning(pen: Pen) -> None:
-    """The axis of every link, and where each block stands on its guide."""
+    """Write the axis of every link, and the coordinate of each block on its guide."""
     for link in pen.scene.links.values():
         axis(pen, link.name)
         if link.slides:
@@ -184,7 +188,7 @@ def write_turning(pen: Pen) -> None:
 
 
 def write_plan(pen: Pen, standing: Standing, images: GroupImages) -> None:
-    """A plan, the rates of links, how blocks slide, and what is asked set on the mechanism."""
+    """Write a plan, the rates of links, the motion of blocks, and the requested vectors."""
     plan = images.plan
     for point in pen.scene.frame.points:
         pen.want(plan.quantity, point, pen.pole(plan.plane))
@@ -197,7 +201,7 @@ def write_plan(pen: Pen, standing: Standing, images: GroupImages) -> None:
 
 
 def in_plan(images: GroupImages, pen: Pen, group: Group, found: tuple[Base, ...]) -> None:
-    """One group in a plan."""
+    """Draw one group in a plan."""
     work_of(group)[1 + PLANS.index(images)](pen, group)
     for base in own_bases(group, found):
         images.plate_points(pen, base)
@@ -211,9 +215,9 @@ def tips(pen: Pen, standing: Standing) -> list[str]:
 
 
 def draw_centres(pen: Pen, bases: Sequence[Base]) -> None:
-    """Every centre and pole: first those of velocities, then those of accelerations.
+    """Draw every centre and pole: first those of velocities, then those of accelerations.
 
-    What only some scenes ask is loaded for these.
+    Modules that only some scenes need are imported here.
     """
     for base in bases:
         draw_centre(pen, base)

@@ -1,7 +1,7 @@
-"""The Coriolis component of what slides on a link that turns: 2·ω × v, by two similar triangles.
+"""The Coriolis component of a sliding motion on a turning link: 2·ω × v, by two similar triangles.
 
-As the guide turns with its pivot, so does twice the relative velocity: on the pivot of the guide
-2v is set, and a triangle similar to that of the guide's own point and its velocity.
+The guide turns about its pivot, and twice the relative velocity turns with it. So 2v is set at the
+guide's pivot, with a triangle similar to that of a guide's point and its velocity.
 """
 
 from __future__ import annotations
@@ -56,26 +56,26 @@ from graphkin.structure.pairs import turns
 from graphkin.text.markup import AND, COMMA, NOTHING, saying
 
 CORNERS = ("ef", "gh", "rs", "xy")
-"""Letters for the corners of the triangle that is similar to the guide's."""
+"""Letters for the corners of the triangle similar to the guide's."""
 
-# --- its value, and the steps of the hand's way --------------------------------------------------
+# --- its value, and the steps by hand ------------------------------------------------------------
 
 
 @action("coriolis")
 def coriolis(omega: Real, image_under: Point, image: Point) -> Point:
-    """Coriolis acceleration: twice the relative velocity times omega, turned a quarter by it."""
+    """The Coriolis acceleration: 2·omega times the relative velocity, turned 90° with omega."""
     return 2j * (image - image_under) * omega
 
 
 @action("coriolis-base")
 def coriolis_base(pivot: Point, image_under: Point, image: Point, seconds: Real) -> Point:
-    """From the pivot of the guide twice the relative velocity, in the scale of the plan."""
+    """Twice the relative velocity, set at the pivot of the guide, in the scale of the plan."""
     return pivot + 2 * (image - image_under) * seconds
 
 
 @action("coriolis-ray")
 def coriolis_ray(base: Point, pivot: Point, pin: Point, tip: Point) -> Line:
-    """From the pivot the line that leans against the base as the tip's line against the bar."""
+    """The line from the pivot at the same angle to the base as the tip's line has to the bar."""
     return Line(pivot, (base - pivot) * ((tip - pivot) / (pin - pivot)))
 
 
@@ -85,16 +85,16 @@ def coriolis_by_hand(base: Point, top: Point, seconds: Real) -> Point:
     return (top - base) / (seconds * seconds)
 
 
-# --- what it is ----------------------------------------------------------------------------------
+# --- the component -------------------------------------------------------------------------------
 
 
 class CoriolisComponent(TriangleComponent, frozen=True, kw_only=True):
     """a_c = 2·ω × v_r of a ``point`` that slides on a ``guide``, and the triangles that give it.
 
-    From ``omega``, the guide's, and ``tail`` and ``tip``, the images of the point under the sliding
-    one and of itself. The triangles stand on the guide's ``pivot``, whose velocity about it is that
-    of its point ``pin``: its tip is ``velocity``; ``foot`` is that of 2v, ``edge`` and ``lean``
-    meet in ``top``.
+    ``omega`` is the rate of the guide. ``tail`` and ``tip`` are the images of the point under the
+    sliding point and of the sliding point itself. The triangles have a corner at the guide's
+    ``pivot``. ``velocity`` is the tip of the velocity of the guide's point ``pin`` about the pivot,
+    and ``foot`` is the tip of 2v. The lines ``edge`` and ``lean`` meet in ``top``.
     """
 
     gives: ClassVar[tuple[str, ...]] = (
@@ -152,13 +152,13 @@ class CoriolisComponent(TriangleComponent, frozen=True, kw_only=True):
     top: int | None = None
 
     def speed(self, drawing: Drawing) -> str:
-        """Name of the velocity along the guide that it follows from, as its plan has it."""
+        """The name of the velocity along the guide from which it follows, as in its plan."""
         arrow = drawing.joins.get((self.tail, self.tip))
         vector = plan_vector(arrow) if arrow else None
         return vector.symbol if vector else f"v_{self.index}"
 
     def corner_letter(self, role: str) -> str:
-        """One of two letters that no point bears."""
+        """One of two letters that no point has."""
         return dict(zip(("foot", "top"), self.own_letters, strict=False)).get(role, "")
 
     def symbols(self) -> Mapping[str, str]:
@@ -167,12 +167,12 @@ class CoriolisComponent(TriangleComponent, frozen=True, kw_only=True):
 
     @classmethod
     def cause(cls, scene: Scene) -> str:
-        """The guides that turn."""
+        """The guides on links that may turn."""
         return guides_words(moving_guides(scene))
 
     @classmethod
     def absence(cls, scene: Scene) -> str:
-        """That no guide does."""
+        """Why no guide turns; empty where one does."""
         return "" if moving_guides(scene) else no_moving_guide(scene)
 
     # --- drawing it ------------------------------------------------------------------------------
@@ -185,7 +185,7 @@ class CoriolisComponent(TriangleComponent, frozen=True, kw_only=True):
         yield foot - pivot
 
     def marks(self, canvas: Canvas, role: str) -> None:
-        """The velocity of the guide's point, 2v on the pivot, and the triangle that it gives."""
+        """Draw the velocity of the guide's point, 2v at the pivot, and the resulting triangle."""
         assert self.pivot is not None and self.pin is not None and self.velocity is not None
         assert self.foot is not None and self.top is not None
         drawing, value = canvas.drawing, canvas.value
@@ -210,7 +210,7 @@ class CoriolisComponent(TriangleComponent, frozen=True, kw_only=True):
                 canvas.point(self.letter(drawing, role), value(self.top))
 
     def same_velocity(self, drawing: Drawing) -> Iterator[tuple[int, TriangleComponent]]:
-        """The triangles that set the same velocity at the same pin, with the step that does."""
+        """The triangles that set the same velocity at the same pin, with the step that sets it."""
         assert self.velocity is not None
         step = drawing.trace.program.steps[self.velocity]
         for number, other, _ in drawing.on_mechanism:
@@ -223,22 +223,22 @@ class CoriolisComponent(TriangleComponent, frozen=True, kw_only=True):
                 yield number, kind
 
     def is_shown_before(self, drawing: Drawing) -> bool:
-        """Whether another kind's triangle, or an earlier one of its own, has drawn it."""
+        """Whether another kind's triangle, or an earlier Coriolis one, shows the velocity."""
         assert self.velocity is not None
         number, kind = next(self.same_velocity(drawing.choosing), (None, None))
         if number is None:
             return False
         return number < self.velocity or not isinstance(kind, CoriolisComponent)
 
-    # --- saying it -------------------------------------------------------------------------------
+    # --- its sentences ---------------------------------------------------------------------------
 
     def formula(self, drawing: Drawing) -> str:
-        """2·ω·v."""
+        """2·ω·v, as markup."""
         speed = symbol(self.speed(drawing))
         return saying(f"2{rate_symbol(drawing, self.omega)}·{speed}", speed)
 
     def sentence(self, drawing: Drawing, *, first: bool) -> Wording:
-        """Its triangles in full, the first time on a pivot; else its origin, or its number."""
+        """The instruction: its triangles in full first, later only its source or value."""
         if self.is_left_out(drawing):
             return Wording("short", self.left_out(drawing))
         fields = self.fields(drawing)
@@ -251,13 +251,13 @@ class CoriolisComponent(TriangleComponent, frozen=True, kw_only=True):
         return Wording(self.sign, AND.join(self.in_full(drawing, "step.coriolis-top")))
 
     def stands_as_before(self, drawing: Drawing) -> bool:
-        """Whether the triangles drawn last stand on the same pivot, by the same pin."""
+        """Whether the last drawn triangles have the same pivot and pin."""
         earlier = list(takewhile(lambda each: each is not self, drawn(drawing)))
         last = earlier[-1]
         return (last.pivot_name, last.pin_name) == (self.pivot_name, self.pin_name)
 
     def fields(self, drawing: Drawing) -> dict[str, str]:
-        """Its symbol, its velocity, twice that as it is set and in the plan, and the rate."""
+        """The symbols and lengths that its sentences use."""
         segment = NOTHING.join(drawing.lettered(end) for end in (self.tail, self.tip))
         speed = symbol(self.speed(drawing))
         return {
@@ -273,7 +273,7 @@ class CoriolisComponent(TriangleComponent, frozen=True, kw_only=True):
         }
 
     def why_set(self, drawing: Drawing) -> str:
-        """Why what is set is not as long as in the velocity plan; nothing where it is."""
+        """Why 2v is not as long as in the velocity plan; empty where it is."""
         m = drawing.scales.larger
         if m == 1:
             return ""
@@ -282,13 +282,16 @@ class CoriolisComponent(TriangleComponent, frozen=True, kw_only=True):
         return drawing.words("step.coriolis-longer", m=inverse(drawing, m))
 
     def why_computed(self, drawing: Drawing) -> str:
-        """That its triangles are left out for the sake of the scale, where they are."""
+        """The remark that the scale leaves no room for its triangles; empty where drawn."""
         if self.read is None or self.read in drawing.trace.values:
             return ""
         return drawing.words("step.coriolis-no-room")
 
     def zeros(self, drawing: Drawing) -> Iterator[str]:
-        """Which of both its factors is zero, where it is: at least the one that is next to it."""
+        """The factors that are zero.
+
+        If neither is exactly zero, the factor closer to zero counts.
+        """
         values = drawing.trace.values
         slid = abs(values[self.tip] - values[self.tail]) / (
             drawing.longest(Plane.VELOCITIES) or 1.0
@@ -301,7 +304,10 @@ class CoriolisComponent(TriangleComponent, frozen=True, kw_only=True):
             yield f"{rate_symbol(drawing, self.omega)} = 0"
 
     def in_full(self, drawing: Drawing, top: str) -> tuple[str, str]:
-        """Its triangles in full: as far as the perpendicular; by the key ``top`` what cuts it."""
+        """The instruction for its triangles in two parts: the perpendicular, and what cuts it.
+
+        ``top`` is the key of the second part.
+        """
         corners = self.corner_symbols(drawing, "foot", "top")
         fields = self.fields(drawing) | {
             "p": symbol(self.pivot_name),
@@ -316,7 +322,7 @@ class CoriolisComponent(TriangleComponent, frozen=True, kw_only=True):
         return foot, drawing.words(top, line=line, **fields)
 
     def told_in_parts(self, drawing: Drawing) -> Iterator[tuple[int, str]]:
-        """Twice the velocity and the perpendicular; what cuts that."""
+        """The instruction in two parts: 2v with the perpendicular, and the line that cuts it."""
         if self.edge is None or self.vector is None or not self.is_drawn(drawing):
             yield from super().told_in_parts(drawing)
             return
@@ -325,12 +331,15 @@ class CoriolisComponent(TriangleComponent, frozen=True, kw_only=True):
         yield self.vector, top
 
     def laid_alone(self, drawing: Drawing, **fields: str) -> str:
-        """What is left from its end is the acceleration along the guide."""
+        """The sentence that the rest from its end is the acceleration along the guide."""
         guide = way_of(drawing, self.block)
         return drawing.words("step.coriolis-laid", guide=guide, **fields)
 
     def leaning_line(self, drawing: Drawing, fields: Mapping[str, str]) -> str:
-        """The line that cuts f off: to the tip on the guide itself, where every 2v lies on it."""
+        """The words for the line that cuts the perpendicular.
+
+        Where every 2v lies on its guide, the line leads to the tip of the velocity itself.
+        """
         assert self.velocity is not None
         _, start, end, _ = drawing.trace.program.steps[self.velocity].args
         w = set_length(drawing, vector_of(drawing, start, end, symbol(f"v_{self.pin_name}")))
@@ -343,7 +352,7 @@ class CoriolisComponent(TriangleComponent, frozen=True, kw_only=True):
         return drawing.words("step.coriolis-line-letter", **tip, **fields)
 
     def triangle_before(self, drawing: Drawing) -> TriangleComponent | None:
-        """The triangle of another kind, drawn before, whose tip its leaning line leads to."""
+        """The earlier triangle of another kind whose tip is on the leaning line, or None."""
         assert self.velocity is not None
         for number, kind in self.same_velocity(drawing):
             if number < self.velocity and not isinstance(kind, CoriolisComponent):
@@ -359,20 +368,19 @@ class CoriolisComponent(TriangleComponent, frozen=True, kw_only=True):
         return bool(1000 * beside < NAUGHT * drawing.scales.kL)
 
     def picked_from(self, picks: Picks) -> tuple[str | None, ...]:
-        """The turning of the guide, and the relative velocity."""
+        """The angular velocity of the guide, and the relative velocity."""
         arrow = picks.arrow(self.tail, self.tip, symbol(f"v_{self.index}"))
         return picks.rate(self.omega), arrow
 
     def shown_between(self) -> tuple[int | None, ...]:
-        """The side of its triangle that it is read off."""
+        """The side of the triangle from which it is read off."""
         return self.foot, self.top
 
     def section(self, drawing: Drawing) -> str:
-        """The section of the calculation that holds its relation."""
         return "coriolis_components"
 
     def relation(self, drawing: Drawing) -> Relation:
-        """Twice the turning of the guide times the relative velocity."""
+        """Twice the angular velocity of the guide times the relative velocity."""
         values = drawing.trace.values
         omega = drawing.rate_size(self.omega)
         speed = abs(values[self.tip] - values[self.tail])
@@ -389,20 +397,20 @@ class CoriolisComponent(TriangleComponent, frozen=True, kw_only=True):
             laid_off(drawing, "quarter", size, v=v, omega=rate),
         )
 
-    # --- marking it ------------------------------------------------------------------------------
+    # --- marking students' work ------------------------------------------------------------------
 
     def sizes(self, own: OwnSizes) -> Iterator[Size]:
-        """2·ω·v of own values."""
+        """2·ω·v from the student's own values."""
         for omega in own.turnings(self.omega):
             for v in own.slidings(self.tail, self.tip):
                 yield Size((omega, v), 2 * omega.size * v.size, float("inf"))
 
     def power_of(self, args: tuple[int, ...]) -> int:
-        """It goes with the speed along its guide."""
+        """1 for the speed along its guide, of which it is a multiple; otherwise 0."""
         return 1 if args[1:] == (self.tail, self.tip) else 0
 
     def as_measured(self, found: Mapping[int, Any], key: Mapping[int, Any]) -> Any:
-        """2·ω·v of own velocities, though these no longer lie along the guide."""
+        """2·ω·v from the student's velocities, even where these do not lie along the guide."""
         assert self.vector is not None
         if not key[self.vector]:
             return None
@@ -411,25 +419,25 @@ class CoriolisComponent(TriangleComponent, frozen=True, kw_only=True):
 
 
 def drawn(drawing: Drawing) -> Iterator[CoriolisComponent]:
-    """The Coriolis components whose leaning line is among the steps of a sheet."""
+    """The Coriolis components whose leaning line is drawn on a sheet."""
     for number, step, _ in drawing.on_mechanism:
         kind = construction(step)
         if isinstance(kind, CoriolisComponent) and kind.lean == number:
             yield kind
 
 
-# --- why it is needed ----------------------------------------------------------------------------
+# --- reasons -------------------------------------------------------------------------------------
 
 
 def guides_words(blocks: list[str]) -> str:
-    """The guide of 2, or the guides of 2, 3: on what may turn."""
+    """The phrase for the guides on links that may turn."""
     if len(blocks) > 1:
         return f"the guides of {', '.join(blocks)} are on links that may turn"
     return f"the guide of {''.join(blocks)} is on a link that may turn"
 
 
 def moving_guides(scene: Scene) -> list[str]:
-    """Blocks whose guide is on a link that may turn."""
+    """The blocks whose guide is on a link that may turn."""
     return [
         link.name
         for link in scene.links.values()
@@ -438,7 +446,7 @@ def moving_guides(scene: Scene) -> list[str]:
 
 
 def no_moving_guide(scene: Scene) -> str:
-    """Why nothing slides on a link that turns."""
+    """The reason why nothing slides on a turning link."""
     fixed = [link.name for link in scene.links.values() if link.slides]
     if not fixed:
         return "no link slides"
@@ -447,16 +455,16 @@ def no_moving_guide(scene: Scene) -> str:
     return f"the guide of {fixed[0]} does not turn"
 
 
-# --- planning it ---------------------------------------------------------------------------------
+# --- writing its steps ---------------------------------------------------------------------------
 
 
 def coriolis_of(
     pen: Pen, link: str, tail: int, tip: int, point: str, block: str, *, index: str = ""
 ) -> int:
-    """Coriolis acceleration of a relative velocity (tail to tip in the plan) on a turning link.
+    """The Coriolis acceleration of a relative velocity (tail to tip in the plan) on a turning link.
 
-    ``point`` is where it slides, ``block`` what slides, ``index`` that of the velocity: of the
-    point against that of the link under it, if nothing else is said.
+    ``point`` is the sliding point, ``block`` the sliding link. ``index`` is the index of the
+    velocity; by default the point is taken relative to the link's point under it.
     """
     key = ("coriolis", link, tail, tip)
     if key not in pen.shared:
@@ -487,9 +495,9 @@ def coriolis_of(
 def similar_triangles(
     pen: Pen, link: str, tail: int, tip: int, point: str, index: str
 ) -> dict[str, Any]:
-    """The hand's way: on the guide's pivot twice the relative velocity, and the like triangle.
+    """The steps by hand: twice the relative velocity at the pivot, and the similar triangle.
 
-    Nothing where no two points of the guide say how it turns.
+    Empty where no two points of the guide determine its rotation.
     """
     owner = pen.turner(link)
     if owner is None or pen.bases[owner].end is None:
@@ -498,7 +506,7 @@ def similar_triangles(
     assert base.end is not None
     ends = base.start, base.end
     if has_arrow(pen, pen.the("velocity", base.end), pen.the("velocity", base.start)):
-        ends = base.end, base.start  # the plan draws the velocity of the other about this
+        ends = base.end, base.start  # the plan draws the velocity of the other point about this one
     pivot, pin = (pen.the("position", name) for name in ends)
     images = [pen.the("velocity", name) for name in ends]
     seconds = pen.seconds()
@@ -530,13 +538,13 @@ def similar_triangles(
 
 
 def corners(scene: Scene) -> str:
-    """The letters of a Coriolis triangle's corners: e and f, or others where points bear these."""
+    """The letters of the triangle's corners: e and f, or others where points have these."""
     points = {name[0].lower() for name in scene.points}
     return next((pair for pair in CORNERS if not points & {*pair}), CORNERS[0])
 
 
 def end_of(pen: Pen, start: int, vector: int, *, back: bool = False) -> int:
-    """The component laid off from a point, or ``back`` from it, with its arrow."""
+    """The end of the component laid off from a point, or ``back`` from it, with its arrow."""
     component = pen.steps[vector].of
     assert isinstance(component, CoriolisComponent)
     key = ("laid off", start, vector)

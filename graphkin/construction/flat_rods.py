@@ -1,6 +1,6 @@
-"""Of two rods that do the same the one is taken that does not lie flat where the mechanism stands.
+"""Choosing between two equivalent rods: the one that is not flat in the scene's position.
 
-Coupled wheels turn over by a second rod where the first lies in line with its cranks.
+Coupled wheels pass the position where one rod is in line with its cranks by means of a second rod.
 """
 
 from __future__ import annotations
@@ -21,13 +21,13 @@ from graphkin.structure.pairs import Pin
 from graphkin.text.errors import StructureError
 
 FLAT = 1e-6
-"""Sine of a crossing below which a rod lies flat."""
+"""Sine of a crossing below which a rod counts as flat."""
 
 Laid = tuple[tuple[Group, ...], Program]
 
 
 def laid(scene: Scene, groups: tuple[Group, ...]) -> Laid:
-    """The groups as they are drawn, and their program: an idle rod in place of one that is flat."""
+    """The groups as drawn, and their program: an idle rod replaces a rod that is flat."""
     first = groups, write(scene, groups)
     if not any(isinstance(group, Tie) for group in groups) or not is_flat(scene, first[1]):
         return first
@@ -40,7 +40,7 @@ def laid(scene: Scene, groups: tuple[Group, ...]) -> Laid:
 
 
 def is_flat(scene: Scene, program: Program) -> bool:
-    """Whether two loci only touch where the mechanism stands."""
+    """Whether two loci only touch in the scene's position."""
     places = program.needed(target for target in program.targets if target[0] == "position")
     try:
         margins = run(program, places, scene.values, FLOAT).margins
@@ -50,7 +50,7 @@ def is_flat(scene: Scene, program: Program) -> bool:
 
 
 def exchangeable(groups: tuple[Group, ...]) -> Iterator[tuple[Dyad, Tie, str]]:
-    """Each dyad of a rod and a link that an idle rod joins to what is known, too."""
+    """Each RRR dyad with an idle rod that also joins one of its links to known links."""
     if any(isinstance(group, CoupledTrain | Higher) for group in groups):
         return
     for tie in groups:
@@ -65,7 +65,7 @@ def exchangeable(groups: tuple[Group, ...]) -> Iterator[tuple[Dyad, Tie, str]]:
 
 
 def exchanged(scene: Scene, dyad: Dyad, tie: Tie, led: str) -> Iterator[Laid]:
-    """The groups with an idle rod in place of that of a dyad, on either side, where this fits."""
+    """The groups with an idle rod in place of a dyad's rod, on either side, where this fits."""
     rod = next(link for link in dyad.links if link != led)
     names = [name for name in scene.links if name != tie.link]
     names.insert(names.index(rod), tie.link)

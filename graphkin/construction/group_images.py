@@ -1,7 +1,7 @@
-"""One plan group by group: lines through known images, and their crossings; images by known rates.
+"""One plan, group by group: images where lines cross, and images by known rates.
 
-Perpendiculars to bars and parallels to guides, in the plan of accelerations from the ends of the
-components that are known; the rest of a link by similarity.
+Lines are perpendicular to bars or parallel to guides. In the acceleration plan they start at the
+ends of the known components. The other points of a link follow by similarity.
 """
 
 from __future__ import annotations
@@ -34,11 +34,11 @@ from graphkin.structure.groups import Crank, Driven, Dyad, OnTwoPins, Spun, Tie,
 from graphkin.structure.pairs import Joint, Leading, Pin, Sliding
 
 Sides = list[tuple[Joint, str]]
-"""Two pairs that leave a point free on a line each, with the links that they hold."""
+"""Two pairs that each leave a point free on a line, with the links that they hold."""
 
 
 class GroupImages(Struct, frozen=True):
-    """What draws a ``plan``: what a bar, and what a guide or track, says of a point in it."""
+    """Draws a ``plan``, from the lines that a ``bar`` and a ``guide`` or track give for a point."""
 
     plan: Plan
     bar: Callable[[str, str], BarVelocity | BarAcceleration]
@@ -47,7 +47,7 @@ class GroupImages(Struct, frozen=True):
     # --- driven links ----------------------------------------------------------------------------
 
     def crank(self, pen: Pen, group: Crank) -> None:
-        """Image of a driven tip, by the given rate and in its sense."""
+        """Draw the image of a driven tip, from the given rate and its sense."""
         driver, link, tip = group.driver, group.link, crank_tip(pen.scene, group)
         self.turn_driven(pen, group)
         if tip is not None:
@@ -55,7 +55,7 @@ class GroupImages(Struct, frozen=True):
             self.plan.turn(pen, link, group.pivot, tip, steady=steady, along=group.pivot)
 
     def turn_driven(self, pen: Pen, group: Crank | Spun) -> None:
-        """The rate of a driven link: the given one, on top of that of the link it turns against."""
+        """Write the rate of a driven link: the given rate plus that of its counterpart."""
         driver, link, rate = group.driver, group.link, self.plan.rate
         found: int = getattr(pen.drive(driver), self.plan.given)
         against = other_of(driver, link)
@@ -71,12 +71,12 @@ class GroupImages(Struct, frozen=True):
         pen.want(rate, link, found)
 
     def driven(self, pen: Pen, group: Driven) -> None:
-        """Image of a driven slider, or of a driven wheel's centre: along its guide as is given."""
+        """Draw the image of a driven slider or wheel centre, along its guide as given."""
         given = led_by(group.pair).driven(pen, group.driver, self.plan.given)
         self.slide_on(pen, group.pair, group.link, given)
 
     def slide_on(self, pen: Pen, pair: Leading, link: str, given: int) -> None:
-        """Image of the point of a link that is led along its line as is given, or tried."""
+        """Draw the image of a guided point, along its line with a given or tried value."""
         from graphkin.construction.drivers.driven_slide import slide_image
 
         plan, point = self.plan, pen.bases[link].start
@@ -94,12 +94,12 @@ class GroupImages(Struct, frozen=True):
         led.finish(pen, driven=True)
 
     def known_end(self, pen: Pen, pair: Leading, link: str, point: str) -> int:
-        """Where the known part of the motion of a point that a pair leads ends in the plan."""
+        """The end of the known part of the motion of a point that a pair guides, in the plan."""
         led = self.guide(pair, link, point, point)
         return led.end(pen, led.component(pen))
 
     def sliding(self, pen: Pen, block: str) -> None:
-        """How fast a block moves along its guide, and the component that comes of its turning."""
+        """Write the motion of a block along its guide, with the Coriolis component."""
         plan, pair, point = self.plan, pen.first_slide(block), pen.scene.link(block).points[0]
         start = image_under(pen, pair.links[1], point, plan)
         guide, end = known_guide(pen, pair), pen.the(plan.quantity, point)
@@ -116,19 +116,22 @@ class GroupImages(Struct, frozen=True):
     # --- dyads and ties --------------------------------------------------------------------------
 
     def dyad(self, pen: Pen, group: Dyad) -> None:
-        """Image of the point that closes a dyad; both pins of a guide on one link turn with it."""
+        """Draw the image of the point that closes a dyad.
+
+        Two pins guided by one link turn with it and need nothing.
+        """
         if isinstance(group, OnTwoPins) and group.inner.on is not None:
             return
         self.cross(pen, *sides_of(pen.bases, group))
 
     def tie(self, pen: Pen, group: Tie) -> None:
-        """A link between known ones: on two guides its image is found, at two pins it is there."""
+        """Draw the image of a link on two guides; a link between two pins needs none."""
         if isinstance(group.first, Sliding):
             point, link = pen.bases[group.link].start, group.link
             self.cross(pen, point, point, [(group.first, link), (group.second, link)])
 
     def cross(self, pen: Pen, name: str, point: str, sides: Sides) -> None:
-        """The image of a point where the lines meet that two pairs leave it free on."""
+        """Draw the image of a point where the lines of two pairs meet."""
         plan = self.plan
         bound = [
             self.bar(pair.point, name)
@@ -151,7 +154,7 @@ class GroupImages(Struct, frozen=True):
     # --- the rest of a link ----------------------------------------------------------------------
 
     def plate_points(self, pen: Pen, base: Base) -> None:
-        """Images of the other points of a link: their figure is similar to the link (Mehmke)."""
+        """Draw the images of a link's other points: their figure is similar to it (Mehmke)."""
         if base.end is None:
             self.led_points(pen, base)
             return
@@ -179,7 +182,7 @@ class GroupImages(Struct, frozen=True):
     def two_lines(
         self, pen: Pen, bars: Sequence[BarVelocity | BarAcceleration]
     ) -> tuple[int, list[int]]:
-        """The hand's way to a plate point: by the bars to both ends of the base."""
+        """The image of a plate point by hand, where the lines of two bars cross."""
         lines = []
         for bar in bars:
             vector = bar.component(pen)
@@ -189,7 +192,7 @@ class GroupImages(Struct, frozen=True):
             return crossed_image(pen, *(line for _, line in lines)), [end for end, _ in lines]
 
     def led_points(self, pen: Pen, base: Base) -> None:
-        """The other points of a link that turns with its guide; where it only shifts, one image."""
+        """Draw the other points of a link that turns with its guide, or only translates."""
         plan = self.plan
         for point in base.others:
             if pen.has(plan.quantity, point):
@@ -205,7 +208,7 @@ class GroupImages(Struct, frozen=True):
 
 
 def sliding_effect(pen: Pen, given: int) -> Effect | None:
-    """A component along a guide is a driver's where that is accelerated."""
+    """The effect of a component along a guide: a driver's, where that one is accelerated."""
     return "driver acceleration" if accelerated(pen, given) else None
 
 

@@ -1,4 +1,4 @@
-"""The plans of velocities and of accelerations: their images, and how a rate gives one."""
+"""The plans of velocities and of accelerations: their images, and images by known rates."""
 
 from __future__ import annotations
 
@@ -21,8 +21,8 @@ from graphkin.scene.model import FRAME
 class Plan(Struct, frozen=True):
     """A plan by the ``quantity`` of points and the ``rate`` of links that it shows.
 
-    ``given`` is what a driver gives of it, ``letter`` that of its vectors, ``prime`` stands behind
-    the letters of its images.
+    ``given`` is the attribute of a driver that it takes. ``letter`` is the letter of its vectors.
+    ``prime`` is appended to the letters of its images.
     """
 
     quantity: str
@@ -38,12 +38,12 @@ class Plan(Struct, frozen=True):
         return str(image_name(point, self.prime))
 
     def drawn(self, pen: Pen) -> AbstractContextManager[None]:
-        """Work in this plan."""
+        """Write steps in this plan."""
         return pen.on(self.part, self.plane)
 
     @abstractmethod
     def arrows(self, pen: Pen, point: str, pivot: str | None = None) -> None:
-        """The arrows to the image of a point: from the pole, and of a velocity from a pivot's."""
+        """Draw the arrows to the image of a point: from the pole, and from a pivot's image."""
 
     @abstractmethod
     def index(self, pen: Pen, pin: str, pivot: str) -> str:
@@ -51,24 +51,24 @@ class Plan(Struct, frozen=True):
 
     @abstractmethod
     def lettered(self, point: str) -> str:
-        """The index of the vector of a point of a link under another."""
+        """The index of the vector of a link's point under another point."""
 
     @abstractmethod
     def turned(
         self, pen: Pen, link: str, pivot: str, pin: str, start: int, *, steady: bool = False
     ) -> int:
-        """The image of a pin from that of a pivot, ``start``, by the known rates of their link."""
+        """The image of a pin from ``start``, the pivot's image, by the rates of their link."""
 
     @abstractmethod
     def is_steady(self, pen: Pen, link: str) -> bool:
-        """Whether a link has no angular acceleration; its rates that are needed are found."""
+        """Whether a link has no angular acceleration; writes the rates of the link where needed."""
 
     def turn(
         self, pen: Pen, link: str, pivot: str, pin: str, *, steady: bool, along: str | None = None
     ) -> None:
-        """The image of a pin of a link whose rates are known, with its arrows.
+        """Draw the image of a pin of a link with known rates, with its arrows.
 
-        The pivot may be a point where links touch; from the image of ``along`` an arrow leads too.
+        The pivot may be a contact point. An arrow also leads from the image of ``along``.
         """
         start = pen.the(self.quantity, pivot)
         with self.drawn(pen):
@@ -76,7 +76,7 @@ class Plan(Struct, frozen=True):
         self.settle(pen, pin, found, along)
 
     def settle(self, pen: Pen, point: str, image: int, pivot: str | None = None) -> None:
-        """Say which step is the image of a point, and draw its arrows."""
+        """Record which step is the image of a point, and draw its arrows."""
         pen.want(self.quantity, point, image)
         self.arrows(pen, point, pivot)
 
@@ -85,25 +85,25 @@ class VelocityPlan(Plan, frozen=True):
     """The plan of velocities."""
 
     def arrows(self, pen: Pen, point: str, pivot: str | None = None) -> None:
-        """The absolute velocity, and the one relative to a pivot."""
+        """Draw the absolute velocity, and the velocity relative to a pivot."""
         velocity_arrows(pen, point, pivot)
 
     def index(self, pen: Pen, pin: str, pivot: str) -> str:
-        """That of the pin alone about what rests."""
+        """The index of a relative velocity; the pin alone about a point at rest."""
         return against(pen, pin, pivot)
 
     def lettered(self, point: str) -> str:
-        """Both points where links touch have one velocity."""
+        """The index of a point's velocity; two points in contact have one velocity."""
         return letter(point)
 
     def turned(
         self, pen: Pen, link: str, pivot: str, pin: str, start: int, *, steady: bool = False
     ) -> int:
-        """By the angular velocity."""
+        """The image of a pin by the angular velocity."""
         return turned_velocity.turned_image(pen, link, (pivot, pin), start, name=self.named(pin))
 
     def is_steady(self, pen: Pen, link: str) -> bool:
-        """Nobody asks."""
+        """False, since velocities do not depend on it; writes the rate of the link."""
         omega_of(pen, link)
         return False
 
@@ -112,32 +112,32 @@ class AccelerationPlan(Plan, frozen=True):
     """The plan of accelerations."""
 
     def arrows(self, pen: Pen, point: str, pivot: str | None = None) -> None:
-        """The absolute acceleration: components have arrows of their own."""
+        """Draw the absolute acceleration; components have arrows of their own."""
         acceleration_arrow(pen, point)
 
     def index(self, pen: Pen, pin: str, pivot: str) -> str:
-        """That of the pin alone about a fixed pivot."""
+        """The index of a relative acceleration; the pin alone about a fixed pivot."""
         return about(pen, pin, pivot)
 
     def lettered(self, point: str) -> str:
-        """With its link."""
+        """The index of a point's acceleration, with its link."""
         return lettered(point)
 
     def turned(
         self, pen: Pen, link: str, pivot: str, pin: str, start: int, *, steady: bool = False
     ) -> int:
-        """By both rates."""
+        """The image of a pin by both rates."""
         name, points = self.named(pin), (pivot, pin)
         return turned_acceleration.turned_image(pen, link, points, start, name=name, steady=steady)
 
     def is_steady(self, pen: Pen, link: str) -> bool:
-        """Where a driver turns it steadily."""
+        """Whether a driver turns the link at a constant rate."""
         omega_of(pen, link)
         return pen.is_nought(omega_of(pen, link, EPSILON))
 
 
 def shown(kind: str) -> tuple[str, str, str, str, Part, Plane]:
-    """The quantities of a plan."""
+    """The arguments of a plan for velocity or acceleration."""
     rate, given, letter = RATE[kind].target, SLIDING[kind].attribute, MOTION[kind].letter
     return kind, rate, given, letter, Part(kind), PLANES[kind]
 
@@ -149,7 +149,7 @@ BY_RATE: dict[str, Plan] = {plan.rate: plan for plan in (VELOCITY, ACCELERATION)
 
 
 def omega_of(pen: Pen, link: str, quantity: str = VELOCITY.rate) -> int:
-    """Angular velocity (or acceleration) of a link: from its base, or as the link it is led by."""
+    """The angular velocity or acceleration of a link, from its base or from its leading link."""
     if link == FRAME:
         return pen.given("nought")
     if not pen.has(quantity, link):

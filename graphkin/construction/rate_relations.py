@@ -1,4 +1,4 @@
-"""The relations of rates: of links by bars, by sums, by gears; of blocks along their guides."""
+"""The relations of rates: of links by bars, by sums and by gears; of blocks along their guides."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ from graphkin.scene.model import FRAME, Belt, Driver
 def of_turning(drawing: Drawing) -> Iterator[Relation]:
     """Angular velocities or accelerations: relative motion over length, with the sense.
 
-    A link that turns as another does comes after that one.
+    A link that turns with another one comes after that one.
     """
     found = [replace(relation, turns=True) for relation in of_links(drawing)]
     names = names_of(found)
@@ -42,12 +42,11 @@ def of_turning(drawing: Drawing) -> Iterator[Relation]:
 
 
 def finds_rates(drawing: Drawing) -> bool:
-    """Whether some angular rate has a relation: they are not all given."""
+    """Whether some angular rate has a relation; False where all are given."""
     return any(chain(of_links(drawing), of_gears(drawing)))
 
 
 def names_of(found: Sequence[Relation]) -> set[str]:
-    """The symbols that some relations give."""
     return {relation.left for relation in found}
 
 
@@ -75,7 +74,7 @@ def of_links(drawing: Drawing) -> Iterator[Relation]:
 
 
 def of_sum(drawing: Drawing, driver: Driver) -> Iterator[Relation]:
-    """The rate of a crank that turns on a moving link: that link's rate and its own."""
+    """The rate of a crank on a moving link: the rate of that link plus its own."""
     program, known = drawing.trace.program, set(drawing.trace.values)
     number = drawing.scene.drivers.index(driver)
     for found in constructions(program, SummedRate):
@@ -88,9 +87,9 @@ def of_sum(drawing: Drawing, driver: Driver) -> Iterator[Relation]:
 
 
 def of_gears(drawing: Drawing) -> Iterator[Relation]:
-    """Willis' relation for wheels that touch: rates against the arm by the radii.
+    """Willis' relation for wheels in contact: rates relative to the arm by the radii.
 
-    On the first sheet those of gears, before they are used, from module and number of teeth.
+    The first sheet also derives the radii of gears, from module and number of teeth, before use.
     """
     told: set[str] = set()
     links = (drawing.scene.frame, *drawing.scene.links.values())
@@ -110,7 +109,7 @@ def of_gears(drawing: Drawing) -> Iterator[Relation]:
 
 
 def by_teeth(drawing: Drawing, disc: Disc) -> Relation:
-    """The radius of a gear, half its module times its number of teeth."""
+    """The radius of a gear: half its module times its number of teeth."""
     assert disc.wheel.teeth is not None
     module, teeth = drawing.length(disc.module), float(disc.wheel.teeth.si(drawing.scene.values))
     figures = f"{figure(drawing, module)}·{figure(drawing, teeth)}/2"
@@ -120,7 +119,7 @@ def by_teeth(drawing: Drawing, disc: Disc) -> Relation:
 
 
 def by_radius(drawing: Drawing, disc: Disc, radii: int) -> Relation:
-    """A length of so many radii of a wheel: as that is given, or from module and teeth."""
+    """A length of ``radii`` radii of a wheel: from its given radius, or from module and teeth."""
     symbols, figures = f"{radii}·{radius_of(disc)}", f"{radii}·{figure(drawing, disc.radius)}"
     if radii == 1:
         symbols, figures = radius_of(disc), ""
@@ -132,7 +131,7 @@ def by_radius(drawing: Drawing, disc: Disc, radii: int) -> Relation:
 
 
 def rate_at(drawing: Drawing, link: str) -> float | None:
-    """The rate of a link on this sheet; nought for the frame."""
+    """The rate of a link on this sheet; zero for the frame."""
     return 0.0 if link == FRAME else drawing.turning(link)
 
 
@@ -143,7 +142,7 @@ def by_radii(
     discs: tuple[Disc, Disc],
     belt: Belt | None,
 ) -> Relation:
-    """The rate of a wheel from that of the arm and that of the wheel that it touches."""
+    """The rate of a wheel from the rates of the arm and of the wheel in contact."""
     wheel, arm, track = (symbol(f"{drawing.rate.letter}_{name}") for name in names)
     _, carried, rolled = rates
     alike = any(disc.wheel.inside for disc in discs)
@@ -166,15 +165,14 @@ def by_radii(
 
 
 def radius_of(disc: Disc) -> str:
-    """Symbol of a wheel's radius."""
     return of_wheel("r", disc.sign)
 
 
-# --- blocks on their guides -----------------------------------------------------------------------
+# --- blocks on their guides ----------------------------------------------------------------------
 
 
 def of_slides(drawing: Drawing) -> Iterator[Relation]:
-    """The motion of each block that is asked: the vector of the plan along its guide, its sense."""
+    """The requested motion of each block: the vector of the plan along its guide, and its sense."""
     what, unit = drawing.sliding.target, drawing.sliding.caret_unit
     for block, name, value in slides_asked(drawing):
         size = drawing.settled(abs(value))
@@ -184,7 +182,7 @@ def of_slides(drawing: Drawing) -> Iterator[Relation]:
 
 
 def along_guide(drawing: Drawing, number: int) -> str:
-    """Markup of the vector of the plan that is the motion of a block along its guide."""
+    """The vector of the plan that is the motion of a block along its guide, as markup."""
     program = drawing.trace.program
     _, tail, tip = program.steps[number].args
     laid = laid_off(program, tail)

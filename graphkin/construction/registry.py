@@ -1,4 +1,4 @@
-"""The kinds of components of accelerations, and what is said of several constructions at once."""
+"""The kinds of acceleration components, and sentences that cover several constructions."""
 
 from __future__ import annotations
 
@@ -37,9 +37,9 @@ from graphkin.construction.rolling.kutzbach import BEGINNING, PLAN, with_ladder_
 from graphkin.construction.rolling.rolling_normal import RollingNormal
 
 COMPONENTS: tuple[type[Component], ...] = (NormalComponent, RollingNormal, CoriolisComponent)
-"""The components of accelerations that follow from velocities."""
+"""The acceleration components that follow from velocities."""
 LIMITED = next(kind.limited for kind in COMPONENTS if kind.limited)
-"""What the figure is called that can be too narrow or too long to be drawn."""
+"""The name of the figure that can be too narrow or too long to be drawn."""
 PALETTE: Mapping[str, PaletteAction] = {
     action.key: action
     for action in (
@@ -62,11 +62,11 @@ PALETTE: Mapping[str, PaletteAction] = {
 }
 """The actions of a page's palette, in its order."""
 CAUSES: tuple[type[Component] | TouchingEffect, ...] = (*COMPONENTS, *TOUCHING)
-"""What knows why an effect is in or out of a scene."""
+"""The classes that can say why an effect is in or out of a scene."""
 SAID_FIRST = {PLAN: BEGINNING}
-"""What a page says before a student draws a plan that is drawn beside that of velocities."""
+"""The text of a page before a student draws a plan next to the velocity plan."""
 ALSO_READ: tuple[Callable[[Drawing], Iterator[Relation]], ...] = (of_contacts,)
-"""What else kinds say that is read off a plan, after all that is drawn in it."""
+"""Further relations read off a plan, after everything drawn in it."""
 TOGETHER: tuple[Callable[[Drawing, list[Sentence]], list[Sentence]], ...] = (
     with_trials_together,
     with_starts_together,
@@ -74,4 +74,4 @@ TOGETHER: tuple[Callable[[Drawing, list[Sentence]], list[Sentence]], ...] = (
     with_normals_together,
     with_ladder_together,
 )
-"""What says several constructions of a kind in one sentence, in the order in which it is done."""
+"""The functions that merge several constructions of a kind in one sentence, in their order."""

@@ -1,4 +1,4 @@
-"""Tables of a sheet: what is read off the plans, and the angular values with their senses."""
+"""The tables of a sheet: values read off the plans, and angular values with their senses."""
 
 from __future__ import annotations
 
@@ -20,9 +20,9 @@ from graphkin.numbers.plane import Vector
 VECTORS, TURNS, SLID = (13.5, 13.5, 13, 16), (13, 14, 33), (12.5, 12, 31.5)
 """Widths of the columns of the tables, in mm."""
 LEGIBLE = 2.0
-"""Length of a vector in mm below which it is not read off a plan: 0.5 mm are a quarter of it."""
+"""Least length in mm of a vector that is read off a plan: an error of 0.5 mm is a quarter of it."""
 LEADING = 2.9
-"""Distance of the lines that say what is computed, in mm."""
+"""Line spacing of the notes on computed values, in mm."""
 
 
 def vectors(drawing: Drawing) -> list[tuple[str, str, OnPaper, float]]:
@@ -39,9 +39,10 @@ def vectors(drawing: Drawing) -> list[tuple[str, str, OnPaper, float]]:
 
 
 def unread(drawing: Drawing, named: Callable[[str], str] = str) -> Iterator[str]:
-    """What is asked of a sheet and cannot be read off it: too short in the plan, or zero.
+    """Messages for requested quantities that cannot be read off: too short in the plan, or zero.
 
-    What the sheet itself says is computed counts as told. ``named`` writes a name such as v_B.
+    Quantities that the sheet itself marks as computed are left out. ``named`` formats a name, for
+    example v_B.
     """
     words, ask = drawing.words, drawing.scene.ask
     targets = drawing.trace.program.targets
@@ -68,9 +69,9 @@ def unread(drawing: Drawing, named: Callable[[str], str] = str) -> Iterator[str]
 
 
 def vector_rows(drawing: Drawing, *, empty: bool) -> list[Row]:
-    """One row for each vector of the plan; the values left out on a task sheet.
+    """One row for each vector of the plan; values are left out on a task sheet.
 
-    A length stands in brackets where it is not measured: the vector is computed.
+    A length in brackets is not measured: its vector is computed.
     """
     words = drawing.words
     rows = []
@@ -93,7 +94,7 @@ def turning_rows(drawing: Drawing, *, empty: bool) -> list[Row]:
 
 
 def turning_links(drawing: Drawing) -> Iterator[tuple[str, float]]:
-    """The links whose angular velocity or acceleration a sheet tells, with its value."""
+    """The links whose angular velocity or acceleration a sheet shows, with its value."""
     scene = drawing.scene
     for link in scene.links:
         if link in scene.unseen and link not in (*scene.ask.omega, *scene.ask.epsilon):
@@ -104,7 +105,7 @@ def turning_links(drawing: Drawing) -> Iterator[tuple[str, float]]:
 
 
 def slide_rows(drawing: Drawing, *, empty: bool) -> list[Row]:
-    """One row for the motion of each block that is asked along its guide."""
+    """One row for the requested motion of each block along its guide."""
     words = drawing.words
     rows = []
     for block, name, value in slides_asked(drawing):
@@ -117,7 +118,7 @@ def slide_rows(drawing: Drawing, *, empty: bool) -> list[Row]:
 
 
 def slides_asked(drawing: Drawing) -> Iterator[tuple[str, str, float]]:
-    """What is asked of blocks on this sheet: block, symbol, and value along the guide."""
+    """The requested motions of blocks on this sheet: block, symbol, and value along the guide."""
     what, letter = drawing.sliding.target, drawing.sliding.letter
     for block in drawing.scene.ask.slides:
         value = drawing.trace.value(what, block)
@@ -133,7 +134,7 @@ def slide_sense(drawing: Drawing, block: str, value: float) -> str:
 
 
 def tables(drawing: Drawing, rect: Rect, *, empty: bool) -> list[Mark]:
-    """The vectors in one or more blocks, then the angular values, then what slides."""
+    """The marks of all tables: vectors in one or more blocks, then angular values, then blocks."""
     some = column_tables(drawing, empty=empty)
     note = reasons(drawing, [row for table in some for row in table.rows], rect)
     low = rect[3] - LEADING * len(note)
@@ -143,7 +144,7 @@ def tables(drawing: Drawing, rect: Rect, *, empty: bool) -> list[Mark]:
 def tables_on_sheets(
     drawing: Drawing, first: Rect, others: Rect, *, empty: bool
 ) -> list[list[Mark]]:
-    """The same on as many sheets as they need; what is computed is said on the last."""
+    """The marks of the tables on as many sheets as they need; notes are on the last sheet."""
     some = column_tables(drawing, empty=empty)
     note = reasons(drawing, [row for table in some for row in table.rows], others)
     low = others[3] - LEADING * len(note)
@@ -152,7 +153,7 @@ def tables_on_sheets(
 
 
 def column_tables(drawing: Drawing, *, empty: bool) -> list[ColumnTable]:
-    """The tables that have rows: vectors, angular values, what slides."""
+    """The tables that have rows: vectors, angular values, blocks."""
     words = drawing.words
     unit = words(f"table.{drawing.kind}")
     head = Row((words("table.symbol"), words("table.segment"), words("table.millimetres"), unit))
@@ -174,7 +175,7 @@ def column_tables(drawing: Drawing, *, empty: bool) -> list[ColumnTable]:
 
 
 def reasons(drawing: Drawing, rows: Sequence[Row], rect: Rect) -> list[Mark]:
-    """What is computed instead of measured, and why, in small lines below the tables."""
+    """Notes in small print below the tables: which values are computed, and why."""
     names: dict[str, list[str]] = {}
     for row in rows:
         why = drawing.computed.get(row.cells[0])

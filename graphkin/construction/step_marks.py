@@ -20,14 +20,14 @@ from graphkin.construction.higher_class.closed_group import ClosedGroup
 
 
 def draw_mechanism_steps(plot: Plot, *, found: bool) -> None:
-    """Put down the steps on the mechanism: those that found its points, or all the others."""
+    """Draw the steps on the mechanism: those that found its points, or all the others."""
     for number, step, value in plot.drawing.on_mechanism:
         if (step.part is Part.POSITION) is found:
             put_step(plot, number, step, value)
 
 
 def draw_closing_arcs(plot: Plot) -> None:
-    """Put down the arcs by which the loci are cut where groups of class III close."""
+    """Draw the arcs that cut the loci where groups of class III close."""
     trace = plot.drawing.trace
     for kind in constructions(trace.program, ClosedGroup):
         if kind.closing in trace.values:
@@ -35,7 +35,7 @@ def draw_closing_arcs(plot: Plot) -> None:
 
 
 def draw_plan_steps(plot: Plot) -> None:
-    """Put down every step of the plan, in order."""
+    """Draw every step of the plan, in order."""
     for number, step, value in plot.drawing.steps(plot.drawing.plane):
         put_step(plot, number, step, value)
     for number, step, _ in plot.drawing.steps(Plane.NUMBERS):
@@ -46,7 +46,7 @@ def draw_plan_steps(plot: Plot) -> None:
 
 
 def put_step(plot: Plot, number: int, step: Step, value: Any) -> None:
-    """Put down one step: what its construction draws, as part of an auxiliary plan, as an arrow."""
+    """Draw one step: as part of its construction, of an auxiliary plan, or as an arrow."""
     kind, plan = construction(step), auxiliary_plan(plot.drawing, number)
     canvas = PaperCanvas(plot, number)
     if kind is not None:

@@ -1,4 +1,4 @@
-"""The words of single steps: how a point is found, and through what lines."""
+"""The sentences of single steps: how a point is found, and through which lines."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from graphkin.text.markup import AND
 
 
 def point_sentence(drawing: Drawing, step: Step) -> str:
-    """Through what lines a point is found, and how they find it."""
+    """The sentence with the lines through which a point is found, and how they find it."""
     kind = construction(step)
     assert kind is not None
     before = kind.said_before(drawing, step.role)
@@ -20,9 +20,9 @@ def point_sentence(drawing: Drawing, step: Step) -> str:
 
 
 def point_parts(drawing: Drawing, number: int) -> Iterator[tuple[int, str]]:
-    """The same line by line, each with the step that it ends with; the point after its lines.
+    """The sentences line by line, each with the step that ends it; the point comes last.
 
-    All at once where the point cannot be told apart from them.
+    A single sentence where the point and its lines cannot be separated.
     """
     step = drawing.trace.program.steps[number]
     kind = construction(step)
@@ -41,7 +41,7 @@ def point_parts(drawing: Drawing, number: int) -> Iterator[tuple[int, str]]:
 
 
 def clauses(drawing: Drawing, number: int, plane: Plane) -> Iterator[str]:
-    """The clause of a line or an arc of a drawing, after that of the vector laid off before it."""
+    """The clauses of a line or an arc in a drawing, after the vector laid off before it."""
     step = drawing.trace.program.steps[number]
     kind = construction(step)
     if kind is not None and step.plane is plane and (said := kind.clause(drawing, step.role)):

@@ -1,6 +1,6 @@
-"""The vector equations of a plan: motions about pins and along guides, and what is given.
+"""The vector equations of a plan: motions about pins and along guides, and given motions.
 
-What is not crossed in the plan but computed and laid off stands with its numbers.
+A vector that is computed and laid off, not found by a crossing, is given with its value.
 """
 
 from __future__ import annotations
@@ -16,7 +16,7 @@ from graphkin.construction.velocity.relative_motion import as_relation
 
 
 def of_equations(drawing: Drawing) -> list[tuple[str, Relation]]:
-    """The equations of a plan in the order of drawing, each once, with the rate that it takes."""
+    """The equations of a plan in drawing order, each once, with the rate that it uses."""
     found: dict[object, tuple[str, Relation]] = {}
     for number, step, _ in drawing.steps(drawing.plane):
         if (plan := auxiliary_plan(drawing, number)) and plan.repeats:
@@ -32,8 +32,10 @@ def of_equations(drawing: Drawing) -> list[tuple[str, Relation]]:
 
 
 def joined(found: list[tuple[str, Relation]]) -> list[tuple[str, Relation]]:
-    """The same with the equations by which one vector is found in one, where the last of them
-    stands: chained, and put in where it is a summand of a vector that is known before.
+    """The list with the equations for one vector merged, at the place of the last one.
+
+    Equations for the same vector are chained. An equation for a summand of a known vector is
+    substituted.
     """
     rest: dict[str, tuple[str, Relation]] = {}
     for taken, relation in found:
@@ -51,13 +53,13 @@ def joined(found: list[tuple[str, Relation]]) -> list[tuple[str, Relation]]:
 
 
 def unknown_in(equation: VectorEquation) -> list[str]:
-    """The vectors of points that an equation helps to find: its whole one, or a summand."""
+    """The vectors of points that an equation helps to find: the whole vector, or a summand."""
     found = [term.symbol for terms in equation.sums for term in terms if not term.known]
     return found if equation.whole.known == 2 else [equation.whole.symbol, *found]
 
 
 def is_laid_off(drawing: Drawing, step: Step) -> bool:
-    """True for a component that was not found by the plan but computed and laid off."""
+    """Whether a component was computed and laid off, not found by the plan."""
     kind = sign_of(step)
     if kind in ("ν", "c"):
         return True

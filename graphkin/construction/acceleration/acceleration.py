@@ -1,6 +1,6 @@
-"""What guides and tracks say of the acceleration of a point, and of the motion along a guide.
+"""Accelerations of points on guides and tracks, and motions along a guide.
 
-Known is the acceleration of the point under it, and where the guide turns the component for that.
+The acceleration of the point underneath is known and, on a turning guide, the Coriolis component.
 """
 
 from __future__ import annotations
@@ -26,10 +26,10 @@ if TYPE_CHECKING:
 
 
 class GuideAcceleration(Struct, frozen=True):
-    """What a pair says of the acceleration of the point ``name`` that it leads against ``link``.
+    """The line that a guiding pair gives for the acceleration of the point ``name`` of ``link``.
 
-    It lies at ``point``, which is another where that of a guide's link under a block's is sought
-    (name A@3, point A).
+    The point lies at ``point``. The two differ where the unknown is the point of the guide's link
+    under a block's point (name A@3, point A).
     """
 
     pair: Leading
@@ -39,14 +39,13 @@ class GuideAcceleration(Struct, frozen=True):
 
     @property
     def known(self) -> str:
-        """The link against which the pair leads the point."""
         return partner(self.pair, self.link)
 
     def component(self, pen: Pen, sides: list[tuple[Joint, str]] | None = None) -> int | None:
-        """The component that its guide's turning gives it; None where that does not turn.
+        """The Coriolis component that a turning guide causes; None where the guide does not turn.
 
-        Of a point under a pin the pin's relative velocity counts, else that of the point against
-        what it slides on.
+        For a point under a pin it uses the relative velocity of the pin. Otherwise it uses the
+        velocity of the point relative to the link on which the point slides.
         """
         if not is_under(self.name) and not pen.turns(self.known):
             return None
@@ -60,9 +59,9 @@ class GuideAcceleration(Struct, frozen=True):
         return coriolis_of(pen, link, tail, tip, self.point, self.pair.links[0])
 
     def end(self, pen: Pen, vector: int | None) -> int:
-        """Where the known part ends in the plan: the component laid off from the point under it.
+        """The end of the known part in the plan: the component laid off from the point underneath.
 
-        Where that is the one that is sought, it is laid off backwards from the sliding one.
+        If that point is unknown, the component is laid off backwards from the sliding point.
         """
         if vector is None:
             return image_under(pen, self.known, self.point, ACCELERATION)
@@ -73,20 +72,20 @@ class GuideAcceleration(Struct, frozen=True):
         return end_of(pen, image_under(pen, self.known, self.point, ACCELERATION), vector)
 
     def line(self, pen: Pen, vector: int | None) -> tuple[int, int]:
-        """That, and the line of the rest, parallel to the guide."""
+        """The known end, and the line of the rest, parallel to the guide."""
         end = self.end(pen, vector)
         along = led_by(self.pair).direction(pen)
         return end, parallel_through(pen, end, along, self.pair.links[0])
 
     def rest(self, pen: Pen, end: int, found: int) -> None:
-        """The arrow of the rest."""
+        """Draw the arrow of the rest."""
         if is_under(self.name):
             slide_arrow(pen, found, end, self.link, self.point)
         else:
             slide_arrow(pen, end, found, self.known, self.point)
 
     def laid_beside(self, pen: Pen, vector: int, found: int) -> int:
-        """Where the component ends of a block whose image is found, with the arrow of the rest."""
+        """The end of the component of a block whose image is known; draws the arrow of the rest."""
         pen.want("coriolis", self.link, vector)
         with ACCELERATION.drawn(pen):
             end = self.end(pen, vector)
@@ -94,7 +93,7 @@ class GuideAcceleration(Struct, frozen=True):
         return end
 
     def finish(self, pen: Pen, *, driven: bool = False) -> None:
-        """The arrow from the pole, and the point where it touches."""
+        """Draw the arrow from the pole, and the contact point."""
         if not is_under(self.name):
             acceleration_arrow(pen, self.name)
         led_by(self.pair).touch(pen, ACCELERATION)
@@ -103,9 +102,9 @@ class GuideAcceleration(Struct, frozen=True):
 def end_on_driven(
     pen: Pen, link: str, images: tuple[int, int], point: str, block: str, index: str
 ) -> int:
-    """The same for a link that a driver slides against another, as its pin on ``point`` is known.
+    """The end of the known part for a link that a driver slides along another, from a known pin.
 
-    The ``images`` of the velocity plan are those of that point and of the link's own point there.
+    ``images`` are the velocity images of the ``point`` and of the link's own point there.
     """
     from graphkin.construction.coriolis import coriolis_of, end_of
 
@@ -115,7 +114,7 @@ def end_on_driven(
 
 
 def slid(step: Step) -> tuple[LaidOff, CoriolisComponent] | None:
-    """The component of what slides that a step lays off; None for other steps."""
+    """The Coriolis component that a step lays off; None for other steps."""
     from graphkin.construction.coriolis import CoriolisComponent
 
     laid = step.of

@@ -1,6 +1,7 @@
-"""The line on which the second image of a point about a known pivot lies: square to their bar.
+"""The line on which the acceleration image of a point about a known pivot lies.
 
-It passes through the end of the normal component, which is known: the tangential direction.
+It is perpendicular to their bar, the tangential direction, and passes through the end of the known
+normal component.
 """
 
 from __future__ import annotations
@@ -28,12 +29,12 @@ from graphkin.structure.pairs import Joint
 
 
 class TangentialDirection(PerpendicularThrough, frozen=True, kw_only=True):
-    """The ``line`` along which the tangential component of a pin about a pivot leads."""
+    """The ``line`` along which the tangential component of a pin about a pivot lies."""
 
     reasons: ClassVar[Mapping[str, str]] = {"line": "why.tangential"}
 
     def clause(self, drawing: Drawing, role: str) -> str:
-        """Through the end of the normal component; through its start where that is too short."""
+        """The clause: through the normal component's end, or its start if it is too short."""
         fields = {"vector": symbol(f"a_{self.index}^τ"), **self.symbols()}
         laid = laid_off(drawing.trace.program, self.start)
         if laid is not None and laid.is_short(drawing):
@@ -44,7 +45,7 @@ class TangentialDirection(PerpendicularThrough, frozen=True, kw_only=True):
 
 
 def tangential_direction(pen: Pen, pivot: str, pin: str, corner: int) -> int:
-    """Through the end of a normal component the perpendicular to its bar."""
+    """The perpendicular to a bar through the end of its normal component."""
     ends = pen.the("position", pivot), pen.the("position", pin)
     with pen.calls_for("tangential components"):
         line = pen.draw(square_to, corner, *ends)
@@ -60,13 +61,13 @@ def tangential_direction(pen: Pen, pivot: str, pin: str, corner: int) -> int:
 
 
 class BarAcceleration(Struct, frozen=True):
-    """What a bar to a known ``pivot`` says of the acceleration of a ``point``."""
+    """The line that a bar to a known ``pivot`` gives for the acceleration of a ``point``."""
 
     pivot: str
     point: str
 
     def component(self, pen: Pen, sides: list[tuple[Joint, str]] | None = None) -> int:
-        """The component that is known of it, drawn as the scene wants it among those ``sides``."""
+        """The known normal component, drawn by the method that the scene asks for in a dyad."""
         if sides is None or pen.scene.sheet.method != KLEIN:
             return normal_component(pen, self.pivot, self.point)
         from graphkin.construction.normal_component.klein import component_in_dyad
@@ -74,27 +75,27 @@ class BarAcceleration(Struct, frozen=True):
         return component_in_dyad(pen, sides, self.pivot, self.point)
 
     def end(self, pen: Pen, vector: int | None) -> int:
-        """Where the known part ends in the plan."""
+        """The end of the known part in the plan."""
         assert vector is not None
         return lay_off_normal(pen, self.pivot, self.point, vector)
 
     def line(self, pen: Pen, vector: int | None) -> tuple[int, int]:
-        """That, and the line of the rest."""
+        """The known end, and the line of the rest."""
         end = self.end(pen, vector)
         return end, tangential_direction(pen, self.pivot, self.point, end)
 
     def rest(self, pen: Pen, end: int, found: int) -> None:
-        """The arrow of the rest."""
+        """Draw the arrow of the rest."""
         component_arrow(pen, end, found, "τ", self.point, self.pivot)
 
     def finish(self, pen: Pen) -> None:
-        """The arrow from the pole."""
+        """Draw the arrow from the pole."""
         if not is_under(self.point):
             acceleration_arrow(pen, self.point)
 
 
 def known_and_free(pen: Pen, pivot: str, pin: str) -> tuple[int, int]:
-    """The end of what is known of a pin's acceleration about a pivot, and the line of the rest."""
+    """The end of the known part of a pin's acceleration about a pivot, and the line of the rest."""
     vector = normal_component(pen, pivot, pin)
     with ACCELERATION.drawn(pen):
         end = lay_off_normal(pen, pivot, pin, vector)
@@ -102,7 +103,7 @@ def known_and_free(pen: Pen, pivot: str, pin: str) -> tuple[int, int]:
 
 
 def refuse_unused_method(pen: Pen) -> None:
-    """Raise StructureError where a scene wants components drawn in a way none of them takes."""
+    """Raise StructureError where the scene's method for components applies to none of them."""
     if pen.scene.sheet.method == KLEIN:
         from graphkin.construction.normal_component.klein import refuse_unused
 

@@ -30,21 +30,22 @@ from graphkin.text.markup import EQUALS, NOTHING
 
 @action("centripetal")
 def centripetal(start: Point, pivot: Point, pin: Point, omega: Real) -> Point:
-    """End of the centripetal component of a driven bar: omega squared times the bar."""
+    """The end of the centripetal component of a bar: omega squared times the bar."""
     return start + omega * omega * (pivot - pin)
 
 
 @action("driven-tangential")
 def driven_tangential(start: Point, pivot: Point, pin: Point, epsilon: Real) -> Point:
-    """End of the tangential component of a driven bar: epsilon times the bar, turned a quarter."""
+    """The end of the tangential component of a bar: epsilon times the bar, turned 90°."""
     return start + 1j * (pin - pivot) * epsilon
 
 
 class TurnedAcceleration(LaidOffAboutPivot, GivenVector, EndsComponent, frozen=True, kw_only=True):
-    """ω²·l and ε·l laid off in the acceleration plan from the second image ``start`` of a pivot.
+    """ω²·l and ε·l laid off in the acceleration plan from the image ``start`` of a pivot.
 
-    The centripetal component ends in ``end``, the tangential one from there in the pin's ``image``;
-    where the ``link`` of both turns steadily there is none, and ``end`` is the pin's image.
+    The centripetal component ends in ``end``. The tangential component leads from there to the
+    pin's ``image``. Where the ``link`` turns at a constant rate, there is none, and ``end`` is the
+    pin's image.
     """
 
     gives: ClassVar[tuple[str, ...]] = ("end", "image")
@@ -66,18 +67,16 @@ class TurnedAcceleration(LaidOffAboutPivot, GivenVector, EndsComponent, frozen=T
 
     @property
     def is_steady(self) -> bool:
-        """Whether it has no tangential component."""
         return self.image is None
 
     def tried_rate(self, role: str) -> int | None:
-        """The angular acceleration."""
+        """The angular acceleration for the tangential component; otherwise None."""
         return self.epsilon if role == "image" else None
 
     def index_at(self, role: str) -> str:
-        """Its own index."""
         return self.index
 
-    # --- saying it -------------------------------------------------------------------------------
+    # --- its sentences ---------------------------------------------------------------------------
 
     def said_before(self, drawing: Drawing, role: str) -> tuple[int, ...]:
         """The centripetal component before the tangential one."""
@@ -110,7 +109,7 @@ class TurnedAcceleration(LaidOffAboutPivot, GivenVector, EndsComponent, frozen=T
         }
 
     def clause(self, drawing: Drawing, role: str) -> str:
-        """The centripetal component by number, before the tangential one."""
+        """The clause for the centripetal component by its value, before the tangential one."""
         if role == "image" or self.is_steady:
             return ""
         key = "none" if has_no_length(drawing, self.end) else "computed"
@@ -120,7 +119,7 @@ class TurnedAcceleration(LaidOffAboutPivot, GivenVector, EndsComponent, frozen=T
         return drawing.words(f"step.lay-off-{key}", **fields)
 
     def point_sentence(self, drawing: Drawing, role: str) -> str:
-        """How the component that ends in the pin's image is laid off."""
+        """The sentence on how the component that ends in the pin's image is laid off."""
         fields = self.fields(drawing, role)
         if role == "end":
             if has_no_length(drawing, self.end):
@@ -142,7 +141,7 @@ class TurnedAcceleration(LaidOffAboutPivot, GivenVector, EndsComponent, frozen=T
     # --- marks and relations ---------------------------------------------------------------------
 
     def equations(self, drawing: Drawing, role: str) -> Iterator[Relation]:
-        """Euler's theorem, and both sizes; a driver's crank has relations of its own."""
+        """Euler's theorem, and both magnitudes; a driver's crank has relations of its own."""
         if role == "end":
             driven = self.is_of_driver(drawing, self.omega)
             if not (driven and self.is_steady):
@@ -159,29 +158,29 @@ class TurnedAcceleration(LaidOffAboutPivot, GivenVector, EndsComponent, frozen=T
             yield self.by_turning(drawing, self.epsilon, "τ")
 
     def known_by(self, drawing: Drawing) -> str:
-        """Along its bar where the rate of a driver is constant."""
+        """Along its bar, where a driver's rate is constant; empty otherwise."""
         if not (self.is_steady and self.is_of_driver(drawing, self.omega)):
             return ""
         inward = f"{symbol(self.q)}→{symbol(self.p)}"
         return f"{inward}, {rate_symbol(drawing, self.omega)}^2·{self.bar}"
 
     def rate_taken(self, drawing: Drawing, role: str) -> str:
-        """The angular acceleration."""
+        """The angular acceleration; empty for the centripetal component."""
         if role == "end" or self.epsilon is None:
             return ""
         return rate_symbol(drawing, self.epsilon, "ε")
 
 
-# --- planning it ---------------------------------------------------------------------------------
+# --- writing its steps ---------------------------------------------------------------------------
 
 
 def turned_image(
     pen: Pen, link: str, points: tuple[str, str], start: int, *, name: str, steady: bool
 ) -> int:
-    """The second image of the second of two ``points`` of a link whose rates are known.
+    """The acceleration image of the second of two ``points`` of a link with known rates.
 
-    ``start`` is that of the first; both components have their arrows, but for a single one that is
-    the whole acceleration.
+    ``start`` is the image of the first point. Both components have arrows, except a single
+    component that is the whole acceleration.
     """
     pivot, pin = points
     places = pen.the("position", pivot), pen.the("position", pin)
@@ -217,7 +216,7 @@ def turned_image(
 
 
 def accelerated(pen: Pen, rate: int) -> bool:
-    """Whether a rate is a driver's acceleration, alone or with another's, and not nought."""
+    """Whether a rate is a driver's acceleration, alone or in a sum, that is not zero."""
     step = pen.steps[rate]
     if step.given is not None:
         given = {drive.acceleration for drive in pen.drives.values()}

@@ -1,4 +1,4 @@
-"""The acceleration pole of a link: on a bar the triangle similar to that of the plan (Mehmke)."""
+"""The acceleration pole of a link, from a triangle similar to the one in the plan (Mehmke)."""
 
 from __future__ import annotations
 
@@ -27,7 +27,7 @@ from graphkin.numbers.plane import Line, Ratio
 
 @action("pole-ray")
 def pole_ray(corner: Point, other: Point, o: Point, image: Point, image_other: Point) -> Line:
-    """At one end of a bar the angle that the plan shows at its image, between image and pole."""
+    """The ray at one end of a bar at the angle that the plan shows between image and pole."""
     return Line(corner, (other - corner) * ((o - image) / (image_other - image)))
 
 
@@ -39,15 +39,15 @@ def acceleration_pole(o: Point, p: Point, q: Point, image_p: Point, image_q: Poi
 
 @action("acceleration-pole")
 def turned_pole(p: Point, image: Point, omega: Real, epsilon: Real) -> Ratio:
-    """The point of a link without acceleration from one point's and the link's turning."""
+    """The point of a link without acceleration, from one acceleration and the link's rates."""
     return Ratio(p, image, at(omega * omega, -epsilon))
 
 
-# --- what it is ----------------------------------------------------------------------------------
+# --- the constructions ---------------------------------------------------------------------------
 
 
 class PoleRay(LineToCentre, frozen=True, kw_only=True):
-    """At an end of a bar, ``point``, the angle that the plan shows at its image."""
+    """The ray at one end of a bar, ``point``, at the angle that the plan shows at its image."""
 
     lines: ClassVar[Mapping[str, str]] = {"line": "the ray at {point}"}
 
@@ -56,14 +56,13 @@ class PoleRay(LineToCentre, frozen=True, kw_only=True):
 
     @property
     def name(self) -> str:
-        """The bar, beginning with its own end."""
         return self.point + self.other
 
 
 class AccelerationPole(TwoPointCentre, frozen=True, kw_only=True):
     """The pole of a link by the accelerations of two points: a triangle similar to o′a′b′ (Mehmke).
 
-    Without an ``other`` point it is found by how the link turns.
+    Without an ``other`` point it follows from the rates of the link.
     """
 
     key: ClassVar[str] = "acceleration-pole"
@@ -77,7 +76,7 @@ class AccelerationPole(TwoPointCentre, frozen=True, kw_only=True):
 
     @classmethod
     def lines_at(cls, pen: Pen, points: tuple[str, str], o: int) -> tuple[LineToCentre, ...]:
-        """At each end of the bar the angle of the plan."""
+        """The ray of the plan's angle at each end of the bar."""
         rays = []
         for p, q in (points, points[::-1]):
             ends = *(pen.the("position", point) for point in (p, q)), o
@@ -87,7 +86,7 @@ class AccelerationPole(TwoPointCentre, frozen=True, kw_only=True):
         return tuple(rays)
 
     def mark_far(self, canvas: Canvas) -> None:
-        """At infinity only a note: all points of the link accelerate alike."""
+        """Mark a far pole; at infinity only a note says that all points accelerate equally."""
         drawing, value = canvas.drawing, self.value(canvas.drawing)
         if drawing.place(value) is not None:
             super().mark_far(canvas)
@@ -96,17 +95,17 @@ class AccelerationPole(TwoPointCentre, frozen=True, kw_only=True):
             canvas.note(drawing.words("page.pole_at_infinity", **fields))
 
     def fields(self, drawing: Drawing) -> dict[str, str]:
-        """Also the image of the bar in the plan."""
+        """The fields of a sentence, with the image of the bar in the plan."""
         images = dict(zip("ab", (drawing.lettered(each) for each in self.images), strict=False))
         figure = symbol(drawing.pole) + "".join(images.values())
         return super().fields(drawing) | images | {"figure": figure}
 
 
-# --- planning it ---------------------------------------------------------------------------------
+# --- writing its steps ---------------------------------------------------------------------------
 
 
 def draw_pole(pen: Pen, base: Base) -> None:
-    """The acceleration pole of a link, by two of its points or by how it turns."""
+    """Draw the acceleration pole of a link, from two of its points or from its rates."""
     points = two_points(pen, base)
     if points is not None:
         pen.want("pole", base.link, AccelerationPole.draw(pen, base, points))
@@ -115,7 +114,7 @@ def draw_pole(pen: Pen, base: Base) -> None:
 
 
 def by_turning(pen: Pen, base: Base) -> int:
-    """The pole of a link that turns and of which one point is known: by its ω and ε."""
+    """The pole of a turning link with one known point, from its ω and ε."""
     ends = [pen.the(what, base.start) for what in ("position", "acceleration")]
     rates = omega_of(pen, base.link), omega_of(pen, base.link, EPSILON)
     name = centre_name("J", base.link)

@@ -1,4 +1,4 @@
-"""Centres of motion, which may lie at infinity: how they are marked and said, near and far."""
+"""Centres of motion, which may lie at infinity: their marks and sentences, near and far."""
 
 from __future__ import annotations
 
@@ -25,17 +25,17 @@ Places = dict[str, complex]
 """Places on a line by name."""
 
 
-# --- the lines that lead to one ------------------------------------------------------------------
+# --- the lines that lead to a centre -------------------------------------------------------------
 
 
 @action("velocity-normal", move=Move(PERPENDICULAR, point_and_arrow))
 def velocity_normal(point: Point, o: Point, image: Point) -> Line:
-    """Through a point of the mechanism the perpendicular to its velocity (Chasles)."""
+    """The perpendicular to the velocity of a point, through that point (Chasles)."""
     return Line(point, 1j * (image - o))
 
 
 def meet_anywhere(m: Line, n: Line) -> Ratio:
-    """Where two lines meet, at infinity when they are parallel."""
+    """The point where two lines meet, at infinity where they are parallel."""
     gap = n.point - m.point
     return Ratio(m.point, cross(gap, n.along) * m.along, cross(m.along, n.along))
 
@@ -49,21 +49,23 @@ class LineToCentre(Construction, frozen=True, kw_only=True):
 
     @property
     def name(self) -> str:
-        """What its mark is called."""
+        """The name of its mark."""
         return ""
 
     def marks(self, canvas: Canvas, role: str) -> None:
-        """The line, as far as the centre."""
+        """Draw the line as far as the centre."""
         canvas.line("ray", self.name)
 
     def places(self, drawing: Drawing) -> Places:
-        """The places through which it is drawn, those at infinity left out."""
+        """The places through which the line is drawn, without those at infinity."""
         return {}
 
 
 class VelocityNormal(LineToCentre, frozen=True, kw_only=True):
-    """The perpendicular to the velocity of a ``point``, by the steps of its place, the pole of the
-    plan and its image.
+    """The perpendicular to the velocity of a ``point``.
+
+    ``place``, ``pole`` and ``image`` are the steps of the point, of the plan's pole and of its
+    image.
     """
 
     lines: ClassVar[Mapping[str, str]] = {"line": "⊥ velocity of {point}"}
@@ -75,16 +77,15 @@ class VelocityNormal(LineToCentre, frozen=True, kw_only=True):
 
     @property
     def name(self) -> str:
-        """The point's letter."""
         return self.point
 
     @property
     def square_to(self) -> tuple[int, int, int]:
-        """The pin, and the pole and the image between which its velocity stands in the plan."""
+        """The pin, and the pole and the image that its velocity joins in the plan."""
         return self.place, self.pole, self.image
 
     def clause(self, drawing: Drawing, role: str) -> str:
-        """At the point the perpendicular to its velocity."""
+        """The clause for the perpendicular to the velocity at the point."""
         fields = {"p": symbol(self.point), "v": symbol(f"v_{self.point}")}
         return drawing.words("step.velocity-normal", **fields)
 
@@ -94,13 +95,14 @@ class VelocityNormal(LineToCentre, frozen=True, kw_only=True):
         return {own or self.point: drawing.trace.values[self.place]}
 
 
-# --- what it is ----------------------------------------------------------------------------------
+# --- the constructions ---------------------------------------------------------------------------
 
 
 class Centre(Construction, frozen=True, kw_only=True):
-    """A place of a link that may lie at infinity, with its letter; a Ratio from a ``point`` on.
+    """A place of a link that may lie at infinity, with its letter.
 
-    ``found`` is its stable value, ``crossing`` where the hand finds it: where its ``ways`` meet.
+    It is a Ratio that starts at ``point``. ``found`` is its numerically stable value. ``crossing``
+    is the place found by hand, where its ``ways`` meet.
     """
 
     gives: ClassVar[tuple[str, ...]] = ("crossing", "found")
@@ -115,11 +117,11 @@ class Centre(Construction, frozen=True, kw_only=True):
     ways: tuple[LineToCentre, ...] = ()
 
     def title(self, role: str) -> str:
-        """What it is called in a report."""
+        """The name of the centre in a report."""
         return f"{self.called} {self.link}" if role == "found" else ""
 
     def symbols(self) -> Mapping[str, str]:
-        """The centre, the point that it is found from, and its link."""
+        """The centre, the point from which it is found, and its link."""
         return {"name": symbol(self.name), "p": symbol(self.point), "k": escape(self.link)}
 
     def is_by_hand(self, drawing: Drawing) -> bool:
@@ -127,29 +129,29 @@ class Centre(Construction, frozen=True, kw_only=True):
         return self.crossing in drawing.trace.values
 
     def value(self, drawing: Drawing) -> Ratio:
-        """Where it lies on a sheet."""
+        """Its place on a sheet."""
         found: Ratio = drawing.trace.values[self.found]
         return found
 
     # --- drawing it ------------------------------------------------------------------------------
 
     def marks(self, canvas: Canvas, role: str) -> None:
-        """Its circle and cross; off the field its way and distance."""
+        """Draw its circle and cross; off the field, its direction and distance."""
         if role == "found" and not canvas.centre(canvas.value(self.found)):
             self.mark_far(canvas)
 
     def mark_far(self, canvas: Canvas) -> None:
-        """Where a ray to it leaves the field its name and how far it lies."""
+        """Write its name and distance where a ray to it leaves the field."""
         mark_away(canvas, self.value(canvas.drawing), self.name, self.point, self.needs_ray(canvas))
 
     def needs_ray(self, canvas: Canvas) -> bool:
-        """Whether none of its lines is drawn from its point to it."""
+        """Whether a ray is necessary because no line is drawn from its point to the centre."""
         return not self.is_by_hand(canvas.drawing)
 
     def lines_to(self, drawing: Drawing) -> list[Places]:
-        """For each line to it the places on it by name, the farthest from it first.
+        """For each line to the centre, the places on it by name, the farthest first.
 
-        Nothing where one of the lines passes through no place, or leads to no point.
+        Empty where one of the lines passes through no place, or the centre lies at infinity.
         """
         point = drawing.place(self.value(drawing))
         if point is None or not self.is_by_hand(drawing):
@@ -159,13 +161,13 @@ class Centre(Construction, frozen=True, kw_only=True):
         return [dict(each) for each in ordered] if all(every) else []
 
     def around(self, drawing: Drawing) -> tuple[str, Circle] | None:
-        """The circle on which it lies, after its look; None for most."""
+        """The circle on which it lies, after its style; None for most centres."""
         return None
 
-    # --- saying it -------------------------------------------------------------------------------
+    # --- its sentences ---------------------------------------------------------------------------
 
     def oddity(self, drawing: Drawing) -> str:
-        """What is odd about it: that it is everywhere, or far, that is at infinity."""
+        """The special case of a centre: "everywhere", or "far" for infinity; empty for others."""
         value = self.value(drawing)
         if drawing.is_everywhere(value):
             return "everywhere"
@@ -176,21 +178,22 @@ class Centre(Construction, frozen=True, kw_only=True):
         return tuple(way.line for way in self.ways) if self.is_by_hand(drawing) else ()
 
     def point_sentence(self, drawing: Drawing, role: str) -> str:
-        """How its lines find it, or where it is."""
+        """The sentence on how its lines find it, or on where it is."""
         return drawing.words(f"step.{self.sentence_key(drawing)}", **self.fields(drawing))
 
     def sentence_key(self, drawing: Drawing) -> str:
-        """The key of what is said of it itself."""
+        """The key of the sentence about the centre itself."""
         return self.key
 
     def fields(self, drawing: Drawing) -> dict[str, str]:
-        """What fills the gaps of that."""
+        """The fields of that sentence."""
         return dict(self.symbols())
 
 
 class TwoPointCentre(Centre, frozen=True, kw_only=True):
-    """A centre by what two points of its link do, of which ``other`` is the second: the steps of
-    the pole ``o`` of the plan, of their ``places`` and of their ``images``.
+    """A centre that follows from the motion of two points of its link, ``point`` and ``other``.
+
+    ``o``, ``places`` and ``images`` are the steps of the plan's pole and of both points.
     """
 
     letter: ClassVar[str]
@@ -205,23 +208,23 @@ class TwoPointCentre(Centre, frozen=True, kw_only=True):
     images: tuple[int, ...] = ()
 
     def lines_to(self, drawing: Drawing) -> list[Places]:
-        """From each of its two points."""
+        """One line from each of its two points."""
         points = (self.point, self.other) if self.other else ()
         return [{point: drawing.standing.spot(lettered(point))} for point in points]
 
     def oddity(self, drawing: Drawing) -> str:
-        """Also that it is still: a point of the bar, to which the hand's lines do not lead."""
+        """The special case, also "still": it is a point of the bar that no lines lead to."""
         lost = self.crossing is not None and not self.is_by_hand(drawing)
         return super().oddity(drawing) or ("still" if lost else "")
 
     def sentence_key(self, drawing: Drawing) -> str:
-        """By what is odd about it; a fixed pin needs no lines."""
+        """The key by its special case; a fixed pin needs no lines."""
         how = "" if self.crossing is not None else "pivot" if self.other else "turned"
         suffix = self.oddity(drawing) or how
         return f"{self.key}-{suffix}" if suffix else self.key
 
     def fields(self, drawing: Drawing) -> dict[str, str]:
-        """Both points."""
+        """The fields of a sentence, with both points."""
         bars = {"q": symbol(self.other), "bar": bar(self.point, self.other)} if self.other else {}
         return super().fields(drawing) | bars
 
@@ -232,7 +235,7 @@ class TwoPointCentre(Centre, frozen=True, kw_only=True):
 
     @classmethod
     def draw(cls, pen: Pen, base: Base, points: tuple[str, str]) -> int:
-        """Draw it: by the hand's way where neither point is a fixed pin."""
+        """Draw it, with the construction by hand where neither point is a fixed pin."""
         o, name = pen.pole(cls.plane), centre_name(cls.letter, base.link)
         places = tuple(pen.the("position", point) for point in points)
         images = tuple(pen.the(cls.quantity, point) for point in points)
@@ -263,9 +266,9 @@ class TwoPointCentre(Centre, frozen=True, kw_only=True):
 
 
 def mark_away(canvas: Canvas, value: Ratio, name: str, point: str, ray: bool) -> None:
-    """Mark a centre off its field: name, direction and distance where a ray to it leaves the field.
+    """Mark a centre off its field: name, direction and distance where a ray leaves the field.
 
-    Nothing where every point is one: the sentence of the link says so.
+    Nothing where every point is a centre: the sentence of the link says so.
     """
     way = way_to(value)
     if not canvas.drawing.is_everywhere(value) and way:
@@ -274,12 +277,12 @@ def mark_away(canvas: Canvas, value: Ratio, name: str, point: str, ray: bool) ->
 
 
 def way_to(value: Ratio) -> Any:
-    """The way to a centre, or only its direction where that lies at infinity."""
+    """The vector to a centre, or only its direction where the centre lies at infinity."""
     return value.shift / value.size if value.size else value.shift
 
 
 def far_words(drawing: Drawing, value: Ratio, name: str, point: str) -> str:
-    """Words for where a centre lies that is not on the sheet, or at infinity."""
+    """The words for a centre that lies off the sheet or at infinity."""
     words, way = drawing.words, way_to(value)
     angle = words.fixed(degrees(phase(way)) % 360, 1)
     fields = {"name": symbol(name), "p": symbol(point), "angle": angle}
@@ -290,21 +293,22 @@ def far_words(drawing: Drawing, value: Ratio, name: str, point: str) -> str:
     return words("page.far_centre", distance=away, **fields)
 
 
-# --- planning it ---------------------------------------------------------------------------------
+# --- writing its steps ---------------------------------------------------------------------------
 
 
 def centre_name(letter: str, link: str) -> str:
-    """J3 for a numbered link, J_rod for one with a name."""
+    """The name of a centre: J3 for a numbered link, J_rod for a link with a name."""
     return letter + (link if link.isdigit() else f"_{link}")
 
 
 def known_points(pen: Pen, base: Base) -> list[str]:
-    """The constructed points of a link, its own before those under others.
+    """The constructed points of a link, its own points before those under others.
 
-    The normal where a wheel touches runs through its centre, as the one there does.
+    A contact point comes last, because the normal at a wheel's contact passes through the wheel's
+    centre. The centre gives the same line.
     """
     points = [base.start, *([base.end] if base.end else []), *base.others]
-    if base.link not in pen.scene.cam_links:  # in a dwell it falls on the cam's pivot
+    if base.link not in pen.scene.cam_links:  # in a dwell it is the cam's pivot
         points = [point for point in points if point not in pen.scene.cam_centres]
     moving = ("position", "velocity", "acceleration")
     known = [p for p in dict.fromkeys(points) if all(pen.has(what, p) for what in moving)]

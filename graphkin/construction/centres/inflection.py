@@ -1,7 +1,7 @@
-"""The inflection circle of a link, whose points pass an inflection of their paths, and its pole.
+"""The inflection circle of a link, whose points are at inflections of their paths, and its pole.
 
-By hand a point of the circle is laid off on each of two rays to the instantaneous centre, and
-perpendiculars in them meet in the pole (Thales).
+By hand, a point of the circle is laid off on each of two rays to the instantaneous centre. The
+perpendiculars at both points meet in the pole (Thales).
 """
 
 from __future__ import annotations
@@ -37,9 +37,9 @@ from graphkin.numbers.arithmetic import Point, Real, pick
 from graphkin.numbers.plane import Circle, Line, Ratio, cross, crossing_sine, dot
 
 FLAT = 1e-3
-"""Sine of the flattest crossing of two rays by which a hand looks for an inflection pole."""
+"""Sine of the flattest crossing of two rays used to find an inflection pole by hand."""
 
-# --- its value, and the steps of the hand's way --------------------------------------------------
+# --- its value, and the steps by hand ------------------------------------------------------------
 
 
 @action("inflection-pole")
@@ -48,9 +48,9 @@ def inflection_pole(
 ) -> Ratio:
     """W = I + a_I/ω², opposite to the centre I on the circle of points whose paths are straight.
 
-    For the point of the link at r from I the velocity is i·ω·r and the acceleration
-    a_I + (i·ε - ω²)·r; they are parallel where r·a_I = ω²·r², on the circle of diameter a_I/ω².
-    From any point P of the link, I = P + i·v_P/ω and ε drop out of I: W = P + (a_P - ε·v_P/ω)/ω².
+    For the point of the link at r from I the velocity is i·ω·r and the acceleration is a_I + (i·ε -
+    ω²)·r. They are parallel where r·a_I = ω²·r², on the circle of diameter a_I/ω². For any point P
+    of the link, I = P + i·v_P/ω, and ε drops out of I: W = P + (a_P - ε·v_P/ω)/ω².
     """
     size = pick(omega == 0, 1.0, omega)
     return Ratio(
@@ -62,10 +62,11 @@ def inflection_pole(
 def inflection_point(
     point: Point, ray: Line, second_image: Point, p: Point, q: Point, ip: Point, iq: Point
 ) -> Point:
-    """On the ray from a point to the instantaneous centre the part a_n/ω², a_n along the ray.
+    """The point at the distance a_n/ω² along the ray to the instantaneous centre.
 
-    ω is the relative velocity of the base PQ over its length. Where the ray meets the inflection
-    circle, for a_n = ω²·(way to that circle) on every ray (Euler, Savary).
+    a_n is the component of the point's acceleration along the ray. ω is the relative velocity of
+    the base PQ over its length. The ray meets the inflection circle there, since a_n = ω² times the
+    distance to that circle on every ray (Euler, Savary).
     """
     unit = ray.along / abs(ray.along)
     turning = abs(iq - ip) / abs(q - p)
@@ -74,7 +75,7 @@ def inflection_point(
 
 @action("inflection-square")
 def inflection_square(point: Point, image: Point) -> Line:
-    """Through a point of the inflection circle the perpendicular to its ray (Thales)."""
+    """The perpendicular to its ray through a point of the inflection circle (Thales)."""
     return Line(point, image)
 
 
@@ -86,16 +87,16 @@ def inflection_meet(m: Line, n: Line) -> Ratio:
 
 @action("inflection-circle")
 def inflection_circle(p: Point, image_p: Point, omega: Real, pole: Ratio) -> Circle:
-    """The circle on the segment from the instantaneous centre p + i·v/ω to the inflection pole."""
+    """The circle whose diameter joins the instantaneous centre p + i·v/ω to the inflection pole."""
     centre, far = p + 1j * image_p / omega, pole.start + pole.shift / pole.size
     return Circle((centre + far) / 2, abs(far - centre) / 2)
 
 
-# --- what it is ----------------------------------------------------------------------------------
+# --- the constructions ---------------------------------------------------------------------------
 
 
 class InflectionPoint(LineToCentre, frozen=True, kw_only=True):
-    """A point of the circle, ``found`` on the ray at ``ray.point``, and the perpendicular in it."""
+    """A point of the circle, ``found`` on the ray at ``ray.point``, and the perpendicular there."""
 
     gives: ClassVar[tuple[str, ...]] = ("found", "line")
     reasons: ClassVar[Mapping[str, str]] = {"found": "why.inflection"}
@@ -107,11 +108,10 @@ class InflectionPoint(LineToCentre, frozen=True, kw_only=True):
 
     @property
     def name(self) -> str:
-        """The letter of the point from which the ray leads."""
         return self.ray.point
 
     def marks(self, canvas: Canvas, role: str) -> None:
-        """The point, and the perpendicular."""
+        """Draw the point, or the perpendicular."""
         if role == "found":
             canvas.spot(canvas.value(self.found))
         else:
@@ -122,7 +122,7 @@ class InflectionPoint(LineToCentre, frozen=True, kw_only=True):
         return (self.ray.line,) if role == "found" else ()
 
     def point_sentence(self, drawing: Drawing, role: str) -> str:
-        """What is laid off on the ray."""
+        """The sentence for the length laid off on the ray."""
         values = drawing.trace.values
         return drawing.words(
             "step.inflection-point",
@@ -134,20 +134,20 @@ class InflectionPoint(LineToCentre, frozen=True, kw_only=True):
         )
 
     def clause(self, drawing: Drawing, role: str) -> str:
-        """The perpendicular in it."""
+        """The clause for the perpendicular at the point."""
         fields = {"w": symbol(self.letter), "p": symbol(self.name)}
         return drawing.words("step.inflection-square", **fields)
 
     def places(self, drawing: Drawing) -> Places:
-        """The point of the circle."""
         return {self.letter: drawing.trace.values[self.found]}
 
 
 class InflectionCircle(Centre, frozen=True, kw_only=True):
-    """The circle on the segment from the instantaneous centre to its pole, which is ``found``.
+    """The circle whose diameter joins the instantaneous centre to its pole, which is ``found``.
 
     ``ways`` are two points of the circle with their perpendiculars; their rays meet in ``centre``.
-    ``opposite`` is the stable value of that. ``pinned`` is one of a link about a fixed pin.
+    ``opposite`` is the numerically stable value of that centre. ``pinned``: the link turns about a
+    fixed pin.
     """
 
     gives: ClassVar[tuple[str, ...]] = ("centre", "crossing", "found", "circle", "opposite")
@@ -163,11 +163,11 @@ class InflectionCircle(Centre, frozen=True, kw_only=True):
     pinned: bool
 
     def title(self, role: str) -> str:
-        """What its pole, or the centre that its rays meet in, is called in a report."""
+        """The name of the pole, or of the centre where its rays meet, in a report."""
         return f"{Centre.called} {self.link}" if role == "centre" else super().title(role)
 
     def marks(self, canvas: Canvas, role: str) -> None:
-        """The centre, the pole, and the circle on them."""
+        """Draw the centre, the pole, and the circle through both."""
         match role:
             case "centre":
                 assert self.centre is not None
@@ -181,22 +181,22 @@ class InflectionCircle(Centre, frozen=True, kw_only=True):
 
     @property
     def rays(self) -> tuple[VelocityNormal, ...]:
-        """The rays to the instantaneous centre on which its points are laid off."""
+        """The rays to the instantaneous centre on which the points of the circle are laid off."""
         return tuple(way.ray for way in self.ways if isinstance(way, InflectionPoint))
 
     def mark_far(self, canvas: Canvas) -> None:
-        """Only a note; of one at infinity the sentence says all."""
+        """Write a note only; for a pole at infinity the sentence says everything."""
         drawing, value = canvas.drawing, self.value(canvas.drawing)
         if not self.oddity(drawing):
             canvas.note(far_words(drawing, value, self.name, self.point))
 
     def around(self, drawing: Drawing) -> tuple[str, Circle] | None:
-        """The circle itself, after its look."""
+        """The circle itself, after its style."""
         value = drawing.trace.values.get(self.circle)
         return None if value is None else (self.look, value)
 
     def sentence_key(self, drawing: Drawing) -> str:
-        """By what is odd about it; about a fixed pin it is that pin."""
+        """The key by its special case; about a fixed pin the pole is that pin."""
         if odd := self.oddity(drawing):
             return f"{self.key}-{odd}"
         if self.is_by_hand(drawing):
@@ -204,22 +204,22 @@ class InflectionCircle(Centre, frozen=True, kw_only=True):
         return f"{self.key}-pin" if self.pinned else self.key
 
     def point_apart(self, drawing: Drawing, role: str) -> str:
-        """The pole and the circle after both perpendiculars."""
+        """The sentence for the pole and the circle, after both perpendiculars."""
         if role != "found" or self.sentence_key(drawing) != "inflection-meet":
             return ""
         return drawing.words("step.inflection-meet-apart", **self.fields(drawing))
 
     def fields(self, drawing: Drawing) -> dict[str, str]:
-        """The instantaneous centre, and the turning of the link."""
+        """The fields of a sentence, with the instantaneous centre and the rate of the link."""
         names = {"i": symbol(self.centre_letter), "omega": symbol(f"ω_{self.link}")}
         return super().fields(drawing) | names
 
 
-# --- planning it ---------------------------------------------------------------------------------
+# --- writing its steps ---------------------------------------------------------------------------
 
 
 def draw_circle(pen: Pen, base: Base) -> None:
-    """The inflection pole W of a link that is asked, and the circle on I and W."""
+    """Draw the inflection pole W of a link, and the circle through I and W."""
     points = two_points(pen, base)
     if points is None:
         return
@@ -263,9 +263,9 @@ def draw_circle(pen: Pen, base: Base) -> None:
 
 
 def squarest(pen: Pen, points: list[str]) -> tuple[str, str] | None:
-    """The two points whose rays to the instantaneous centre cross most squarely here.
+    """The two points whose rays to the instantaneous centre cross closest to a right angle.
 
-    None where no two do: a link that turns about a fixed pin has that pin for its circle.
+    None where no two rays cross: a link on a fixed pin has that pin as its circle.
     """
     ways = {}
     for point in points:
@@ -282,7 +282,7 @@ def squarest(pen: Pen, points: list[str]) -> tuple[str, str] | None:
 def point_on(
     pen: Pen, link: str, ray: VelocityNormal, base: tuple[VelocityNormal, ...]
 ) -> InflectionPoint:
-    """A point of the circle on a ray, and the perpendicular in it; the base gives the turning."""
+    """A point of the circle on a ray, and the perpendicular there; the base gives the rotation."""
     ends = *(each.place for each in base), *(each.image for each in base)
     letter = f"{ray.point}_w"
     second = pen.the("acceleration", ray.point)

@@ -1,6 +1,6 @@
 """The instantaneous centre of a link against the frame: where the normals to velocities cross.
 
-Of two parallel velocities the line through the tips meets the bar of their points in it.
+For two parallel velocities it is where the line through their tips meets the bar of their points.
 """
 
 from __future__ import annotations
@@ -31,7 +31,7 @@ from graphkin.numbers.plane import Ratio, cross, dot
 from graphkin.scene.model import FRAME
 
 PARALLEL = 1e-6
-"""Sine of the angle below which two velocities are parallel."""
+"""Sine of the angle below which two velocities count as parallel."""
 
 
 @action("instant-centre")
@@ -41,7 +41,7 @@ def instant_centre(o: Point, p: Point, q: Point, image_p: Point, image_q: Point)
     return Ratio(p, 1j * (image_p - o) * dot(bar, bar), cross(bar, image_q - image_p))
 
 
-# --- what it is ----------------------------------------------------------------------------------
+# --- the construction ----------------------------------------------------------------------------
 
 
 class InstantCentre(TwoPointCentre, SaidInParts, frozen=True, kw_only=True):
@@ -57,7 +57,7 @@ class InstantCentre(TwoPointCentre, SaidInParts, frozen=True, kw_only=True):
 
     @classmethod
     def lines_at(cls, pen: Pen, points: tuple[str, str], o: int) -> tuple[LineToCentre, ...]:
-        """The normals to their velocities."""
+        """The normals to the velocities of both points."""
         return normals_at(pen, points, o)
 
     @property
@@ -67,13 +67,13 @@ class InstantCentre(TwoPointCentre, SaidInParts, frozen=True, kw_only=True):
         return self.o
 
     def marks(self, canvas: Canvas, role: str) -> None:
-        """The centre, with the line through the tips of two parallel velocities."""
+        """Draw the centre, with the line through the tips of two parallel velocities."""
         if role == "found":
             self.mark_tips(canvas)
         super().marks(canvas, role)
 
     def mark_tips(self, canvas: Canvas) -> None:
-        """The line through the tips of two parallel velocities, and those not drawn elsewhere."""
+        """Draw the line through the tips of two parallel velocities, and missing velocities."""
         drawing, pole = canvas.drawing, canvas.value(self.pole)
         drawn = {step.args[:3] for _, step, _ in drawing.on_mechanism if step.arrow}
         vectors = []
@@ -87,21 +87,21 @@ class InstantCentre(TwoPointCentre, SaidInParts, frozen=True, kw_only=True):
             canvas.through_tips(*vectors)
 
     def oddity(self, drawing: Drawing) -> str:
-        """Of parallel velocities it lies on the line through their tips, if no point is at rest."""
+        """The special case: also "tips", for parallel velocities of which neither is zero."""
         odd = super().oddity(drawing)
         return "tips" if odd == "still" and not self.resting(drawing) else odd
 
     def resting(self, drawing: Drawing) -> str:
-        """The first of its points that is at rest; nothing where none is."""
+        """The first of its points that is at rest; empty where there is none."""
         values, least = drawing.trace.values, NOISE * (drawing.largest or 1.0)
         ends = zip((self.point, self.other), self.images, strict=True)
         still = (name for name, image in ends if abs(values[image] - values[self.pole]) <= least)
         return next(still, "")
 
     def parallel(self, drawing: Drawing) -> dict[str, tuple[int, int]]:
-        """The points by whose parallel velocities it is found: the steps of place and image.
+        """The points with the parallel velocities that find it, by the steps of place and image.
 
-        None where the perpendiculars cross, and where one of the points is at rest.
+        Empty where the perpendiculars cross, and where one of the points is at rest.
         """
         values = drawing.trace.values
         if self.oddity(drawing) != "tips":
@@ -113,8 +113,9 @@ class InstantCentre(TwoPointCentre, SaidInParts, frozen=True, kw_only=True):
         return dict(zip((self.point, self.other), ends, strict=True))
 
     def sentence_parts(self, drawing: Drawing, role: str) -> Iterator[tuple[int, str]]:
-        """Both perpendiculars, which fall on one line where the velocities are parallel; each of
-        these that is set on, then the line through their tips.
+        """The sentences for parallel velocities: perpendiculars, vectors, line through their tips.
+
+        Both perpendiculars lie on one line. Empty where the velocities are not parallel.
         """
         parallel, arrows = self.parallel(drawing), arrows_set_on(drawing)
         if role != "found" or not all(ends in arrows for ends in parallel.values()):
@@ -129,12 +130,12 @@ class InstantCentre(TwoPointCentre, SaidInParts, frozen=True, kw_only=True):
             yield self.found, drawing.words("step.instant-centre-tips-apart", **known)
 
     def fields(self, drawing: Drawing) -> dict[str, str]:
-        """Also the point at rest."""
+        """The fields of a sentence, with the point at rest."""
         return super().fields(drawing) | {"rest": symbol(self.resting(drawing))}
 
 
 def set_before(drawing: Drawing) -> Mapping[int, int]:
-    """The velocities that are set on the mechanism to find a centre, each with its centre."""
+    """The velocities set on the mechanism to find a centre, each with its centre."""
     ends = {
         pair: number
         for number, step, _ in drawing.on_mechanism
@@ -146,7 +147,7 @@ def set_before(drawing: Drawing) -> Mapping[int, int]:
 
 
 def arrows_set_on(drawing: Drawing) -> dict[tuple[int, int], int]:
-    """The steps of velocities set on the mechanism, by those of the place and the image."""
+    """The steps of velocities set on the mechanism, by the steps of place and image."""
     return {
         (step.args[0], step.args[2]): number
         for number, step, _ in drawing.on_mechanism
@@ -154,11 +155,11 @@ def arrows_set_on(drawing: Drawing) -> dict[tuple[int, int], int]:
     }
 
 
-# --- planning it ---------------------------------------------------------------------------------
+# --- writing its steps ---------------------------------------------------------------------------
 
 
 def draw_centre(pen: Pen, base: Base) -> None:
-    """The instantaneous centre of a link, by two of its points or by how it turns."""
+    """Draw the instantaneous centre of a link, from two of its points or from its rate."""
     points = two_points(pen, base)
     if points is not None:
         pen.want("centre", base.link, InstantCentre.draw(pen, base, points))
@@ -167,7 +168,7 @@ def draw_centre(pen: Pen, base: Base) -> None:
 
 
 def by_turning(pen: Pen, base: Base) -> int:
-    """The centre of a link of which one point is known, and how it turns: with its guide."""
+    """The centre of a link with one known point, from its rate, which its guide gives."""
     o, zero, name = pen.pole(Plane.VELOCITIES), pen.given("nought"), centre_name("I", base.link)
     ends = [pen.the(what, base.start) for what in ("position", "velocity")]
     with pen.on(Part.CENTRE, Plane.MECHANISM):

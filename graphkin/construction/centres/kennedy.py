@@ -1,9 +1,8 @@
 """Relative centres of any two links, by Kennedy's lines or from the velocity plan.
 
-The centres of three links lie on one line (Kennedy, Aronhold). Pins, guides and the
-places where wheels touch are centres at once; every other one is where two such lines meet. Where
-the circle diagram stops, in groups of class III and higher, the normals to two velocities give a
-centre against the frame.
+The centres of three links lie on one line (Kennedy, Aronhold). Pins, guides and contact points are
+centres at once. Every other centre is where two such lines meet. In groups of class III and higher
+the circle diagram stops. There the normals to two velocities give a centre against the frame.
 """
 
 from __future__ import annotations
@@ -41,12 +40,12 @@ Pair = tuple[str, str]
 Route = tuple[str, str] | None
 """The two links over which a centre is found; None for one found by two normals."""
 Spot = tuple[float, float, float]
-"""A centre in homogeneous coordinates of length 1; the third is nought at infinity."""
+"""A centre in homogeneous coordinates of length 1; the third is zero at infinity."""
 
 GOOD, LEAST = 0.2, 1e-6
-"""Sine of a crossing that is as good as any, and below which nothing crosses."""
+"""Sine of a crossing that is as good as any, and sine below which nothing crosses."""
 MOST = 12
-"""So many triangles on one side are tried at most."""
+"""The largest number of triangles tried on one side."""
 
 
 def routes(
@@ -55,10 +54,11 @@ def routes(
     centres: Mapping[Pair, Spot],
     normals: Collection[str],
 ) -> dict[Pair, Route]:
-    """How each centre that is not known at once is found, each from those before it.
+    """How each unknown centre is found, each from known or earlier centres.
 
-    ``links`` begin with the frame; ``normals`` are the links whose centre against the frame two
-    normals can give, each used only where no two lines meet. What is not in the answer has no way.
+    ``links`` begin with the frame. ``normals`` are the links whose centre against the frame two
+    normals can give; these are used only where no two lines meet. Centres missing in the result
+    cannot be found.
     """
     found = dict.fromkeys(known)
     ways: dict[Pair, Route] = {}
@@ -105,7 +105,7 @@ def squarest(
     joined: Mapping[str, set[str]],
     centres: Mapping[Pair, Spot],
 ) -> tuple[float, Pair] | None:
-    """The two lines that cross most squarely in a centre; None where no two do."""
+    """The two lines to a centre that cross closest to a right angle; None where no two cross."""
     over = [link for link in links if link in joined[pair[0]] and link in joined[pair[1]]][:MOST]
     lines = {link: line_over(links, pair, link, centres) for link in over}
     tried = [
@@ -120,7 +120,7 @@ def squarest(
 def line_over(
     links: Sequence[str], pair: Pair, link: str, centres: Mapping[Pair, Spot]
 ) -> tuple[Spot, float] | None:
-    """The line through the centres of a third link with each of two, and how far they are apart."""
+    """The line through the centres of a third link with each of two, and the distance of these."""
     first, second = (centres.get(ordered(links, end, link)) for end in pair)
     if first is None or second is None:
         return None
@@ -129,7 +129,6 @@ def line_over(
 
 
 def ordered(links: Sequence[str], a: str, b: str) -> Pair:
-    """Two links in the order of the scene."""
     return (a, b) if links.index(a) < links.index(b) else (b, a)
 
 
@@ -140,25 +139,24 @@ def cross(a: Spot, b: Spot) -> Spot:
 
 
 def sine(a: Spot, b: Spot) -> float:
-    """How far two points, or two lines, of length 1 are from being the same."""
+    """The sine of the angle between unit vectors of points or lines; zero if these are equal."""
     x, y, z = cross(a, b)
     return sqrt(x * x + y * y + z * z)
 
 
 def unit(x: float, y: float, z: float) -> Spot:
-    """Homogeneous coordinates of length 1."""
     size = hypot(x, y, z) or 1.0
     return x / size, y / size, z / size
 
 
 ENDLESS = 1e-9
-"""A third coordinate, in breadths of the mechanism, below which a centre lies at infinity."""
+"""A centre lies at infinity below this third coordinate, with the mechanism's breadth as unit."""
 MANY = 40
-"""Links beyond which no way over other links is looked for: a sheet could not hold it."""
+"""Number of links above which no route over other links is searched: no sheet could hold it."""
 
 
 def draw_relative(pen: Pen) -> None:
-    """The relative centres that are asked, with those over which a hand finds them."""
+    """Draw the requested relative centres, and the centres from which they are found by hand."""
     finder = Finder(pen)
     for pair in pen.scene.ask.pairs:
         first, second = pair.split("-")
@@ -167,7 +165,7 @@ def draw_relative(pen: Pen) -> None:
 
 
 class Finder:
-    """Draws relative centres, each once, the ones that it is found from before it."""
+    """Draws relative centres, each once, after the centres from which it is found."""
 
     def __init__(self, pen: Pen) -> None:
         self.pen = pen
@@ -175,7 +173,7 @@ class Finder:
         self.drawn: dict[Pair, int] = {}
 
     def moves(self, link: str) -> bool:
-        """True for the frame, and for a link whose velocities are constructed."""
+        """Whether a link is the frame, or has constructed velocities."""
         return link == FRAME or (self.pen.has(OMEGA, link) and bool(self.points(link)))
 
     def points(self, link: str) -> list[str]:
@@ -206,20 +204,19 @@ class Finder:
 
     @cached_property
     def belted(self) -> frozenset[Pair]:
-        """Links that a belt joins."""
         return frozenset(ordered(self.links, *pair) for pair in self.pen.scene.belted)
 
     @cached_property
     def touching(self) -> frozenset[Pair]:
-        """Each wheel and the link that it touches: their centre is where they do.
+        """Each wheel and the link in contact with it: their centre is the contact point.
 
-        Wheels that an open belt turns alike have none.
+        Wheels that an open belt turns alike have no such centre.
         """
         return frozenset(ordered(self.links, *pair) for pair in self.pen.scene.in_touch)
 
     @cached_property
     def ways(self) -> dict[Pair, tuple[str, str] | None]:
-        """How each centre is found that is no pin, no guide and not where links touch."""
+        """How each centre is found that is not a pin, a guide or a contact point."""
         links = [link for link in self.links if self.moves(link)]
         if len(links) > MANY:
             return {}
@@ -230,7 +227,7 @@ class Finder:
 
     @cached_property
     def here(self) -> Trace | None:
-        """All velocities at the scene's own numbers; None where the mechanism does not close."""
+        """All velocities at the scene's own values; None where the mechanism does not close."""
         program = self.pen.program()
         wanted = [t for t in program.targets if t[0] in ("position", "velocity", OMEGA, "guide")]
         try:
@@ -240,9 +237,9 @@ class Finder:
 
     @cached_property
     def where(self) -> dict[Pair, Spot]:
-        """Where the centres lie at the scene's own numbers, lengths in breadths of the mechanism.
+        """The places of the centres at the scene's own values, in units of the mechanism's breadth.
 
-        Links that do not move against each other, and are not joined, have none.
+        Links without relative motion that are not joined have no centre.
         """
         if self.here is None:
             return {}
@@ -265,7 +262,7 @@ class Finder:
         return frozenset({*self.pins, *self.guides})
 
     def ratio(self, pair: Pair, here: Trace) -> Ratio:
-        """A centre at the scene's own numbers."""
+        """A centre at the scene's own values."""
         if pair in self.pins:
             return Ratio(here.value("position", self.pins[pair]), 0j, 1.0)
         if pair in self.guides:
@@ -277,7 +274,7 @@ class Finder:
         return Ratio(*relative_centre(*(here.values.get(n, 0.0) for n in motions)))
 
     def swift(self, link: str) -> list[str]:
-        """The points of a link that do not stand still, in different places."""
+        """The points of a link that are not at rest, one for each place."""
         if self.here is None:
             return self.points(link)
         found: dict[complex, str] = {}
@@ -303,7 +300,7 @@ class Finder:
         return self.drawn[pair]
 
     def draw(self, pair: Pair) -> int:
-        """A pin, a guide's far centre, or the centre by velocities with the hand's way to it."""
+        """Draw a pin, a guide's centre at infinity, or the centre by velocities and by hand."""
         pen, first, second = self.pen, *pair
         name = pair_name(first, second)
         if pair in self.pins:
@@ -342,9 +339,9 @@ class Finder:
         return found
 
     def start(self, pair: Pair) -> tuple[str, str]:
-        """The link and its point from which a centre is reckoned, on a line drawn if there is one.
+        """The link and the point from which a centre is computed, on a drawn line if there is one.
 
-        So the arrow to a centre off the sheet lies on that line.
+        The arrow to a centre off the sheet then lies on that line.
         """
         for over in self.ways.get(pair) or ():
             for end in reversed(pair):
@@ -360,9 +357,9 @@ class Finder:
         return over is None or point in joined
 
     def by_hand(self, pair: Pair) -> tuple[tuple[LineToCentre, ...], int | None]:
-        """The hand's way to a centre: the lines that meet in it, and the step where they do.
+        """The construction by hand: the lines that meet in a centre, and the step where they meet.
 
-        They are two lines of centres, or the normals to the velocities of two points.
+        The lines are two lines of centres, or the normals to the velocities of two points.
         """
         over = self.ways[pair]
         if over is None:
@@ -378,7 +375,7 @@ class Finder:
             return lines, self.pen.draw(meeting, *(line.line for line in lines))
 
     def line(self, pair: Pair, over: str) -> LineOfCentres | None:
-        """The line of the centres of a third link with two; None where both lie at infinity."""
+        """The line of a third link's centres with two links; None where both are at infinity."""
         ends = [ordered(self.links, end, over) for end in pair]
         sizes = (self.where.get(end, (0.0, 0.0, 1.0))[2] for end in ends)
         if all(abs(size) <= ENDLESS for size in sizes):
@@ -391,6 +388,6 @@ class Finder:
 
 
 def pair_name(first: str, second: str) -> str:
-    """I24 for links 2 and 4; I_10,12 and I_arm,sun where the two would run together."""
+    """The name of a centre: I24 for links 2 and 4; I_10,12 and I_arm,sun for longer names."""
     plain = all(link.isdigit() and len(link) == 1 for link in (first, second))
     return f"I{first}{second}" if plain else f"I_{first},{second}"

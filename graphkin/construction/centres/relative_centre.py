@@ -1,7 +1,7 @@
-"""The centre of two links: a pin, a guide's far one, or where two lines of centres meet (Kennedy).
+"""The centre of two links: a pin, a guide's at infinity, or where two lines of centres meet.
 
-The centres of three links lie on one line (Kennedy, Aronhold). Every centre is a Ratio,
-start + shift/size, for it may lie at infinity.
+The centres of three links lie on one line (Kennedy, Aronhold). Every centre is a Ratio, start +
+shift/size, since it may lie at infinity.
 """
 
 from __future__ import annotations
@@ -30,13 +30,13 @@ from graphkin.scene.model import FRAME
 
 @action("pin-centre")
 def pin_centre(pin: Point) -> Ratio:
-    """A pin, or the point in which a wheel touches its track, is the centre of its two links."""
+    """The centre of two links at their pin, or at the contact point of a wheel and its track."""
     return Ratio(pin, 0 * pin, 1.0)
 
 
 @action("guide-centre")
 def guide_centre(point: Point, guide: Line) -> Ratio:
-    """The centre of a block and what guides it: at infinity, square to the guide."""
+    """The centre of a block and its guide: at infinity, perpendicular to the guide."""
     return Ratio(point, 1j * guide.along, 0.0)
 
 
@@ -44,9 +44,9 @@ def guide_centre(point: Point, guide: Line) -> Ratio:
 def relative_centre(
     p: Point, image_p: Point, omega_p: Real, q: Point, image_q: Point, omega_q: Real
 ) -> Ratio:
-    """The point of two links with one velocity on both: p + i·(v_p - v_q at p)/(their ω apart).
+    """The point of two links with one velocity on both: p + i·(v_p - v_q at p)/(ω_p - ω_q).
 
-    p is a point of the first link, q one of the second; 8·eps of the larger distance.
+    p is a point of the first link, q one of the second. The error is 8·eps of the larger distance.
     """
     there = image_q + 1j * (p - q) * omega_q
     return Ratio(p, 1j * (image_p - there), omega_p - omega_q)
@@ -56,8 +56,8 @@ def relative_centre(
 def kennedy_line(a: Ratio, b: Ratio) -> Line:
     """The line of two centres of three links, on which the third lies (Kennedy, Aronhold).
 
-    It is anchored at the one that is nearer to its own start, never at infinity. Two centres at
-    infinity have a line only there: its direction is nought.
+    It is anchored at the centre nearer to its own start, never at infinity. For two centres at
+    infinity the direction is zero: their line lies at infinity.
     """
     nearer = abs(a.shift) * abs(b.size) <= abs(b.shift) * abs(a.size)
     start, shift, size = (pick(nearer, x, y) for x, y in zip(a, b, strict=True))
@@ -83,7 +83,7 @@ def normals_meet(m: Line, n: Line) -> Ratio:
     return meet_anywhere(m, n)
 
 
-# --- what they are -------------------------------------------------------------------------------
+# --- the constructions ---------------------------------------------------------------------------
 
 
 class LineOfCentres(LineToCentre, frozen=True, kw_only=True):
@@ -96,7 +96,7 @@ class LineOfCentres(LineToCentre, frozen=True, kw_only=True):
     ends: tuple[int, int]
 
     def clause(self, drawing: Drawing, role: str) -> str:
-        """Both centres; of which one is at infinity that is named last."""
+        """The clause with both centres; a centre at infinity is named last."""
         places = [drawing.place(drawing.trace.values[end]) for end in self.ends]
         m, n = map(symbol, self.letters if places[0] is not None else self.letters[::-1])
         return drawing.words(f"step.kennedy-line{'-far' if None in places else ''}", m=m, n=n)
@@ -109,17 +109,17 @@ class LineOfCentres(LineToCentre, frozen=True, kw_only=True):
 
 
 class PairCentre(Centre, frozen=True, kw_only=True):
-    """The centre of ``link`` and the link before it, ``first``."""
+    """The centre of two links, ``first`` and ``link``, in the order of the scene."""
 
     first: str
 
     def title(self, role: str) -> str:
-        """Of which link, and against which where that is not the frame."""
+        """The name in a report: its link, and the other link where that is not the frame."""
         against = "" if self.first == FRAME else f" against link {self.first}"
         return super().title(role) + against if role == "found" else ""
 
     def fields(self, drawing: Drawing) -> dict[str, str]:
-        """Both links."""
+        """The fields of a sentence, with both links."""
         return super().fields(drawing) | {"j": escape(self.first)}
 
 
@@ -130,33 +130,33 @@ class PinCentre(PairCentre, frozen=True, kw_only=True):
     reasons: ClassVar[Mapping[str, str]] = {"found": "why.pin"}
 
     def marks(self, canvas: Canvas, role: str) -> None:
-        """A ring around the pin."""
+        """Draw a ring around the pin."""
         canvas.ring(canvas.value(self.found).start)
 
 
 class GuideCentre(PairCentre, frozen=True, kw_only=True):
-    """The centre of a ``block`` and what guides it."""
+    """The centre of a ``block`` and its guide."""
 
     key: ClassVar[str] = "guide-centre"
 
     block: str
 
     def marks(self, canvas: Canvas, role: str) -> None:
-        """A ray to where it lies at infinity."""
+        """Draw a ray towards the centre at infinity."""
         value = canvas.value(self.found)
         text = far_words(canvas.drawing, self.value(canvas.drawing), self.name, self.point)
         canvas.away(value.start, way_to(value), text)
 
     def fields(self, drawing: Drawing) -> dict[str, str]:
-        """The guide by its block."""
+        """The fields of a sentence, with the guide by its block."""
         return super().fields(drawing) | {"g": escape(self.block)}
 
 
 class RelativeCentre(PairCentre, frozen=True, kw_only=True):
     """The centre of two links by their velocities; by hand where two lines of centres meet.
 
-    ``touching`` links have it where they touch, ``belted`` ones where the strands of their belt
-    meet the line of centres. ``aside``: no line is drawn from its point.
+    ``touching`` links have it at their contact point. ``belted`` links have it where the strands of
+    their belt meet the line of centres. ``aside``: no line is drawn from its point.
     """
 
     key: ClassVar[str] = "relative-centre"
@@ -166,7 +166,7 @@ class RelativeCentre(PairCentre, frozen=True, kw_only=True):
     aside: bool = False
 
     def same(self, drawing: Drawing) -> int | None:
-        """The step of the instantaneous centre on this sheet that this one is, too."""
+        """The step of the instantaneous centre on this sheet that coincides with this centre."""
         if FRAME not in (self.first, self.link):
             return None
         link = self.link if self.first == FRAME else self.first
@@ -174,12 +174,12 @@ class RelativeCentre(PairCentre, frozen=True, kw_only=True):
         return None if number == self.found or number not in drawing.trace.values else number
 
     def equal(self, drawing: Drawing) -> str:
-        """The letter of that."""
+        """The letter of the coinciding instantaneous centre; empty where there is none."""
         same = self.same(drawing)
         return "" if same is None else drawing.lettered(same)
 
     def mark_far(self, canvas: Canvas) -> None:
-        """Where it is known already by another letter, only that."""
+        """Mark a far centre; if it has another letter already, only that the two are equal."""
         drawing, value = canvas.drawing, self.value(canvas.drawing)
         way, same = way_to(value), self.equal(drawing)
         if drawing.is_everywhere(value) or not way or not same:
@@ -189,11 +189,11 @@ class RelativeCentre(PairCentre, frozen=True, kw_only=True):
         canvas.away(value.start, way, text, ray=self.needs_ray(canvas), headed=False)
 
     def needs_ray(self, canvas: Canvas) -> bool:
-        """Also where its lines do not begin at its point."""
+        """Whether a ray is necessary: also where the lines do not begin at its point."""
         return self.aside or super().needs_ray(canvas)
 
     def sentence_key(self, drawing: Drawing) -> str:
-        """By how its lines meet, or what is odd about it."""
+        """The key by the way its lines meet, or by its special case."""
         if not self.is_by_hand(drawing):
             known = "belt" if self.belted else "touch" if self.touching else ""
             suffix = self.oddity(drawing) or known
@@ -207,13 +207,13 @@ class RelativeCentre(PairCentre, frozen=True, kw_only=True):
         return "kennedy-meet-again" if self.equal(drawing) else "kennedy-meet"
 
     def fields(self, drawing: Drawing) -> dict[str, str]:
-        """The letter by which it is known already."""
+        """The fields of a sentence, with the letter by which the centre is known already."""
         return super().fields(drawing) | {"same": self.equal(drawing)}
 
     def crossed(self, drawing: Drawing) -> str:
-        """Itself with the two lines of centres that meet in it, as I₁₃ (I₁₂I₂₃, I₁₄I₃₄).
+        """The centre with the two lines of centres that meet in it, as I₁₃ (I₁₂I₂₃, I₁₄I₃₄).
 
-        Nothing where two such lines do not meet, or meet at infinity.
+        Empty where two such lines do not meet, or meet at infinity.
         """
         lines = [line for line in self.ways if isinstance(line, LineOfCentres)]
         if len(lines) != 2 or not self.is_by_hand(drawing) or self.oddity(drawing):
@@ -225,9 +225,9 @@ class RelativeCentre(PairCentre, frozen=True, kw_only=True):
 
 
 def with_centres_together(drawing: Drawing, found: list[Sentence]) -> list[Sentence]:
-    """The centres that are there at once said in one sentence; so are those by two lines.
+    """The centres known at once in one sentence, and the centres by two lines in another.
 
-    Of the latter the first is said in full, and so is each whose lines do anything unusual.
+    Of the latter, the first has a full sentence, and so has each with unusual lines.
     """
     steps, words = drawing.trace.program.steps, drawing.words
     kinds = [(said, construction(steps[said.step])) for said in found if said.step >= 0]

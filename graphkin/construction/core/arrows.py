@@ -11,14 +11,17 @@ from graphkin.scene.model import FRAME
 
 
 def velocity_arrows(pen: Pen, pin: str, pivot: str | None) -> None:
-    """The arrows of a plan to an image: the absolute velocity, and the one relative to a pivot."""
+    """Draw the absolute velocity of a pin, and its velocity relative to a pivot if one is given."""
     arrow_between(pen, pen.pole(Plane.VELOCITIES), pen.the("velocity", pin), pin, "")
     if pivot is not None:
         relative_arrow(pen, pin, pivot)
 
 
 def relative_arrow(pen: Pen, pin: str, pivot: str) -> None:
-    """The arrow of the velocity of a pin relative to a pivot, where both move and not alike."""
+    """Draw the velocity of a pin relative to a pivot.
+
+    Draws nothing where either velocity is zero or the two velocities are equal.
+    """
     start, tip = pen.the("velocity", pivot), pen.the("velocity", pin)
     if start == tip or pen.pole(Plane.VELOCITIES) in (start, tip):
         return
@@ -29,7 +32,7 @@ def relative_arrow(pen: Pen, pin: str, pivot: str) -> None:
 
 
 def arrow_between(pen: Pen, tail: int, tip: int, pin: str, about: str) -> None:
-    """The arrow of the velocity of a point, against another if that is named; drawn once."""
+    """Draw the velocity of a point, relative to ``about`` if one is given, unless already drawn."""
     if not has_arrow(pen, tail, tip):
         with pen.on(Part.VELOCITY, Plane.VELOCITIES):
             vector = PlanVector("v", letter(pin) + about, letter(pin), about)
@@ -37,17 +40,17 @@ def arrow_between(pen: Pen, tail: int, tip: int, pin: str, about: str) -> None:
 
 
 def has_arrow(pen: Pen, tail: int, tip: int) -> bool:
-    """Whether the plan has an arrow from one of its points to another."""
+    """Whether the plan already has an arrow between two of its points."""
     return arrow_name(pen, tail, tip) in pen.arrows
 
 
 def arrow_name(pen: Pen, tail: int, tip: int) -> str:
-    """The letters of both ends."""
+    """The letters of both ends of an arrow."""
     return step_name(pen, tail) + step_name(pen, tip)
 
 
 def acceleration_arrow(pen: Pen, pin: str) -> None:
-    """The arrow from the pole to a second image, the absolute acceleration; drawn once."""
+    """Draw the absolute acceleration of a pin, from the pole to its image, unless already drawn."""
     o, tip = pen.pole(Plane.ACCELERATIONS), pen.the("acceleration", pin)
     name = f"o{PRIME}{second_image(pin)}"
     if name not in pen.arrows:
@@ -57,7 +60,7 @@ def acceleration_arrow(pen: Pen, pin: str) -> None:
 
 
 def component_arrow(pen: Pen, tail: int, tip: int, kind: str, pin: str, pivot: str) -> None:
-    """The arrow of a normal (ν) or tangential (τ) component."""
+    """Draw the normal (ν) or tangential (τ) component of a relative acceleration."""
     index = about(pen, pin, pivot)
     foot = "" if pen.steps[tip].name else foot_of(kind, index)
     vector = PlanVector("a", index, lettered(pin), lettered(pivot), kind, foot=foot)
@@ -65,9 +68,10 @@ def component_arrow(pen: Pen, tail: int, tip: int, kind: str, pin: str, pivot: s
 
 
 def slide_arrow(pen: Pen, tail: int, tip: int, link: str, point: str, *, index: str = "") -> None:
-    """The arrow of a relative acceleration along a guide that moves.
+    """Draw a relative acceleration along a moving guide.
 
-    It is that of the point against the link's own under it, if no ``index`` says otherwise.
+    By default this is the acceleration of the point relative to the point of the link under it;
+    ``index`` names another one.
     """
     if link == FRAME:
         return

@@ -1,4 +1,4 @@
-"""Plans that are drawn only to find the right one, and what sheets ask of them."""
+"""Auxiliary plans, drawn only to find the right plan, and what a sheet asks of them."""
 
 from __future__ import annotations
 
@@ -11,58 +11,61 @@ from graphkin.construction.core.program import PlanAside
 
 
 class AuxiliaryPlan(PlanAside):
-    """A plan that is drawn only to find the right one."""
+    """A plan drawn only to find the right plan."""
 
     @property
     def repeats(self) -> bool:
-        """Whether it repeats the lines of another one, and follows no equation of its own."""
+        """Whether this plan repeats the lines of another plan, without equations of its own."""
         return False
 
     def reason(self, name: str) -> str:
-        """The key of why it is drawn, for the sentence that begins it; nothing for any other."""
+        """The key of the reason for this plan, for its opening sentence; otherwise empty."""
         return ""
 
     def turned_by(self, rate: int) -> str:
-        """The link whose rate it assumes at a step; nothing where it assumes none there."""
+        """The link whose rate is assumed at a step; empty where no rate is assumed there."""
         return ""
 
     def is_idle(self, drawing: Drawing, number: int) -> bool:
-        """Whether a line finds only points which fall on where it begins."""
+        """Whether a line only finds points that coincide with the point where it begins."""
         return False
 
     def begins(self, drawing: Drawing, named: Sequence[int]) -> bool:
-        """Whether some points are those with which it begins."""
+        """Whether these are the points with which this plan begins."""
         return False
 
     def told_in_parts(
         self, drawing: Drawing, named: Sequence[int]
     ) -> Iterator[tuple[int, int, str]]:
-        """Points of it line by line: the step of the point, that which ends a part, its words."""
+        """The points of this plan by line: step of the point, last step of the part, sentence."""
         yield from ()
 
     def introduced(self, drawing: Drawing, how: str, *, first: bool) -> str:
-        """A part of it after what it is; in the ``first`` one, after what it assumes too."""
+        """The sentence ``how`` of a part, after a phrase that names this plan.
+
+        For the ``first`` part the phrase also states what the plan assumes.
+        """
         return how
 
     def falls_on(self, drawing: Drawing, number: int) -> str:
-        """The point on which one of its own falls with all that it is drawn from; else nothing."""
+        """The point that coincides with a point of this plan and all its sources; else empty."""
         return ""
 
     def sentences(self, drawing: Drawing, number: int) -> Iterator[Sentence]:
-        """What is said of it with one of its steps."""
+        """The sentences that go with one step of this plan."""
         yield from ()
 
     def marks(self, canvas: Canvas, number: int) -> None:
-        """Draw one of its steps."""
+        """Draw one step of this plan."""
 
 
 def auxiliary_plan(drawing: Drawing, number: int) -> AuxiliaryPlan | None:
-    """The auxiliary plan that alone uses a step of the plan; None for any other step."""
+    """The auxiliary plan that alone uses a step; None where there is no such plan."""
     plan = drawing.auxiliary.get(number)
     return plan if isinstance(plan, AuxiliaryPlan) else None
 
 
 def falls(drawing: Drawing, number: int) -> bool:
-    """Whether a point of an auxiliary plan falls together with all that it is drawn from."""
+    """Whether a point of an auxiliary plan coincides with all the points that it is drawn from."""
     plan = auxiliary_plan(drawing, number)
     return plan is not None and bool(plan.falls_on(drawing, number))

@@ -1,4 +1,4 @@
-"""What the plans need to know of a link: two of its points as a base, and the rest."""
+"""The base of a link for the plans: two of its points, and the points that follow from them."""
 
 from __future__ import annotations
 
@@ -40,8 +40,9 @@ from graphkin.text.errors import Problem, StructureError
 class Base(Struct, frozen=True):
     """Two points of a link that its group constructs, and the points that follow from them.
 
-    ``end`` may be a point of the link under another's, such as A@3. Without one (None) the
-    turning of the link is known otherwise: all follows from ``start``, the axis and omega.
+    ``end`` may be a point of this link under a point of another link, such as A@3. If ``end`` is
+    None, the rotation of the link is known from elsewhere: all its points follow from ``start``,
+    the axis and omega.
     """
 
     link: str
@@ -51,25 +52,26 @@ class Base(Struct, frozen=True):
 
 
 def base_of(scene: Scene, link: str, start: str, end: str | None) -> Base:
-    """The base of a link, with its other points in the order written."""
+    """The base of a link; its other points keep the order of the scene."""
     points = scene.link(link).points
     return Base(link, start, end, tuple(p for p in points if p not in (start, end)))
 
 
 def contact_name(contact: Contact) -> ContactName:
-    """Name of the point where a wheel touches what it rolls on: their common centre."""
+    """The name of the contact point of a wheel, which is the relative centre of the two links."""
     return ContactName(contact.letter)
 
 
 def kept_touches(scene: Scene, links: Collection[str]) -> Iterator[ContactName]:
-    """Names of the points where the wheels touch that some links keep on their tracks."""
+    """The contact points of the wheels that these links keep on their tracks."""
     return (contact_name(each) for each in contacts(scene) if each.rolling.keeper in links)
 
 
 def crank_tip(scene: Scene, crank: Crank) -> str | None:
-    """The first point of a driven link beside its pivot, along the line whose angle is given.
+    """The first point of a driven link other than its pivot.
 
-    None for a wheel or a cam that has its pivot only.
+    The points of the line whose angle is given come first. None for a wheel or a cam that has no
+    point other than its pivot.
     """
     points = tuple(p for p in scene.link(crank.link).points if p not in scene.cam_centres)
     line = (crank.driver.of if crank.driver.link == crank.link else None) or points[:2]
@@ -77,7 +79,10 @@ def crank_tip(scene: Scene, crank: Crank) -> str | None:
 
 
 def bases(scene: Scene, group: Group | TriedLink) -> tuple[Base, ...]:
-    """The bases of a group's links. Raises StructureError for a group without construction."""
+    """The bases of the links of a group.
+
+    Raises StructureError for a group that cannot be constructed.
+    """
     match group:
         case Crank(link=link, pivot=pivot):
             return (base_of(scene, link, pivot, crank_tip(scene, group)),)
@@ -114,14 +119,14 @@ def bases(scene: Scene, group: Group | TriedLink) -> tuple[Base, ...]:
 
 
 def own_first(base: Base) -> Base:
-    """The same base, begun at the link's own point where it began under another's."""
+    """The same base, starting at the link's own point instead of a point under another one."""
     if base.end is None or not is_under(base.start):
         return base
     return Base(base.link, base.end, base.start, base.others)
 
 
 def leads_of(group: Group | TriedLink) -> dict[str, str]:
-    """The links that turn as another does, because they slide on one another, and which that is."""
+    """The links that turn with another link because of a sliding pair, and that other link."""
     match group:
         case CamFollower(dyad=dyad):
             return leads_of(dyad)
@@ -154,7 +159,7 @@ def leads_of(group: Group | TriedLink) -> dict[str, str]:
 
 
 def ending(group: CoupledTrain | Higher) -> tuple[Tie, ...]:
-    """The link that closes a group last, if a link does."""
+    """The link that closes a group last, if there is one."""
     return (group.last,) if isinstance(group.last, Tie) else ()
 
 
@@ -189,10 +194,10 @@ def dyad_bases(scene: Scene, dyad: Dyad) -> tuple[Base, ...]:
 
 
 def sides_of(known: Mapping[str, Base], dyad: Dyad) -> tuple[str, str, list[tuple[Joint, str]]]:
-    """The point whose images close a dyad in the plans, where it lies, and what leaves it free.
+    """The point that closes a dyad in the plans, the point where it lies, and the free sides.
 
-    Each side is a pair with the link that it holds. Of a dyad RPR it is the point of the guide's
-    link under the block's pin: turning with the one, sliding along the other.
+    Each side is a pair and the link that it holds. For an RPR dyad the closing point is the point
+    of the guide's link under the block's pin. It turns with the guide and slides along it.
     """
     first, second = dyad.links
     match dyad.left, dyad.inner, dyad.right:
@@ -210,7 +215,7 @@ def sides_of(known: Mapping[str, Base], dyad: Dyad) -> tuple[str, str, list[tupl
 
 
 def held_base(scene: Scene, link: str, pair: Joint) -> Base:
-    """The base of a link by one pair: its pin and another point, or the point that is led."""
+    """The base of a link held by one pair: its pin and another point, or the guided point."""
     if isinstance(pair, Pin):
         tip = next((p for p in scene.link(link).points if p != pair.point), None)
         return base_of(scene, link, pair.point, tip)
@@ -218,21 +223,24 @@ def held_base(scene: Scene, link: str, pair: Joint) -> Base:
 
 
 def led_base(scene: Scene, link: str, pin: str, pair: Joint) -> Base:
-    """The base of a link that a slide or a track leads, by its pin."""
+    """The base of a link guided by a slide or a track, starting at its pin."""
     if isinstance(pair, Contact):
         return wheel_base(scene, link, pin, pair)
     return base_of(scene, link, pin, None)
 
 
 def wheel_base(scene: Scene, link: str, pin: str, contact: Contact) -> Base:
-    """The base of a wheel on a track: its pin and its point of contact."""
+    """The base of a wheel on a track: its pin and its contact point."""
     if contact.links[0] != link:
         raise no_track(scene, contact)
     return base_of(scene, link, pin, under(contact_name(contact), link))
 
 
 def no_track(scene: Scene, contact: Contact) -> StructureError:
-    """The error for a track that a pin and a wheel are to carry, and what keeps the wheel there."""
+    """The error for a straight track held only by a wheel and a pin.
+
+    The hint says what would keep the wheel on the track.
+    """
     from graphkin.structure.touching_wheels import keeper_asked
 
     wheel, track = contact.links
@@ -242,7 +250,7 @@ def no_track(scene: Scene, contact: Contact) -> StructureError:
 
 
 def geared_base(scene: Scene, group: Geared) -> Base:
-    """The base of a geared wheel: its centre and its point of contact; a rack only shifts."""
+    """The base of a geared wheel: its centre and its contact point; a rack only translates."""
     match group.pair:
         case Pin(point=point) if group.contact.alike:
             return base_of(scene, group.link, point, None)
@@ -255,10 +263,10 @@ def geared_base(scene: Scene, group: Geared) -> Base:
 
 
 def no_construction(group: Group) -> StructureError:
-    """The error for links that hold together in a way for which there is no construction.
+    """The error for a group of links that cannot be constructed.
 
-    It names the limit: a track that wheels alone hold, which may be all that keeps the rest open,
-    several driven guides in one group, more links to be tried than are looked at.
+    It names the limit. A straight track may be held by wheels and pins alone, or a wheel by tracks
+    that are not parallel. A group may have several drivers, or too many trial links.
     """
     hint = ""
     if not isinstance(group, Unresolved):

@@ -1,4 +1,4 @@
-"""Which way a group closes, as the scene states it: sides, ways and numbers of closures."""
+"""The assembly mode of each group, as the scene states it: sides, ways and closure numbers."""
 
 from __future__ import annotations
 
@@ -24,11 +24,11 @@ from graphkin.text.errors import Problem, StructureError, TakenOut, Written
 WAYS = '"forward"', '"backward"'
 """The larger and the smaller coordinate along a guide, as a scene writes them."""
 MISSING = "is missing"
-"""What is found of a branch that is not written."""
+"""The wording for a branch that is not written."""
 
 
 def choosing(groups: tuple[Group, ...]) -> list[str]:
-    """The names under which the scene may state a branch: pins, blocks, links of higher groups."""
+    """The names under which a scene may state a branch: pins, blocks, links of higher groups."""
     names: list[str] = []
     for group in groups:
         match group.dyad if isinstance(group, Stretched) else group:
@@ -42,21 +42,21 @@ def choosing(groups: tuple[Group, ...]) -> list[str]:
 
 
 def pins_choosing(groups: tuple[Group, ...]) -> list[str]:
-    """The pins under which a scene may state the way of a dyad that a slide or a track leads."""
+    """The pins under which a scene may state the way of a dyad with a slide or a track."""
     dyads = (group.dyad if isinstance(group, Stretched) else group for group in groups)
     pins = (led_pin(dyad) for dyad in dyads if isinstance(dyad, Dyad))
     return [pin for pin in pins if pin is not None]
 
 
 def led_pin(dyad: Dyad) -> str | None:
-    """The inner pin of a dyad that closes in two ways by a slide or a track, if it has one."""
+    """The inner pin of a dyad that a slide or a track closes in two ways; None if it has none."""
     return dyad.inner.point if has_two_ways(dyad) and isinstance(dyad.inner, Pin) else None
 
 
 def key_of(scene: Scene, group: Group) -> str | None:
-    """The name under which a scene writes how a group closes; None where there is no choice.
+    """The name under which a scene states how a group closes; None where there is no choice.
 
-    A block that is led in several ways tells its dyads apart by their pins.
+    Where several guides lead one block, the pins of its dyads are used instead.
     """
     group = group.dyad if isinstance(group, Stretched) else group
     if not isinstance(group, Dyad):
@@ -70,7 +70,7 @@ def key_of(scene: Scene, group: Group) -> str | None:
 
 
 def refuse_unstated(scene: Scene, group: Group) -> None:
-    """Raise StructureError where the scene does not say in which way a group closes."""
+    """Raise StructureError where the scene does not state how a group closes."""
     match group:
         case Dyad(type="RRR"):
             side_of(scene, group)
@@ -90,7 +90,7 @@ def has_two_ways(dyad: Dyad) -> bool:
 def unused_branches(
     scene: Scene, groups: tuple[Group, ...], told: Collection[str] = ()
 ) -> list[Problem]:
-    """A problem for each branch that no group has a choice for, but for those ``told`` of."""
+    """A problem for each branch that no group can use, except those in ``told``."""
     allowed = choosing(groups)
     return [
         Problem(
@@ -107,7 +107,7 @@ def unused_branches(
 
 
 def why_no_choice(scene: Scene, groups: tuple[Group, ...], name: str) -> str:
-    """What settles a link or a point that needs no branch."""
+    """Why a link or a point needs no branch."""
     match group_of(scene, groups, name):
         case Crank(driver=driver) | Driven(driver=driver) | Spun(driver=driver):
             return (
@@ -122,14 +122,14 @@ def why_no_choice(scene: Scene, groups: tuple[Group, ...], name: str) -> str:
 
 
 def only_way(scene: Scene, groups: tuple[Group, ...], name: str) -> str:
-    """Where the branch of a group is written, when it stands under another name of the group."""
+    """A hint that names the key of the group's branch, where it has another name."""
     group = group_of(scene, groups, name)
     names = choosing((group,)) if group is not None else []
     return f"; the branch of its group is that of {names[0]}" if names else ""
 
 
 def group_of(scene: Scene, groups: tuple[Group, ...], name: str) -> Group | None:
-    """The first group that has a link, or a point."""
+    """The first group that contains a link or a point."""
     for group in groups:
         if name in group.links or any(name in scene.links[k].points for k in group.links):
             return group
@@ -142,7 +142,7 @@ def called(scene: Scene, name: str) -> str:
 
 
 def stray(scene: Scene, groups: tuple[Group, ...], group: Group) -> list[str]:
-    """The branches written under the other names of a group, where no group has a choice."""
+    """The branches written under names of a group that have no choice to make."""
     allowed = choosing(groups)
     own = {*group.links, *(point for link in group.links for point in scene.links[link].points)}
     allowed += [name for name in pins_choosing(groups) if isinstance(scene.branches.get(name), Way)]
@@ -150,7 +150,7 @@ def stray(scene: Scene, groups: tuple[Group, ...], group: Group) -> list[str]:
 
 
 def in_place_of(scene: Scene, problem: Problem, names: Sequence[str]) -> Problem:
-    """The problem of a missing branch, together with the branches that seem to stand for it."""
+    """The problem of a missing branch, with the branches probably written in its place."""
     if problem.found != MISSING or not names:
         return problem
     lines = " and ".join(f'{name} = "{scene.branches[name]}"' for name in names)
@@ -158,7 +158,7 @@ def in_place_of(scene: Scene, problem: Problem, names: Sequence[str]) -> Problem
     own = problem.place.partition(".")[2]
     ways = [each for each in problem.changes if isinstance(each, Written)]
     expected = " or ".join(f"{own} = {each.value}" for each in ways)
-    if len(ways) == 1:  # a closure, whose number stands for any
+    if len(ways) == 1:  # a closure: any number is accepted
         expected = problem.expected
     return replace(
         problem,
@@ -171,7 +171,10 @@ def in_place_of(scene: Scene, problem: Problem, names: Sequence[str]) -> Problem
 
 
 def side_of(scene: Scene, dyad: Dyad) -> int:
-    """The stated side of a dyad's inner pin: +1 left of the way from one known pin to the other."""
+    """The stated side of a dyad's inner pin.
+
+    +1 is left of the line from the dyad's left pin to its right pin.
+    """
     assert isinstance(dyad.inner, Pin) and isinstance(dyad.left, Pin)
     assert isinstance(dyad.right, Pin)
     ends = (dyad.left.place, dyad.right.place)
@@ -194,8 +197,7 @@ def side_of(scene: Scene, dyad: Dyad) -> int:
 
 
 def block_of(dyad: Dyad) -> str:
-    """The block, or the wheel, by which the scene names the way of a dyad; the link that two pins
-    guide."""
+    """The block, wheel or link on two pins under which the scene states the way of a dyad."""
     if isinstance(dyad, OnTwoPins):
         return dyad.inner.named
     slide = next(p for p in (dyad.right, dyad.inner, dyad.left) if not isinstance(p, Pin))
@@ -203,9 +205,9 @@ def block_of(dyad: Dyad) -> str:
 
 
 def way_of(scene: Scene, dyad: Dyad) -> int:
-    """The stated way of a sliding link: +1 the larger slide coordinate, -1 the smaller.
+    """The stated way of a sliding link: +1 for the larger slide coordinate, -1 for the smaller.
 
-    It is written under the link, or under the dyad's pin where links are led in several ways.
+    It is written under the link, or under the dyad's pin where several guides lead the link.
     """
     key = key_of(scene, dyad) or block_of(dyad)
     branch = scene.branches.get(key, scene.branches.get(block_of(dyad)))
@@ -229,7 +231,7 @@ def way_of(scene: Scene, dyad: Dyad) -> int:
 
 
 def leads_later(scene: Scene, group: Higher, name: str) -> bool:
-    """Whether a way is stated of a block of a group that slides on a link which comes after it."""
+    """Whether the stated way of a block of a group belongs to a slide on a link placed later."""
     if not isinstance(scene.branches[name], Way):
         return False
     before = {*group.links, *(link for pair in group.placing for link in pair.links)}
@@ -238,7 +240,7 @@ def leads_later(scene: Scene, group: Higher, name: str) -> bool:
 
 
 def closure_of(scene: Scene, group: Higher) -> int:
-    """The stated number of a higher group's closure, counted from one."""
+    """The stated closure number of a higher group, counted from one."""
     stated = {
         name: scene.branches[name]
         for name in group.links

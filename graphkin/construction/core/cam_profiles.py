@@ -1,8 +1,8 @@
-"""Profiles of cams over a whole turn: the envelope of the follower, and how well it lifts.
+"""Profiles of cams over a whole turn: the envelope of the follower, and its pressure angles.
 
-The angle θ of the cam runs over a turn; places are counted from the cam's pivot, in the cam's own
-axes (m), unless the axes of its carrier are named. The coordinate of a plate runs over its law;
-what is said of its angles is then of coordinates (m).
+The angle θ of the cam runs over one turn. Places are in the cam's own axes, from its pivot, in
+metres, unless a docstring names the carrier's axes. For a translating plate the coordinate (m) runs
+over the law and takes the place of the angle.
 """
 
 from __future__ import annotations
@@ -34,15 +34,15 @@ from graphkin.scene.quantity import Quantity
 from graphkin.structure.link_axes import body, guide_line, metres
 
 DRAWN = 180
-"""Corners of a profile as it is drawn."""
+"""Number of points on a profile as drawn."""
 BESIDE = 0.15
-"""How far a plate is drawn beyond its law on both sides, in parts of it."""
+"""How far a plate is drawn beyond both ends of its law, as a fraction of the law."""
 EXAMINED = 3600
-"""Angles at which a profile is examined."""
+"""Number of angles at which a profile is examined."""
 
 
 class CamProfile(Struct, frozen=True, dict=True):
-    """The cam of a follower, at ``count`` angles evenly over a turn, or at those that are given.
+    """The cam of a follower, at ``count`` angles spaced evenly over a turn, or at ``given`` angles.
 
     With ``second`` it is the conjugate profile, on which the follower's second roller runs.
     """
@@ -55,12 +55,11 @@ class CamProfile(Struct, frozen=True, dict=True):
 
     @property
     def cam(self) -> Cam:
-        """The cam as written."""
         return self.scene.cams[self.follower]
 
     @cached_property
     def angles(self) -> Any:
-        """The angles of the cam's axis, in radians."""
+        """The angles of the cam's axis, in radians; for a plate its coordinates, in metres."""
         if self.given is not None:
             return np.asarray(self.given)
         if self.cam.slides:
@@ -71,12 +70,12 @@ class CamProfile(Struct, frozen=True, dict=True):
 
     @property
     def whole(self) -> Quantity:
-        """Where the law ends."""
+        """The angle or coordinate at which the law ends."""
         return self.cam.law[-1].to
 
     @property
     def law_angles(self) -> Any:
-        """The angles from which the law counts, in degrees from 0 to 360; lengths in metres."""
+        """The angles along the law, in degrees from 0 to 360; for a plate lengths in metres."""
         start = self.cam.start.si(self.scene.values)
         if self.cam.slides:
             return self.cam.sense * (self.angles - float(start))
@@ -101,14 +100,14 @@ class CamProfile(Struct, frozen=True, dict=True):
 
     @cached_property
     def plate(self) -> Line:
-        """The path of a plate's pivot, in the carrier's axes, along a unit vector."""
+        """The path of a plate's pivot in the carrier's axes, along a unit vector."""
         slide = self.scene.link(self.cam.on).slides[0]
         line, offset = guide_line(self.scene, slide), metres(self.scene, slide.offset)
         return Line(line.point + 1j * line.along * offset, line.along)
 
     @property
     def origin(self) -> complex:
-        """The cam's pivot in the carrier's axes; of a plate where its path begins."""
+        """The cam's pivot in the carrier's axes; for a plate, the start of its path."""
         return (
             self.plate.point
             if self.cam.slides
@@ -117,7 +116,7 @@ class CamProfile(Struct, frozen=True, dict=True):
 
     @cached_property
     def bar(self) -> tuple[complex, float]:
-        """The pin of a lever from the cam's pivot, and its length from there to the tip."""
+        """A lever's pin relative to the cam's pivot, and the length from the pin to the tip."""
         lever, fixed = self.cam.lever, body(self.scene, self.cam.carrier)
         assert lever is not None
         own = body(self.scene, self.follower)
@@ -125,7 +124,7 @@ class CamProfile(Struct, frozen=True, dict=True):
 
     @cached_property
     def way(self) -> Any:
-        """The unit vectors of a lever in the axes of the frame."""
+        """The unit vectors of a lever's bar in the axes of the carrier."""
         lever, (pin, arm) = self.cam.lever, self.bar
         assert lever is not None
         if self.cam.slides:
@@ -140,19 +139,18 @@ class CamProfile(Struct, frozen=True, dict=True):
 
     @property
     def roller(self) -> float:
-        """The radius of the roller."""
         conjugate = self.cam.conjugate
         roller = conjugate.roller if self.second and conjugate else self.cam.roller
         return float(roller.si(self.scene.values))
 
     @property
     def is_flat(self) -> bool:
-        """Whether a face touches the profile."""
+        """Whether a flat face touches the profile."""
         return self.cam.is_flat and not self.second
 
     @property
     def prime(self) -> float:
-        """The radius on which the first roller's centre rests, or the knife's edge."""
+        """The radius of the prime circle, where the first roller's centre or a knife rests."""
         return self.base + float(self.cam.roller.si(self.scene.values))
 
     @property
@@ -162,7 +160,7 @@ class CamProfile(Struct, frozen=True, dict=True):
 
     @property
     def height(self) -> Any:
-        """How far a sliding follower's point stands along the guide from the foot of the pivot."""
+        """The coordinate of a follower's point along its guide, from the foot of the pivot."""
         if self.cam.slides:
             along, aside = self.guide
             path = Line(1j * along * aside, along)
@@ -173,7 +171,7 @@ class CamProfile(Struct, frozen=True, dict=True):
 
     @cached_property
     def tip(self) -> TipMotion:
-        """The roller's centre, or the knife's edge, in the axes of the frame."""
+        """The motion of the roller's centre, or of the knife edge, in the axes of the carrier."""
         rates, lever = (self.rise.rate, self.rise.bend), self.cam.lever
         if lever:
             pin, arm = self.bar
@@ -184,8 +182,11 @@ class CamProfile(Struct, frozen=True, dict=True):
         return tip._replace(place=tip.place + self.beside(0.0) * along)
 
     def beside(self, arm: float) -> complex:
-        """Where the roller's centre lies on the follower: from its pin along the bar, or from the
-        first point along the guide; ``arm`` is where the first roller's does."""
+        """The position of the roller's centre on the follower.
+
+        Along the bar from its pin for a lever; along the guide from the first point for a slide.
+        ``arm`` is the position of the first roller's centre.
+        """
         conjugate = self.cam.conjugate
         if not self.second or conjugate is None:
             return complex(arm)
@@ -197,7 +198,7 @@ class CamProfile(Struct, frozen=True, dict=True):
 
     @cached_property
     def flat(self) -> FaceMotion:
-        """The flat face, in the axes of the frame."""
+        """The motion of the flat face in the axes of the carrier."""
         rates, lever = (self.rise.rate, self.rise.bend), self.cam.lever
         if lever:
             face = metres(self.scene, lever.face)
@@ -211,7 +212,7 @@ class CamProfile(Struct, frozen=True, dict=True):
 
     @cached_property
     def inward(self) -> complex:
-        """The quarter turn from the way of the tip on the pitch curve to the inside of the cam."""
+        """The quarter turn from the tangent of the pitch curve towards the inside of the cam."""
         if not self.cam.slides:
             return -1j
         toward = self.bar[0] if self.cam.lever else self.guide[0]
@@ -219,7 +220,7 @@ class CamProfile(Struct, frozen=True, dict=True):
 
     @cached_property
     def outline(self) -> Any:
-        """The places of the profile in the cam's axes."""
+        """The points of the profile in the cam's axes."""
         if self.is_flat:
             place = self.flat.contact
         else:
@@ -230,24 +231,24 @@ class CamProfile(Struct, frozen=True, dict=True):
         return place * np.exp(-1j * self.angles)
 
     def closed(self, outline: Any) -> Any:
-        """The profile of a plate, and its edges down to the path of its point."""
+        """The profile of a plate with its side edges, down to the path of its point."""
         return np.concatenate([outline, [outline[-1].real, outline[0].real]])
 
     @property
     def reach(self) -> float:
-        """The farthest that the profile comes from the pivot."""
+        """The largest distance of the profile from the pivot."""
         return float(abs(self.outline).max())
 
     @property
     def face(self) -> float:
-        """How far a flat face must reach: both ways from the foot of the pivot, or from the pin."""
+        """The length of a flat face: to both sides of the pivot's foot, or from the pin."""
         if self.cam.lever is None:
             return float(abs(self.flat.slope).max())
         return float(((self.flat.contact - self.bar[0]) * self.way.conj()).real.max())
 
     @property
     def pressure(self) -> Any:
-        """The pressure angle at each angle, in degrees: of the common normal with the tip's way."""
+        """The pressure angles in degrees, between the common normal and the path of the tip."""
         lever = self.cam.lever
         if self.is_flat:
             if lever is None:
@@ -264,9 +265,9 @@ class CamProfile(Struct, frozen=True, dict=True):
 
     @property
     def bend(self) -> Any:
-        """The curvature of the pitch curve, or the radius of a profile under a flat face.
+        """The curvature of the pitch curve; under a flat face, the radius of the profile instead.
 
-        A curvature is positive where the curve is convex.
+        The curvature is positive where the curve is convex.
         """
         if self.is_flat:
             return self.flat.radius
@@ -282,20 +283,22 @@ class CamProfile(Struct, frozen=True, dict=True):
 
     @property
     def sharpest(self) -> tuple[float, float]:
-        """The least radius of curvature of the profile where it is convex (m), and at which law's
-        angle; nought or less where it is undercut."""
+        """The least radius of curvature of the convex profile (m), and the angle of the law there.
+
+        The radius is zero or negative where the profile is undercut.
+        """
         bend = self.bend
         number = int(bend.argmin() if self.is_flat else bend.argmax())
         return float(self.radius[number]), float(self.law_angles[number])
 
     @property
     def steepest(self) -> tuple[float, float]:
-        """The largest pressure angle, and at which angle of the law, in degrees."""
+        """The largest pressure angle and the angle of the law where it occurs, both in degrees."""
         number = int(self.pressure.argmax())
         return float(self.pressure[number]), float(self.law_angles[number])
 
 
 def profiles_of(scene: Scene, follower: str, count: int = EXAMINED) -> list[CamProfile]:
-    """The profile of a follower's cam, and the conjugate one where it has a second roller."""
+    """The profile of a follower's cam, and the conjugate profile where it has a second roller."""
     both = (False, True) if scene.cams[follower].conjugate else (False,)
     return [CamProfile(scene, follower, count, second=second) for second in both]

@@ -1,4 +1,4 @@
-"""Components of an acceleration that follow from velocities: drawn by triangles, then laid off."""
+"""Acceleration components that follow from velocities: found by triangles, then laid off."""
 
 from __future__ import annotations
 
@@ -33,8 +33,10 @@ from graphkin.text.markup import EQUALS, NOTHING
 
 
 class Size(Struct, frozen=True):
-    """A student's size of a component in SI: the own sizes that it follows from, and the bar (m)
-    that is measured for it, infinite where none is.
+    """A component computed from a student's own values, in SI.
+
+    ``factors`` are the values it follows from; ``bar`` is the measured length (m), infinite where
+    none is measured.
     """
 
     factors: tuple[Any, ...]
@@ -43,31 +45,32 @@ class Size(Struct, frozen=True):
 
 
 class OwnSizes(Protocol):
-    """What a student has measured, or the key where nothing is: sizes in SI, with their fields."""
+    """A student's measurements in SI with their fields, or the answer key where there are none."""
 
     def vectors(self, tail: int, tip: int) -> Iterator[Any]:
-        """Sizes of the vector between two images."""
+        """Magnitudes of the vector between two images."""
 
     def turnings(self, rate: int) -> Iterator[Any]:
         """Angular velocities, by the step that finds them."""
 
     def turnings_over(self, ends: tuple[int, ...]) -> Iterator[Any]:
-        """Own angular velocities that are read off the same places and images."""
+        """The student's angular velocities that are read off the same places and images."""
 
     def slidings(self, tail: int, tip: int) -> Iterator[Any]:
         """Velocities along a guide, by their ends in the plan."""
 
     def length(self, p: int, q: int) -> float:
-        """Distance of two points in metres."""
+        """The distance of two points in metres."""
 
 
 class Component(Construction, frozen=True, kw_only=True):
-    """A component of an acceleration: its ``index`` and its ``vector``, by both ways.
+    """A component of an acceleration, with its ``index`` and its ``vector``.
 
-    ``vector`` is the stable value; ``read`` reads the same off a triangle on the mechanism, None
-    where no triangle is drawn. ``palette`` is the action of a page that draws it, if one does;
-    ``limited`` is what its figure is called where its proportions decide whether it can be drawn.
-    ``slips`` are the factors by which a student's mistakes multiply it.
+    ``vector`` is the step with the numerically stable value. ``read`` is the step that reads the
+    same vector off a triangle on the mechanism; None where no triangle is drawn. ``palette`` is the
+    page action that draws the component, if there is one. ``limited`` names the figure where its
+    proportions decide whether it can be drawn. ``slips`` are the factors by which common mistakes
+    of students multiply the component.
     """
 
     limited: ClassVar[str] = ""
@@ -88,57 +91,56 @@ class Component(Construction, frozen=True, kw_only=True):
 
     @property
     def name(self) -> str:
-        """The component's name: a, its index, its sign."""
+        """The name of the component: a, its index, its sign."""
         return f"a_{self.index}^{self.sign}"
 
     @property
     def symbol(self) -> str:
-        """Markup of its symbol."""
         return symbol(self.name)
 
     @classmethod
     def cause(cls, scene: Scene) -> str:
-        """What in a scene brings its effect in; nothing where only what is asked does."""
+        """What in a scene causes this effect; empty where only the question does."""
         return ""
 
     @classmethod
     def absence(cls, scene: Scene) -> str:
-        """What in a scene keeps its effect out; nothing where only what is asked does."""
+        """What in a scene rules out this effect; empty where only the question does."""
         return ""
 
     # --- in words and figures --------------------------------------------------------------------
 
     def size(self, drawing: Drawing) -> float:
-        """Its magnitude on a sheet, in m/s²."""
+        """The magnitude of the component on a sheet, in m/s²."""
         assert self.vector is not None
         return float(abs(drawing.trace.values[self.vector]))
 
     def is_drawn(self, drawing: Drawing) -> bool:
-        """Whether its triangle is drawn on a sheet, and is not too short for it."""
+        """Whether the triangle is drawn on a sheet and the component is long enough for it."""
         if self.read not in drawing.trace.values:
             return False
         return not is_short(drawing, self.size(drawing), drawing.plane)
 
     def is_left_out(self, drawing: Drawing) -> bool:
-        """Whether it is too short to be drawn in the plan, though not zero."""
+        """Whether the component is too short to be drawn in the plan, though not zero."""
         size = self.size(drawing)
         return bool(drawing.settled(size)) and is_short(drawing, size, drawing.plane)
 
     @abstractmethod
     def formula(self, drawing: Drawing) -> str:
-        """Markup of what it is computed from."""
+        """The formula of the component, as markup."""
 
     def left_out(self, drawing: Drawing) -> str:
-        """What is said of one that is too short to be drawn: what it is, how long it would be."""
+        """The text for a component too short to be drawn: its formula and its drawn length."""
         drawn = plan_amount(drawing, drawing.plane, self.size(drawing))
         return EQUALS.join((self.symbol, self.formula(drawing))) + f" ({drawn})"
 
     @abstractmethod
     def sentence(self, drawing: Drawing, *, first: bool) -> Wording:
-        """What to draw, in full the ``first`` time."""
+        """The instruction to draw the component; in full if it is the ``first`` of its kind."""
 
     def told_in_parts(self, drawing: Drawing) -> Iterator[tuple[int, str]]:
-        """What is said of it alone, part by part, each with the step that it ends with."""
+        """The instruction for the component alone, in parts, each with the step that ends it."""
         assert self.vector is not None
         if self.is_left_out(drawing):
             yield self.vector, drawing.words("step.too-short", list=self.left_out(drawing))
@@ -146,19 +148,19 @@ class Component(Construction, frozen=True, kw_only=True):
             yield self.vector, self.sentence(drawing, first=True).markup
 
     def laid_alone(self, drawing: Drawing, **fields: str) -> str:
-        """What is said of it where it leads to a point that is known; nothing where it is clear."""
+        """The sentence where only a vector along a guide remains after it; else empty."""
         return ""
 
     def stands_at(self, drawing: Drawing) -> int | None:
-        """The step of the pin at which its figure stands, where others do; None for others."""
+        """The pin's step where this figure is drawn if other figures are too; otherwise None."""
         return None
 
     def picked_from(self, picks: Picks) -> tuple[str | None, ...]:
-        """What its action of the palette is drawn from."""
+        """The inputs of its palette action."""
         return ()
 
     def shown_between(self) -> tuple[int | None, ...]:
-        """The steps of the points on the mechanism between which it is seen; none for others."""
+        """The steps of the two points between which it is drawn on the mechanism; or empty."""
         return ()
 
     @abstractmethod
@@ -167,27 +169,27 @@ class Component(Construction, frozen=True, kw_only=True):
 
     @abstractmethod
     def relation(self, drawing: Drawing) -> Relation:
-        """Its line on the calculation page."""
+        """The line of the component on the calculation page."""
 
-    # --- what students make of it ----------------------------------------------------------------
+    # --- marking students' work ------------------------------------------------------------------
 
     @abstractmethod
     def sizes(self, own: OwnSizes) -> Iterator[Size]:
-        """Its size by each relation to sizes that a student has."""
+        """The component by each relation that the student's values allow."""
 
     @abstractmethod
     def power_of(self, args: tuple[int, ...]) -> int:
-        """With which power of a rate or speed, given by the steps that it is read off, it goes."""
+        """The power of a rate or speed in the component; ``args`` are the steps of its reading."""
 
     def proportions(self, values: Mapping[int, Any], seconds: Any) -> Iterator[tuple[str, Any]]:
-        """How long its velocity is drawn to its bar, where that decides whether it can be drawn.
+        """The ratio of its velocity to its bar, where that ratio decides whether it can be drawn.
 
-        With the velocity's symbol, set as its way in so many ``seconds``.
+        Each ratio comes with the symbol of the velocity, drawn as its displacement in ``seconds``.
         """
         yield from ()
 
     def as_measured(self, found: Mapping[int, Any], key: Mapping[int, Any]) -> Any:
-        """Its vector from own values as they are measured; None where the construction says it."""
+        """The vector from a student's measured values; None where the construction gives it."""
         return None
 
 
@@ -198,42 +200,41 @@ class TriangleComponent(Component, frozen=True, kw_only=True):
 
     @abstractmethod
     def sides(self, canvas: Canvas | Measured) -> Iterator[Any]:
-        """The sides of its triangle that must be long enough to be drawn."""
+        """The sides of the triangle that must be long enough to be drawn."""
 
     def is_drawn(self, drawing: Drawing) -> bool:
-        """Whether its triangle is drawn on a sheet."""
+        """Whether the triangle is drawn on a sheet."""
         return super().is_drawn(drawing) and not self.is_hidden(drawing)
 
     def reason(self, drawing: Drawing, role: str) -> str:
-        """Why it is there, where no triangle is drawn that has reasons of its own."""
+        """The reason for a step; for a vector without a triangle, why it is laid off."""
         if role == "vector" and not self.is_drawn(drawing):
             return self.laid_off_reason
         return super().reason(drawing, role)
 
     def room(self, canvas: Canvas | Measured) -> Any:
-        """By how much its shortest side is longer than what is drawn at all, in mm."""
+        """The excess of the shortest side over the smallest length that is drawn, in mm."""
         return smaller(*(canvas.size(side) for side in self.sides(canvas))) - TINY
 
     def is_hidden(self, drawing: Drawing) -> bool:
-        """Whether its triangle is not drawn, or too small to be."""
+        """Whether the triangle is not drawn, or is too small to be drawn."""
         return not self.is_whole(drawing.trace.values) or bool(self.room(Measured(drawing)) < 0)
 
     def is_whole(self, known: Container[int]) -> bool:
-        """Whether all its steps are known."""
         return all(number in known for _, number in self.given())
 
     def corner_symbols(self, drawing: Drawing, *roles: str) -> dict[str, str]:
-        """The symbols of its corners by their roles, as its sheet writes them."""
+        """The symbols of the triangle's corners by role, as the sheet writes them."""
         steps = drawing.trace.program.steps
         names = {role: steps[getattr(self, role)].name for role in roles}
         return {role: symbol(names[role], self.letter(drawing, role)) for role in roles}
 
     @abstractmethod
     def corner_letter(self, role: str) -> str:
-        """The letter of a corner without its index; nothing for what is no corner."""
+        """The letter of a corner without its index; empty if the role is not a corner."""
 
     def letter(self, drawing: Drawing, role: str) -> str:
-        """The letter of a corner: with its index only where another triangle has the same."""
+        """The letter of a corner, with its index only where another triangle has that letter."""
         own, name = self.corner_letter(role), drawing.trace.program.steps[getattr(self, role)].name
         others = ((construction(step), step.role) for _, step in drawing.normals)
         alike = [
@@ -247,21 +248,20 @@ class TriangleComponent(Component, frozen=True, kw_only=True):
 
 
 class Measured(Struct, frozen=True):
-    """The values of a sheet, and how long they are drawn."""
+    """The values of a sheet and their drawn lengths."""
 
     drawing: Drawing
 
     def value(self, number: int) -> Any:
-        """The value of a step."""
         return self.drawing.trace.values[number]
 
     def size(self, way: Any) -> Any:
-        """How long a way of the mechanism is drawn, in mm."""
+        """The drawn length of a vector of the mechanism, in mm."""
         return abs(way) * (1000 / self.drawing.scales.kL)
 
 
 class LaidOff(EndsComponent, frozen=True, kw_only=True):
-    """A component laid off in the plan from a known point, or back from the tip that it ends in."""
+    """A component laid off in the plan from a known point, or back from its own tip."""
 
     gives: ClassVar[tuple[str, ...]] = ("corner",)
     pencil: ClassVar[Mapping[str, ByHand]] = {"corner": ByHand.LAID_OFF}
@@ -272,23 +272,20 @@ class LaidOff(EndsComponent, frozen=True, kw_only=True):
     back: bool = False
 
     def reason(self, drawing: Drawing, role: str) -> str:
-        """Why it is laid off as it is."""
         return self.component.laid_off_reason
 
     def symbols(self) -> Mapping[str, str]:
-        """The letters of its component."""
         return self.component.symbols()
 
     def index_at(self, role: str) -> str:
-        """The index of its component."""
         return self.component.index
 
     def said_before(self, drawing: Drawing, role: str) -> tuple[int, ...]:
-        """The component that it follows."""
+        """The component after which this one is laid off."""
         return (self.start,) if self.component.follows else ()
 
     def clause(self, drawing: Drawing, role: str) -> str:
-        """What is said of it within the sentence of the point that is found from its end."""
+        """The clause for this component within the sentence of the point found from its end."""
         if self.is_short(drawing):
             return ""
         start = drawing.trace.program.steps[self.start]
@@ -301,7 +298,7 @@ class LaidOff(EndsComponent, frozen=True, kw_only=True):
         return drawing.words(f"step.{key}", vector=self.segment(drawing, fields["s"]), **fields)
 
     def segment(self, drawing: Drawing, start: str) -> str:
-        """Its component, after the segment from a point if its end has a letter of its own."""
+        """The symbol of the component, after its segment if the end has a letter of its own."""
         foot = symbol(letter_at(drawing, self.corner))
         if foot in ("", start):
             return self.component.symbol
@@ -309,9 +306,9 @@ class LaidOff(EndsComponent, frozen=True, kw_only=True):
         return EQUALS.join((NOTHING.join(ends), self.component.symbol))
 
     def sentence(self, drawing: Drawing) -> str:
-        """What is said where it leads to a point that is known: what is left lies along a guide.
+        """The sentence where only a vector along a guide remains, to a point that is known.
 
-        Nothing where a line is drawn from its end: the point on that line tells of it.
+        Empty where a line is drawn from its end: the sentence of the point on that line covers it.
         """
         steps = drawing.trace.program.steps
         users = [steps[user] for user in drawing.children.get(self.corner, ())]
@@ -327,7 +324,7 @@ class LaidOff(EndsComponent, frozen=True, kw_only=True):
         return self.component.laid_alone(drawing, q=end, k=foot, c=vector, **fields)
 
     def is_short(self, drawing: Drawing) -> bool:
-        """Whether it is laid off from a point with a name, and too short to be drawn."""
+        """Whether the component is laid off from a named point and is too short to be drawn."""
         steps = drawing.trace.program.steps
         if not steps[self.start].name:
             return False
@@ -335,20 +332,22 @@ class LaidOff(EndsComponent, frozen=True, kw_only=True):
 
 
 def laid_off(program: Program, number: int) -> LaidOff | None:
-    """The component at whose end a step lies in the plan; None where it is the end of none."""
+    """The component whose end a step of the plan is; None where it ends no component."""
     kind = construction(program.steps[number])
     return kind if isinstance(kind, LaidOff) and kind.corner == number else None
 
 
 def end_before(drawing: Drawing, number: int) -> int:
-    """A step of a plan; where it is the end of a component too short to be drawn, where that is
-    laid off."""
+    """The start of the component that ends at a step and is too short to be drawn.
+
+    For any other step, the step itself.
+    """
     laid = laid_off(drawing.trace.program, number)
     return laid.start if laid is not None and laid.is_short(drawing) else number
 
 
 def index_before(program: Program, number: int) -> str:
-    """The index of the component that ends in a point of a plan; nothing where none does."""
+    """The index of the component that ends in a point of a plan; empty where none does."""
     kind = construction(program.steps[number])
     return kind.index_at(program.steps[number].role) if isinstance(kind, EndsComponent) else ""
 
@@ -359,13 +358,13 @@ def components(program: Program) -> Iterator[Component]:
 
 
 def component_of(program: Program, number: int) -> Component | None:
-    """The component of whose vector a step holds the value; None for any other."""
+    """The component whose vector a step holds; None for any other step."""
     kind = construction(program.steps[number])
     return kind if isinstance(kind, Component) and kind.vector == number else None
 
 
 def is_hidden(drawing: Drawing, number: int) -> bool:
-    """Whether a step is part of a triangle on the mechanism that is too small to be drawn."""
+    """Whether a step belongs to a triangle on the mechanism that is too small to be drawn."""
     kind = construction(drawing.trace.program.steps[number])
     return isinstance(kind, TriangleComponent) and kind.is_hidden(drawing)
 
@@ -379,7 +378,7 @@ def components_on(drawing: Drawing) -> Iterator[Component]:
 
 
 def crowded_pins(drawing: Drawing, least: int) -> list[complex]:
-    """Where at least so many figures of components stand at one pin of a sheet."""
+    """The pins of a sheet at which at least ``least`` figures of components are drawn."""
     kinds = {id(step.of): step.of for _, step in drawing.normals}.values()
     pins = Counter(kind.stands_at(drawing) for kind in kinds if isinstance(kind, Component))
     return [
@@ -393,11 +392,15 @@ def crowded_pins(drawing: Drawing, least: int) -> list[complex]:
 
 
 MANY = 13
-"""So many triangles on one sheet lie upon one another: all of them are computed."""
+"""The number of triangles from which a sheet is too crowded; all of them are then computed."""
 
 
 def as_drawn(trace: Trace, *, triangles: bool) -> Trace:
-    """A trace without the steps that only triangles need which give way, unless all are drawn."""
+    """A trace without the steps that only omitted triangles need.
+
+    The omitted triangles are those that give way, unless ``triangles`` asks for them; all are
+    omitted on a crowded sheet.
+    """
     crowded = has_many_triangles(trace)
     if triangles and not crowded:
         return trace
@@ -415,10 +418,10 @@ def as_drawn(trace: Trace, *, triangles: bool) -> Trace:
 
 
 def has_many_triangles(trace: Trace) -> bool:
-    """Whether so many triangles would be drawn that none is."""
+    """Whether there are too many triangles to draw any of them."""
     return sum(c.read in trace.values for c in components(trace.program)) >= MANY
 
 
 def may_give_way(program: Program) -> bool:
-    """Whether a program has triangles that give way where they leave too little room."""
+    """Whether a program has triangles that are omitted where they leave too little room."""
     return any(component.gives_way for component in components(program))

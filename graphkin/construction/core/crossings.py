@@ -1,4 +1,4 @@
-"""What two loci, or two pins, determine, in what words that fails, and how flat lines cross."""
+"""Points determined by two loci or two pins: how they fail, and how flat their crossings are."""
 
 from __future__ import annotations
 
@@ -15,15 +15,15 @@ from graphkin.construction.core.run import Trace
 from graphkin.text.errors import Problem
 
 LOCI = "loci that cross"
-"""What a point needs that is found where two loci cross."""
+"""What a point at the crossing of two loci needs."""
 
 
 class Determined(Construction, frozen=True):
     """A point or a direction that two loci determine.
 
-    ``loci`` is what these are called, ``apart`` the words for two that miss each other.
-    ``has_angle`` says that its margin is the sine of the angle at which they cross, ``has_mirror``
-    that they cross a second time, on the other side.
+    ``loci`` is the name of the loci, ``apart`` the message for two loci that do not meet.
+    ``has_angle`` says that the margin is the sine of their crossing angle. ``has_mirror`` says that
+    they cross a second time, on the other side.
     """
 
     loci: ClassVar[str] = "the loci"
@@ -32,20 +32,20 @@ class Determined(Construction, frozen=True):
     has_mirror: ClassVar[bool] = False
 
     def in_line(self, steps: Sequence[Step], nearly: str) -> str:
-        """What lies in line or perpendicular where it fails; ``nearly`` is put before, if flat."""
+        """The collinear or perpendicular points where it fails, after ``nearly`` if flat."""
         return ""
 
     @property
     def reaching(self) -> str:
-        """What is needed where its loci miss each other."""
+        """What is needed where the loci do not meet."""
         return LOCI
 
     def failing(self) -> str:
-        """Words for what hinders it where its loci do not meet; nothing where lines say it."""
+        """The cause where the loci do not meet; empty where the lines of the message say it."""
         return ""
 
     def undetermined(self, args: Sequence[Any]) -> Problem | None:
-        """The problem of loci that leave any place or direction open; None where they do not."""
+        """The problem of loci that leave every place or direction open; None where they do not."""
         return None
 
     def at_end(self, steps: Sequence[Step], loci: Sequence[Any]) -> tuple[str, str] | None:
@@ -54,19 +54,19 @@ class Determined(Construction, frozen=True):
 
 
 def which_side(drawing: Drawing, number: int) -> int:
-    """Which of two crossings a step takes, by its sign: stated, or found with a group."""
+    """The sign of the crossing that a step takes, stated or found with a group."""
     step = drawing.trace.program.steps[number]
     return round(step.extra[0] if step.extra else drawing.trace.values[step.args[2]])
 
 
 FAR = 1e-3
-"""Sine below which the lines to a centre are parallel on paper: it is at infinity."""
+"""The sine of the angle below which two lines count as parallel: their centre is at infinity."""
 
 
 class Crossing(Struct, frozen=True):
     """A crossing of two lines or arcs: its step, its letter, its part of the work, its angle.
 
-    ``angle`` is the one of the two angles that is not obtuse, in radians.
+    ``angle`` is the smaller of the two angles, in radians.
     """
 
     number: int
@@ -76,14 +76,14 @@ class Crossing(Struct, frozen=True):
 
     @property
     def factor(self) -> float:
-        """How far the crossing goes, at worst, when each line is a unit off: 1/sin(θ/2)."""
+        """The largest displacement of the crossing when each line is one unit off: 1/sin(θ/2)."""
         return 1 / sin(self.angle / 2) if self.angle else inf
 
 
 def crossings(trace: Trace) -> tuple[Crossing, ...]:
-    """Every crossing that is drawn, in the order of the drawing.
+    """Every crossing that is drawn, in drawing order.
 
-    Shapes that are worked out in a link's own axes are not drawn, nor are centres at infinity.
+    Crossings in a link's own axes and centres at infinity are not drawn.
     """
     found = []
     for number, sine in trace.margins.items():
@@ -103,20 +103,20 @@ def is_drawn(step: Step, sine: float) -> bool:
 
 
 def is_found_by_closing(step: Step) -> bool:
-    """Whether a step holds a value at which a group of higher class was found to close."""
+    """Whether a step holds a value found by closing a group of higher class."""
     kind = construction(step)
     return isinstance(kind, ClosesGroup) and bool(kind.closes) and step.role != "closing"
 
 
 def flattest(found: tuple[Crossing, ...]) -> Crossing | None:
-    """The crossing at the smallest angle, the first of equals; None where nothing crosses."""
+    """The crossing with the smallest angle, the first one of equals; None if there is none."""
     return min(found, key=lambda crossing: crossing.angle, default=None)
 
 
 def letter_of(program: Program, number: int) -> str:
-    """The letter of the point that a step gives: its own, or that of what it gives by hand.
+    """The letter of the point that a step gives, or of the step that it gives by hand.
 
-    The crossing that closes a group bears the first letter that its tried value leads to. Nothing
+    The crossing that closes a group has the first letter that follows from its trial value. Empty
     where the drawing has no letter for it.
     """
     step = program.steps[number]
@@ -129,7 +129,7 @@ def letter_of(program: Program, number: int) -> str:
 
 
 def after(program: Program, number: int, step: Step) -> str:
-    """The letter of the first drawn point that comes of a step in its part of the work."""
+    """The letter of the first drawn point that depends on a step, in the same part of the work."""
     reached = {number}
     for later in range(number + 1, len(program.steps)):
         following = program.steps[later]

@@ -1,4 +1,4 @@
-"""What a sheet is drawn from: the scene, the trace of the steps it needs, scales and words."""
+"""The material of a sheet: the scene, the trace of the steps it needs, scales and words."""
 
 from __future__ import annotations
 
@@ -34,22 +34,24 @@ if TYPE_CHECKING:
     from graphkin.drawing.field import Field
 
 METRES = {"mm": 0.001, "cm": 0.01, "m": 1.0, "in": 0.0254}
-"""The units in which a scene may write lengths."""
+"""Metres in each unit in which a scene may write lengths."""
 ENDLESS = 1e9
-"""A centre so many mechanisms away counts as at infinity."""
+"""A centre this many times the mechanism's size away counts as at infinity."""
 NOISE = 1e-9
-"""A quantity this small beside the largest of its kind is rounding and shown as nought."""
+"""A quantity below this fraction of the largest of its kind is rounding, and is shown as zero."""
 
 
 class Drawing(Struct, frozen=True, dict=True):
-    """One sheet's material; ``kind`` is velocity or acceleration, ``trace`` holds drawn steps.
+    """The material of one sheet; ``kind`` is velocity or acceleration, ``trace`` holds drawn steps.
 
-    ``again``: the mechanism stands on a sheet before this one, with how it is drawn. ``stand`` is
-    where it stands on all sheets alike, None where this sheet alone decides. ``curves`` are those
-    over the whole motion. ``computed`` says by the symbol why a quantity is computed, not measured.
-    ``driven`` are angles of drivers in degrees, where these are not the scene's.
-    ``chosen`` is the sheet whose choices of places hold for it too: where a mark has room, and what
-    is long enough for one, which may be otherwise where the same scene stands elsewhere.
+    ``again``: an earlier sheet shows the same mechanism and how it is drawn. ``stand`` is the
+    position of the mechanism on all sheets; None where this sheet alone decides. ``curves`` are the
+    curves over the whole motion. ``computed`` gives, by symbol, the reason why a quantity is
+    computed and not measured. ``driven`` holds driver angles in degrees that differ from the
+    scene's.
+
+    ``chosen`` is the sheet that decides where marks have room and which lengths are long enough for
+    a mark. At another position of the same scene the choice could be different.
     """
 
     kind: str
@@ -67,7 +69,7 @@ class Drawing(Struct, frozen=True, dict=True):
 
     @property
     def choosing(self) -> Drawing:
-        """The sheet at whose position places of marks are chosen."""
+        """The sheet whose position decides the places of marks."""
         return self.chosen or self
 
     @property
@@ -77,26 +79,26 @@ class Drawing(Struct, frozen=True, dict=True):
 
     @property
     def vector(self) -> MotionQuantity:
-        """What this sheet finds of points: velocity or acceleration."""
+        """The quantity that this sheet finds for points: velocity or acceleration."""
         return MOTION[self.kind]
 
     @property
     def rate(self) -> MotionQuantity:
-        """What it finds of links: angular velocity or angular acceleration."""
+        """The quantity that it finds for links: angular velocity or angular acceleration."""
         return RATE[self.kind]
 
     @property
     def sliding(self) -> MotionQuantity:
-        """What it finds of blocks along their guides: speed or acceleration."""
+        """The quantity that it finds for blocks along their guides: speed or acceleration."""
         return SLIDING[self.kind]
 
     @property
     def pole(self) -> str:
-        """Name of the plan's pole."""
+        """The name of the plan's pole."""
         return "o" if self.kind == "velocity" else "o′"
 
     def steps(self, *planes: Plane) -> Iterator[tuple[int, Step, Any]]:
-        """The steps of some planes that were run, in order, with their values."""
+        """The executed steps of some planes, in order, with their values."""
         for number, value in self.trace.values.items():
             step = self.trace.program.steps[number]
             if step.plane in planes:
@@ -104,7 +106,7 @@ class Drawing(Struct, frozen=True, dict=True):
 
     @cached_property
     def normals(self) -> tuple[tuple[int, Step], ...]:
-        """The steps of the triangles on the mechanism that were run."""
+        """The executed steps of the triangles on the mechanism."""
         on_it = self.steps(Plane.MECHANISM)
         return tuple((number, step) for number, step, _ in on_it if step.part is Part.NORMAL)
 
@@ -120,39 +122,39 @@ class Drawing(Struct, frozen=True, dict=True):
         return tuple(drawn for drawn in self.steps(Plane.MECHANISM) if drawn[1].part in parts)
 
     def place(self, centre: Ratio) -> complex | None:
-        """The point of a centre or pole; None at infinity, or as far away as makes no odds."""
+        """The position of a centre or pole; None at infinity, or too far away to matter."""
         if abs(centre.size) * ENDLESS * self.reach <= abs(centre.shift):
             return None
         return complex(centre.start + centre.shift / centre.size)
 
     def is_everywhere(self, centre: Ratio) -> bool:
-        """True when every point is a centre or pole: the link stands still."""
+        """Whether every point is a centre or pole, because the link does not move."""
         least = NOISE * (self.largest or 1.0)
         return bool(abs(centre.size) <= least and abs(centre.shift) <= least * self.reach)
 
     @cached_property
     def standing(self) -> LinkPoses:
-        """Where the links, guides and wheels stand."""
+        """The poses of the links, guides and wheels."""
         return LinkPoses(self.scene, self.trace)
 
     @cached_property
     def reach(self) -> float:
-        """The largest distance in the mechanism, in metres."""
+        """The largest extent of the mechanism, in metres."""
         box = extent_of([*self.positions.values(), *self.corners()])
         return float(max(box.width, box.height))
 
     @cached_property
     def grounds(self) -> dict[float, dict[str, tuple[complex, float]]]:
-        """The grounds of pivots that were chosen at this position, by the scale."""
+        """The ground symbols of pivots chosen at this position, by scale."""
         return {}
 
     @property
     def positions(self) -> Mapping[str, complex]:
-        """Where each point of the mechanism stands, in metres."""
+        """The position of each point of the mechanism, in metres."""
         return self.standing.positions
 
     def corners(self) -> Iterator[complex]:
-        """The corners of the wheels' boxes, and where wheels touch and blocks are drawn."""
+        """The corners of wheels, cams and profiles, the contact points and the blocks."""
         for disc in self.standing.discs:
             yield disc.centre + disc.outer * (1 + 1j)
             yield disc.centre - disc.outer * (1 + 1j)
@@ -164,7 +166,7 @@ class Drawing(Struct, frozen=True, dict=True):
         yield from (self.standing.beside_wheels(way) for way in ways if way.slide.on == FRAME)
 
     def cam_corners(self) -> Iterator[complex]:
-        """The corners of the boxes in which the profiles of cams turn."""
+        """The corners of the boxes in which cam profiles turn; for plates, the profile itself."""
         from graphkin.construction.core.cam_profiles import DRAWN, profiles_of
 
         for follower, cam in self.scene.cams.items():
@@ -177,7 +179,7 @@ class Drawing(Struct, frozen=True, dict=True):
                 yield from (self.positions[cam.pivot] + reach * way for way in (1 + 1j, -1 - 1j))
 
     def profile_corners(self) -> Iterator[complex]:
-        """The ends of the profiles with stated arcs, and where these reach farthest."""
+        """The ends and the extreme points of profiles with stated arcs."""
         for profile in (each for link in self.scene.every_link for each in link.profiles):
             if profile.arc is None or not {profile.about, profile.through} <= set(self.positions):
                 continue
@@ -189,9 +191,9 @@ class Drawing(Struct, frozen=True, dict=True):
             yield from (centre + rect(abs(arm), angle) for angle in angles)
 
     def guide(self, slide: Slide) -> tuple[complex, complex] | None:
-        """A point and the unit direction of the line that a guide of the frame keeps a block on.
+        """A point and the unit vector of the line along which a fixed guide leads a block.
 
-        None for a guide that moves.
+        None for a moving guide.
         """
         along = self.standing.direction(slide) if slide.on == FRAME else None
         if along is None:
@@ -202,7 +204,7 @@ class Drawing(Struct, frozen=True, dict=True):
 
     @cached_property
     def children(self) -> Mapping[int, tuple[int, ...]]:
-        """The steps that use each step, among those that were run."""
+        """The executed steps that use each step."""
         found: dict[int, list[int]] = {}
         for number in self.trace.values:
             for arg in self.trace.program.steps[number].args:
@@ -211,7 +213,7 @@ class Drawing(Struct, frozen=True, dict=True):
 
     @cached_property
     def results(self) -> Mapping[int, int]:
-        """For the last step of a hand's way, the composite step that it gives."""
+        """For the last step of a construction by hand, the composite step that it gives."""
         steps = self.trace.program.steps
         return {
             hand: number
@@ -220,11 +222,10 @@ class Drawing(Struct, frozen=True, dict=True):
         }
 
     def lettered(self, number: int) -> str:
-        """Markup of the letter of a step."""
+        """The letter of a step, as markup."""
         return symbol(self.trace.program.steps[number].name)
 
     def number_of(self, step: Step) -> int:
-        """The number of a step in its program."""
         return self.numbers[id(step)]
 
     @cached_property
@@ -234,9 +235,9 @@ class Drawing(Struct, frozen=True, dict=True):
 
     @cached_property
     def joins(self) -> Mapping[tuple[int, int], Step]:
-        """The arrows of the plans by the points that they join, whether or not they were run.
+        """The arrows of the plans by the points that they join, whether executed or not.
 
-        Where two join the same points, the first.
+        Where two arrows join the same points, the first one.
         """
         return {
             (step.args[0], step.args[1]): step
@@ -246,7 +247,7 @@ class Drawing(Struct, frozen=True, dict=True):
 
     @cached_property
     def feet(self) -> Mapping[int, int]:
-        """The arrows of the components that end, or begin, in points of the plan without a name."""
+        """The component arrows that begin or end at unnamed points of the plan, by that point."""
         found: dict[int, int] = {}
         for number, step, _ in self.steps(self.plane):
             vector = plan_vector(step)
@@ -256,7 +257,7 @@ class Drawing(Struct, frozen=True, dict=True):
 
     @cached_property
     def auxiliary(self) -> Mapping[int, PlanAside]:
-        """The auxiliary plan of each step of the plan that only such a plan uses."""
+        """The auxiliary plan of each step that only this auxiliary plan uses."""
         found: dict[int, PlanAside] = {}
         steps = self.trace.program.steps
         own = [number for number, _, _ in self.steps(self.plane)]
@@ -273,29 +274,34 @@ class Drawing(Struct, frozen=True, dict=True):
         return found
 
     def settled(self, value: float) -> float:
-        """A magnitude of the plan, or nought where it is only rounding."""
+        """A magnitude of the plan, or zero where it is only rounding."""
         return 0.0 if abs(value) < NOISE * self.natural else value
 
     @cached_property
     def natural(self) -> float:
-        """A magnitude as large as the plan's own: its largest vector, or as much acceleration as
-        its velocities give over the size of the mechanism."""
+        """The natural magnitude of the plan, against which rounding is measured.
+
+        It is the largest vector, or for accelerations also v²/s: v the largest velocity, s the size
+        of the mechanism.
+        """
         if self.plane is Plane.VELOCITIES:
             return self.largest
         return max(self.largest, self.longest(Plane.VELOCITIES) ** 2 / self.reach)
 
     @cached_property
     def largest(self) -> float:
-        """The largest vector of the plan."""
         return self.longest(self.plane)
 
     def longest(self, plane: Plane) -> float:
-        """The largest vector of a plan."""
+        """The length of the largest vector of a plan."""
         vectors = (v for _, s, v in self.steps(plane) if s.arrow and isinstance(v, Vector))
         return max((abs(v.tip - v.tail) for v in vectors), default=0.0)
 
     def turning(self, link: str) -> float | None:
-        """Angular velocity or acceleration of a link on this sheet; nought for mere rounding."""
+        """The angular velocity or acceleration of a link on this sheet; zero for rounding.
+
+        None where the sheet does not find it.
+        """
         value = self.trace.value(self.rate.target, link)
         if value is None:
             return None
@@ -305,19 +311,19 @@ class Drawing(Struct, frozen=True, dict=True):
         return 0.0 if abs(value) < NOISE * largest else float(value)
 
     def rate_size(self, number: int, kind: str = "velocity") -> float:
-        """The size of an angular velocity, or acceleration, by its step; zero for mere rounding."""
+        """The magnitude of an angular velocity or acceleration, by its step; zero for rounding."""
         value = abs(float(self.trace.values[number]))
         largest = self.fastest if kind == "velocity" else self.fastest**2
         return 0.0 if value < NOISE * largest else value
 
     @cached_property
     def fastest(self) -> float:
-        """The largest angular velocity, or what the largest velocity gives over the mechanism."""
+        """The largest angular velocity, or the largest velocity over the size of the mechanism."""
         turning = map(abs, self.all_of(RATE["velocity"].target))
         return max(self.longest(Plane.VELOCITIES) / self.reach, *turning)
 
     def all_of(self, quantity: str) -> list[float]:
-        """The values of a quantity on this sheet, of the links that have it."""
+        """The values of a quantity on this sheet, for the links that have it, after a zero."""
         targets, values = self.trace.program.targets, self.trace.values
         numbers = (number for (what, _), number in targets.items() if what == quantity)
         return [0.0, *(values[number] for number in numbers if number in values)]
@@ -327,17 +333,17 @@ class Drawing(Struct, frozen=True, dict=True):
         return metres / METRES[self.scene.units["length"]]
 
     def on_paper(self, metres: float) -> OnPaper:
-        """How long a length of the mechanism is drawn."""
+        """The drawn length of a length of the mechanism."""
         return OnPaper(1000 * metres / self.scales.kL)
 
     def at_scale(self, plane: Plane, value: complex) -> complex:
-        """A value of a plan in metres of the mechanism, drawn side by side with it."""
+        """A value of a plan at the mechanism's scale, in metres."""
         if plane is Plane.VELOCITIES:
             return value * self.scales.metres("velocity")
         return value * self.scales.metres("acceleration") if plane is Plane.ACCELERATIONS else value
 
     def plan_extent(self) -> Extent:
-        """The box of the plan at the mechanism's scale."""
+        """The bounding box of the plan at the mechanism's scale."""
         return extent_of(
             [
                 self.at_scale(self.plane, point)
@@ -347,12 +353,12 @@ class Drawing(Struct, frozen=True, dict=True):
         )
 
     def bare_extent(self) -> Extent:
-        """The box of the mechanism with its curves, and nothing else that is drawn on it."""
+        """The bounding box of the mechanism and its curves alone."""
         points = [*self.positions.values(), *self.corners()]
         return extent_of([*points, *shown(self.curves, extent_of(points))])
 
     def mechanism_extent(self) -> Extent:
-        """The box of the mechanism and what is drawn on it; centres and poles do not count."""
+        """The bounding box of the mechanism and what is drawn on it, without centres and poles."""
         points: list[complex] = []
         for _, step, value in self.on_mechanism:
             if step.part not in (Part.CENTRE, Part.POLE) and takes_room(step, value):
@@ -361,13 +367,13 @@ class Drawing(Struct, frozen=True, dict=True):
 
 
 def takes_room(step: Step, value: Any) -> bool:
-    """Whether a value on the mechanism is a vector or a place; the others are directions."""
+    """Whether a value on the mechanism is a vector or a place, not a direction."""
     is_corner = step.of is not None and step.role in step.of.corners
     return bool(step.name) or isinstance(value, Vector) or is_corner
 
 
 def ends(value: Any) -> tuple[complex, ...]:
-    """The points that a drawn value takes up by itself; lines and arcs take up none."""
+    """The points of a drawn value; lines and arcs have none."""
     if isinstance(value, Vector):
         return value.tail, value.tip
     if isinstance(value, Line | Circle | Ratio) or not isinstance(value, complex):
@@ -376,20 +382,22 @@ def ends(value: Any) -> tuple[complex, ...]:
 
 
 ROOMY = 3.5
-"""A curve so many mechanisms wide, or less, is drawn whole; of a wider one only what fits."""
+"""A curve up to this many times as wide as the mechanism is drawn whole, a wider one in part."""
 INWARD = 0.96
-"""What of a path there is room for, in parts: its ends, which bear no letters, may stand in the
-margin that those of the mechanism need."""
+"""The fraction of a path for which room is made.
+
+Its ends have no letters, so they may reach into the margin for the letters of the mechanism.
+"""
 STRAIGHT = 1e-6
-"""How far aside, in parts of its length, a curve may lead that counts as straight."""
+"""The largest sideways deviation of a straight curve, as a fraction of its length."""
 
 
 def shown(curves: Sequence[Curve], mechanism: Extent) -> list[complex]:
     """The points of curves for which the drawing makes room.
 
-    Curves of the mechanism's size are drawn whole; of a wider path what is about the mechanism, of
-    wider centrodes, and of straight ones, where they touch. Of a locus what lies in the field
-    will do.
+    Curves of about the mechanism's size are drawn whole. Of a wider path only the part around the
+    mechanism counts. Of a wide or straight centrode only the contact point counts. A locus needs no
+    room.
     """
     found: list[complex] = []
     most = ROOMY * max(mechanism.width, mechanism.height)
@@ -412,7 +420,7 @@ def shown(curves: Sequence[Curve], mechanism: Extent) -> list[complex]:
 
 
 def is_straight(points: Sequence[complex]) -> bool:
-    """Whether points all lie on one line."""
+    """Whether all points lie on one line."""
     if len(points) < 2:
         return False
     start, far = points[0], max(points, key=lambda point: abs(point - points[0]))

@@ -1,4 +1,4 @@
-"""What is given: parameters, drivers, lengths, points, sides, guides and wheels."""
+"""The given data: parameters, drivers, lengths, points, sides, guides and wheels."""
 
 from __future__ import annotations
 
@@ -65,14 +65,14 @@ GREEK = dict(zip(" ".join(LETTERS).split(), "αβγδεζηθκλμνξρστφ�
 
 
 def parameters(scene: Scene, words: Words) -> list[str]:
-    """The parameters that are put into an expression, as set; the data tell what others give."""
+    """The parameters used in expressions, with their values; the data show the other ones."""
     return [parameter(scene, words, name) for name in scene.values if name in put_in(scene)]
 
 
 def variant(scene: Scene, words: Words) -> list[str]:
-    """The parameters that tell a variant from others: those with a range, and those put in.
+    """The parameters that distinguish variants: those with a range and those in expressions.
 
-    What is a driver's position or speed and nothing else has the letter that the sheet gives it.
+    A parameter that is only the position or the speed of a driver gets the driver's symbol.
     """
     ranged = {name for name, each in scene.parameters.items() if each.minimum is not None}
     put = put_in(scene)
@@ -86,42 +86,44 @@ def variant(scene: Scene, words: Words) -> list[str]:
 
 
 def other_parameters(scene: Scene, words: Words) -> list[tuple[str, str, str]]:
-    """The parameters put into an expression that no driver or length shows by itself: each with
-    its symbol and what it is set to."""
+    """The parameters in expressions that no driver or length shows by itself.
+
+    Each is a name, a symbol and a value.
+    """
     shown = {name for quantity in shown_quantities(scene) if (name := lone(scene, quantity))}
     put = put_in(scene)
     return [(name, *as_set(scene, words, name)) for name in scene.values if name in put - shown]
 
 
 def put_in(scene: Scene) -> set[str]:
-    """The parameters that are put into an expression: those by which the drivers are reckoned."""
+    """The parameters in the expressions from which the drivers are computed."""
     rates = (q for d in scene.drivers for q in (d.position, d.speed, d.acceleration))
     return {name for rate in rates if not lone(scene, rate) for name in rate.uses()}
 
 
 def parameter(scene: Scene, words: Words, name: str) -> str:
-    """A parameter and what it is set to."""
+    """A parameter and its value."""
     return " = ".join(as_set(scene, words, name))
 
 
 def parameter_symbol(name: str) -> str:
-    """A parameter's symbol: its name, or the Greek letter that it spells."""
+    """The symbol of a parameter: its name, or the Greek letter that the name spells."""
     return f"*{escape(GREEK.get(name, name))}*"
 
 
 def as_set(scene: Scene, words: Words, name: str) -> tuple[str, str]:
-    """A parameter's symbol and what it is set to; t is the moment of laws of time, in seconds."""
+    """The symbol and the value of a parameter; t is the time in laws of time, in seconds."""
     unit = "s" if name == TIME else unit_of(scene, name)
-    says_it = SPELLINGS.get(name.lower(), name) == unit  # rpm = 50, not 50 rev/min of rpm
+    says_it = SPELLINGS.get(name.lower(), name) == unit  # rpm = 50, not rpm = 50 rev/min
     printed = "" if says_it else unit_words(words, unit)
     space = " " if printed and printed != "°" else ""
     return parameter_symbol(name), words.decimal(shortest(scene.values[name])) + space + printed
 
 
 def after_parameter(scene: Scene, words: Words, quantity: Quantity, letter: str = "") -> str:
-    """A quantity as printed, after the parameter that it is where others hang on that: a = 80 mm.
+    """A quantity as printed, after its parameter where expressions use that one: a = 80 mm.
 
-    ``letter`` is the symbol that stands before it already.
+    ``letter`` is the symbol already printed in front.
     """
     name, text = lone(scene, quantity), quantity_text(scene, words, quantity).rstrip()
     told = name in put_in(scene) and name != letter
@@ -129,18 +131,18 @@ def after_parameter(scene: Scene, words: Words, quantity: Quantity, letter: str 
 
 
 def lone(scene: Scene, quantity: Quantity) -> str:
-    """The parameter that a quantity is without more; nothing where it is another expression."""
+    """The parameter that makes up a quantity alone; empty for any other expression."""
     return quantity.text if quantity.text in scene.values and quantity.text != TIME else ""
 
 
 def has_own_relation(scene: Scene, quantity: Quantity) -> bool:
-    """Whether a relation of its own tells how a driver's quantity follows from the parameters."""
+    """Whether a separate relation says how a driver's quantity follows from the parameters."""
     derived = is_derived(quantity) and not quantity.is_zero()
     return derived or (bool(quantity.uses()) and not lone(scene, quantity))
 
 
 def expression(scene: Scene, words: Words, quantity: Quantity, *, values: bool) -> str:
-    """The text of a quantity as markup, its parameters as symbols or as figures."""
+    """The expression of a quantity as markup, its parameters as symbols or as values."""
     text = re.sub(r"^d\(d\((.*)\)/dt\)/dt$", r"d**2(\1)/dt**2", quantity.text).replace("**", "^")
     known = scene.values
 
@@ -158,7 +160,7 @@ def expression(scene: Scene, words: Words, quantity: Quantity, *, values: bool) 
 
 
 def spelled(words: Words, text: str) -> str:
-    """Signs of an expression as they are printed."""
+    """The signs of an expression as printed."""
     plain = escape(words.decimal(text).replace("*", "·").replace(" · ", "·"))
     return re.sub(r"\\\^(\d)(?!\d)", r"^\1", plain)
 
@@ -178,12 +180,12 @@ def is_derived(quantity: Quantity) -> bool:
 
 
 def shown_quantities(scene: Scene) -> Iterator[Quantity]:
-    """The quantities of the data beside which their parameter is printed."""
+    """The quantities of the data that are printed next to their parameter."""
     for driver in scene.drivers:
         yield driver.position
         for rate in (driver.speed, driver.acceleration):
             if driver.kind != "turn" or float(rate.si(scene.values)) > 0:
-                yield rate  # of a turning that is negative the sense stands in words
+                yield rate  # words give the sense of a negative rotation
     for link in (scene.frame, *scene.links.values()):
         for placing in link.placings:
             yield from (length for _, _, length in lengths_of(placing))
@@ -193,11 +195,11 @@ def shown_quantities(scene: Scene) -> Iterator[Quantity]:
 
 
 def unit_of(scene: Scene, name: str) -> str:
-    """The unit of a parameter, where what grows as it does has one; nothing for a mere number.
+    """The unit of a parameter, from the quantities that grow with it; empty for a plain number.
 
-    A fixed length of which others are multiples has the unit of these, what is put into sines
-    that of angles. What has a range and moves lengths and turns alike, as the number of a student
-    may, is a mere number.
+    A fixed length has the unit of its multiples. A parameter used in sines has the unit of angles.
+    A parameter with a range that changes both lengths and angles, such as a student number, is a
+    plain number.
     """
     if any(is_angle(quantity.text, name) for quantity in quantities(scene)):
         return scene.units["angle"]
@@ -219,18 +221,18 @@ def unit_of(scene: Scene, name: str) -> str:
 
 
 def is_angle(text: str, name: str) -> bool:
-    """Whether an expression takes the sine, cosine or tangent of just a parameter."""
+    """Whether an expression takes the sine, cosine or tangent of the parameter alone."""
     return re.search(rf"\b(?:sin|cos|tan)\(\s*{re.escape(name)}\s*\)", text) is not None
 
 
 def grows_alike(scene: Scene, quantity: Quantity, name: str) -> bool:
-    """Whether a quantity grows, or shrinks, by as much as a parameter grows."""
+    """Whether a quantity changes by exactly as much as the parameter."""
     slope = slope_of(scene, quantity, name)
     return slope is not None and abs(slope) == 1
 
 
 def is_multiple(scene: Scene, quantity: Quantity, name: str) -> bool:
-    """Whether a length grows in proportion to a parameter."""
+    """Whether a length is proportional to a parameter."""
     slope = slope_of(scene, quantity, name)
     if slope is None or quantity.unit not in LENGTHS:
         return False
@@ -240,7 +242,7 @@ def is_multiple(scene: Scene, quantity: Quantity, name: str) -> bool:
 
 
 def slope_of(scene: Scene, quantity: Quantity, name: str) -> float | None:
-    """By how much a quantity grows with a parameter; None where that cannot be told."""
+    """The derivative of a quantity by a parameter; None where there is no derivative."""
     try:
         return float(quantity.derivative(name).number(scene.values))
     except SceneError:
@@ -248,15 +250,15 @@ def slope_of(scene: Scene, quantity: Quantity, name: str) -> float | None:
 
 
 def quantities(scene: Scene) -> Iterator[Quantity]:
-    """Every quantity by which a scene says how its links, drivers and pairs are."""
+    """Every quantity by which a scene describes its links, drivers and pairs."""
     yield from quantities_within((scene.frame, *scene.links.values(), *scene.drivers))
 
 
-# --- what is given of slides, wheels and closures, in words ---------------------------------------
+# --- slides, wheels and closures, in words -------------------------------------------------------
 
 
 def of_guide(drawing: Drawing, link: Link, slide: Slide) -> str:
-    """Words for a block's guide, for which of the two crossings it stands at, and what is plus."""
+    """The sentence for a block's guide, the chosen crossing and the positive direction."""
     fields = {"point": sliding_point(drawing, link), "way": which_way(drawing, link, slide)}
     fields["line"] = bar(*slide.along) if slide.along else straight(drawing, slide)
     fields["positive"] = positive(drawing, link, slide)
@@ -265,14 +267,14 @@ def of_guide(drawing: Drawing, link: Link, slide: Slide) -> str:
 
 
 def sliding_point(drawing: Drawing, link: Link) -> str:
-    """The point by which a block is told: that of its link where blocks of several share it."""
+    """The point that names a block; the point of its link where several blocks share the point."""
     point, links = link.points[0], drawing.scene.links.values()
     shared = [each for each in links if each.slides and each.points[0] == point]
     return symbol(letter(under(point, link.name)) if len(shared) > 1 else point)
 
 
 def which_way(drawing: Drawing, link: Link, slide: Slide) -> str:
-    """Words for the one of two closures at which a block stands, seen from a known pin."""
+    """The words for the chosen crossing of a block, seen from a known pin."""
     words, branch, line = (
         drawing.words,
         stated_way(drawing.scene, link, slide),
@@ -299,7 +301,7 @@ def which_way(drawing: Drawing, link: Link, slide: Slide) -> str:
 
 
 def stated_way(scene: Scene, link: Link, slide: Slide) -> Branch | None:
-    """What the scene states of a block, or of the pin that its guide leads where that has a way."""
+    """The stated branch of a block, or of a guided pin whose branch is a way."""
     led = (
         scene.link(slide.on).points if link.rolls else (*scene.link(slide.on).points, *link.points)
     )
@@ -308,7 +310,7 @@ def stated_way(scene: Scene, link: Link, slide: Slide) -> Branch | None:
 
 
 def is_led(drawing: Drawing, link: Link, slide: Slide) -> bool:
-    """True where a guide is led through its block's known point from the end at which it begins."""
+    """Whether a guide is drawn from its first end through the known point of its block."""
     if not slide.along or not slide.offset.is_zero():
         return False
     ends = slide.along[0], link.points[0]
@@ -316,7 +318,7 @@ def is_led(drawing: Drawing, link: Link, slide: Slide) -> bool:
 
 
 def positive(drawing: Drawing, link: Link, slide: Slide) -> str:
-    """Words for the positive sense of a guide that the data or the answers count along."""
+    """The words for the positive direction of a guide along which data or answers count."""
     scene, words = drawing.scene, drawing.words
     driven = any(d.kind == "slide" and d.link == link.name for d in scene.drivers)
     plate = any(cam.slides and cam.on == link.name for cam in scene.cams.values())
@@ -331,14 +333,14 @@ def positive(drawing: Drawing, link: Link, slide: Slide) -> str:
 
 
 def counted_from(words: Words, path: Slide | Rolling, way: complex) -> str:
-    """Words for where a line is counted from, and in which direction, as it stands."""
+    """The words for the origin and the direction of the coordinate along a line."""
     start = path.through
     where = symbol(start) if isinstance(start, str) else words("page.that_point")
     return words("page.positive", through=where, way=words(f"page.to_{nearest_side(way)}"))
 
 
 def aside(drawing: Drawing, slide: Slide) -> dict[str, str]:
-    """How far a block's point stays from the line it slides along, and on which side."""
+    """The distance of a block's point from its guide line, and the side."""
     words, line = drawing.words, drawing.guide(slide)
     sign = 1 if float(slide.offset.si(drawing.scene.values)) > 0 else -1
     offset = slide.offset if sign > 0 else slide.offset.negative()
@@ -349,7 +351,7 @@ def aside(drawing: Drawing, slide: Slide) -> dict[str, str]:
 
 
 def wheels(scene: Scene, words: Words) -> Iterator[str]:
-    """The wheels: centre and radius, of gears the number of teeth and the module."""
+    """The wheels with centre and radius; for gears, number of teeth and module."""
     for link in (scene.frame, *scene.links.values()):
         for wheel in link.wheels:
             sign = link.wheel_sign(wheel)
@@ -372,14 +374,14 @@ def centre_and_size(scene: Scene, words: Words, wheel: Wheel, sign: str) -> dict
 
 
 def module(scene: Scene, words: Words, wheel: Wheel) -> str:
-    """The module of a gear: its pitch circle's diameter over its number of teeth."""
+    """The module of a gear: the diameter of its pitch circle over its number of teeth."""
     assert wheel.radius is not None and wheel.teeth is not None
     size = 2 * wheel.radius.number(scene.values) / wheel.teeth.number(scene.values)
     return f"{words.decimal(shortest(size))} {wheel.radius.unit}"
 
 
 def tracks(drawing: Drawing) -> Iterator[str]:
-    """What rolls on what in which point, and the start it counts from; that there is no slip."""
+    """Each rolling pair with its contact point and its start, and that it does not slip."""
     scene, words = drawing.scene, drawing.words
     letters = contact_letters(scene)
     for link in scene.every_link:
@@ -411,7 +413,7 @@ def tracks(drawing: Drawing) -> Iterator[str]:
 
 
 def wheels_of(drawing: Drawing, link: Link, rolling: Rolling) -> tuple[str, str]:
-    """What a wheel and the other that it rolls on, or runs with by a belt, are called."""
+    """The names of a wheel and of the wheel on which it rolls or to which a belt joins it."""
     if rolling.belt is not None:
         own, there = rolling.belt.wheels
         on = drawing.scene.link(rolling.on)
@@ -423,7 +425,7 @@ def wheels_of(drawing: Drawing, link: Link, rolling: Rolling) -> tuple[str, str]
 
 
 def whole_turns(drawing: Drawing) -> Iterator[str]:
-    """How far links have turned since the start, where wheels depend on it and pins do not say."""
+    """The whole turns of links since the start, where wheels depend on them."""
     scene, words = drawing.scene, drawing.words
     rolls = [rolling for link in scene.every_link for rolling in link.rolls]
     steps = drawing.trace.program.steps
@@ -438,9 +440,10 @@ def whole_turns(drawing: Drawing) -> Iterator[str]:
 
 
 def start_on_track(drawing: Drawing, link: Link, rolling: Rolling) -> str:
-    """Words for where a wheel touches a straight track at the start, and how it then stands.
+    """The words for the contact point and the angles of a wheel on a track at the start.
 
-    On a moving track the angle is that to the track's link; its own is told if it is stated.
+    On a moving track the angle is relative to the track's link. The angle of that link is added if
+    it is stated.
     """
     named, words = rolling.through, drawing.words
     through = symbol(named) if isinstance(named, str) else words("page.that_point")
@@ -456,7 +459,7 @@ def start_on_track(drawing: Drawing, link: Link, rolling: Rolling) -> str:
 
 
 def start_on_wheel(drawing: Drawing, link: Link, rolling: Rolling) -> str:
-    """Words for the angles of a wheel, of the one it rolls on and of their arm at the start."""
+    """The words for the angles of two wheels and of their arm at the start."""
     scene, found = drawing.scene, []
     on = scene.link(rolling.on)
     centres = {wheel.centre for each in (link, on) for wheel in each.wheels}
@@ -468,14 +471,14 @@ def start_on_wheel(drawing: Drawing, link: Link, rolling: Rolling) -> str:
 
 
 def stands(drawing: Drawing, link: Link, rolling: Rolling) -> str:
-    """Words for the angle of a link where a rolling starts; nought where none is written."""
+    """The words for the angle of a link where a rolling starts; 0° where none is written."""
     angle = rolling.start.get(link.name)
     turn = quantity_text(drawing.scene, drawing.words, angle) if angle else "0°"
     return drawing.words("page.stands", axis=axis_of(drawing, link), angle=turn)
 
 
 def positive_track(drawing: Drawing, link: Link, rolling: Rolling) -> str:
-    """Words for the positive sense of a track along which a driver rolls a wheel."""
+    """The words for the positive direction of a track along which a driver rolls a wheel."""
     if not any(d.kind == "roll" and d.link == link.name for d in drawing.scene.drivers):
         return ""
     touches = (touch for touch in drawing.standing.touches if touch.rolling is rolling)
@@ -483,21 +486,21 @@ def positive_track(drawing: Drawing, link: Link, rolling: Rolling) -> str:
 
 
 def closures(drawing: Drawing) -> Iterator[str]:
-    """Which of the ways in which a group of higher class closes is meant."""
+    """The sentence for the chosen closure of each group of higher class."""
     groups = [*constructions(drawing.trace.program, ClosesGroup)]
     for name, branch in drawing.scene.branches.items():
         if isinstance(branch, Closure):
             yield next(kind for kind in groups if name in kind.closes).branch_words(drawing)
 
 
-# --- what is given: parameters, drivers, lengths, points, sides, guides and wheels ----------------
+# --- the data as names and values ----------------------------------------------------------------
 
 
 class Datum(Struct, frozen=True):
-    """One of the data as markup: a value with its ``name`` and what is said of it, or words alone.
+    """One of the data as markup: a value with its ``name`` and a remark, or words alone.
 
-    ``sign`` stands between name and value; a rate may be ``constant`` and have a ``sense``. ``of``
-    is the number that it tells, ``parameters`` are those that it is set by.
+    ``sign`` is printed between name and value. A rate may be ``constant`` and have a ``sense``.
+    ``of`` is the printed quantity, ``parameters`` are the parameters that set it.
     """
 
     words: str = ""
@@ -511,7 +514,7 @@ class Datum(Struct, frozen=True):
 
     @property
     def said(self) -> str:
-        """It as a piece of a sentence."""
+        """The datum as a piece of a sentence."""
         if not self.value:
             return self.remark
         told = " = ".join(filter(None, (self.value, self.constant)))
@@ -519,7 +522,7 @@ class Datum(Struct, frozen=True):
 
     @property
     def remark(self) -> str:
-        """What is said of it beside its value."""
+        """The remark of the datum, apart from its value."""
         if self.constant:
             return f"{self.name} = {self.constant}" + (f", {self.sense}" if self.sense else "")
         return f"{self.name}: {self.sense}" if self.sense else self.words
@@ -528,14 +531,14 @@ class Datum(Struct, frozen=True):
 def given(drawing: Drawing, *, solved: bool = True, laws: bool = False) -> list[str]:
     """The data of a scene as short pieces of markup, in the order of the scene.
 
-    Unless ``solved``, without the numbers that a student reckons from the parameters; ``laws``
-    stand for them, where no form beside says these.
+    Unless ``solved``, the numbers that a student computes from the parameters are left out. With
+    ``laws`` their expressions are printed instead, where no form next to them shows these.
     """
     return [datum.said for datum in data(drawing, solved=solved, laws=laws)]
 
 
 def data(drawing: Drawing, *, solved: bool = True, laws: bool = False) -> list[Datum]:
-    """The same, names and values apart."""
+    """The data of a scene with names and values apart; for the arguments see ``given``."""
     scene, words = drawing.scene, drawing.words
     sentences = [
         *sides(scene, words),
@@ -571,7 +574,7 @@ def data(drawing: Drawing, *, solved: bool = True, laws: bool = False) -> list[D
 
 
 def arcs(scene: Scene, words: Words) -> Iterator[str]:
-    """The links that turn in the hollow of another along an arc about one centre."""
+    """The links that turn in the hollow of another link, along an arc about a common centre."""
     for link in scene.every_link:
         for hollow in (each for each in link.profiles if each.hollow):
             for other in scene.every_link:
@@ -583,7 +586,7 @@ def arcs(scene: Scene, words: Words) -> Iterator[str]:
 
 
 def cams(drawing: Drawing) -> Iterator[str]:
-    """Each cam with its follower's tip, its circles and its law, piece by piece."""
+    """Each cam with the tip of its follower, its circles and its law, piece by piece."""
     scene, words = drawing.scene, drawing.words
     for follower, cam in scene.cams.items():
         fields = {"g": escape(cam.on), "k": escape(follower)}
@@ -618,7 +621,7 @@ def cams(drawing: Drawing) -> Iterator[str]:
 
 
 def cam_tip(scene: Scene, words: Words, cam: Cam) -> str:
-    """What touches the cam; a lever's face runs along its bar, or beside it towards the cam."""
+    """What touches the cam; the face of a lever lies along its bar or at a distance from it."""
     if cam.lever and cam.is_flat:
         line, gap = bar(cam.lever.pin, cam.point), quantity_text(scene, words, cam.lever.face)
         beside = "" if cam.lever.face.is_zero() else words("page.cam_beside", gap=gap)
@@ -627,7 +630,7 @@ def cam_tip(scene: Scene, words: Words, cam: Cam) -> str:
 
 
 def cam_points(scene: Scene, words: Words, cam: Cam) -> str:
-    """The points of a table, from one end of a cubic to the next."""
+    """The points of a table, one at each end of a cubic."""
     at, lift, unit = exact(0, cam.law[0].to.unit), Fraction(0), cam.law[0].rise.unit
     points = []
     for piece in cam.law:
@@ -638,7 +641,7 @@ def cam_points(scene: Scene, words: Words, cam: Cam) -> str:
 
 
 def cam_piece(scene: Scene, words: Words, piece: CamPiece) -> str:
-    """A piece of a law: how far it goes, and by which motion it lifts or lowers."""
+    """A piece of a law: where it ends, and by which motion it lifts or lowers."""
     to, rise = quantity_text(scene, words, piece.to), piece.rise
     size = rise.number(scene.values)
     if size == 0:
@@ -650,7 +653,7 @@ def cam_piece(scene: Scene, words: Words, piece: CamPiece) -> str:
 
 
 def of_scales(drawing: Drawing) -> Iterator[str]:
-    """What the scene says of the scale factors of the plans, so that a student can follow it."""
+    """The stated scale factors of the plans, so that a student can follow the scene."""
     m = drawing.scales.of_bar(drawing.kind)
     stated = drawing.kind == "acceleration" and drawing.scene.sheet.ka is not None
     if m not in (0, 1) and not stated:
@@ -660,7 +663,7 @@ def of_scales(drawing: Drawing) -> Iterator[str]:
 def of_driver(
     scene: Scene, words: Words, driver: Driver, *, solved: bool = True, laws: bool = False
 ) -> Iterator[Datum]:
-    """Position, speed and acceleration of a driver."""
+    """The position, speed and acceleration of a driver."""
     if laws and not solved and has_own_relation(scene, driver.position):
         yield Datum(name=angle_symbol(scene, driver), value=law(scene, words, driver.position))
     elif solved or not has_own_relation(scene, driver.position):
@@ -674,7 +677,7 @@ def of_driver(
         rates.append((f"{rate}_{{{driver_index(driver)}}}", driver.acceleration, ""))
     for name, quantity, constant in rates:
         if not solved and is_derived(quantity):
-            continue  # its law tells its sense, too
+            continue  # its law gives its sense, too
         size, sense = with_sense(scene, words, driver, quantity)
         told = size if solved or not has_own_relation(scene, quantity) else ""
         if laws and not told:
@@ -692,7 +695,7 @@ def of_driver(
 
 
 def with_sense(scene: Scene, words: Words, driver: Driver, quantity: Quantity) -> tuple[str, str]:
-    """A driver's speed or acceleration; of a crank the magnitude, and its sense in words."""
+    """The speed or acceleration of a driver; for a crank, its magnitude and its sense in words."""
     value = float(quantity.si(scene.values))
     if driver.kind != "turn" or not value:
         return after_parameter(scene, words, quantity), ""
@@ -702,7 +705,7 @@ def with_sense(scene: Scene, words: Words, driver: Driver, quantity: Quantity) -
 
 
 def lengths(scene: Scene, words: Words) -> Iterator[Datum]:
-    """The lengths of bars, those of equal length together."""
+    """The lengths of bars; bars of equal length together."""
     equal: dict[str, list[str]] = {}
     first: dict[str, Quantity] = {}
     for link in scene.bare.every_link:
@@ -717,7 +720,7 @@ def lengths(scene: Scene, words: Words) -> Iterator[Datum]:
 
 
 def set_parameters(scene: Scene, words: Words, names: Iterable[str]) -> list[str]:
-    """Some parameters as the sheet's data tell them, as markup: the length of a bar by its name."""
+    """Some parameters as markup, as the data print them; the length of a bar by its name."""
     bars = {name: datum.said for datum in lengths(scene, words) for name in datum.parameters}
     return [bars.get(name) or parameter(scene, words, name) for name in names]
 
@@ -731,7 +734,7 @@ def fixed_points(scene: Scene, words: Words) -> Iterator[Datum]:
 
 
 def plates(drawing: Drawing) -> Iterator[Datum]:
-    """Points of links that are given by coordinates or by an angle."""
+    """The points of links that are given by coordinates or by an angle."""
     scene, words = drawing.scene, drawing.words
     for link in (scene.frame, *scene.links.values()):
         fixed = link is scene.frame
@@ -754,18 +757,18 @@ def plates(drawing: Drawing) -> Iterator[Datum]:
                     arms, angle = arms[::-1], angle.negative()
                 name = f"∠{arms[0]}{symbol(placing.vertex)}{arms[1]}"
                 told = quantity_text(scene, words, angle)
-                within = abs(float(angle.si(scene.values))) < math.pi  # the side tells its sense
+                within = abs(float(angle.si(scene.values))) < math.pi  # the side gives its sense
                 yield Datum(name=name, value=told.removeprefix("−") if within else told)
 
 
 def place_of(scene: Scene, words: Words, placing: At) -> str:
-    """A point's coordinates."""
+    """The coordinates of a point."""
     x, y = (number_of(scene, words, q) for q in (placing.x, placing.y))
     return words.place(x, y)
 
 
 def sides(scene: Scene, words: Words) -> Iterator[str]:
-    """The sides on which points lie, of plates and of closures."""
+    """The sides on which points of plates and of closures lie."""
     for link in (scene.frame, *scene.links.values()):
         for placing in link.placings:
             if isinstance(placing, Triangle):
@@ -790,6 +793,6 @@ def sides(scene: Scene, words: Words) -> Iterator[str]:
 
 
 def side(words: Words, point: str, p: str, q: str, sign: int) -> str:
-    """Words for the side of a directed line."""
+    """The words for the side of a directed line."""
     key = "page.left_handed" if sign > 0 else "page.right_handed"
     return words(key, point=symbol(point), p=symbol(p), q=symbol(q))

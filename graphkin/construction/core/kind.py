@@ -1,4 +1,4 @@
-"""What every kind of construction has: the faces that pages, marking and reports ask for."""
+"""The base class of all constructions: what pages, marking and reports ask of them."""
 
 from __future__ import annotations
 
@@ -19,14 +19,14 @@ K = TypeVar("K", bound=Roles)
 
 
 class Run(Struct, frozen=True):
-    """What a line lies along, or is ``square`` to, as a report calls it."""
+    """The direction of a line in a report: along ``what``, or perpendicular to it if ``square``."""
 
     what: str
     square: bool = False
 
 
 class ByHand(Enum):
-    """How a hand makes a mark that is neither a point marked by itself nor a line."""
+    """How a mark is made by hand, where it is neither a marked point nor a line."""
 
     LAID_OFF = "laid off from a point, along a line"
     TURNED = "a direction"
@@ -34,18 +34,19 @@ class ByHand(Enum):
 
 
 class Construction(Roles, frozen=True):
-    """One construction: its roles are fields, and beside them is all that is known of it.
+    """One construction: the steps of its roles are its fields.
 
-    For reports: ``titled`` is what is found, ``lines`` what a role's line is called, ``guided`` the
-    role of the block or wheel along whose guide its line lies.
+    For reports: ``titled`` says what is found, and ``lines`` names the line of a role. ``guided``
+    is the role of the block or wheel along whose guide its line lies.
 
-    For sheets: ``reasons`` has the key of the reason behind a role's step, ``told_after`` the roles
-    of the lines that a sentence names before its step, ``between`` those of the names of the points
-    that it joins, ``imaged`` those of points marked in a plan with their letters. ``laid_at`` is
-    the role of the step that lays off the distance of the first and the last of these points.
+    For sheets: ``reasons`` holds the key of the reason for a role's step. ``told_after`` lists the
+    roles of the lines that a sentence names before its step. ``between`` lists the roles of the
+    names of the points that it joins. ``imaged`` lists the roles of points marked with their
+    letters in a plan. ``laid_at`` is the role of the step that lays off the distance of the first
+    and the last of the joined points.
 
-    For pencils: ``pencil`` says how a hand makes the mark of a role, where it does not mark a
-    point or draw a line.
+    For drawing by hand: ``pencil`` says how the mark of a role is made, where it is neither a
+    marked point nor a line.
     """
 
     reasons: ClassVar[Mapping[str, str]] = {}
@@ -59,25 +60,25 @@ class Construction(Roles, frozen=True):
     titled: ClassVar[str] = ""
 
     def reason(self, drawing: Drawing, role: str) -> str:
-        """The key of the reason behind the step of a role; nothing where it needs none."""
+        """The key of the reason for the step of a role; empty where it needs none."""
         return self.reasons.get(role, "")
 
     def title(self, role: str) -> str:
-        """What is found at a role's step, as a report calls it."""
+        """What is found at the step of a role, as a report calls it."""
         return self.titled.format_map(asdict(self)) if self.titled else ""
 
     def symbols(self) -> Mapping[str, str]:
-        """The letters that reasons and names of lines speak of."""
+        """The letters used in reasons and in names of lines."""
         return {}
 
     def line_name(self, steps: Sequence[Step], role: str) -> str:
-        """What a role's line is called in a report; nothing for other roles."""
+        """The name of a role's line in a report; empty for other roles."""
         letters = {each: steps[number].name for each, number in self.given()}
         return self.lines.get(role, "").format_map({**asdict(self), **letters})
 
     @property
     def runs(self) -> Run | None:
-        """How its line lies, in a report: along the guide of a block; None for others."""
+        """The direction of its line in a report: along the guide of a block; None for others."""
         return Run(f"the guide of {getattr(self, self.guided)}") if self.guided else None
 
     @property
@@ -86,37 +87,38 @@ class Construction(Roles, frozen=True):
         return tuple(point for role in self.between if (point := getattr(self, role)))
 
     def laid_length(self, role: str) -> LaidLength | None:
-        """The length that is laid off at a role's step; None for other roles."""
+        """The length laid off at the step of a role; None for other roles."""
         return LaidLength(self.points[0], self.points[-1]) if role == self.laid_at else None
 
     def sentence_alone(self, drawing: Drawing, role: str) -> str:
-        """What is said of a role's step that finds no point; nothing for other roles."""
+        """The sentence for a role's step that finds no point; empty for other roles."""
         return ""
 
     def said_before(self, drawing: Drawing, role: str) -> tuple[int, ...]:
-        """The steps of the lines that are told before the step of a role."""
+        """The steps of the lines that the text names before the step of a role."""
         return tuple(getattr(self, each) for each in self.told_after)
 
     def clause(self, drawing: Drawing, role: str) -> str:
-        """What is said of a role's line within the sentence of the point that it helps to find."""
+        """The clause for a role's line within the sentence of the point that it helps to find."""
         return ""
 
     def path_name(self, drawing: Drawing) -> str:
-        """What the line is called on which something is guided; nothing for other lines."""
+        """The name of the line on which something is guided; empty for other lines."""
         return ""
 
     def point_sentence(self, drawing: Drawing, role: str) -> str:
-        """How the point of a role is found; nothing for other roles."""
+        """The sentence that says how the point of a role is found; empty for other roles."""
         return ""
 
     def point_apart(self, drawing: Drawing, role: str) -> str:
-        """The same after its lines have been told in sentences of their own; nothing where it is
-        never told apart from them.
+        """The sentence for a point whose lines already have sentences of their own.
+
+        Empty where the lines never have them.
         """
         return ""
 
     def equations(self, drawing: Drawing, role: str) -> Iterator[Relation]:
-        """The vector equations of a plan that the step of a role follows, if they are its own."""
+        """The vector equations of a plan that belong to the step of a role."""
         yield from ()
 
     def marks(self, canvas: Canvas, role: str) -> None:
@@ -125,11 +127,11 @@ class Construction(Roles, frozen=True):
             canvas.image()
 
 
-# --- faces that some kinds have -------------------------------------------------------------------
+# --- interfaces of some kinds of constructions ---------------------------------------------------
 
 
 class LaidLength(Struct, frozen=True):
-    """A length that a compass takes off: the distance of two points, or half of it."""
+    """A length taken with the compass: the distance of two points, or half of it."""
 
     first: str
     last: str
@@ -137,7 +139,7 @@ class LaidLength(Struct, frozen=True):
 
 
 class ClosesGroup(Construction, frozen=True):
-    """What closes a group of higher class: the links that it ``closes`` together."""
+    """A construction that closes a group of higher class: the links that it ``closes`` together."""
 
     @property
     def closes(self) -> tuple[str, ...]:
@@ -145,91 +147,91 @@ class ClosesGroup(Construction, frozen=True):
         return ()
 
     def branch_words(self, drawing: Drawing) -> str:
-        """Which of the ways in which they close is meant, among what is given."""
+        """The sentence among the given data for the chosen closure."""
         return ""
 
 
 class PlacesLink(Construction, frozen=True):
-    """What finds how a link lies, where it finds no point."""
+    """A construction that finds the orientation of a link, but no point of it."""
 
     @property
     @abstractmethod
     def found_link(self) -> str:
-        """The link; nothing where a point of it is found."""
+        """The link; empty where a point of the link is found."""
 
 
 class FindsImage(Construction, frozen=True):
-    """What finds the image of a point by crossing lines."""
+    """A construction that finds the image of a point where lines cross."""
 
     @property
     @abstractmethod
     def sought(self) -> str:
-        """The point; nothing where its place says nothing of it."""
+        """The point whose image is found; empty where similarity finds the image."""
 
 
 class FallsOnImage(Construction, frozen=True):
-    """The image of a point that has the motion of another: of a link that only shifts."""
+    """The image of a point that moves as another does, on a link that only translates."""
 
     @property
     @abstractmethod
     def falls_on(self) -> int:
-        """The step of the image on which its own falls whatever the motion."""
+        """The step of the image with which its own always coincides."""
 
 
 class GivesRate(Construction, frozen=True):
-    """What finds how a link turns."""
+    """A construction that finds the angular velocity or acceleration of a link."""
 
     def rate_relation(
         self, drawing: Drawing, link: str, tail: tuple[str, str, str]
     ) -> Relation | None:
-        """How the rate is found: with result, unit and sense at the end."""
+        """The relation that gives the rate, with result, unit and sense at its end."""
         return None
 
     def rate_reason(self, drawing: Drawing) -> str:
-        """The key of why the rate is found as it is."""
+        """The key of the reason why the rate is found in this way."""
         return "why.rate"
 
     def source_of_rate(self, drawing: Drawing) -> str:
-        """From what the rate is found, as the sentence says that uses it first."""
+        """The source of the rate, for the sentence that uses it first."""
         return ""
 
 
 class GivenVector(Construction, frozen=True):
-    """A vector whose direction and size are known before the plan."""
+    """A vector whose direction and magnitude are known before the plan."""
 
     @abstractmethod
     def known_by(self, drawing: Drawing) -> str:
-        """Direction and size; nothing where these are not known before."""
+        """The direction and the magnitude; empty where these are not known before."""
 
     @abstractmethod
     def rate_taken(self, drawing: Drawing, role: str) -> str:
-        """The symbol of the rate of a sheet by which the vector of a role is computed."""
+        """The symbol of the rate from which the vector of a role is computed."""
 
 
 class EndsComponent(Construction, frozen=True):
-    """What lays off a component of a relative acceleration."""
+    """A construction that lays off a component of a relative acceleration."""
 
     @abstractmethod
     def index_at(self, role: str) -> str:
-        """The index of the component that ends in a role's point; nothing for other roles."""
+        """The index of the component that ends in a role's point; empty for other roles."""
 
 
 class SaidInParts(Construction, frozen=True):
-    """What is said of a step part by part."""
+    """A construction whose step is described in several parts."""
 
     @abstractmethod
     def sentence_parts(self, drawing: Drawing, role: str) -> Iterator[tuple[int, str]]:
-        """The parts, each with the step that it ends with; none where it is said at once."""
+        """The parts, each with the step that ends it; none where one sentence suffices."""
 
 
 class JoinsPoints(Construction, frozen=True):
-    """What draws lines as far as the points through which they lead: ``joins`` are their roles."""
+    """A construction with lines as far as the points they pass through; ``joins`` are its roles."""
 
     joins: ClassVar[frozenset[str]]
 
 
 class PlanPole(Construction, frozen=True, kw_only=True):
-    """The ``pole`` of a plan, chosen freely: the image of everything that stands still."""
+    """The freely chosen ``pole`` of a plan: the image of everything at rest."""
 
     gives: ClassVar[tuple[str, ...]] = ("pole",)
     pencil: ClassVar[Mapping[str, ByHand]] = {"pole": ByHand.KNOWN}
@@ -237,37 +239,37 @@ class PlanPole(Construction, frozen=True, kw_only=True):
     pole: int
 
     def marks(self, canvas: Canvas, role: str) -> None:
-        """The point, larger than those of images."""
+        """Draw the pole, larger than an image."""
         canvas.pole()
 
 
 def construction(step: Step) -> Construction | None:
-    """The construction that a step is part of; None for a step by itself."""
+    """The construction to which a step belongs; None for a single step."""
     return step.of if isinstance(step.of, Construction) else None
 
 
 def lies_along(step: Step) -> str:
-    """The guide, track or bar along which a line lies, in a report; nothing for other steps."""
+    """The guide, track or bar along which a line lies, in a report; empty for other steps."""
     kind = construction(step)
     runs = kind.runs if kind is not None else None
     return runs.what if runs is not None and not runs.square else ""
 
 
 def constructions(program: Program, kind: type[K]) -> Iterator[K]:
-    """The constructions of a kind in a program, each once, in the order of the work."""
+    """The constructions of one kind in a program, each once, in the order of the work."""
     found = {id(step.of): step.of for step in program.steps}
     return (each for each in found.values() if isinstance(each, kind))
 
 
-# --- what is said of them -------------------------------------------------------------------------
+# --- sentences -----------------------------------------------------------------------------------
 
 
 class Sentence(Struct, frozen=True):
-    """A sentence of the construction with the number of the step that it ends with.
+    """A sentence of the construction with the number of its last step.
 
-    ``steps`` are all the steps that it speaks of, where it stands for several sentences;
-    ``link`` is the idle link that it is of. ``reasons`` are keys of why, each empty where the
-    construction of the step says it.
+    ``steps`` are all its steps, where it joins several sentences. ``link`` is the idle link that it
+    is about. ``reasons`` are the keys of its reasons; a key is empty where the construction of the
+    step gives the reason.
     """
 
     step: int
@@ -279,25 +281,25 @@ class Sentence(Struct, frozen=True):
 
     @property
     def all_steps(self) -> tuple[int, ...]:
-        """The steps that it speaks of; none where it speaks of no single one."""
+        """All steps of the sentence; none where it is about no single step."""
         return self.steps or ((self.step,) if self.step >= 0 else ())
 
 
 class Wording(Struct, frozen=True):
-    """What a component says of itself: the kind of the sentence, and its markup."""
+    """The sentence of a component: its kind and its markup."""
 
     kind: str
     markup: str
 
 
 def in_one(some: Sequence[Sentence], name: str, markup: str) -> Sentence:
-    """Several sentences said in one."""
+    """Several sentences merged into one."""
     steps = tuple(n for said in some for n in said.all_steps)
     return Sentence(some[-1].step, name, markup, steps)
 
 
 def together(found: list[Sentence], some: Sequence[Sentence], markup: str) -> list[Sentence]:
-    """Several sentences said in one, at the place of the first of them."""
+    """The list with several sentences merged into one, at the place of the first of them."""
     place = found.index(some[0])
     kept = [said for said in found if said not in some]
     return [*kept[:place], in_one(some, some[-1].name, markup), *kept[place:]]

@@ -1,8 +1,4 @@
-"""Where drawings stand on an A3 sheet, and how far construction lines and arcs are drawn.
-
-The layout is made once from a trace; the marks then follow the values alone, so that a value that
-moves takes with it exactly what depends on it.
-"""
+"""The place of the drawings on an A3 sheet, and the drawn length of construction lines and arcs."""
 
 from __future__ import annotations
 
@@ -27,21 +23,21 @@ from graphkin.text.errors import PageError, Problem
 BEYOND = 7.0
 """How far a construction line is drawn beyond the last point on it, in mm."""
 POLES = 1.4 * MARGIN
-"""Room beside centres and poles, left and right or above and below together, in mm."""
+"""Margin for centres and poles, both sides together, in mm."""
 SPARE = 40.0
-"""How much wider than it must be the plan's field is before it shares with the mechanism's, mm."""
+"""Surplus width in mm that the plan's field keeps before it shares with the mechanism's field."""
 GROUND = 15.0
-"""Room below a mechanism for the ground of its pivots and a line of notes, in mm."""
+"""Room below a mechanism for the ground of its pivots and one line of notes, in mm."""
 FAR = 100.0
-"""A place so many mechanisms away lies beyond the edge of every field."""
+"""A place this many mechanism sizes away lies beyond the edge of every field."""
 SWEEP = 7.0
-"""Half the length of a compass arc drawn where it is needed, in mm."""
+"""Half the length of a drawn compass arc, in mm."""
 
 Spans = Mapping[int, tuple[float, float]]
 
 
 class Layout(Struct, frozen=True):
-    """The two fields, and the part of each line (mm from its anchor) or arc (degrees) drawn."""
+    """The two fields, and the drawn part of each line (mm from its anchor) or arc (degrees)."""
 
     mechanism: Field
     plan: Field
@@ -49,7 +45,7 @@ class Layout(Struct, frozen=True):
 
 
 def lay_out(drawing: Drawing) -> Layout:
-    """Mechanism and plan side by side, the mechanism at the place that it has on all sheets."""
+    """Mechanism and plan side by side, with the mechanism where it is on all sheets."""
     mechanism = drawing.stand or mechanism_field([drawing])
     rect = (mechanism.rect[2], AREA[1], AREA[2], AREA[3])
     metres, plan = drawing.scales.metres(drawing.kind), drawing.plan_extent()
@@ -59,10 +55,10 @@ def lay_out(drawing: Drawing) -> Layout:
 
 
 def mechanism_field(drawings: Sequence[Drawing]) -> Field:
-    """Where the mechanism stands on all its sheets, with poles and centres where there is room.
+    """The field of the mechanism on all its sheets, with poles and centres where there is room.
 
-    Its field is as wide as it needs; the plans have the rest, as long as that is not much wider
-    than they need. Raises PageError where they lack it.
+    The field is as wide as necessary. The plans have the rest, as long as it is not much wider than
+    they need. Raises PageError where the plans lack room.
     """
     mm = 1000 / drawings[0].scales.kL
     box = reduce(Extent.joined, (each.mechanism_extent() for each in drawings))
@@ -74,14 +70,17 @@ def mechanism_field(drawings: Sequence[Drawing]) -> Field:
 
 
 class Held(NamedTuple):
-    """The box that a mechanism's field holds, its poles and centres with it, and its width (mm)."""
+    """The bounding box of a mechanism's field, with its poles and centres, and its width (mm)."""
 
     box: Extent
     width: Real
 
 
 def held_beside(box: Extent, poles: Iterable[Point], mm: Real, plan: Real) -> Held:
-    """What a mechanism's field holds beside a plan so wide (mm), of one sheet or of many."""
+    """The contents of a mechanism's field next to a plan of width ``plan`` (mm).
+
+    The numbers may be arrays with one entry for each sheet.
+    """
     whole = AREA[2] - AREA[0]
     most = larger(whole - larger(plan + 2 * MARGIN, LEAST_FIELD), LEAST_FIELD)
     wider = with_poles(box, poles, mm, most)
@@ -91,7 +90,7 @@ def held_beside(box: Extent, poles: Iterable[Point], mm: Real, plan: Real) -> He
 
 
 def with_poles(box: Extent, poles: Iterable[Point], mm: Real, width: Real) -> Extent:
-    """The box of the mechanism, grown by each centre and pole for which a field has room."""
+    """The box of the mechanism, grown by each centre and pole for which the field has room."""
     across, upright = width - POLES, AREA[3] - AREA[1] - POLES
     for pole in poles:
         grown = box.about(pole)
@@ -102,7 +101,7 @@ def with_poles(box: Extent, poles: Iterable[Point], mm: Real, width: Real) -> Ex
 
 
 def refuse_wide(mechanism: float, plan: float) -> None:
-    """Raise PageError where a sheet has no room for a mechanism and a plan so wide, in mm."""
+    """Raise PageError where a sheet is too narrow for both drawings; widths in mm."""
     spare = WIDTH - mechanism - plan
     if spare < -1e-6:
         raise PageError(
@@ -116,27 +115,29 @@ def refuse_wide(mechanism: float, plan: float) -> None:
 
 
 def centre(rect: Rect) -> tuple[float, float]:
-    """The middle of a rectangle."""
     return (rect[0] + rect[2]) / 2, (rect[1] + rect[3]) / 2
 
 
 def raised(rect: Rect, height: float) -> tuple[float, float]:
-    """The middle of a drawing in a field."""
+    """The middle of a drawing in a field, with the room below that its foot needs."""
     return centre(rect)[0], rect[3] - room_below(height) - height / 2
 
 
 def room_below(height: Real) -> Real:
-    """The room between a drawing so high and the foot of its field, in mm: half of what is spare.
+    """The room between a drawing and the foot of its field, in mm: half of the spare height.
 
-    Fixed pivots need it for their ground, and notes for themselves: they get it first.
+    Fixed pivots need this room for their ground, and notes need it too, so the foot gets room
+    first.
     """
     spare = larger(HEIGHT - height, 0.0)
     return ABOVE + larger(spare / 2, smaller(spare, GROUND - ABOVE))
 
 
 def spare_height(drawing: Drawing) -> float:
-    """By how much the upper edges of both fields of a sheet may be lowered, in mm, so that there is
-    as much room above each drawing as any has."""
+    """How far the upper edges of both fields can be lowered, in mm.
+
+    The highest drawing then has only the room ABOVE over it.
+    """
     layout, metres = lay_out(drawing), drawing.scales.metres(drawing.kind)
     field = layout.mechanism
     tops = [field(complex(0.0, drawing.mechanism_extent().top))[1]]
@@ -146,7 +147,7 @@ def spare_height(drawing: Drawing) -> float:
 
 
 def lowered(layout: Layout, more: float) -> Layout:
-    """The same drawings in fields whose upper edges are so much lower, in mm."""
+    """The same drawings in fields whose upper edges are ``more`` mm lower."""
     if not more:
         return layout
 
@@ -158,7 +159,7 @@ def lowered(layout: Layout, more: float) -> Layout:
 
 
 def poles_of(drawing: Drawing) -> Iterator[Point]:
-    """The centres and poles on a sheet that are no farther than its drawing reaches."""
+    """The centres and poles of a sheet, except those at infinity."""
     for _, step, value in drawing.on_mechanism:
         if step.part in (Part.CENTRE, Part.POLE) and isinstance(value, Ratio):
             point = drawing.place(value)
@@ -167,7 +168,7 @@ def poles_of(drawing: Drawing) -> Iterator[Point]:
 
 
 def spans(drawing: Drawing, fields: Layout) -> dict[int, tuple[float, float]]:
-    """How much of each line and arc is drawn: from the points on it, and a little beyond."""
+    """The drawn part of each line and arc: the points on it, and a little beyond."""
     found: dict[int, tuple[float, float]] = {}
     for number, step, value in drawing.steps(Plane.MECHANISM, drawing.plane):
         mm = (fields.mechanism if step.plane is Plane.MECHANISM else fields.plan).mm
@@ -203,7 +204,10 @@ def joined_points(drawing: Drawing, number: int) -> list[int]:
 
 
 def far_points(drawing: Drawing, number: int, line: Line) -> list[complex]:
-    """A place far along each ray to a centre at infinity, so that it reaches its field's edge."""
+    """A distant point along each ray to a centre at infinity.
+
+    With it the ray reaches the edge of its field.
+    """
     found = []
     for _, step, value in drawing.on_mechanism:
         if step.part is not Part.CENTRE or step.by_hand is None or not isinstance(value, Ratio):
@@ -217,14 +221,14 @@ def far_points(drawing: Drawing, number: int, line: Line) -> list[complex]:
 
 
 def line_span(line: Line, points: Sequence[complex], mm: float) -> tuple[float, float]:
-    """The part of a line from its anchor to the points on it, in mm, a little beyond each end."""
+    """The part of a line from its anchor to the points on it, in mm, extended at both ends."""
     unit = line.along / abs(line.along)
     along = [0.0, *(((p - line.point) * unit.conjugate()).real * mm for p in points)]
     return min(along) - BEYOND, max(along) + BEYOND
 
 
 def arc_span(circle: Circle, points: Sequence[complex], mm: float) -> tuple[float, float]:
-    """The part of a circle about the points on it, in degrees."""
+    """The part of a circle around the points on it, in degrees."""
     half = min(degrees(SWEEP / (circle.radius * mm)), 60.0)
     angles = [degrees(phase(point - circle.centre)) for point in points]
     return min(angles) - half, max(angles) + half

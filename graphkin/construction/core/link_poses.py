@@ -1,4 +1,4 @@
-"""Where the bodies of a mechanism stand: axes of links, guides, wheels and touches, in metres."""
+"""The poses of a mechanism's bodies: axes of links, guides, wheels and contacts, in metres."""
 
 from __future__ import annotations
 
@@ -29,9 +29,9 @@ from graphkin.structure.pairs import is_in_scene
 
 
 class Guideway(Struct, frozen=True):
-    """The straight guide of a block: its zero, its unit direction, and the block's first point.
+    """The straight guide of a block: its origin, its unit vector, and the block's first point.
 
-    ``offset`` is how far the block's first point stands to the left of the guide.
+    ``offset`` is the distance of the block's first point to the left of the guide.
     """
 
     block: str
@@ -43,17 +43,17 @@ class Guideway(Struct, frozen=True):
 
     @property
     def coordinate(self) -> Real:
-        """Where the block stands, along the guide from its zero."""
+        """The coordinate of the block along the guide, from its origin."""
         return dot(self.at - self.zero, self.along)
 
     @property
     def foot(self) -> Point:
-        """The place on the guide beside the block's first point."""
+        """The foot of the block's first point on the guide."""
         return self.zero + self.coordinate * self.along
 
 
 class Disc(Struct, frozen=True):
-    """A wheel of a link in the plane, with its ``sign``; ``module`` is nought without teeth."""
+    """A wheel of a link in the plane, with its label ``sign``; ``module`` is zero without teeth."""
 
     link: str
     sign: str
@@ -64,23 +64,23 @@ class Disc(Struct, frozen=True):
 
     @property
     def outer(self) -> float:
-        """Radius of the circle that holds all of the wheel."""
+        """The radius of the circle that contains the whole wheel."""
         thick = 3 * self.module if self.wheel.inside else self.module
         return self.radius + thick
 
 
 CLEAR = 1.6
-"""How far from where a wheel touches it the guide of its track is drawn, in radii of the wheel."""
+"""Distance from a contact point to the drawn guide of its track, in radii of the wheel."""
 ALONG = 1e-6
-"""Sine of the angle below which two directions are one."""
+"""Sine of the angle below which two directions count as equal."""
 APART = 1e-9
-"""Points nearer than this, in parts of the largest distance, are the same."""
+"""Points closer than this fraction of the largest distance count as one."""
 
 
 class Touch(Struct, frozen=True):
-    """Where a wheel touches its track; ``along`` is the way in which a straight track counts.
+    """The contact of a wheel and its track; ``along`` is a straight track's positive direction.
 
-    ``zero`` is where a straight track counts from, ``other`` the wheel that a circular one is.
+    ``zero`` is the origin of a straight track; ``other`` is the wheel that forms a circular track.
     """
 
     rolling: Rolling
@@ -97,17 +97,17 @@ class Touch(Struct, frozen=True):
 
     @property
     def belt(self) -> Belt | None:
-        """The belt that joins both wheels, if one does."""
+        """The belt that joins both wheels, if there is one."""
         return self.rolling.belt
 
     @property
     def side(self) -> int:
-        """On which side of a straight track the wheel is: 1 on its left."""
+        """The side of a straight track on which the wheel is: 1 for its left."""
         return self.rolling.side
 
 
 class LinkPoses(Struct, frozen=True, dict=True):
-    """The bodies of one scene as a trace has placed them."""
+    """The poses of a scene's bodies, as a trace has placed them."""
 
     scene: Scene
     trace: Trace
@@ -118,14 +118,14 @@ class LinkPoses(Struct, frozen=True, dict=True):
 
     @cached_property
     def positions(self) -> Mapping[str, complex]:
-        """Where each point that a link owns stands."""
+        """The position of each point that belongs to a link."""
         links = (self.scene.frame, *self.scene.links.values())
         owned = {point for link in links for point in link.points}
         return {name: place for name, place in self.known.items() if name in owned}
 
     @cached_property
     def known(self) -> Mapping[str, complex]:
-        """Where every point of the program stands that the trace has placed."""
+        """The position of every point of the program that the trace has placed."""
         return {
             of: self.trace.values[number]
             for (quantity, of), number in self.trace.program.targets.items()
@@ -134,7 +134,7 @@ class LinkPoses(Struct, frozen=True, dict=True):
 
     @cached_property
     def places(self) -> Mapping[str, complex]:
-        """Where every point of the drawing stands, by its letters: A, A3 under it, T."""
+        """The position of every point of the drawing by its letters: A, A3 under it, T."""
         found = dict(self.positions)
         for point, place in self.known.items():
             found.setdefault(lettered(point), place)
@@ -144,30 +144,29 @@ class LinkPoses(Struct, frozen=True, dict=True):
         return found
 
     def spot(self, letters: str) -> complex:
-        """Where a point of the drawing stands."""
         return self.places[letters]
 
     def name_at(self, place: complex) -> str:
-        """The name of a point of the drawing that no link owns, where it stands; else nothing."""
+        """The name of a drawn point at a place that belongs to no link; empty without one."""
         near = APART * self.size
         found = (n for n in self.known if not is_in_scene(n) and not is_under(n))
         return next((lettered(n) for n in found if abs(self.known[n] - place) <= near), "")
 
     @cached_property
     def size(self) -> float:
-        """The largest distance between points, along x or y; 1 where they all fall together."""
+        """The largest extent of the points along x or y; 1 where they all coincide."""
         xs = [p.real for p in self.positions.values()] or [0.0]
         ys = [p.imag for p in self.positions.values()] or [0.0]
         size = max(max(xs) - min(xs), max(ys) - min(ys))
         return size if size > 0 else 1.0
 
     def axis(self, link: str) -> complex | None:
-        """Unit direction of a link's x axis; None where the trace does not hold it."""
+        """The unit vector of a link's x axis; None where the trace does not hold it."""
         found: complex | None = 1 + 0j if link == FRAME else self.trace.value("axis", link)
         return found
 
     def direction(self, slide: Slide) -> complex | None:
-        """Unit direction of a guide in the plane."""
+        """The unit vector of a guide; None where the trace does not determine it."""
         if slide.along:
             start, end = (self.positions.get(point) for point in slide.along)
             if start is None or end is None or start == end:
@@ -179,7 +178,7 @@ class LinkPoses(Struct, frozen=True, dict=True):
         return base * complex(slide.angle.direction(self.scene.values))
 
     def carried(self, link: str, through: str | tuple[Quantity, Quantity] | None) -> complex | None:
-        """Where a point of a link stands that is named, or written as coordinates."""
+        """The position of a link's point, given by its name or by coordinates."""
         if isinstance(through, str):
             return self.positions.get(through)
         axis = self.axis(link)
@@ -194,7 +193,7 @@ class LinkPoses(Struct, frozen=True, dict=True):
         return None
 
     def guideway(self, block: Link, slide: Slide) -> Guideway | None:
-        """The guide of a block in the plane; None where nothing tells how it lies."""
+        """The guide of a block in the plane; None where its direction is unknown."""
         at = self.positions.get(block.points[0]) if block.points else None
         if at is None:
             return None
@@ -213,7 +212,7 @@ class LinkPoses(Struct, frozen=True, dict=True):
 
     @cached_property
     def guideways(self) -> tuple[Guideway, ...]:
-        """Every guide in the plane, in the order written."""
+        """Every guide in the plane, in the order of the scene."""
         found = (
             self.guideway(link, slide)
             for link in self.scene.bare.links.values()
@@ -233,7 +232,6 @@ class LinkPoses(Struct, frozen=True, dict=True):
         return tuple(sorted(found, key=lambda disc: -disc.radius))
 
     def disc(self, link: str, wheel: Wheel) -> Disc:
-        """A wheel in the plane."""
         assert wheel.radius is not None
         radius = self.si(wheel.radius)
         teeth = float(wheel.teeth.number(self.scene.values)) if wheel.teeth else 0.0
@@ -243,7 +241,7 @@ class LinkPoses(Struct, frozen=True, dict=True):
 
     @cached_property
     def touches(self) -> tuple[Touch, ...]:
-        """Every place where a wheel touches its track."""
+        """Every contact of a wheel with its track."""
         found = []
         for link in self.scene.every_link:
             own = [disc for disc in self.discs if disc.link == link.name]
@@ -254,7 +252,7 @@ class LinkPoses(Struct, frozen=True, dict=True):
         return tuple(found)
 
     def beside_wheels(self, way: Guideway) -> complex:
-        """Where a block of the frame is drawn: at its point, but clear of a wheel on its link."""
+        """The place where a block of the frame is drawn: its point, clear of a wheel there."""
         found = way.at
         for touch in reversed(self.touches):
             if touch.on != way.block or abs(cross(touch.along, way.along)) > ALONG:
@@ -265,7 +263,7 @@ class LinkPoses(Struct, frozen=True, dict=True):
         return found
 
     def on_line(self, own: list[Disc], rolling: Rolling) -> Touch | None:
-        """A straight track: the foot of the perpendicular from the centre of the wheel."""
+        """The contact with a straight track: the foot of the normal from the wheel's centre."""
         axis, zero = self.axis(rolling.on), self.carried(rolling.on, rolling.through)
         if axis is None or zero is None or rolling.angle is None or not own:
             return None
@@ -279,7 +277,7 @@ class LinkPoses(Struct, frozen=True, dict=True):
         return Touch(rolling, disc, at, along, zero)
 
     def on_wheel(self, own: list[Disc], rolling: Rolling) -> Touch | None:
-        """A circular track: on the line of the centres, of the two wheels that touch."""
+        """The contact with a circular track, on the line of centres of the two wheels."""
         others = [disc for disc in self.discs if disc.link == rolling.on]
         if rolling.belt is not None:
             return self.by_belt(own, others, rolling, rolling.belt)
@@ -304,7 +302,7 @@ class LinkPoses(Struct, frozen=True, dict=True):
     def by_belt(
         self, own: list[Disc], others: list[Disc], rolling: Rolling, belt: Belt
     ) -> Touch | None:
-        """A belt: where its strands meet the line of the centres."""
+        """The contact of a belt: where its strands meet the line of centres."""
         wheels = self.scene.link(own[0].link).wheels if own else ()
         tracks = self.scene.link(rolling.on).wheels
         one = next((d for d in own if d.wheel is wheels[belt.wheels[0]]), None)
@@ -320,7 +318,7 @@ class LinkPoses(Struct, frozen=True, dict=True):
 
 
 def written_places(standing: LinkPoses, link: Link) -> dict[str, complex]:
-    """The points of a link that are written by coordinates, or on its axis, in its own axes."""
+    """The points of a link that the scene gives by coordinates or on its axis, in its own axes."""
     places: dict[str, complex] = {}
     for placing in link.placings:
         match placing:

@@ -1,4 +1,4 @@
-"""What steps and lines of links are called in sentences and relations, as a hand draws by them."""
+"""The names of steps, links and lines in sentences and relations."""
 
 from __future__ import annotations
 
@@ -18,21 +18,21 @@ from graphkin.scene.quantity import Quantity, shortest
 from graphkin.text import Words
 
 NAUGHT = 1e-6
-"""A vector drawn shorter than this, in mm, is none."""
+"""A vector drawn shorter than this, in mm, counts as zero."""
 
 
 def has_plan(drawing: Drawing) -> bool:
-    """Whether anything is drawn in the plan of a sheet: paths and fixed centres need none."""
+    """Whether the plan of a sheet has anything in it; paths and fixed centres need no plan."""
     return any(True for _ in drawing.steps(drawing.plane))
 
 
 def name_of_sheet(drawing: Drawing) -> str:
-    """What a sheet is called by: its plan, or the mechanism alone where it has none."""
+    """The name of a sheet: its plan, or the mechanism where it has no plan."""
     return drawing.kind if has_plan(drawing) else "mechanism"
 
 
 def way_of(drawing: Drawing, name: str) -> str:
-    """A guide by its block, a straight track by its wheel; on a fixed wheel by its bar."""
+    """The name of a guide by its block, of a straight track by its wheel or its bar."""
     scene = drawing.scene
     if name in scene.keepers:
         name = scene.keepers[name][0]
@@ -45,7 +45,10 @@ def way_of(drawing: Drawing, name: str) -> str:
 
 
 def arrow_of(drawing: Drawing, tail: int, tip: int) -> Step | None:
-    """The arrow between two points of a plan, or others on which they fall, whichever its sense."""
+    """The arrow between two points of a plan, or between points that coincide with them.
+
+    The order of the points does not matter.
+    """
     found = drawing.joins.get((tail, tip)) or drawing.joins.get((tip, tail))
     if found:
         return found
@@ -55,48 +58,48 @@ def arrow_of(drawing: Drawing, tail: int, tip: int) -> Step | None:
 
 
 def fallen(drawing: Drawing, number: int) -> int:
-    """The image on which that of a point of a link that only shifts falls, or the image itself."""
+    """The image with which another coincides, on a translating link; else that image itself."""
     kind = construction(drawing.trace.program.steps[number])
     return kind.falls_on if isinstance(kind, FallsOnImage) else number
 
 
 def vector_of(drawing: Drawing, tail: int, tip: int, default: str = "") -> str:
-    """Markup of the vector between two points of a plan."""
+    """The vector between two points of a plan, as markup."""
     arrow = arrow_of(drawing, tail, tip)
     found = plan_vector(arrow) if arrow else None
     return symbol(found.symbol) if found else default
 
 
 def scale_of(drawing: Drawing, plane: Plane) -> float:
-    """What a metre of paper stands for in a plan."""
+    """The scale factor of a plan, per metre of paper."""
     return drawing.scales.kv if plane is Plane.VELOCITIES else drawing.scales.ka
 
 
 def length_scale(drawing: Drawing) -> str:
-    """kL in metres for each millimetre of paper, as lengths and both other scales are told."""
+    """kL in metres per millimetre of paper, the unit in which lengths and scales are printed."""
     return drawing.words.decimal(digits(drawing.scales.kL / 1000))
 
 
 def drawn_in(drawing: Drawing, plane: Plane, size: float) -> OnPaper:
-    """How long a vector of a given size is drawn in a plan."""
+    """The drawn length of a vector with a given magnitude."""
     return OnPaper(float(1000 * size / scale_of(drawing, plane)))
 
 
 def drawn_between(drawing: Drawing, tail: int, tip: int, plane: Plane) -> OnPaper:
-    """How long a vector of a plan is drawn."""
+    """The drawn length of the vector between two points of a plan."""
     values = drawing.trace.values
     return drawn_in(drawing, plane, abs(values[tip] - values[tail]))
 
 
 def has_no_length(drawing: Drawing, number: int) -> bool:
-    """True for a vector that is laid off from a point of a plan and is nought."""
+    """Whether a vector laid off from a point of a plan is zero."""
     start = drawing.trace.program.steps[number].args[0]
     values = drawing.trace.values
     return not drawing.settled(abs(values[number] - values[start]))
 
 
 def rate_symbol(drawing: Drawing, number: int, letter: str = "ω", link: str = "") -> str:
-    """Markup of an angular velocity or acceleration by the step that holds it, or by its link."""
+    """The symbol of an angular velocity or acceleration, by its step or its link, as markup."""
     step = drawing.trace.program.steps[number]
     if step.name in drawing.scene.links:
         return symbol(f"{letter}_{turning_with(drawing, step.name)}")
@@ -106,8 +109,10 @@ def rate_symbol(drawing: Drawing, number: int, letter: str = "ω", link: str = "
 
 
 def turning_with(drawing: Drawing, link: str) -> str:
-    """The link that is named for one of which nobody need speak: that on whose guide it slides,
-    for both turn alike."""
+    """The link named in place of a hidden one.
+
+    A hidden link turns with the link on whose guide it slides, so that link is named.
+    """
     scene = drawing.scene
     if link not in scene.unseen or not scene.links[link].slides:
         return link
@@ -115,7 +120,7 @@ def turning_with(drawing: Drawing, link: str) -> str:
 
 
 def is_driven(drawing: Drawing, number: int) -> bool:
-    """True for a rate that the scene gives."""
+    """Whether the scene gives a rate."""
     return isinstance(drawing.trace.program.steps[number].of, Drive)
 
 
@@ -126,49 +131,49 @@ def driver_of_rate(drawing: Drawing, number: int) -> Driver | None:
 
 
 def drawn_amount(drawing: Drawing, metres: float) -> str:
-    """How long a length of the mechanism is drawn."""
+    """The drawn length of a length of the mechanism, in mm, as text."""
     return f"{in_mm(drawing.words, drawing.on_paper(metres))} mm"
 
 
 def plan_amount(drawing: Drawing, plane: Plane, size: float) -> str:
-    """How a vector of a given size is drawn in a plan."""
+    """The drawn length of a vector with a given magnitude, in mm, as text."""
     return f"{in_mm(drawing.words, drawn_in(drawing, plane, size))} mm"
 
 
 def sense(words: Words, value: Any) -> str:
-    """The word for the sense of an angular value; nothing for nought."""
+    """The word for the sense of an angular value; empty for zero."""
     if value == 0:
         return ""
     return words("page.anticlockwise" if value > 0 else "page.clockwise")
 
 
 def driver_index(driver: Driver) -> str:
-    """Markup of a driver's index: its link, and the one it moves against where that moves."""
+    """The index of a driver as markup: its link, and a moving link that it turns against."""
     index = escape(driver.link)
     return index if driver.against == FRAME else f"{index}/{escape(driver.against)}"
 
 
 def speed_symbol(driver: Driver) -> str:
-    """Symbol of a driver's speed, as among the data."""
+    """The symbol of a driver's speed, as among the data."""
     turning = "*n*" if driver.speed.unit == "rev/min" else "*ω*"
     return f"{turning if driver.kind == 'turn' else '*v*'}_{{{driver_index(driver)}}}"
 
 
 def angle_symbol(scene: Scene, driver: Driver) -> str:
-    """Symbol of a driver's position, with its link's name where several drive or one moves."""
+    """The symbol of a driver's position, with its link's name if there are several or one moves."""
     many = len(scene.drivers) > 1 or driver.against != FRAME
     index = f"_{{{driver_index(driver)}}}" if many else ""
     return ("*φ*" if driver.kind == "turn" else "*s*") + index
 
 
 FINE = 4
-"""Decimals of angles and places that are reckoned from those of the scene."""
+"""Decimals of computed angles and coordinates."""
 
 
 def straight(drawing: Drawing, path: GuideOrTrack, *, on_paper: bool = False) -> str:
-    """A line through a point at an angle: to the axis of the frame, or of a link that turns.
+    """A line through a point at an angle to the axis of the frame or of a link that turns.
 
-    Its point is told as the scene has it, or as it is drawn.
+    The point is printed as the scene gives it or, ``on_paper``, as drawn.
     """
     assert path.angle is not None and path.through is not None
     words, link = drawing.words, drawing.scene.link(path.on)
@@ -189,9 +194,9 @@ def straight(drawing: Drawing, path: GuideOrTrack, *, on_paper: bool = False) ->
 def place(
     drawing: Drawing, on: str, through: str | tuple[Quantity, Quantity], *, on_paper: bool = False
 ) -> str:
-    """A point by its name, or by its coordinates; on a link that does not turn from its pin.
+    """A point by its name or coordinates; on a link that does not turn, relative to its pin.
 
-    The coordinates are as the scene has them, or as they are drawn.
+    The coordinates are printed as the scene gives them or, ``on_paper``, as drawn.
     """
     if isinstance(through, str):
         return symbol(through)
@@ -213,12 +218,12 @@ def place(
 
 
 def metres(drawing: Drawing, pair: tuple[Quantity, Quantity]) -> complex:
-    """A point of a link by its coordinates."""
+    """A point of a link by its coordinates, in metres."""
     return complex(*(float(each.si(drawing.scene.values)) for each in pair))
 
 
 def leaning(drawing: Drawing, link: Link) -> complex | None:
-    """The direction of the axis of a link that a guide of the frame keeps from turning."""
+    """The direction of the axis of a link that a fixed guide keeps from turning."""
     if link.name == FRAME or not link.slides or link.slides[0].on != FRAME:
         return None
     if len(link.points) != 1:
@@ -227,9 +232,9 @@ def leaning(drawing: Drawing, link: Link) -> complex | None:
 
 
 def axis_of(drawing: Drawing, link: Link) -> str:
-    """The *x* axis of a link by what is drawn: its bar, its guide, or as the axis of the link.
+    """The words for the *x* axis of a link: its bar, its guide, or the link itself.
 
-    What keeps a wheel on a track is not drawn: its axis is the track.
+    The block that keeps a wheel on a track is not drawn: its axis is the track.
     """
     scene = drawing.scene
     if link.name in scene.unseen and link.slides:
@@ -251,17 +256,17 @@ def axis_of(drawing: Drawing, link: Link) -> str:
 
 
 def is_along(block: Link, link: Link) -> bool:
-    """True for a block that slides along the axis of another link."""
+    """Whether a block slides along the axis of another link."""
     ways = (slide for slide in block.slides if slide.on == link.name)
     return any(way.angle is not None and way.angle.is_zero() for way in ways)
 
 
 def number(drawing: Drawing, value: float) -> str:
-    """A reckoned number without noughts at its end, never minus nought."""
+    """A computed number without trailing zeros; zero has no minus sign."""
     return drawing.words.decimal(shortest(round(value, FINE) + 0.0))
 
 
 def nearest_side(way: complex) -> str:
-    """Which side of a point a direction leads to: the nearest of right, above, left, below."""
+    """The side of a point to which a direction leads: right, above, left or below."""
     sides = ("right", "above", "left", "below")
     return sides[round(degrees(phase(way)) / 90) % 4]

@@ -1,4 +1,4 @@
-"""The palette of a page: what a student draws with, and from what each recorded step is drawn."""
+"""The palette of a page: the drawing actions for students, and the inputs of each recorded step."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from msgspec import Struct
 Slots = tuple[tuple[str, tuple[str, ...]], ...]
 """What an action is drawn from: the word for each thing and the kinds of picks that it may be."""
 Shape = Literal["point", "line", "circle", "vector"]
-"""What an action gives; a component of an acceleration is like a point that lies in no drawing."""
+"""The result of an action. A component of an acceleration is a point that lies in no drawing."""
 MECHANISM, NUMBERS = 0, 3
 """The drawings of a page that an action may name; 1 and 2 are the plans."""
 CURVE = ("locus", "guide", "circle")
@@ -20,11 +20,11 @@ FOUND = ("image", "centre")
 class PaletteAction(Struct, frozen=True):
     """One action of the palette, with its function in the script of the page.
 
-    ``script`` takes the keys of the picks and returns a list of results, of which one is meant.
-    The result has the given ``shape``. It lies in the drawing number ``plane``; where that is
-    None, in the drawing of the input number ``lies_with``. ``named`` says that the script makes
-    the name of the result from the names of the inputs.
-    ``said_as`` is the action whose sentences say what is wrong, where these are shared.
+    ``script`` takes the keys of the picks and returns a list of results, one of which is meant. The
+    result has the given ``shape``. It lies in the drawing number ``plane``; where that is None, in
+    the drawing of the input number ``lies_with``. ``named`` says that the script makes the name of
+    the result from the names of the inputs. ``said_as`` is the action whose error messages this one
+    shares.
     """
 
     key: str
@@ -38,7 +38,7 @@ class PaletteAction(Struct, frozen=True):
 
 
 class Picks(Protocol):
-    """What can be picked on a page, each by the steps that it lies on; None for what cannot."""
+    """The things that can be picked on a page, by the steps that they lie on; None for others."""
 
     def point_or_line(self, number: int) -> str | None:
         """A point, line or arc."""
@@ -53,7 +53,7 @@ class Picks(Protocol):
         """The angular velocity of a link."""
 
     def length(self, number: int, length: int) -> str | None:
-        """The length of a step that is laid off at another."""
+        """The length of a step that is laid off at another step."""
 
     def vector(self, number: int) -> str | None:
         """The vector that a step lays off; None for one without length."""
@@ -71,9 +71,9 @@ Picked = tuple[str | None, ...]
 class Move(Struct, frozen=True):
     """How a student draws what a step records: the action, and its inputs among the picks.
 
-    ``inputs`` takes the picks, the number of the step and what it is drawn from. Where the move
-    is ``in_plan``, it is one only in a plan of velocities or accelerations. A move ``at_once``
-    draws its step together with the lines by which a hand finds it.
+    ``inputs`` takes the picks, the number of the step and the steps that it is drawn from. A move
+    that is ``in_plan`` exists only in a plan of velocities or accelerations. A move ``at_once``
+    draws its step together with the lines by which it is found on paper.
     """
 
     action: PaletteAction
@@ -170,12 +170,12 @@ TRANSFER = PaletteAction(
 
 
 def two(picks: Picks, number: int, args: tuple[int, ...]) -> Picked:
-    """The first two things that a step is drawn from."""
+    """The first two inputs of a step."""
     return picks.point_or_line(args[0]), picks.point_or_line(args[1])
 
 
 def point_and_bar(picks: Picks, number: int, args: tuple[int, ...]) -> Picked:
-    """A point, and the bar between two others."""
+    """A point, and the bar between two other points."""
     return picks.point_or_line(args[0]), picks.bar(args[1], args[2])
 
 
@@ -185,7 +185,7 @@ def point_and_arrow(picks: Picks, number: int, args: tuple[int, ...]) -> Picked:
 
 
 def one_and_length(picks: Picks, number: int, args: tuple[int, ...]) -> Picked:
-    """A point or line, and a length that is laid off."""
+    """A point or line, and a length to be laid off."""
     return picks.point_or_line(args[0]), picks.length(number, args[1])
 
 
@@ -200,7 +200,7 @@ def images_and_place(picks: Picks, number: int, args: tuple[int, ...]) -> Picked
 
 
 def place_and_image(picks: Picks, number: int, args: tuple[int, ...]) -> Picked:
-    """A point of the mechanism, and the image on which its own falls."""
+    """A point of the mechanism, and the image with which its own coincides."""
     return picks.place_of(number), picks.point_or_line(args[0])
 
 

@@ -1,4 +1,4 @@
-"""How paper draws the steps of constructions: each mark at once, in millimetres of its field."""
+"""Drawing the steps of constructions on paper: marks in millimetres of their field."""
 
 from __future__ import annotations
 
@@ -31,13 +31,13 @@ from graphkin.numbers.plane import Circle, Ratio
 from graphkin.text import Words
 
 CHORDS, FINE = 240, 0.02
-"""Straight pieces of a small circle, and how far (mm) those of a large one may leave it."""
+"""Number of chords of a small circle, and the largest deviation (mm) of chords from a large one."""
 UNSEEN = 0.01
-"""How far, in mm, a broken line may pass by corners that are left out."""
+"""The largest deviation, in mm, of a polyline whose points are thinned out."""
 
 
 def ring(circle: Circle, mm: float = 0.0) -> list[complex]:
-    """Points around a circle, the first again at the end, close enough for so many mm a metre."""
+    """Points around a closed circle, close enough together for ``mm`` millimetres per metre."""
     chords = max(CHORDS, int(pi * (circle.radius * mm / FINE / 2) ** 0.5))
     turns = (2 * pi * i / chords for i in range(chords + 1))
     return [circle.centre + circle.radius * complex(cos(a), sin(a)) for a in turns]
@@ -46,7 +46,7 @@ def ring(circle: Circle, mm: float = 0.0) -> list[complex]:
 def clipped_path(
     points: Sequence[XY], rect: Rect, cls: str, name: str, step: int | None = None
 ) -> Iterator[Polyline]:
-    """The parts of a broken line that lie in a rectangle, without corners that nobody sees."""
+    """The parts of a polyline inside a rectangle, without points too close to be seen."""
     from shapely import LineString, box
 
     if len(points) < 2:
@@ -59,7 +59,7 @@ def clipped_path(
 
 
 def draw_curves(board: FieldContent, drawing: Drawing, field: Field, rect: Rect) -> None:
-    """Paths of points and centrodes, each with its name."""
+    """Draw the paths of points and the centrodes, each with its name."""
     for curve in drawing.curves:
         parts = [
             part
@@ -75,22 +75,22 @@ def draw_curves(board: FieldContent, drawing: Drawing, field: Field, rect: Rect)
 
 
 SHARES = {"fixed-centrode": 0.5, "moving-centrode": 0.3, "trajectory": 0.15, "locus": 0.6}
-"""How far along its longest part a curve is named, so that names do not meet."""
+"""Share of its longest part at which a curve is named, so that names do not collide."""
 
 
 def name_of(words: Words, curve: Curve) -> str:
-    """What is written beside a curve."""
+    """The name printed next to a curve."""
     return words(f"page.{curve.kind}", of=symbol(curve.of))
 
 
 def length(part: Polyline) -> float:
-    """Length of a broken line in mm."""
+    """The length of a polyline in mm."""
     ends = zip(part.points, part.points[1:], strict=False)
     return sum(hypot(x - u, y - v) for (x, y), (u, v) in ends)
 
 
 def middle_of(part: Polyline, share: float) -> XY:
-    """The place on a broken line that a share of its length lies before."""
+    """The point of a polyline at a share of its length."""
     left = share * length(part)
     for (x, y), (u, v) in zip(part.points, part.points[1:], strict=False):
         step = hypot(x - u, y - v)
@@ -100,17 +100,17 @@ def middle_of(part: Polyline, share: float) -> XY:
     return part.points[-1]
 
 
-# --- where the steps of one drawing are put down, and what every kind of step needs there ---------
+# --- the drawing of one plane, and helpers for every kind of step --------------------------------
 
 
 EDGE = 3.0
-"""How far from a field's edge lines end that would go on, in mm."""
+"""Distance in mm from a field's edge at which longer lines end."""
 FOOT = 6.5
-"""The same at the foot of a field, which is for notes."""
+"""The same distance at the foot of a field, where the notes are."""
 
 
 class Plot(Struct, frozen=True):
-    """Where steps of one drawing are put down: board, field, and the sheet's material."""
+    """The target of one drawing's steps: board, field, and the sheet's material."""
 
     board: FieldContent
     field: Field
@@ -136,17 +136,16 @@ def inside(rect: Rect) -> Rect:
 
 
 def above_foot(rect: Rect) -> Rect:
-    """A field without its edges and its lowest part, which is for notes."""
+    """A field without its edges and without its foot, where the notes are."""
     return rect[0] + EDGE, rect[1] + EDGE, rect[2] - EDGE, rect[3] - FOOT
 
 
 def middle(tail: XY, tip: XY) -> XY:
-    """The middle of a vector."""
     return (tail[0] + tip[0]) / 2, (tail[1] + tip[1]) / 2
 
 
 def note_tiny(plot: Plot, name: str, length: OnPaper) -> None:
-    """Name a vector that is too short to be seen at the foot of its field."""
+    """Add a note at the foot of the field for a vector too short to be seen."""
     words, drawing = plot.drawing.words, plot.drawing
     factor = scale_of(drawing, drawing.plane)
     key = "page.tiny" if drawing.settled(length * factor / 1000) else "page.nought"
@@ -162,35 +161,35 @@ def draw_line(
     name: str,
     shows: Shown | None = None,
 ) -> None:
-    """A line across the field, chain-dotted."""
+    """Draw a line across the field, chain-dotted."""
     start, along = line
-    seen = start + along * (100 / (abs(along) * field.mm))  # of any size, 100 mm on paper
+    seen = start + along * (100 / (abs(along) * field.mm))  # 100 mm on paper
     part = clipped(*stretched(field(start), field(seen)), above_foot(field.rect))
     if part:
         board.marks.append(LineMark(*part[0], *part[1], "centre-line", name, shows=shows))
 
 
 def stretched(start: XY, end: XY) -> tuple[XY, XY]:
-    """A segment through two places, long enough to leave any page on both sides."""
+    """A segment through two points, long enough to leave any page at both ends."""
     dx, dy = end[0] - start[0], end[1] - start[1]
     far = 2000 / max(abs(dx), abs(dy))
     return (start[0] - far * dx, start[1] - far * dy), (start[0] + far * dx, start[1] + far * dy)
 
 
-# --- the marks of a plan's steps: lines with what they are square to, points, poles, arrows -------
+# --- marks of a plan's steps: labelled lines, points, poles, arrows ------------------------------
 
 
 SAME = 0.01
-"""How near to each other, in mm, points of a plan stand that are told to be the same."""
+"""Points of a plan closer than this, in mm, are printed as equal."""
 PLAN_DOT = 0.7
-"""Radius of a point of a plan in mm."""
+"""Radius of a point of a plan, in mm."""
 
 
 def put_locus(plot: Plot, number: int, name: str, text: str, parts: tuple[int, int]) -> None:
-    """A construction line as far as the layout says, with what it is drawn by along it.
+    """Draw a construction line as far as the layout says, with a label along it.
 
-    Between its first point and the one that was found on it an arrow lies; it is drawn beyond, in
-    two ``parts``, the near one first.
+    An arrow covers the piece between its first point and the point found on it. The line is drawn
+    outside that piece, in two ``parts``, the near one first.
     """
     ends = beyond(plot, number, plot.drawing.trace.values[number])
     drawn = [(end, part) for end, part in zip(ends, parts, strict=False) if end]
@@ -215,7 +214,7 @@ def beyond(plot: Plot, number: int, value: Any) -> list[tuple[XY, XY] | None]:
 
 
 def put_point(plot: Plot, number: int, step: Step, value: Any) -> None:
-    """A named point of a plan."""
+    """Draw a named point of a plan."""
     if step.name:
         at = plot.field(value)
         plot.board.marks.append(
@@ -225,7 +224,7 @@ def put_point(plot: Plot, number: int, step: Step, value: Any) -> None:
 
 
 def put_pole(plot: Plot, number: int, step: Step, value: Any) -> None:
-    """The pole of a plan."""
+    """Draw the pole of a plan."""
     at = plot.field(value)
     plot.board.marks.append(CircleMark(*at, PIN, f"pole {plot.colour}", step.name, number))
     name_point(plot, number, step.name, at, PIN)
@@ -234,7 +233,7 @@ def put_pole(plot: Plot, number: int, step: Step, value: Any) -> None:
 def name_point(
     plot: Plot, number: int, name: str, at: XY, radius: float, look: str = "", height: float = 3.5
 ) -> None:
-    """The letter of a point; points that fall together share one label, o ≡ a or, nearly, o ≈ a."""
+    """Label a point; coinciding points share one label: o ≡ a or, for near points, o ≈ a."""
     board, look = plot.board, look or plot.colour
     for i, (x, y) in board.lettered.items():
         apart = hypot(x - at[0], y - at[1])
@@ -250,7 +249,7 @@ def name_point(
 
 
 def put_arrow(plot: Plot, number: int, step: Step, value: Any) -> None:
-    """A vector with its symbol; a very short one without head, named at the end of a leader."""
+    """Draw a vector with its symbol; a very short one has no head and is named by a leader."""
     tail, tip = plot.field(value.tail), plot.field(value.tip)
     length = hypot(tip[0] - tail[0], tip[1] - tail[1])
     cls = arrow_class(step, plot)
@@ -269,7 +268,7 @@ def put_arrow(plot: Plot, number: int, step: Step, value: Any) -> None:
 
 
 def arrow_class(step: Step, plot: Plot) -> str:
-    """The look of a vector: normal and tangential components, relative and absolute ones."""
+    """The style of a vector: normal or tangential component, relative or absolute vector."""
     kind = BY_SIGN.get(sign_of(step))
     if kind:
         return kind.look
@@ -279,7 +278,7 @@ def arrow_class(step: Step, plot: Plot) -> str:
     return f"relative-{plot.colour}"
 
 
-# --- how paper draws the steps of constructions: each mark at once, in millimetres of its field ---
+# --- the canvas of paper -------------------------------------------------------------------------
 
 
 P = ParamSpec("P")
@@ -287,33 +286,33 @@ R = TypeVar("R")
 ASIDE = f"point {OWN_LINES}"
 """The class of a point of an auxiliary plan."""
 SIDE = 6.0
-"""Shortest side of a triangle, in mm, at whose corner a right angle is marked."""
+"""Shortest side of a triangle, in mm, with a right-angle mark at its corner."""
 SMALL, ARM = 1.3, 2.2
-"""Radius of the circle of a centre, and how far its cross reaches, in mm."""
+"""Radius of the circle of a centre, and half the length of its cross, in mm."""
 RING = 1.9
-"""The same radius around a pin that is a centre, in mm."""
+"""Radius of the circle around a pin that is a centre, in mm."""
 DOT = 0.5
 """Radius of a small point, in mm."""
 WITHIN = 2.5
-"""How far from the edge of its field a centre lies that is marked there, in mm: with its cross."""
+"""Least distance in mm of a marked centre from the edge of its field; the cross needs it."""
 LAST = 20.0
-"""How much of a ray to a far centre its name belongs to, in mm."""
+"""Length in mm at the end of a ray that the label of a far centre refers to."""
 STRAIGHT = 1e6
-"""Radius in mm of a circle that is a straight line, or none at all, on any page."""
+"""A circle with this radius in mm is a straight line on any page, or invisible."""
 FAR = 2000.0
-"""Longer than any way on a page, in mm."""
+"""A length in mm that is longer than any page."""
 BEYOND_TIPS = 4.0
-"""How far the line through the tips of two vectors goes on beyond them, in mm."""
+"""Extension of the line through the tips of two vectors, in mm."""
 
 
 def draw_part(canvas: PaperCanvas, kind: Construction) -> None:
-    """Draw the step of a construction, unless the construction is too small for it."""
+    """Draw the step of a construction, unless the construction is too small."""
     if not (isinstance(kind, TriangleComponent) and kind.is_hidden(canvas.drawing)):
         kind.marks(canvas, canvas.step.role)
 
 
 def raise_points_aside(plot: Plot) -> None:
-    """Put the points of auxiliary plans over arrows that would hide them, not over right points."""
+    """Move the points of auxiliary plans above arrows, but not above points of the right plan."""
     circles = [mark for mark in plot.board.marks if isinstance(mark, CircleMark)]
     aside = [mark for mark in circles if mark.cls == ASIDE]
     right = [complex(mark.cx, mark.cy) for mark in circles if mark.cls != ASIDE]
@@ -328,7 +327,7 @@ def raise_points_aside(plot: Plot) -> None:
 def stroke(
     draw: Callable[Concatenate[PaperCanvas, P], R],
 ) -> Callable[Concatenate[PaperCanvas, P], R]:
-    """What a construction draws at once: its marks and labels bear the number of the stroke."""
+    """Decorate a drawing method so that its marks and labels get the number of the stroke."""
 
     @wraps(draw)
     def numbered(canvas: PaperCanvas, /, *args: P.args, **more: P.kwargs) -> R:
@@ -352,30 +351,27 @@ class PaperCanvas(Struct, frozen=True):
 
     @property
     def drawing(self) -> Drawing:
-        """The sheet."""
         return self.plot.drawing
 
     @property
     def step(self) -> Step:
-        """The step."""
         return self.drawing.trace.program.steps[self.number]
 
     @property
     def mm(self) -> float:
-        """The millimetres of paper that a unit of the field takes up."""
+        """The size of one unit of the field on paper, in mm."""
         return self.plot.field.mm
 
     def value(self, number: int) -> Any:
-        """The value of a step."""
         return self.drawing.trace.values[number]
 
     def size(self, way: Any) -> Any:
-        """How long a way of the mechanism is drawn, in mm."""
+        """The drawn length of a vector of the mechanism, in mm."""
         return abs(way) * self.plot.field.mm
 
     @stroke
     def vector(self, name: str, look: str, tail: Any, tip: Any) -> None:
-        """A vector set on the mechanism, with its symbol."""
+        """Draw a vector on the mechanism, with its symbol."""
         start, end = self.plot.field(tail), self.plot.field(tip)
         self.plot.board.marks += arrow(start, end, look, name, self.number)
         short = hypot(end[0] - start[0], end[1] - start[1]) < SHORT
@@ -386,7 +382,7 @@ class PaperCanvas(Struct, frozen=True):
 
     @stroke
     def point(self, name: str, at: Any) -> None:
-        """A small named point."""
+        """Draw a small named point."""
         place, own = self.plot.field(at), self.step.name
         self.circled(place, "point construction", DOT)
         self.plot.board.labels.append(
@@ -395,7 +391,7 @@ class PaperCanvas(Struct, frozen=True):
 
     @stroke
     def foot(self, name: str, at: Any) -> None:
-        """A small point of a plan with its letter."""
+        """Draw a small point of a plan with its letter."""
         place = self.plot.field(at)
         mark = CircleMark(*place, DOT, f"point {self.plot.colour}", name, self.number)
         self.plot.board.marks.append(mark)
@@ -403,24 +399,24 @@ class PaperCanvas(Struct, frozen=True):
 
     @stroke
     def segment(self, start: Any, end: Any) -> None:
-        """A thin line between two points."""
+        """Draw a thin line between two points."""
         self.thin(self.plot.field(start), self.plot.field(end))
 
     @stroke
     def line(self, look: str = "construction", name: str | None = None) -> bool:
-        """The step's own line as far as the layout says; False where none of it is in the field."""
+        """Draw the step's own line as the layout says; False where the field holds none of it."""
         return self.own(look, name)
 
     @stroke
     def line_beyond(self) -> None:
-        """The same, where it leads farther than its own two points."""
+        """Draw the step's own line where it extends beyond its two defining points."""
         low, high = self.plot.layout.spans[self.number]
         if high - low >= 2 * BEYOND + TINY:
             self.own("construction")
 
     @stroke
     def line_end(self, name: str) -> None:
-        """The end of the step's own line, beyond what is drawn on it."""
+        """Draw the end of the step's own line, beyond everything drawn on it."""
         high = self.plot.layout.spans[self.number][1]
         part = line_part(self.plot, self.value(self.number), high - 2 * BEYOND, high)
         if part:
@@ -429,7 +425,7 @@ class PaperCanvas(Struct, frozen=True):
 
     @stroke
     def arc(self, name: str) -> None:
-        """As much of the step's own circle as the layout says, where points were found on it."""
+        """Draw the part of the step's own circle where points were found on it."""
         span = self.plot.layout.spans.get(self.number)
         if span is not None:
             circle = self.value(self.number)
@@ -438,20 +434,20 @@ class PaperCanvas(Struct, frozen=True):
             marks.append(Arc(*centre, radius, *span, "compass", name, self.number))
 
     def own(self, look: str, name: str | None = None) -> bool:
-        """The step's own line as far as the layout says; False where none of it is in the field."""
+        """Draw the step's own line within the stroke; False where the field holds none of it."""
         ends = line_part(self.plot, self.value(self.number), *self.plot.layout.spans[self.number])
         if ends:
             self.thin(*ends, look, name)
         return ends is not None
 
     def thin(self, start: XY, end: XY, look: str = "construction", name: str | None = None) -> None:
-        """A thin line, which bears the step's name unless another is told."""
+        """Draw a thin line with the step's name unless ``name`` is given."""
         called = self.step.name if name is None else name
         self.plot.board.marks.append(LineMark(*start, *end, look, called, self.number))
 
     @stroke
     def right_angle(self, toward: Any) -> None:
-        """The mark of a right angle where the step's line begins, if there is room for it."""
+        """Draw the right-angle mark at the start of the step's line, if there is room for it."""
         line = self.value(self.number)
         corner, other = self.plot.field(line.point), self.plot.field(toward)
         back = hypot(other[0] - corner[0], other[1] - corner[1])
@@ -464,7 +460,7 @@ class PaperCanvas(Struct, frozen=True):
 
     @stroke
     def swing(self, centre: Any, end: Any) -> None:
-        """The arc by which a point was carried about a centre; none about a near one."""
+        """Draw the arc along which a point was turned about a centre, unless the centre is near."""
         at, tip = self.plot.field(centre), self.plot.field(end)
         radius = hypot(tip[0] - at[0], tip[1] - at[1])
         if radius > SHORT:
@@ -476,46 +472,46 @@ class PaperCanvas(Struct, frozen=True):
 
     @stroke
     def opening(self, name: str, centre: Any, end: Any) -> None:
-        """As much of the arc about a centre as finds a point on it."""
+        """Draw the part of an arc about a centre that finds a point on it."""
         circle = Circle(centre, abs(end - centre))
         span, radius = arc_span(circle, [end], self.mm), circle.radius * self.mm
         at = self.plot.field(centre)
         arc = Arc(*at, radius, *span, "compass", name, self.number)
         self.plot.board.marks.append(arc)
 
-    # --- plans -------------------------------------------------------------------------------
+    # --- plans -----------------------------------------------------------------------------------
 
     @property
     def is_aside(self) -> bool:
-        """Whether it is of an auxiliary plan, which draws its own points and lines."""
+        """Whether the step is part of an auxiliary plan, which draws its own points and lines."""
         return self.number in self.drawing.auxiliary
 
     def locus(self, name: str, text: str) -> None:
-        """The step's own line beyond the points on it, with what it is drawn by along it."""
+        """Draw the step's own line beyond the points on it, with a label along it."""
         parts = next(self.strokes), next(self.strokes)
         if not self.is_aside:
             put_locus(self.plot, self.number, name, text, parts)
 
     @stroke
     def image(self) -> None:
-        """The step's own point of the plan with its letter; none of a point without letter."""
+        """Draw the step's own point of the plan with its letter, if it has a letter."""
         if not self.is_aside:
             put_point(self.plot, self.number, self.step, self.value(self.number))
 
     @stroke
     def pole(self) -> None:
-        """The step's own point as the pole of the plan."""
+        """Draw the step's own point as the pole of the plan."""
         put_pole(self.plot, self.number, self.step, self.value(self.number))
 
     @stroke
     def side(self, start: Any, end: Any) -> None:
-        """A side of the image of a link, where it is long enough to be drawn."""
+        """Draw a side of a link's image, if it is long enough."""
         look = OWN_LINES if self.is_aside else "construction"
         self.joining(self.step.name, look, start, end)
 
     @stroke
     def image_aside(self) -> None:
-        """The same of an auxiliary plan, whose points are smaller."""
+        """Draw the step's own point in an auxiliary plan, as a smaller point."""
         if self.step.name:
             place = self.plot.field(self.value(self.number))
             self.circled(place, ASIDE, DOT)
@@ -523,22 +519,22 @@ class PaperCanvas(Struct, frozen=True):
 
     @stroke
     def leg(self, name: str, look: str, start: Any, end: Any) -> None:
-        """A thin line of a look between two points of a plan that stand apart."""
+        """Draw a thin line in a given style between two distinct points of a plan."""
         self.joining(name, look, start, end)
 
     def joining(self, name: str, look: str, start: Any, end: Any) -> None:
-        """The same, as a part of a stroke."""
+        """Draw a thin line between two distinct points within the current stroke."""
         if self.size(end - start) > NEAR:
             self.thin(self.plot.field(start), self.plot.field(end), look, name)
 
     @stroke
     def stretch(self, name: str, look: str, at: Any, along: Any, low: Any, high: Any) -> None:
-        """A thin line of a look on a line through a point, from one distance to another."""
+        """Draw a thin line on a line through a point, from one distance to another."""
         self.joining(name, look, at + along * low, at + along * high)
 
     @stroke
     def through(self, first: Any, second: Any, third: Any) -> None:
-        """A chain line through two points that stand apart and a third, a little beyond them."""
+        """Draw a chain line through two distinct points and a third, extended a little beyond."""
         way = second - first
         if self.size(way) > NEAR:
             unit = way / abs(way)
@@ -548,11 +544,11 @@ class PaperCanvas(Struct, frozen=True):
             ends = self.plot.field(first + low * unit), self.plot.field(first + high * unit)
             self.thin(*ends, CHAIN_LINES, "")
 
-    # --- centres -----------------------------------------------------------------------------
+    # --- centres ---------------------------------------------------------------------------------
 
     @stroke
     def centre(self, value: Ratio) -> bool:
-        """The circle and cross of a centre with its letter; False where it is off the field."""
+        """Draw the circle and cross of a centre with its letter; False if it is off the field."""
         point = self.drawing.place(value)
         if point is None or not self.plot.field.holds(point, WITHIN):
             return False
@@ -571,19 +567,19 @@ class PaperCanvas(Struct, frozen=True):
         return any(self.size(place - point) < FIXED for place in places)
 
     def circled(self, at: XY, cls: str, radius: float) -> None:
-        """A circle that bears the step's name."""
+        """Draw a circle with the step's name."""
         self.plot.board.marks.append(CircleMark(*at, radius, cls, self.step.name, self.number))
 
     @stroke
     def ring(self, at: Any) -> None:
-        """The ring around a pin that is a centre, with the centre's letter."""
+        """Draw the ring around a pin that is a centre, with the letter of the centre."""
         place = self.plot.field(at)
         self.circled(place, f"centre {self.plot.colour}", RING)
         name_point(self.plot, self.number, self.step.name, place, RING)
 
     @stroke
     def spot(self, at: Any) -> None:
-        """A small point with its letter, where the field holds it."""
+        """Draw a small point with its letter, if it lies in the field."""
         if self.plot.field.holds(at, WITHIN):
             place = self.plot.field(at)
             self.circled(place, "point construction", DOT)
@@ -591,7 +587,7 @@ class PaperCanvas(Struct, frozen=True):
 
     @stroke
     def circle(self, circle: Circle, look: str) -> None:
-        """As much of a circle as lies in the field."""
+        """Draw the part of a circle that lies in the field."""
         mm = self.plot.field.mm
         if TINY < circle.radius * mm < STRAIGHT:
             around = [self.plot.field(point) for point in ring(circle, mm)]
@@ -603,7 +599,7 @@ class PaperCanvas(Struct, frozen=True):
     def away(
         self, start: Any, way: Any, text: str, *, ray: bool = True, headed: bool = True
     ) -> None:
-        """Words for what lies off the field, where the ray to it leaves the field."""
+        """Write a text for something off the field, where the ray to it leaves the field."""
         (x, y), (u, v) = self.plot.field(start), self.plot.field.way(way)
         rect, colour, name = above_foot(self.plot.field.rect), self.plot.colour, self.step.name
         part = clipped((x, y), (x + FAR * u, y + FAR * v), rect)
@@ -620,7 +616,7 @@ class PaperCanvas(Struct, frozen=True):
 
     @stroke
     def through_tips(self, one: tuple[Any, Any], other: tuple[Any, Any]) -> None:
-        """The line through the tips of two vectors and a little beyond."""
+        """Draw the line through the tips of two vectors and a little beyond."""
         first, last = sum(one), sum(other)
         if first != last:
             on = (last - first) / abs(last - first) * BEYOND_TIPS / self.plot.field.mm
@@ -631,5 +627,5 @@ class PaperCanvas(Struct, frozen=True):
                 self.plot.board.marks.append(line)
 
     def note(self, text: str) -> None:
-        """Words at the foot of the field."""
+        """Write a text at the foot of the field."""
         self.plot.board.notes.append(FootNote(text))

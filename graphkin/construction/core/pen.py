@@ -1,4 +1,4 @@
-"""The pen: it writes steps down, one after the other, and knows what each point has become."""
+"""The pen: writes the steps of a program one by one and keeps which step holds each quantity."""
 
 from __future__ import annotations
 
@@ -70,7 +70,7 @@ class Pen:
 
     @contextmanager
     def on(self, part: Part, plane: Plane) -> Iterator[None]:
-        """Work at one part of the task, in one drawing."""
+        """Write steps for one part of the work, in one drawing."""
         before = self.part, self.plane
         self.part, self.plane = part, plane
         yield
@@ -78,23 +78,23 @@ class Pen:
 
     @contextmanager
     def calls_for(self, effect: Effect | None) -> Iterator[None]:
-        """Steps that an effect of the motion calls for; None leaves it to the part of the work."""
+        """Write steps for an effect of the motion; with None the part of the work decides."""
         before, self.effect = self.effect, effect
         yield
         self.effect = before
 
     @contextmanager
     def hands_way(self) -> Iterator[None]:
-        """Steps that only the hand's way of a composite step needs."""
+        """Write steps that only the construction by hand of a composite step needs."""
         before, self.hand = self.hand, True
         yield
         self.hand = before
 
     @contextmanager
     def aside(self, plan: PlanAside) -> Iterator[dict[Target, int]]:
-        """Work at an auxiliary plan: its points bear a tag, its quantities are gathered apart.
+        """Write steps of an auxiliary plan: its points get a tag, its quantities are kept apart.
 
-        Within another one what is known there is known.
+        An auxiliary plan inside another one can use the quantities of the outer plan.
         """
         before, self.auxiliary = self.auxiliary, plan
         self.layers.append({})
@@ -131,21 +131,21 @@ class Pen:
         )
 
     def make(self, construction: R) -> R:
-        """Say of steps that are written what construction they are, each in its role."""
+        """Mark written steps as parts of a construction, each in its role."""
         for role, number in construction.given():
             self.steps[number] = replace(self.steps[number], of=construction, role=role)
         return construction
 
     def draw_shared(self, key: tuple[Any, ...], action: Action, *args: int, **more: Any) -> int:
-        """Add a step where it is first asked for under a key."""
+        """Add a step unless one with this key exists already."""
         if key not in self.shared:
             self.shared[key] = self.draw(action, *args, **more)
         return self.shared[key]
 
     def choice(self, dyad: Dyad) -> tuple[tuple[int, ...], tuple[int, ...]]:
-        """Which crossing a dyad takes: a step that holds the sign, or the sign that is stated.
+        """The crossing that a dyad takes: the step that holds the sign, or the stated sign.
 
-        A block that stays while the link with its guide moves counts the other way.
+        The sign is reversed where the link with the guide moves against a known block.
         """
         if dyad.links in self.chosen:
             return (self.chosen[dyad.links],), ()
@@ -162,7 +162,7 @@ class Pen:
         return self._add(Step(action, args, self.part, self.plane, name, hand=True, arrow=True))
 
     def vector(self, action: Action, *args: int, of: PlanVector, name: str = "") -> None:
-        """Add the arrow of a vector, under its own symbol unless another name is told."""
+        """Add the arrow of a vector, under its own symbol unless ``name`` is given."""
         number = self.arrow(action, *args, name=name or of.symbol)
         if number >= 0:
             self.make(replace(of, arrow=number))
@@ -170,7 +170,7 @@ class Pen:
     def given(
         self, form: str, *quantities: Any, name: str = "", of: int | str | None = None
     ) -> int:
-        """Add a value that the scene states; the same value of one thing is written down once."""
+        """Add a value that the scene states; the same value of one thing is added only once."""
         key = (form, quantities, name, self.plane, of)
         if key not in self.shared:
             given = Given(form, quantities)
@@ -184,34 +184,34 @@ class Pen:
         return len(self.steps) - 1
 
     def want(self, quantity: str, of: str, number: int) -> int:
-        """Say which step carries a quantity of a point or link."""
+        """Record which step holds a quantity of a point or link."""
         where = self.layers[-1] if self.layers else self.targets
         where[quantity, of] = number
         return number
 
     def has(self, quantity: str, of: str) -> bool:
-        """True when a quantity has been constructed."""
+        """Whether a quantity has been constructed."""
         return any((quantity, of) in known for known in (self.targets, *self.layers))
 
     def the(self, quantity: str, of: str) -> int:
-        """The step that carries a quantity."""
+        """The step that holds a quantity of a point or link."""
         for layer in reversed(self.layers):
             if (quantity, of) in layer:
                 return layer[quantity, of]
         return self.targets[quantity, of]
 
     def both(self, quantity: str, p: str, q: str) -> tuple[int, int]:
-        """The steps that carry a quantity of two points or links."""
+        """The steps that hold a quantity of two points or links."""
         return self.the(quantity, p), self.the(quantity, q)
 
     def is_nought(self, number: int) -> bool:
-        """True when a step holds a given rate that is nought whatever the parameters."""
+        """Whether a step holds a given rate that is zero for all parameters."""
         given = self.steps[number].given
         quantities = given.quantities if given is not None else ()
         return bool(quantities) and all(quantity.is_zero() for quantity in quantities)
 
     def pole(self, plane: Plane) -> int:
-        """The pole of a plan: o of the velocities, o′ of the accelerations."""
+        """The pole of a plan: o for velocities, o′ for accelerations."""
         key = ("pole", plane)
         if key not in self.shared:
             name = "o" if plane is Plane.VELOCITIES else "o" + PRIME
@@ -221,7 +221,7 @@ class Pen:
         return self.shared[key]
 
     def turns(self, link: str) -> bool:
-        """False for the frame and for links that slides alone join to it: they only shift."""
+        """Whether a link can rotate: False for the frame and links joined to it by slides alone."""
         return link not in self.shifting
 
     def drive(self, driver: Driver) -> Drive:
@@ -241,7 +241,7 @@ class Pen:
         return self.drives[number]
 
     def driven_angle(self, driver: Driver) -> int:
-        """The angle of a turning driver in radians, whole turns counted."""
+        """The angle of a turning driver in radians, with whole turns."""
         drive, number = self.drive(driver), self.scene.drivers.index(driver)
         if drive.angle is None:
             with self.on(Part.SHAPE, Plane.NUMBERS):
@@ -253,7 +253,7 @@ class Pen:
         return drive.angle
 
     def turner(self, link: str) -> str | None:
-        """The link from whose points the turning of a link is found; None for a driven one."""
+        """The link whose two points give the rotation of a link; None where there is none."""
         while link in self.bases and self.bases[link].end is None and link in self.leads:
             link = self.leads[link]
         return link if link in self.bases and self.bases[link].end is not None else None
@@ -264,7 +264,7 @@ class Pen:
         return Sliding(slide, (block, slide.on))
 
     def seconds(self) -> int:
-        """kL/kv, by which velocities are set on the mechanism; with one crank it is 1/omega."""
+        """kL/kv, the factor that sets velocities on the mechanism; 1/omega with a single crank."""
         turning = [driver for driver in self.scene.drivers if driver.kind == "turn"]
         with self.on(Part.SHAPE, Plane.NUMBERS):
             if len(turning) == len(self.scene.drivers) == 1:
@@ -275,9 +275,9 @@ class Pen:
         return number
 
     def peek(self, number: int) -> Any:
-        """Value of a step at the scene's own numbers, for choices that the drawing's shape needs.
+        """The value of a step at the scene's own values, for choices that depend on the shape.
 
-        None when the mechanism does not close there.
+        None where the mechanism does not close there.
         """
         waiting, wanted = [number], set[int]()
         while waiting:
@@ -297,20 +297,20 @@ class Pen:
         return self.peeked[number]
 
     def program(self) -> Program:
-        """The steps written so far."""
+        """The program of all steps written so far."""
         drives = tuple(self.drives[number] for number in sorted(self.drives))
         return Program(tuple(self.steps), dict(self.targets), self.scale_step, drives)
 
 
 def is_input(step: Step) -> bool:
-    """Whether a step's value comes from outside the program."""
+    """Whether the value of a step comes from outside the program."""
     return step.given is not None and step.given.form == "input"
 
 
 class ImageName(Struct, frozen=True):
-    """How the image of a point is written: its small letter with primes, the index of its name, and
-    its ``link`` where that is told. One that would be the letter of a point, or of the pole, is
-    ``apart`` from it by an index of its own.
+    """The name of an image: small letter with primes, index of the point, and ``link`` if written.
+
+    ``apart`` marks a name that would clash with a point or the pole: it gets an extra index.
     """
 
     small: str
@@ -319,18 +319,18 @@ class ImageName(Struct, frozen=True):
     link: str
 
     def __str__(self) -> str:
-        """It as the name of a step."""
+        """The image name as the name of a step."""
         return "_".join(
             filter(None, (self.small, self.index, "v" if self.apart else "", self.link))
         )
 
 
 def image_name(point: str, prime: str = "") -> ImageName:
-    """The name of a point's image: the same letter, small; a_3 for A@3; in the acceleration plan
-    with a ``prime``.
+    """The name of a point's image.
 
-    Both points where links touch have one image in the velocity plan, unless the point's name says
-    that they slip.
+    It is the small letter of the point: a_3 for A@3, with a ``prime`` in the acceleration plan. Two
+    points in contact share one image in the velocity plan, unless the point's name says that they
+    slip.
     """
     name, link = ends_of(point)
     own = is_in_scene(point) or isinstance(point, SlippingName)
@@ -341,33 +341,33 @@ def image_name(point: str, prime: str = "") -> ImageName:
 
 
 def image(point: str) -> str:
-    """Name of a point's image in the velocity plan."""
+    """The name of a point's image in the velocity plan."""
     return str(image_name(point))
 
 
 def second_image(point: str) -> str:
-    """Name of a point's image in the acceleration plan."""
+    """The name of a point's image in the acceleration plan."""
     return str(image_name(point, PRIME))
 
 
 def letter(point: str) -> str:
-    """A point as the index of a velocity, or in a bar: where links touch it is of both."""
+    """A point in the index of a velocity or in a bar; a contact point is named without its link."""
     return lettered(point) if is_in_scene(point) else ends_of(point)[0]
 
 
 def about(pen: Pen, pin: str, pivot: str) -> str:
-    """Index of a relative acceleration: BA for B about A, and B alone about a fixed pivot."""
+    """The index of a relative acceleration: BA for B about A, B alone about a fixed pivot."""
     fixed = pivot in pen.scene.frame.points
     return lettered(pin) if fixed else lettered(pin) + lettered(pivot)
 
 
 def against(pen: Pen, pin: str, pivot: str) -> str:
-    """Index of a relative velocity: B alone about what is fixed, or touches what is."""
+    """The index of a relative velocity; B alone about a fixed point or a contact at rest."""
     rests = pen.the("velocity", pivot) == pen.pole(Plane.VELOCITIES)
     fixed = pivot in pen.scene.frame.points or (not is_in_scene(pivot) and rests)
     return letter(pin) if fixed else letter(pin) + letter(pivot)
 
 
 def step_name(pen: Pen, number: int) -> str:
-    """Name of the point of a plan that a step carries."""
+    """The name of a step, which is also the name of its point in the plan."""
     return pen.steps[number].name

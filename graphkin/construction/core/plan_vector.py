@@ -1,4 +1,4 @@
-"""The vectors of the plans, and those set on the mechanism: whose each is, and of what kind."""
+"""The vectors of the plans and of the mechanism: the owner and the kind of each."""
 
 from __future__ import annotations
 
@@ -8,12 +8,11 @@ from graphkin.construction.core.program import Plane, Roles, Step
 
 
 class PlanVector(Roles, frozen=True):
-    """A velocity or an acceleration, by its ``letter``, under an ``index``: of point ``q``, about
-    ``p`` if that is named.
+    """A velocity or acceleration, by ``letter`` and ``index``: of ``q``, about ``p`` if given.
 
-    ``sign`` tells the components of an acceleration: ν, τ, c, r; nothing for a whole vector.
-    ``foot`` is the letter of the point where a component that is laid off ends, or where it begins
-    if it is laid ``back``. ``ends`` are the letters of both ends where no steps bear these.
+    ``sign`` marks the components of an acceleration: ν, τ, c, r; it is empty for a whole vector.
+    ``foot`` is the letter of the point where a component ends, or where it begins if it is laid
+    ``back``. ``ends`` are the letters of both ends where no steps have them.
     """
 
     gives: ClassVar[tuple[str, ...]] = ("arrow",)
@@ -39,7 +38,7 @@ FEET = {"ν": "n", "c": "k"}
 
 
 def foot_of(sign: str, index: str) -> str:
-    """The letter of the foot of a component that is laid off; nothing for one that closes a way."""
+    """The letter of the foot of a component; empty for a component that has none."""
     return f"{FEET[sign]}_{index}" if sign in FEET else ""
 
 
@@ -49,11 +48,11 @@ def plan_vector(step: Step) -> PlanVector | None:
 
 
 def sign_of(step: Step) -> str:
-    """The sign of the component that a step draws; nothing for whole vectors and other steps."""
+    """The sign of the component that a step draws; empty for whole vectors and other steps."""
     vector = plan_vector(step)
     return vector.sign if vector else ""
 
 
 def is_set_on(step: Step) -> bool:
-    """Whether a step sets a vector of a plan on the mechanism, as the last sentence asks."""
+    """Whether a step sets a vector of a plan on the mechanism."""
     return step.plane is Plane.MECHANISM and plan_vector(step) is not None

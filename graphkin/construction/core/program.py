@@ -1,4 +1,4 @@
-"""The drawing as a straight line of steps, each using only steps before it, for some effect."""
+"""The drawing as a sequence of steps, each using only earlier steps."""
 
 from __future__ import annotations
 
@@ -28,7 +28,7 @@ Effect = Literal[
     "centrodes",
     "acceleration poles",
 ]
-"""What of a motion a step is drawn for, in the order of the work."""
+"""The purpose of a step in the motion, in the order of the work."""
 
 
 class Part(Enum):
@@ -54,11 +54,11 @@ OF_PART: Mapping[Part, Effect] = {
     Part.POLE: "acceleration poles",
     Part.RESULT: "rates of links and slides",
 }
-"""What a step is drawn for where it does not say so itself."""
+"""The effect of a step that names none itself."""
 
 
 class Plane(Enum):
-    """The drawing in which a step's value lies; numbers are drawn nowhere."""
+    """The drawing in which the value of a step lies; numbers lie in no drawing."""
 
     NUMBERS = "numbers"
     MECHANISM = "mechanism"
@@ -71,13 +71,13 @@ CONSTANTS: Mapping[str, Any] = {"one": 1.0, "nought": 0.0, "origin": 0j, "ahead"
 
 
 class Given(Struct, frozen=True):
-    """A value that the scene states: quantities, and how they make a number or a point."""
+    """A value that the scene states: its quantities, and how they form a number or a point."""
 
     form: str
     quantities: tuple[Any, ...]
 
     def uses(self) -> frozenset[str]:
-        """Names of the parameters on which the value hangs."""
+        """The names of the parameters on which the value depends."""
         return frozenset().union(*(quantity.uses() for quantity in self.quantities))
 
     def value(self, values: Mapping[str, Any], kind: Kind) -> Any:
@@ -98,46 +98,45 @@ class Given(Struct, frozen=True):
 
 
 class Roles(Struct, frozen=True):
-    """The steps of one construction by their roles: a record with a step's number in each.
+    """The steps of one construction by their roles: a record of step numbers.
 
-    ``gives`` are the roles of the steps that it draws itself, None in those that it does without;
-    the other numbers are those of the steps that it starts from. ``corners`` are the roles of
-    points on the mechanism that have no name and need room all the same.
+    ``gives`` are the roles of the steps that it draws itself; a role that it does not use is None.
+    The other numbers are the steps of its inputs. ``corners`` are the roles of points on the
+    mechanism that have no name but need room.
     """
 
     gives: ClassVar[tuple[str, ...]] = ()
     corners: ClassVar[frozenset[str]] = frozenset()
 
     def given(self) -> Iterator[tuple[str, int]]:
-        """Its own steps: the role and the number of each."""
+        """The role and the number of each of its own steps."""
         for role in self.gives:
             number = getattr(self, role)
             if number is not None:
                 yield role, number
 
     def comes_along(self, role: str, found: Container[int]) -> bool:
-        """Whether an arrow from it brings the step of a role, where all that it needs is found."""
+        """Whether an arrow brings along the step of a role, once its inputs are there."""
         return False
 
 
 class PlanAside:
-    """A plan drawn beside the right one: its ``tag`` stands behind the names of its points."""
+    """An auxiliary plan next to the right one; its points' names end with the ``tag``."""
 
     tag: str
 
 
 CLOSE = "close"
-"""The action of a step whose group closes in as many ways as values tell."""
+"""The action of a step that closes a group in several ways; values give the number."""
 
 
 class Step(Struct, frozen=True):
     """One step: an action on earlier steps, or a given value.
 
-    ``by_hand`` is the step that gives the same value in the hand's way; ``hand`` marks steps that
-    only that way uses, ``arrow`` those that are only drawn. ``name`` is the letter on
-    the drawing. ``effect`` is what of the motion the step is
-    drawn for, None where its part of the work says it. ``of`` is the construction that it is part
-    of, ``role`` what it is there, ``aside`` the auxiliary plan in which it is drawn.
+    ``by_hand`` is the step that gives the same value by hand. ``hand`` marks steps that only the
+    construction by hand uses, ``arrow`` those that are only drawn. ``name`` is the letter on the
+    drawing. ``effect`` is the purpose of the step in the motion, None where its part of the work
+    decides. ``of`` is its construction, ``role`` its role there, ``aside`` its auxiliary plan.
     """
 
     action: Action | None
@@ -157,30 +156,30 @@ class Step(Struct, frozen=True):
 
     @property
     def closes(self) -> bool:
-        """Whether it closes a group in one of its closures, which values count."""
+        """Whether the step closes a group of which several closures exist."""
         return self.action is not None and self.action.key == CLOSE
 
     @property
     def letter(self) -> str:
-        """Its letter without the tag of an auxiliary plan."""
+        """The letter without the tag of an auxiliary plan."""
         return self.name.removesuffix(self.aside.tag) if self.aside is not None else self.name
 
 
 PLACES = ("axis", "guide", "track", "rolled")
-"""Quantities that tell how links and guides lie: the drawing needs them, no answer does."""
+"""Quantities for the poses of links and guides: the drawing needs them, no answer does."""
 SPEEDS = "speeds"
-"""The target of a link's point on the line of speeds."""
+"""The target for a link's point on the line of speeds."""
 
 
 Target = tuple[str, str]
-"""What is wanted: a quantity ("velocity", "omega", …) and the point or link it belongs to."""
+"""A wanted quantity ("velocity", "omega", …) and the point or link it belongs to."""
 
 
 class Drive(Roles, frozen=True):
     """The steps that hold the given position, speed and acceleration of a ``driver`` (a number).
 
-    The position is a direction (unit complex) for one that turns, else a length in metres.
-    ``angle`` holds the angle in radians too, where wheels need it; None where none does.
+    The position is a direction (unit complex) for a turning driver, otherwise a length in metres.
+    ``angle`` also holds the angle in radians; None where no wheel needs it.
     """
 
     gives: ClassVar[tuple[str, ...]] = ("position", "speed", "acceleration", "angle")
@@ -193,9 +192,9 @@ class Drive(Roles, frozen=True):
 
 
 class Program(Struct, frozen=True):
-    """Steps in drawing order, and which of them carries each quantity.
+    """Steps in drawing order, and the step that holds each quantity.
 
-    ``seconds`` is the step that holds kL/kv, where velocities are set on the mechanism; ``drives``
+    ``seconds`` is the step that holds kL/kv, where velocities are set on the mechanism. ``drives``
     are the given motions, in the order of the scene's drivers.
     """
 
@@ -206,21 +205,22 @@ class Program(Struct, frozen=True):
 
     @property
     def answers(self) -> tuple[Target, ...]:
-        """The targets that are motions, centres and poles: all that can be asked."""
+        """The targets that are motions, centres and poles: everything that a scene can request."""
         return tuple(target for target in self.targets if target[0] not in PLACES)
 
     def needed(self, targets: Iterable[Target], *, by_hand: bool = False) -> tuple[int, ...]:
-        """Numbers of the steps that the targets need, in order: the backward slice.
+        """The steps that the targets need, in order: the backward slice.
 
-        With ``by_hand`` the hand's way of each composite step comes with it, and every arrow
-        between points that are there.
+        With ``by_hand`` it includes the construction by hand of each composite step, and every
+        arrow between points that are there.
         """
         found = self.behind((self.targets[target] for target in targets), by_hand=by_hand)
         return tuple(sorted({*found, *self._arrows({*found})})) if by_hand else found
 
     def behind(self, numbers: Iterable[int], *, by_hand: bool = False) -> tuple[int, ...]:
-        """The steps that some steps need, themselves included, in order; with ``by_hand`` also
-        those of the hand's way of each.
+        """The steps that some steps need, themselves included, in order.
+
+        With ``by_hand`` it includes the steps of the construction by hand.
         """
         wanted = {*numbers}
         for number in range(max(wanted, default=-1), -1, -1):
@@ -235,14 +235,17 @@ class Program(Struct, frozen=True):
     def also_found(
         self, targets: Iterable[Target], quantities: Sequence[str], without: Iterable[Target]
     ) -> list[Target]:
-        """The targets of some quantities that others need, and that some do not need: not given."""
+        """The targets of some quantities that ``targets`` need and ``without`` do not.
+
+        Given values do not count.
+        """
         needed = set(self.needed(targets)) - set(self.needed(without))
         needed -= {number for number in needed if not self.steps[number].args}
         mine = ((target, n) for target, n in self.targets.items() if target[0] in quantities)
         return [target for target, number in mine if number in needed]
 
     def _arrows(self, wanted: set[int]) -> set[int]:
-        """The arrows whose ends are all there, with what comes along to them."""
+        """The arrows whose ends are all there, with the steps that they bring along."""
         found = set(wanted)
         for number, step in enumerate(self.steps):
             if not step.arrow:
@@ -253,14 +256,14 @@ class Program(Struct, frozen=True):
         return found - wanted
 
     def _comes_along(self, number: int, found: set[int]) -> bool:
-        """Whether an arrow brings a step: a given value, or one that its construction says."""
+        """Whether an arrow brings a step: a given value, or one that its construction allows."""
         step = self.steps[number]
         if step.of is None or not step.of.comes_along(step.role, found):
             return step.given is not None
         return found.issuperset(step.args)
 
     def descendants(self, number: int, among: Iterable[int] | None = None) -> frozenset[int]:
-        """The steps whose values depend on a step, itself included; ``among`` some, in order."""
+        """The steps that depend on a step, itself included; ``among`` limits them, in order."""
         found = {number}
         for later in range(number + 1, len(self.steps)) if among is None else among:
             if not found.isdisjoint(self.steps[later].args):

@@ -1,7 +1,7 @@
-"""The quantities of a motion: whose each is, how it is written and printed, on which sheet.
+"""The quantities of a motion: owner, notation, printed form and sheet of each.
 
-Every table of quantities is made from these: what [ask] asks for, what a solution holds, what
-reports, forms and measurements on paper call it, and in which unit.
+Every table of quantities is made from these. They define the keys of [ask], the fields of a
+solution, and the names and units in reports, forms and measurements.
 """
 
 from __future__ import annotations
@@ -17,24 +17,24 @@ from graphkin.scene.quantity import Quantity
 from graphkin.text import Words
 
 KINDS = ("position", "velocity", "acceleration")
-"""The derivatives."""
+"""The derivatives of a motion."""
 SHEETS = KINDS[1:]
-"""Those that have a plan, and a sheet that shows it."""
+"""The derivatives that have a plan, and a sheet that shows it."""
 PLANES = dict(zip(KINDS, (Plane.MECHANISM, Plane.VELOCITIES, Plane.ACCELERATIONS), strict=True))
 
 
 Whose = Literal["points", "links", "slides"]
-"""What has a quantity: the part of a solution that holds it."""
+"""The owner of a quantity: the part of a solution that holds it."""
 Sort = Literal["vector", "number", "place"]
-"""What sort of value it is: a vector of a plan, a number, or a place on the mechanism."""
+"""The sort of a value: a vector of a plan, a number, or a place on the mechanism."""
 
 
 class MotionQuantity(Struct, frozen=True):
-    """One quantity: ``target`` is its name in a program, ``attribute`` that in a solution.
+    """One quantity: ``target`` is its name in a program, ``attribute`` its name in a solution.
 
-    ``kind`` is the derivative that it is, or by which a centre is found; ``asked_by`` are the keys
-    of [ask] that need it. What has no ``words`` is there for another. A place with a circle is
-    reported with it: the ``circle`` on the segment from the place ``circle_from`` of the link.
+    ``kind`` is its derivative, or the one by which a centre is found. ``asked_by`` are the keys of
+    [ask] that need it. A quantity without ``words`` only serves another one. A place may have a
+    ``circle``, reported with it: on the segment from the place ``circle_from`` of the link.
     """
 
     target: str
@@ -56,19 +56,19 @@ class MotionQuantity(Struct, frozen=True):
 
     @property
     def caret_unit(self) -> str:
-        """The unit as heads of columns and marked-up text write it: m/s^2."""
+        """The unit in column heads and marked-up text: m/s^2."""
         return self.unit.replace("²", "^2")
 
 
 def of_point(kind: str, sort: Sort, letter: str, unit: str, key: str) -> MotionQuantity:
-    """A quantity of points, which is called alike everywhere."""
+    """A quantity of points, with the same name everywhere."""
     return MotionQuantity(kind, "points", kind, kind, sort, letter, unit, kind, (key,))
 
 
 def of_link(
     target: str, attribute: str, kind: str, letter: str, unit: str, words: str, *keys: str
 ) -> MotionQuantity:
-    """A rate of links, or a place (in m) that belongs to one."""
+    """A rate of links, or a place (in m) that belongs to a link."""
     sort: Sort = "place" if unit == "m" else "number"
     return MotionQuantity(target, "links", attribute, kind, sort, letter, unit, words, keys)
 
@@ -104,20 +104,21 @@ QUANTITIES = (
         *("c", "m/s²", "Coriolis", ()),
     ),
 )
-"""All of them, in the order in which they are asked for."""
+"""All quantities, in the order of the keys of [ask]."""
 BY_TARGET = {each.target: each for each in QUANTITIES}
 ASKED = {
     key: tuple(each for each in QUANTITIES if key in each.asked_by)
     for key in dict.fromkeys(key for each in QUANTITIES for key in each.asked_by)
 }
-"""What each key of [ask] asks for."""
+"""The quantities that each key of [ask] asks for."""
 WHOSE: dict[str, Whose] = {key: found[0].whose for key, found in ASKED.items()}
-"""Whose names each key of [ask] lists."""
+"""The owners that each key of [ask] lists."""
 
 
 def those(whose: Whose, *sorts: Sort) -> tuple[MotionQuantity, ...]:
-    """The reported quantities of points, links or blocks by their derivatives: those of some sorts,
-    or all.
+    """The reported quantities of points, links or blocks, in the order of their derivatives.
+
+    ``sorts`` restricts them to some sorts.
     """
     found = [e for e in QUANTITIES if e.whose == whose and (not sorts or e.sort in sorts)]
     return tuple(sorted(filter(lambda q: q.words, found), key=lambda q: KINDS.index(q.kind)))
@@ -133,62 +134,62 @@ MOTION = {each.kind: each for each in OF_POINTS}
 TURNING = OMEGA, EPSILON = tuple(each.target for each in RATES)
 RATE = {each.kind: each for each in RATES}
 SLIDING = {each.kind: each for each in OF_SLIDES if each.sort == "number"}
-"""The quantity of points, of links and of blocks that each sheet is about."""
+"""The quantity of points, of links and of blocks that belongs to each sheet."""
 
 
 def motion_value(motion: Any, quantity: MotionQuantity) -> Any:
-    """The value that a motion has of a quantity; None where it is not known."""
+    """The value of a quantity in a motion; None where it is not known."""
     return getattr(motion, quantity.attribute)
 
 
 def names_asked(ask: Ask, quantity: MotionQuantity) -> tuple[str, ...]:
-    """The points, links or pairs of which [ask] names the quantity itself, not a curve by it."""
+    """The points, links or pairs for which [ask] asks the quantity itself, not a curve."""
     keys = (key for key in quantity.asked_by if key != "centrodes")
     return tuple(name for key in keys for name in getattr(ask, key))
 
 
 def is_found_on(sheet: str, target: Target) -> bool:
-    """Whether a target can be asked of a sheet."""
+    """Whether a sheet can answer a target."""
     found = BY_TARGET.get(target[0])
     return found is not None and bool(found.words and found.asked_by) and found.kind == sheet
 
 
 OnPaper = NewType("OnPaper", float)
-"""A length as it is drawn, in mm of paper; a length of the mechanism is a float, in metres."""
+"""A drawn length, in mm of paper; a length of the mechanism is a float, in metres."""
 LONGEST = 9
-"""Signs of the longest number printed in full among the data."""
+"""Number of characters of the longest number printed in full among the data."""
 
 
 def in_degrees(scene: Scene, words: Words, quantity: Quantity) -> str:
-    """An angle that is written in radians as a protractor shows it; nothing for any other."""
+    """An angle written in radians, in degrees as on a protractor; empty for any other quantity."""
     if quantity.unit != "rad":
         return ""
     return f"{words.fixed(degrees(float(quantity.si(scene.values))), 2)}°"
 
 
 ROUNDING = 1e-6
-"""A length on paper below this, in mm, is zero but for rounding."""
+"""A length on paper below this, in mm, is only rounding."""
 
 
 def in_mm(words: Words, length: OnPaper) -> str:
-    """A drawn length in mm as it is written: one that no ruler shows as less than what one does."""
+    """A drawn length in mm as printed; one too short for a ruler is printed as <0.01."""
     under = f"<\N{NO-BREAK SPACE}{words.fixed(0.01, 2)}"
     return under if ROUNDING < abs(length) < 0.005 else words.fixed(length, 2)
 
 
 def quantity_text(scene: Scene, words: Words, quantity: Quantity) -> str:
-    """A quantity as printed: in its written unit, in the language's own way."""
+    """A quantity as printed: in its written unit, in the style of the language."""
     unit = unit_words(words, quantity.unit)
     return number_of(scene, words, quantity) + ("" if unit == "°" else " ") + unit
 
 
 def unit_words(words: Words, unit: str) -> str:
-    """A unit of a scene as it is printed."""
+    """A unit of a scene as printed."""
     return words(f"unit.{unit}") if words.has(f"unit.{unit}") else unit
 
 
 def number_of(scene: Scene, words: Words, quantity: Quantity) -> str:
-    """A quantity as printed, without its unit; a long number to as many digits as a hand needs."""
+    """A quantity as printed, without its unit; a long number is rounded."""
     text = quantity.written(scene.values)
     if len(text) > LONGEST:
         text = f"{float(text):.{LONGEST - 3}g}"

@@ -1,4 +1,4 @@
-"""Running a program on one scene: every value and margin; what cannot be drawn raises."""
+"""Running a program on one scene: values and margins; a step that cannot be drawn raises."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ Hook = Callable[[int, Step, Any], Any]
 
 
 class StepFailed(Exception):
-    """A step that cannot be drawn on one scene, with the values it was to be drawn from."""
+    """A step that cannot be drawn on one scene, with the values of its inputs."""
 
     def __init__(self, number: int, step: Step, args: tuple[Any, ...]) -> None:
         self.number, self.step, self.args_found = number, step, args
@@ -25,14 +25,14 @@ class StepFailed(Exception):
 
 
 class Trace(Struct, frozen=True):
-    """The value of each step that was run, and the margin of each crossing among them."""
+    """The value of each executed step, and the margin of each crossing among them."""
 
     program: Program
     values: Mapping[int, Any]
     margins: Mapping[int, Any]
 
     def value(self, quantity: str, of: str) -> Any:
-        """The value of a target, or None where it was not run."""
+        """The value of a target; None where it was not executed."""
         return self.values.get(self.program.targets.get((quantity, of), -1))
 
 
@@ -49,12 +49,14 @@ def run(
 ) -> Trace:
     """Run the needed steps on one scene, with a margin for every crossing.
 
-    ``hook`` may replace each value as it comes (a pencil's error); ``overrides`` gives values to
-    use in place of a step's own; ``by_hand`` lets composite steps take the hand's value.
-    A step that only the hand's way uses and that cannot be drawn here (the normal to a velocity
-    that is nought) is left out, and what would follow from it. Raises StepFailed at any other.
-    What was ``begun`` with the same values, at another scale of velocities or for other targets, is
-    kept where it does not depend on that scale.
+    ``hook`` may replace each value as it is found, as a drawing error does. ``overrides`` gives
+    values to use in place of a step's own. ``by_hand`` lets composite steps take the value found by
+    hand. ``begun`` is an earlier trace with the same values, at another scale of velocities or for
+    other targets. Its values are kept where they do not depend on that scale.
+
+    A step that only the construction by hand uses may be impossible, such as the normal to a
+    velocity that is zero. This step and all that would follow from it are left out. Raises
+    StepFailed at any other impossible step.
     """
     found: dict[int, Any] = {}
     margins: dict[int, Any] = {}
@@ -95,7 +97,10 @@ def evaluate(
     kind: Kind,
     margins: dict[int, Any],
 ) -> Any:
-    """Value of one step on one scene; its margin is put beside it. Raises StepFailed."""
+    """The value of one step on one scene; its margin is added to ``margins``.
+
+    Raises StepFailed.
+    """
     if step.given is not None:
         return as_of(kind, step.given.value(values, kind))
     assert step.action is not None
@@ -112,7 +117,7 @@ def evaluate(
 
 
 def as_of(kind: Kind, value: Any) -> Any:
-    """A value as one of a kind: constants enter as Python's own numbers."""
+    """A value as a number of a kind: constants enter as Python's own numbers."""
     if kind.own is None:
         return value
     if isinstance(value, tuple):
@@ -122,20 +127,23 @@ def as_of(kind: Kind, value: Any) -> Any:
 
 
 def not_a_way(along: Any) -> bool:
-    """Whether a direction is nought, and so none; of an array it is not asked."""
+    """Whether a direction is zero, and so no direction; False for arrays."""
     return not hasattr(along, "shape") and along == 0
 
 
-# --- running a program on arrays: what all variants share once, the rest a block at a time --------
+# --- running a program on arrays: shared values once, the rest in blocks -------------------------
 
 
 BLOCK = 2048
-"""Variants run at once: few enough that the values of a step stay in the processor's cache."""
+"""Number of variants run at once: few enough for the values of a step to fit in the cache."""
 
 
 class Ready(Struct, frozen=True):
-    """A program made ready for arrays: values and margins that all variants share, the steps that
-    they do not, each with the steps whose values die after it, and the steps to be kept."""
+    """A program prepared for arrays.
+
+    It holds the values and margins that all variants share, and the steps that vary, each with the
+    steps whose values are dropped after it. ``keep`` are the steps whose values are kept.
+    """
 
     program: Program
     values: Mapping[int, Any]
@@ -156,7 +164,7 @@ def run_batch(
 ) -> Trace:
     """Run the needed steps on arrays; only the values in ``keep`` outlive their last use.
 
-    What cannot be drawn becomes NaN; the caller wraps the call in numpy's errstate.
+    A value that cannot be drawn becomes NaN. The caller wraps the call in numpy's errstate.
     """
     overrides = overrides or {}
     single = kind.shared or FLOAT
@@ -173,7 +181,7 @@ def run_blocks(
     *,
     margins: bool = False,
 ) -> Trace:
-    """As run_batch, a block at a time, each put at its place in arrays of the whole length."""
+    """Run as run_batch does, one block at a time, into arrays of the whole length."""
     size = max((len(value) for value in values.values() if is_array(value)), default=1)
     ready = made_ready(program, needed, values, keep, single=kind.shared or FLOAT)
     found: dict[int, Any] = {}
@@ -198,9 +206,9 @@ def made_ready(
     overridden: frozenset[int] = frozenset(),
     single: Kind = FLOAT,
 ) -> Ready:
-    """Part the needed steps: those that hang on an array move, the others are worked out here.
+    """Split the needed steps: those that depend on an array vary, the others are computed here.
 
-    ``single`` is the kind of what all variants share.
+    ``single`` is the kind of number for values that all variants share.
     """
     arrays = {name for name, value in values.items() if is_array(value)}
     shared: dict[int, Any] = {}
@@ -223,7 +231,7 @@ def made_ready(
 def schedule(
     program: Program, moving: Sequence[int], keep: frozenset[int]
 ) -> tuple[tuple[int, tuple[int, ...]], ...]:
-    """Each moving step with the moving steps whose values die after it."""
+    """Each varying step with the varying steps whose values are dropped after it."""
     last = {number: number for number in moving}
     for number in moving:
         last |= {arg: number for arg in program.steps[number].args if arg in last}
@@ -242,7 +250,7 @@ def run_moving(
     margins: bool = False,
     overrides: Mapping[int, Any] | None = None,
 ) -> Trace:
-    """One block: the steps that hang on an array, beside what was worked out beforehand."""
+    """Run one block: the steps that depend on an array, with the shared values computed before."""
     found = {number: as_of(kind, value) for number, value in ready.values.items()}
     sines = dict(ready.margins) if margins else {}
     overrides = overrides or {}
@@ -269,14 +277,14 @@ def is_array(value: Any) -> bool:
 
 
 def room_for(value: Any, size: int) -> Any:
-    """Arrays of the whole length for what a block gives; what all variants share stays alone."""
+    """Arrays of the whole length for a block's value; a shared value stays as it is."""
     if isinstance(value, Ratio):
         return Ratio(*(room_for(part, size) for part in value))
     return np.empty(size, value.dtype) if isinstance(value, np.ndarray) else value
 
 
 def put(value: Any, whole: Any, part: slice) -> None:
-    """Put what a block gives at its place."""
+    """Copy a block's value to its place."""
     if isinstance(value, Ratio):
         for mine, room in zip(value, whole, strict=True):
             put(mine, room, part)

@@ -1,4 +1,4 @@
-"""The segments of a plan by their letters, and the one rule of what is too short to be drawn."""
+"""The segments of a plan by their letters, and the rule for what is too short to be drawn."""
 
 from __future__ import annotations
 
@@ -14,18 +14,18 @@ from graphkin.text.markup import NOTHING
 TINY = 0.5
 """Vectors shorter than this, in mm, are named at the foot of their field."""
 NEAR = 0.3
-"""A thin line between two points of a plan that is shorter than this, in mm, is not drawn."""
+"""A thin line shorter than this, in mm, between two points of a plan is not drawn."""
 
 
 def is_short(drawing: Drawing, size: float, plane: Plane) -> bool:
-    """True for a vector of a plan, by its magnitude, that is too short to be drawn."""
+    """Whether a vector of a plan with this magnitude is too short to be drawn."""
     return drawn_in(drawing, plane, abs(size)) < TINY
 
 
 def laid_off(drawing: Drawing, key: str, size: float, **fields: str) -> str:
-    """Which way a computed vector is laid off and how long it is drawn, or that it is too short.
+    """The words for how a computed vector is laid off, and its length, or that it is too short.
 
-    Nothing of one that is nought.
+    Empty for a vector that is zero.
     """
     if size == 0:
         return ""
@@ -35,7 +35,7 @@ def laid_off(drawing: Drawing, key: str, size: float, **fields: str) -> str:
 
 
 def segment_of(drawing: Drawing, step: Step) -> str:
-    """The segment of a plan that an arrow joins, by its letters; nothing where an end has none."""
+    """The segment of a plan under an arrow, by its letters; empty where an end has no letter."""
     vector = plan_vector(step)
     ends = [told(drawing, end, step) for end in vector.ends if end] if vector else []
     if step.action is join:
@@ -46,8 +46,10 @@ def segment_of(drawing: Drawing, step: Step) -> str:
 
 
 def letter_at(drawing: Drawing, number: int) -> str:
-    """The letter of a point of a plan; the foot of a component that is not drawn bears that of the
-    point from which it is laid off."""
+    """The letter of a point of a plan.
+
+    The foot of a component too short to be drawn has the letter of the component's start.
+    """
     steps = drawing.trace.program.steps
     if steps[number].name or number not in drawing.feet:
         return steps[number].name
@@ -60,7 +62,7 @@ def letter_at(drawing: Drawing, number: int) -> str:
 
 
 def told(drawing: Drawing, letter: str, own: Step) -> str:
-    """A letter at an end of a leg: that of a foot which is not drawn is the other of its leg."""
+    """The letter at an end of a segment; for a foot not drawn, the letter of the other end."""
     for number, step, _ in drawing.steps(drawing.plane):
         vector = plan_vector(step)
         if step is own or vector is None or vector.foot != letter or letter not in vector.ends:

@@ -1,4 +1,4 @@
-"""What came out, as plain records, and how a trace becomes them: each quantity under its owner."""
+"""Solutions as plain records, and how a trace becomes one: each quantity under its owner."""
 
 from __future__ import annotations
 
@@ -17,9 +17,9 @@ from graphkin.numbers.plane import Ratio
 from graphkin.structure.pairs import is_in_scene
 
 FAIR = 1e-4
-"""Sine of the flattest crossing at which an answer is still fair and a sheet handed out."""
+"""Sine of the flattest crossing at which an answer is still fair and a sheet is handed out."""
 UNKNOWN = complex(nan, nan)
-"""What stands for a vector of which no digit is sure; NaN for a number."""
+"""The value of a vector without any reliable digit; for a number NaN."""
 
 
 class PointMotion(Struct, frozen=True):
@@ -34,7 +34,8 @@ class LinkMotion(Struct, frozen=True):
     """Angular velocity (rad/s) and acceleration (rad/s²), counter-clockwise positive, and centres.
 
     A centre is a Ratio, so that it may lie at infinity; None where it was not asked for. The
-    inflection circle is the one on the segment from the instantaneous centre to inflection_pole.
+    inflection circle has the segment from the instantaneous centre to inflection_pole as its
+    diameter.
     """
 
     omega: Real | None = None
@@ -56,8 +57,8 @@ class SlideMotion(Struct, frozen=True):
 class Solution(Struct, frozen=True):
     """The motion of a mechanism in one position, or of a batch of variants as arrays.
 
-    ``margin`` is the smallest sine of crossing among the steps run; ``centres`` are those of two
-    links, under names such as 2-4.
+    ``margin`` is the smallest sine of crossing among the executed steps. ``centres`` are the
+    centres of two links, under names such as 2-4.
     """
 
     points: Mapping[str, PointMotion]
@@ -68,9 +69,9 @@ class Solution(Struct, frozen=True):
 
 
 class Curve(Struct, frozen=True):
-    """A curve on the mechanism over its motion, in metres, in runs without a break.
+    """A curve on the mechanism over its motion, in metres, in unbroken runs.
 
-    ``kind`` is fixed-centrode or moving-centrode, of link ``of``, or trajectory, of point ``of``;
+    ``kind`` is fixed-centrode or moving-centrode of link ``of``, or trajectory of point ``of``.
     ``now`` is its point at the scene's own position, where the centrodes touch.
     """
 
@@ -86,16 +87,20 @@ class Curve(Struct, frozen=True):
 
 
 class Verdict(Struct, frozen=True):
-    """How far the independent route lies from the construction.
+    """The difference between the independent route and the construction.
 
     ``largest_difference`` is the largest absolute difference over the largest magnitude of that
-    quantity in the scene; ``quantity`` names where it was found; ``limit`` bounds the true error of
-    every quantity likewise. Where one differs by more than rounding explains, all three are its.
-    ``residual`` (m) is the closure error before the first iteration, ``moved`` (m) the way that
-    Newton's method then went. ``branches`` lists the branch conditions that do not hold,
-    ``guessed`` the links that no position tells, which the witness assembled by itself.
-    ``digits`` says how many are sure of every position, velocity and acceleration; ``unsure`` names
-    the quantities of which none is, on which the verdict does not bear.
+    quantity in the scene. ``quantity`` names that quantity. ``limit`` bounds the true error of
+    every quantity in the same way. If a quantity differs by more than rounding explains, all three
+    fields refer to it.
+
+    ``residual`` (m) is the closure error before the first iteration. ``moved`` (m) is the distance
+    that Newton's method then covered. ``branches`` lists the branch conditions that do not hold.
+    ``guessed`` lists the links that no position determines, which the residual check assembled by
+    itself.
+
+    ``digits`` is the number of reliable digits of every position, velocity and acceleration.
+    ``unsure`` names the quantities without a reliable digit, which the verdict ignores.
     """
 
     agrees: bool
@@ -111,22 +116,22 @@ class Verdict(Struct, frozen=True):
 
     @property
     def differs(self) -> bool:
-        """Whether the numbers are farther apart than the limit, or nothing limits them."""
+        """Whether the results differ by more than the limit, or nothing limits them."""
         return not self.largest_difference <= self.limit < inf
 
     def not_as_stated(self, branches: Mapping[str, object]) -> str:
-        """What does not hold of the branches that a scene states, as it writes them."""
+        """The stated branches that do not hold, as the scene writes them."""
         return ", ".join(f'{name} = "{branches[name]}"' for name in self.branches)
 
 
 TOUCHING = 8
-"""Sine of a crossing, in roots of eps, at which two loci count as touching in a batch."""
+"""Sine of a crossing, in units of sqrt(eps), at which two loci count as touching in a batch."""
 ALL = -1
-"""Where a merged trace has the product of its sines, beside the smallest of them."""
+"""The key under which a merged trace has the product of its sines, next to the smallest sine."""
 
 
 def gathered(trace: Trace, links: Iterable[str] | None = None) -> Solution:
-    """The solution that a trace holds, links in the given order; what was not run is None."""
+    """The solution in a trace, links in the given order; what was not executed is None."""
     turning = motions(trace, "links")
     pairs = {name: turning.pop(name)["instant_centre"] for name in [*turning] if "-" in name}
     return Solution(
@@ -139,9 +144,10 @@ def gathered(trace: Trace, links: Iterable[str] | None = None) -> Solution:
 
 
 def motions(trace: Trace, whose: Whose) -> dict[str, dict[str, Any]]:
-    """What is known of each point, link or block of which anything is.
+    """The known quantities of each point, link or block that has any.
 
-    Of two ways to one, such as a centre that a circle needs too, the first that is known counts.
+    A quantity may have two targets, such as a centre that a circle needs too. The first known one
+    counts.
     """
     ways = {each.target: each.attribute for each in reversed(QUANTITIES) if each.whose == whose}
     names = dict.fromkeys(of for target, of in trace.program.targets if target in ways)
@@ -158,7 +164,7 @@ def motions(trace: Trace, whose: Whose) -> dict[str, dict[str, Any]]:
 
 
 def with_least_margin(trace: Trace) -> Trace:
-    """The same trace with the smallest of its margins alone, and with the product of its sines."""
+    """The same trace with the smallest of its margins alone, and the product of its sines."""
     crossings = counted(trace)
     if not crossings:
         return replace(trace, margins={})
@@ -167,10 +173,10 @@ def with_least_margin(trace: Trace) -> Trace:
 
 
 def without_touching(trace: Trace) -> Trace:
-    """A batch without the variants in which two loci touch: there no digit of a rate is right.
+    """A batch with NaN for variants in which two loci touch: no digit of a rate is correct there.
 
-    At a sine below 8·sqrt(eps), 1.2e-7 for doubles, they become NaN: a sine that ought to be
-    nought comes out that large, and by the 1-2-3 law a velocity has lost all but two digits.
+    The limit is a sine of 8·sqrt(eps), 1.2e-7 for doubles. A sine that should be zero comes out
+    that large, and by the 1-2-3 law a velocity has lost all but two digits.
     """
     margin = smallest_margin(trace)
     if not isinstance(margin, np.ndarray):
@@ -183,17 +189,17 @@ def without_touching(trace: Trace) -> Trace:
 
 
 def without(value: Any, some: Any) -> Any:
-    """A value with NaN for some of its variants; what all variants share stays."""
+    """A value with NaN for some of its variants; a value shared by all variants stays."""
     if isinstance(value, Ratio):
         return Ratio(*(without(part, some) for part in value))
     return np.where(some, np.nan, value) if isinstance(value, np.ndarray) else value
 
 
 def smallest_margin(trace: Trace) -> Real:
-    """The smallest sine of crossing in the construction; 1 when nothing crossed, NaN where one
-    of a batch cannot be drawn.
+    """The smallest sine of crossing in the construction; 1 where nothing crosses.
 
-    The flat triangles of plates do not count: their points follow by similarity.
+    NaN where a variant of a batch cannot be drawn. The flat triangles of plates do not count: their
+    points follow by similarity.
     """
     smallest: Real = 1.0
     for margin in counted(trace).values():
@@ -202,8 +208,10 @@ def smallest_margin(trace: Trace) -> Real:
 
 
 def product_of_sines(trace: Trace) -> Real:
-    """The product of the sines at all crossings of the mechanism, each of which multiplies errors;
-    NaN where one of a batch cannot be drawn."""
+    """The product of the sines of all crossings of the mechanism, each of which multiplies errors.
+
+    NaN where a variant of a batch cannot be drawn.
+    """
     product: Real = trace.margins.get(ALL, 1.0)
     for number, margin in counted(trace).items():
         if ALL not in trace.margins and trace.program.steps[number].part is Part.POSITION:
@@ -222,7 +230,7 @@ def counted(trace: Trace) -> dict[int, Real]:
 
 
 def rows_of(solution: Solution, rows: Any) -> Solution:
-    """Some rows of a solution of arrays; what all variants share stays."""
+    """Some rows of a solution of arrays; values shared by all variants stay."""
 
     def cut(record: Any) -> Any:
         found = asdict(record)
@@ -235,7 +243,7 @@ def rows_of(solution: Solution, rows: Any) -> Solution:
 
 
 def row_of(value: Any, rows: Any) -> Any:
-    """Some rows of an array, or of each part of a ratio; what is no array stays."""
+    """Some rows of an array, or of each part of a ratio; any other value stays."""
     if isinstance(value, Ratio):
         return Ratio(*(row_of(part, rows) for part in value))
     return value[rows] if hasattr(value, "shape") and value.shape else value

@@ -1,7 +1,4 @@
-"""How long work takes: seconds of one call on one clock, the median of some rounds with quartiles.
-
-One position means a run of the steps that targets need, on given values, with nothing kept.
-"""
+"""Timing of work: seconds per call on one clock, the median of several rounds with quartiles."""
 
 from __future__ import annotations
 
@@ -19,11 +16,11 @@ from graphkin.numbers.arithmetic import FLOAT
 Clock = Callable[[], float]
 Work = Callable[[], object]
 FEWEST = 5
-"""Rounds of work that alone takes longer than the patience allows."""
+"""Least number of rounds, even where the work takes longer than ``patience``."""
 
 
 class Timing(Struct, frozen=True):
-    """Seconds of one run: the median of some rounds, and the quartiles on either side of it."""
+    """Seconds of one run: the median of several rounds, and its lower and upper quartiles."""
 
     median: float
     low: float
@@ -32,7 +29,7 @@ class Timing(Struct, frozen=True):
 
 
 class TimedWork(Struct):
-    """Work on so many positions, how often it is done in a round, and the rounds' times."""
+    """Work on a number of positions, its calls per round, and the times of the rounds."""
 
     work: Work
     positions: int
@@ -42,17 +39,17 @@ class TimedWork(Struct):
 
     @property
     def timing(self) -> Timing:
-        """Median and quartiles, in seconds a position."""
+        """Median and quartiles, in seconds per position."""
         low, median, high = quantiles(self.seconds, n=4)
         return Timing(median, low, high, len(self.seconds))
 
 
 class Stopwatch(Struct, frozen=True):
-    """Times work with a clock that tests may replace, in at most so many ``rounds``.
+    """Times work with a replaceable clock, in at most ``rounds`` rounds.
 
-    ``least`` is the time in seconds that a round lasts at least, so that the clock's own step does
-    not count; ``patience`` is what all rounds of one work may take together, if there are more than
-    the ``fewest``.
+    ``least`` is the shortest duration of a round in seconds, so that the resolution of the clock
+    does not matter. ``patience`` is the time for all rounds of one work, in seconds, unless there
+    are only ``fewest`` rounds.
     """
 
     rounds: int = 25
@@ -63,10 +60,9 @@ class Stopwatch(Struct, frozen=True):
     say: Callable[[str], None] = lambda words: None
 
     def times(self, works: Sequence[tuple[Work, int]]) -> list[Timing]:
-        """Seconds a position of each work on so many positions, each done once beforehand.
+        """Seconds per position of each work on a number of positions, after one call to warm up.
 
-        A round takes all works in turn, so that what else the machine does meanwhile troubles
-        them alike.
+        A round runs all works in turn, so that other load on the machine affects them equally.
         """
         every = [self.prepared(TimedWork(work, positions)) for work, positions in works]
         for n in range(max((timed.rounds for timed in every), default=0)):
@@ -78,7 +74,7 @@ class Stopwatch(Struct, frozen=True):
         return [timed.timing for timed in every]
 
     def prepared(self, timed: TimedWork) -> TimedWork:
-        """How many calls and rounds a work is worth."""
+        """Set the number of calls and rounds of a work."""
         timed.work()
         once = self.seconds(timed.work, 1)
         timed.calls = max(1, round(self.least / max(once, 1e-9)))
@@ -87,7 +83,7 @@ class Stopwatch(Struct, frozen=True):
         return timed
 
     def seconds(self, work: Work, calls: int) -> float:
-        """The time of so many calls together."""
+        """The time of all calls together, in seconds."""
         before = self.clock()
         for _ in range(calls):
             work()
@@ -95,14 +91,14 @@ class Stopwatch(Struct, frozen=True):
 
 
 def one_position(program: Program, needed: Sequence[int], values: Values) -> Work:
-    """The work of one position: every needed step anew."""
+    """The work of one position: run every needed step."""
     return lambda: run(program, needed, values, FLOAT)
 
 
 def work_of_steps(trace: Trace, numbers: Sequence[int], values: Values) -> Work:
-    """The work of some steps alone, on what a trace found before them.
+    """The work of some steps alone, on the values of an earlier trace.
 
-    Steps that the trace had to leave out are left out here too.
+    Steps that the trace left out are left out here too.
     """
     steps, found = trace.program.steps, trace.values
     work = [(steps[number], number) for number in numbers if number in found]

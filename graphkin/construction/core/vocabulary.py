@@ -1,8 +1,4 @@
-"""What a hand can draw on paper: every action of every plan, number-blind and picture-blind.
-
-An action knows how its value follows from the values before it and how well it can be drawn (its
-margin, the sine of the angle of a crossing). Its ``key`` is the key of its sentence in text/.
-"""
+"""The actions of every plan that can be drawn on paper, for any kind of number and any picture."""
 
 from __future__ import annotations
 
@@ -31,10 +27,11 @@ from graphkin.numbers.plane import (
 
 
 class Action(Struct, frozen=True):
-    """One thing a hand can do: its sentence's key, its value, and the margin of a crossing.
+    """One drawing action: the key of its sentence, its value, and the margin of a crossing.
 
-    What may fail by what it is drawn of has ``reaches``, a smooth function of that, positive where
-    it succeeds. ``move`` is how a student draws it on a page; None for what comes along by itself.
+    An action that can fail has ``reaches``, a smooth function of its inputs that is positive where
+    the action succeeds. ``move`` is how a student draws it on a page; None for an action that comes
+    along by itself.
     """
 
     key: str
@@ -44,7 +41,7 @@ class Action(Struct, frozen=True):
     move: Move | None = None
 
     def __call__(self, *args: Any) -> Any:
-        """The value of the action on given values."""
+        """The value of the action for given inputs."""
         return self.value(*args)
 
 
@@ -54,7 +51,7 @@ def action(
     reaches: Callable[..., Real] | None = None,
     move: Move | None = None,
 ) -> Callable[..., Action]:
-    """Make an action of a function, under the key of its sentence."""
+    """Make an action from a function, under the key of its sentence."""
     return lambda value: Action(key, value, margin, reaches, move)
 
 
@@ -69,19 +66,19 @@ def ray(start: Point, direction: Point) -> Line:
 
 @action("across")
 def across(first: Point, point: Point) -> Real:
-    """How far a point of a block lies to the left of the line that its first point keeps."""
+    """The distance of a block's point to the left of the line of the block's first point."""
     return (point - first).imag
 
 
 @action("distance")
 def distance(p: Point, q: Point) -> Real:
-    """Distance of two points."""
+    """The distance of two points."""
     return abs(q - p)
 
 
 @action("coordinate")
 def coordinate(line: Line, point: Point) -> Real:
-    """How far along a guide a point stands, from the guide's own zero."""
+    """The coordinate of a point along a guide, from the guide's origin."""
     return dot(line.along, point - line.point) / abs(line.along)
 
 
@@ -96,28 +93,29 @@ def part_along(line: Line, o: Point, image: Point) -> Real:
 
 @action("in-proportion")
 def in_proportion(base: Point, end: Point, point: Point) -> Point:
-    """The ratio (C - A)/(B - A): where a point lies in the similar figures built on AB."""
+    """The ratio (C - A)/(B - A): the place of a point in the similar figures built on AB."""
     return (point - base) / (end - base)
 
 
 @action("similar-point", move=Move(SIMILAR, images_and_place, in_plan=True))
 def similar_point(base: Point, end: Point, ratio: Point) -> Point:
-    """The third point of a figure similar to the link, on a base that is already there.
+    """The third point of a figure similar to the link, on an existing base.
 
-    Mehmke's similarity theorem; error at most 8·eps·(abs c + abs(b - a)·AC/AB), also in line.
+    Mehmke's similarity theorem; error at most 8·eps·(abs c + abs(b - a)·AC/AB), also for collinear
+    points.
     """
     return base + (end - base) * ratio
 
 
 @action("set-way")
 def set_way(point: Point, tail: Point, tip: Point, seconds: Real) -> Point:
-    """A velocity of the plan set at a point of the mechanism, as its way in so many ``seconds``."""
+    """The tip of a velocity set at a point of the mechanism: its displacement in ``seconds``."""
     return point + (tip - tail) * seconds
 
 
 @action("perpendicular-at")
 def perpendicular_at(corner: Point, other: Point) -> Line:
-    """At a point the perpendicular to the line that joins it with another."""
+    """The perpendicular at a point to the line from it to another point."""
     return Line(corner, 1j * (corner - other))
 
 
@@ -126,31 +124,31 @@ def perpendicular_at(corner: Point, other: Point) -> Line:
 
 @action("pole")
 def pole() -> Point:
-    """The pole of a plan: the image of everything that stands still."""
+    """The pole of a plan: the image of everything at rest."""
     return 0j
 
 
 @action("along-bar", move=Move(PARALLEL, point_and_bar, in_plan=True))
 def along_bar(start: Point, p: Point, q: Point) -> Line:
-    """Through a point the parallel to a bar."""
+    """The parallel to a bar through a point."""
     return Line(start, q - p)
 
 
 @action("meet", margin=crossing_sine, move=CUTS)
 def meet(m: Line, n: Line) -> Point:
-    """Where two lines meet."""
+    """The point where two lines meet."""
     return line_meets_line(m, n)
 
 
 @action("sum")
 def sum_of(a: Real, b: Real) -> Real:
-    """The rate of a link against the frame from its rate against one that turns too."""
+    """The rate of a link against the frame, from its rate against a link that turns too."""
     return a + b
 
 
 @action("difference")
 def difference(a: Real, b: Real) -> Real:
-    """What a number has too much; of rates, that of the link against which another turns."""
+    """The difference of two numbers; of rates, the rate of the link against which another turns."""
     return a - b
 
 
@@ -162,7 +160,7 @@ def product(a: Real, b: Real) -> Real:
 
 @action("speed-at-rim")
 def speed_at_rim(rate: Real, radius: Real) -> Real:
-    """The speed of a wheel's centre along the line that its rim keeps to, as it turns at a rate."""
+    """The speed of a wheel's centre along the tangent that its rim follows, from its rate."""
     return -rate * radius
 
 
@@ -174,7 +172,7 @@ def lay_off(start: Point, vector: Point) -> Point:
 
 @action("lay-back", move=LAYS_OFF)
 def lay_back(start: Point, vector: Point) -> Point:
-    """The start of a vector whose end is a point: laid off from there against its sense."""
+    """The start of a vector that ends at a point: laid off from that point against its sense."""
     return start - vector
 
 

@@ -1,1 +1,1 @@
-"""What the velocity of a point about another says of its acceleration."""
+"""Acceleration components that follow from the velocity of a point about another."""

@@ -1,9 +1,10 @@
 """Klein's construction for a slider-crank whose crank turns at a constant speed.
 
-With the crank itself for its velocity, every velocity turned by 90° lies on the mechanism: that of
-the slider square to its guide, that of the slider about the crank pin along the rod. The common
-chord of the circle with that velocity for radius and of the circle on the rod as diameter cuts off
-the normal component on the rod, and the slider's acceleration on the parallel to its guide.
+Take the crank itself as its velocity turned by 90°. Then every turned velocity lies on the
+mechanism: the slider's is perpendicular to its guide. The slider's velocity about the crank pin
+lies along the rod. One circle has that last velocity as its radius, another has the rod as its
+diameter. Their common chord cuts off the normal component on the rod, and the slider's acceleration
+on the parallel to its guide.
 
 Source: F. Klein's construction, as in Theory of Machines by R. S. Khurmi and J. K. Gupta, ch. 15.
 """
@@ -46,24 +47,24 @@ from graphkin.structure.pairs import Joint, Pin, Sliding
 from graphkin.text.errors import Problem, StructureError
 from graphkin.text.markup import AND
 
-# --- its value, and the steps of the hand's way --------------------------------------------------
+# --- its value, and the steps by hand ------------------------------------------------------------
 
 
 @action("square-to-guide")
 def square_to_guide(centre: Point, guide: Line) -> Line:
-    """Through the centre of the crank the perpendicular to the guide."""
+    """The perpendicular to the guide through the centre of the crank."""
     return Line(centre, 1j * guide.along)
 
 
 @action("circle-through")
 def circle_through(centre: Point, point: Point) -> Circle:
-    """The circle about a point through another."""
+    """The circle about a point through another point."""
     return Circle(centre, abs(point - centre))
 
 
 @action("circle-on-diameter")
 def circle_on_diameter(p: Point, q: Point) -> Circle:
-    """The circle that has the way between two points for diameter (Thales)."""
+    """The circle whose diameter is the segment between two points (Thales)."""
     return Circle((p + q) / 2, abs(q - p) / 2)
 
 
@@ -78,25 +79,26 @@ def common_chord(m: Circle, n: Circle) -> Line:
 
 @action("chord-cuts-guide")
 def chord_cuts_guide(chord: Line, centre: Point, guide: Line) -> Point:
-    """Where the chord cuts the parallel to the guide through the centre of the crank."""
+    """The point where the chord cuts the parallel to the guide through the centre of the crank."""
     return line_meets_line(chord, Line(centre, guide.along))
 
 
 @action("klein-by-hand")
 def klein_by_hand(pin: Point, foot: Point, omega: Real) -> Point:
-    """The normal component read off the rod: omega squared times the way from foot to pin."""
+    """The normal component read off the rod: omega squared times the vector from foot to pin."""
     return omega * omega * (pin - foot)
 
 
-# --- what it is ----------------------------------------------------------------------------------
+# --- the component -------------------------------------------------------------------------------
 
 
 class KleinComponent(NormalComponent, frozen=True, kw_only=True):
     """a_ν = v²/l of the slider's pin ``q`` about the crank pin ``p``, by the common chord.
 
-    The perpendicular ``across`` the guide at the ``centre`` of the crank cuts the ``line`` of the
-    rod in ``corner``; the circle ``around`` the crank pin through it and the circle ``over`` the
-    rod have the ``chord`` that cuts the rod in ``foot`` and the parallel to the guide in ``whole``.
+    The perpendicular ``across`` to the guide at the ``centre`` of the crank cuts the ``line`` of
+    the rod in ``corner``. One circle, ``around`` the crank pin, passes through that corner; the
+    other is ``over`` the rod. Their ``chord`` cuts the rod in ``foot`` and the parallel to the
+    guide in ``whole``.
     """
 
     gives: ClassVar[tuple[str, ...]] = (
@@ -141,20 +143,20 @@ class KleinComponent(NormalComponent, frozen=True, kw_only=True):
     # --- drawing it ------------------------------------------------------------------------------
 
     def sides(self, canvas: Canvas | Measured) -> Iterator[Any]:
-        """The turned velocity, and what the chord cuts off the rod."""
+        """The turned velocity, and the piece of the rod that the chord cuts off."""
         assert self.corner is not None and self.foot is not None
         pivot = canvas.value(self.pivot)
         yield canvas.value(self.corner) - pivot
         yield canvas.value(self.foot) - pivot
 
     def room(self, canvas: Canvas | Measured) -> Any:
-        """The same as of any triangle, and by how much the circles reach one another."""
+        """The smaller of the triangle's margin and the overlap of both circles, in mm."""
         assert self.corner is not None
         pivot, pin, corner = map(canvas.value, (self.pivot, self.pin, self.corner))
         return smaller(super().room(canvas), canvas.size(pin - pivot) - canvas.size(corner - pivot))
 
     def marks(self, canvas: Canvas, role: str) -> None:
-        """The velocities turned onto the mechanism, both circles, and what their chord cuts off."""
+        """Draw the turned velocities, both circles, and the points on their chord."""
         assert self.whole is not None
         value, drawing = canvas.value, canvas.drawing
         match role:
@@ -171,14 +173,14 @@ class KleinComponent(NormalComponent, frozen=True, kw_only=True):
                 canvas.point(self.letter(drawing, role), value(self.whole))
 
     def letter(self, drawing: Drawing, role: str) -> str:
-        """The letter of a corner; where the circles cross, that of what their chord gives."""
+        """The letter of a corner; for the chord, the letter of its foot."""
         return super().letter(drawing, "foot" if role == "chord" else role)
 
     def shown_between(self) -> tuple[int | None, ...]:
-        """What the chord cuts off the rod."""
+        """The piece of the rod that the chord cuts off."""
         return self.foot, self.pivot
 
-    # --- saying it -------------------------------------------------------------------------------
+    # --- its sentences ---------------------------------------------------------------------------
 
     def drawing_words(self, drawing: Drawing, fields: Mapping[str, str], *, first: bool) -> Wording:
         """The construction in full, each time."""
@@ -186,18 +188,18 @@ class KleinComponent(NormalComponent, frozen=True, kw_only=True):
         return Wording("ν by chord", markup)
 
     def told_in_parts(self, drawing: Drawing) -> Iterator[tuple[int, str]]:
-        """The turned velocities; both circles; what their common chord cuts off."""
+        """The instruction in parts: the turned velocities, both circles, their common chord."""
         drawn = self.corner is not None and self.is_drawn(drawing)
         yield from self.in_parts(drawing) if drawn else super().told_in_parts(drawing)
 
     def in_parts(self, drawing: Drawing) -> Iterator[tuple[int, str]]:
-        """The same where it is drawn."""
+        """The instruction in parts, where the construction is drawn."""
         assert self.corner is not None and self.over is not None and self.vector is not None
         fields = {**self.symbols(), "v": symbol(self.speed), "a": self.symbol}
         fields["w"] = symbol(f"v_{self.q}")
         fields["omega"] = rate_symbol(drawing, self.omega)
         fields |= self.corner_symbols(drawing, *self.lettered)
-        times = drawing.scales.of_bar("acceleration")  # as large as what the circles give
+        times = drawing.scales.of_bar("acceleration")  # scale against that of the circles
         larger = drawing.words("step.klein-larger", m=figure(drawing, times))
         fields["more"] = "" if times == 1 else larger
         yield self.corner, drawing.words("step.klein", **fields)
@@ -205,17 +207,16 @@ class KleinComponent(NormalComponent, frozen=True, kw_only=True):
         yield self.vector, drawing.words("step.klein-chord", **fields)
 
     def section(self, drawing: Drawing) -> str:
-        """The section of the calculation that holds its relation."""
         return "normals_klein"
 
 
-# --- planning it ---------------------------------------------------------------------------------
+# --- writing its steps ---------------------------------------------------------------------------
 
 
 def crank_of(pen: Pen, sides: list[tuple[Joint, str]]) -> Base | None:
-    """The crank of a slider-crank that the scene wants drawn so; None for any other dyad.
+    """The crank of a slider-crank to which Klein's construction applies; None for other dyads.
 
-    It turns at a constant speed about a fixed pivot, and the slider moves on a fixed guide.
+    The crank turns at a constant speed about a fixed pivot, and the slider moves on a fixed guide.
     """
     pins = [pair.point for pair, _ in sides if isinstance(pair, Pin)]
     on = [pair.links[1] for pair, _ in sides if isinstance(pair, Sliding)]
@@ -260,7 +261,7 @@ def klein_component(pen: Pen, crank: Base, sides: list[tuple[Joint, str]], pin: 
 
 
 def component_in_dyad(pen: Pen, sides: list[tuple[Joint, str]], pivot: str, pin: str) -> int:
-    """The normal component of a pin about one of its dyad's pivots, as the scene wants it drawn."""
+    """The normal component of a pin about a pivot of its dyad, by the scene's method."""
     crank = crank_of(pen, sides)
     if crank is None:
         return normal_component(pen, pivot, pin)
@@ -268,7 +269,7 @@ def component_in_dyad(pen: Pen, sides: list[tuple[Joint, str]], pivot: str, pin:
 
 
 def refuse_unused(pen: Pen) -> None:
-    """Raise StructureError where a scene that wants Klein's construction has no place for it."""
+    """Raise StructureError where a scene asks for Klein's construction but has no place for it."""
     used = any(isinstance(step.of, KleinComponent) for step in pen.steps)
     if not used:
         problem = Problem(

@@ -1,8 +1,8 @@
-"""The normal component of a point that goes round another: v²/l, by the right triangle.
+"""The normal component of a point that turns about another: v²/l, by the right triangle.
 
-At the tip of the velocity, set at its pin, the perpendicular to the line from the pivot cuts the
-bar: the velocity is the height of a right triangle, and so the mean proportional of the bar and
-what the perpendicular cuts off (lab, figure 4).
+The velocity is set at its pin. The perpendicular at its tip to the line from the pivot cuts the
+bar. The velocity is the height of the resulting right triangle. It is therefore the mean
+proportional of the bar and the piece that the perpendicular cuts off (lab, figure 4).
 """
 
 from __future__ import annotations
@@ -48,14 +48,14 @@ from graphkin.numbers.plane import Line
 from graphkin.scene.model import Scene
 from graphkin.text.markup import AND, COMMA, saying
 
-# --- its value, and the steps of the hand's way --------------------------------------------------
+# --- its value, and the steps by hand ------------------------------------------------------------
 
 
 @action("normal")
 def normal(pivot: Point, pin: Point, image_pivot: Point, image_pin: Point) -> Point:
-    """Normal component of a pin's acceleration about a pivot: v·(v/l), from pin to pivot (Rivals).
+    """The normal component of a pin's acceleration about a pivot: v·(v/l), inwards (Rivals).
 
-    The product is taken in this order so that no square overflows; 4·eps relative.
+    The product is taken in this order so that no square overflows; 4·eps relative error.
     """
     bar = pivot - pin
     length = abs(bar)
@@ -65,7 +65,7 @@ def normal(pivot: Point, pin: Point, image_pivot: Point, image_pin: Point) -> Po
 
 @action("bar-line")
 def bar_line(pivot: Point, pin: Point) -> Line:
-    """The line of a bar, produced beyond the pin."""
+    """The line of a bar, extended beyond the pin."""
     return Line(pin, pin - pivot)
 
 
@@ -81,12 +81,12 @@ def normal_by_hand(pin: Point, end: Point, seconds: Point) -> Point:
     return (end - pin) / (seconds * seconds)
 
 
-# --- what it is ----------------------------------------------------------------------------------
+# --- the component -------------------------------------------------------------------------------
 
 PICKED = (("at", ("point",)), ("on", ("bar",)), ("velocity", ("arrow",)))
-"""What a page draws it from: the pin, the bar, and the velocity about its other end."""
+"""The inputs of its action on a page: the pin, the bar, and the velocity about the other end."""
 PRIMES = ("″", "‴", "⁗")
-"""What the letter of the pin bears at each corner of its triangle."""
+"""The primes that the letter of the pin has at each corner of its triangle."""
 SCRIPT = "normal"
 """The function of the page's script that gives v²/l."""
 
@@ -94,9 +94,9 @@ SCRIPT = "normal"
 class NormalComponent(TriangleComponent, frozen=True, kw_only=True):
     """a_ν = v²/l of a point ``q`` about ``p``, and the right triangle that gives it.
 
-    From the places and images of both. The velocity set at the pin ends in ``tip``; there stands
-    the perpendicular ``edge``, which the ``line`` of the bar cuts in ``cut``; turned over about the
-    pin this is ``end``.
+    It follows from the places and images of both points. The velocity set at the pin ends in
+    ``tip``. The line of the bar, ``line``, cuts the perpendicular ``edge`` at the tip in ``cut``.
+    Turned by 180° about the pin, the cut becomes ``end``.
     """
 
     gives: ClassVar[tuple[str, ...]] = ("tip", "edge", "line", "cut", "end", "read", "vector")
@@ -129,11 +129,11 @@ class NormalComponent(TriangleComponent, frozen=True, kw_only=True):
 
     @property
     def speed(self) -> str:
-        """Name of the velocity that it follows from."""
+        """The name of the velocity from which it follows."""
         return f"v_{self.v}"
 
     def symbols(self) -> Mapping[str, str]:
-        """The pivot, the pin, their bar."""
+        """The pivot, the pin and their bar."""
         return {
             "p": symbol(self.p),
             "q": symbol(self.q),
@@ -142,11 +142,11 @@ class NormalComponent(TriangleComponent, frozen=True, kw_only=True):
 
     @classmethod
     def cause(cls, scene: Scene) -> str:
-        """That points move about others."""
+        """The phrase that points which move about others need a normal component."""
         return "points that move about others need a normal component"
 
     def corner_letter(self, role: str) -> str:
-        """The letter of the pin with the corner's primes."""
+        """The letter of the pin with the primes of the corner."""
         primes = dict(zip(self.lettered, PRIMES, strict=True))
         return bare(self.q) + primes[role] if role in primes else ""
 
@@ -160,7 +160,7 @@ class NormalComponent(TriangleComponent, frozen=True, kw_only=True):
         yield canvas.value(self.end) - pin
 
     def marks(self, canvas: Canvas, role: str) -> None:
-        """The velocity at the pin, the perpendicular at its tip, and what it cuts off the bar."""
+        """Draw the velocity at the pin, the perpendicular at its tip, and the piece cut off."""
         assert self.tip is not None and self.cut is not None and self.end is not None
         value, pin = canvas.value, canvas.value(self.pin)
         pivot = value(self.pivot)
@@ -181,15 +181,15 @@ class NormalComponent(TriangleComponent, frozen=True, kw_only=True):
                 canvas.vector(self.name, self.look, pin, value(self.end))
                 canvas.point(self.letter(canvas.drawing, role), value(self.end))
 
-    # --- saying it -------------------------------------------------------------------------------
+    # --- its sentences ---------------------------------------------------------------------------
 
     def formula(self, drawing: Drawing) -> str:
-        """v²/l."""
+        """v²/l, as markup."""
         speed = symbol(self.speed)
         return saying(f"{speed}^2/{bar(self.p, self.q)}", speed)
 
     def sentence(self, drawing: Drawing, *, first: bool) -> Wording:
-        """Its right triangle in full the first time; else from what it comes, or its number."""
+        """The instruction: its right triangle in full first, later its source or its value."""
         if self.is_left_out(drawing):
             return Wording("short", self.left_out(drawing))
         size = self.size(drawing)
@@ -203,14 +203,17 @@ class NormalComponent(TriangleComponent, frozen=True, kw_only=True):
         return self.drawing_words(drawing, fields, first=first)
 
     def drawing_words(self, drawing: Drawing, fields: Mapping[str, str], *, first: bool) -> Wording:
-        """How it is drawn; from what it comes where another is drawn likewise."""
+        """How it is drawn; only its source where another triangle is described in full."""
         if not first:
             return Wording("ν", drawing.words("step.normal-again", **fields))
         cut, over = self.in_full(drawing, "step.normal-over")
         return Wording("ν1", AND.join((cut, over)))
 
     def in_full(self, drawing: Drawing, over: str) -> tuple[str, str]:
-        """Its right triangle in full: as far as the cut; by the key ``over`` that turned over."""
+        """The instruction for its right triangle in two parts: up to the cut, and the half turn.
+
+        ``over`` is the key of the second part.
+        """
         speed = symbol(self.speed)
         fields = {
             **self.symbols(),
@@ -222,7 +225,7 @@ class NormalComponent(TriangleComponent, frozen=True, kw_only=True):
         return drawing.words("step.normal-cut", **fields), drawing.words(over, **fields)
 
     def told_in_parts(self, drawing: Drawing) -> Iterator[tuple[int, str]]:
-        """The velocity and the cut; what that gives, turned over."""
+        """The instruction in two parts: the velocity and the cut, then the half turn."""
         if self.cut is None or self.vector is None or not self.is_drawn(drawing):
             yield from super().told_in_parts(drawing)
             return
@@ -235,20 +238,19 @@ class NormalComponent(TriangleComponent, frozen=True, kw_only=True):
         return None if self.is_hidden(drawing) else self.pin
 
     def picked_from(self, picks: Picks) -> tuple[str | None, ...]:
-        """The pin, the bar, and the velocity of the pin about its other end."""
+        """The pin, the bar, and the velocity of the pin about the bar's other end."""
         bar, arrow = picks.bar(self.pivot, self.pin), picks.arrow(self.pivot_image, self.pin_image)
         return picks.point_or_line(self.pin), bar, arrow
 
     def shown_between(self) -> tuple[int | None, ...]:
-        """From the pin to what the triangle cuts off the bar, turned over."""
+        """The pin and the end of the component."""
         return self.pin, self.end
 
     def section(self, drawing: Drawing) -> str:
-        """The section of the calculation that holds its relation."""
         return "normals" if self.read in drawing.trace.values else "normals_computed"
 
     def relation(self, drawing: Drawing) -> Relation:
-        """Square of the relative velocity over the bar, and its drawn length."""
+        """The square of the relative velocity over the bar, and its drawn length."""
         length, size = length_of(drawing, self.p, self.q), drawing.settled(self.size(drawing))
         speed, result = (size * length) ** 0.5, answer(drawing, size)
         v, over = put_in(drawing, result, lambda v, over: v * v / over, speed, length)
@@ -262,15 +264,15 @@ class NormalComponent(TriangleComponent, frozen=True, kw_only=True):
             over=((self.p, self.q),),
         )
 
-    # --- marking it ------------------------------------------------------------------------------
+    # --- marking students' work ------------------------------------------------------------------
 
     @property
     def ends(self) -> tuple[int, int, int, int]:
-        """The places and images of both points: what ω of their link is read off, too."""
+        """The places and images of both points, which also give ω of their link."""
         return self.pivot, self.pin, self.pivot_image, self.pin_image
 
     def sizes(self, own: OwnSizes) -> Iterator[Size]:
-        """v²/l, and ω²·l, of own values."""
+        """v²/l and ω²·l from the student's own values."""
         bar = own.length(self.pivot, self.pin)
         for v in own.vectors(self.pivot_image, self.pin_image):
             yield Size((v, v), v.size**2 / bar, bar)
@@ -283,11 +285,11 @@ class NormalComponent(TriangleComponent, frozen=True, kw_only=True):
         yield self.speed, abs(tip - tail) * seconds / abs(q - p)
 
     def power_of(self, args: tuple[int, ...]) -> int:
-        """It goes with the square of the rate of its link."""
+        """2 for the rate of its own link, because it grows with the square; otherwise 0."""
         return 2 if args == self.ends else 0
 
 
-# --- planning it ---------------------------------------------------------------------------------
+# --- writing its steps ---------------------------------------------------------------------------
 
 
 def normal_component(
@@ -299,7 +301,7 @@ def normal_component(
 ) -> int:
     """The normal component of a pin about a pivot; by hand the right triangle on the mechanism.
 
-    ``drawn`` draws it in the way of another ``kind``, from its index.
+    For another ``kind`` of construction, ``drawn`` draws its steps from the index.
     """
     key = ("normal", pivot, pin)
     if key in pen.shared:
@@ -333,7 +335,7 @@ def normal_component(
 def right_triangle(
     pen: Pen, places: tuple[int, int], images: tuple[int, int], point: str, index: str
 ) -> dict[str, int]:
-    """Velocity at the pin, perpendicular at its tip, cut with the bar, turned over (figure 4)."""
+    """The triangle: velocity at the pin, perpendicular at its tip, cut, half turn (figure 4)."""
     seconds = pen.seconds()
     pivot, pin = places
     names = [f"{bare(point)}{prime}_{index}" for prime in PRIMES]
@@ -354,7 +356,7 @@ def bare(point: str) -> str:
 
 
 def lay_off_normal(pen: Pen, pivot: str, pin: str, vector: int) -> int:
-    """The normal component laid off from the pivot's second image, parallel to the bar."""
+    """The normal component laid off from the pivot's acceleration image, parallel to the bar."""
     start, component = pen.the("acceleration", pivot), pen.steps[vector].of
     assert isinstance(component, NormalComponent)
     with pen.calls_for("normal components"):
@@ -364,14 +366,15 @@ def lay_off_normal(pen: Pen, pivot: str, pin: str, vector: int) -> int:
     return end
 
 
-# --- several said together -----------------------------------------------------------------------
+# --- several in one sentence ---------------------------------------------------------------------
 
 
 def with_normals_together(drawing: Drawing, found: list[Sentence]) -> list[Sentence]:
-    """The other right triangles said in one sentence, after the one that is said in full.
+    """The list with the right triangles after the first merged into one sentence.
 
-    It ends with what is left out, or the only one does; what is left out before any of them has a
-    sentence of its own, for there the plan is drawn without it.
+    That sentence follows the first triangle, which is described in full. Components too short to be
+    drawn are listed at its end. Those that come before any triangle have a sentence of their own,
+    because the plan is drawn without them there.
     """
     short = [sentence for sentence in found if sentence.name == "short"]
     told = drawing.words("step.too-short", list=COMMA.join(s.markup for s in short))

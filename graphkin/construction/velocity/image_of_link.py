@@ -1,4 +1,4 @@
-"""The image of a rigid link in a plan is a figure similar to it (Burmester, Mehmke)."""
+"""The image of a rigid link in a plan is a figure similar to the link (Burmester, Mehmke)."""
 
 from __future__ import annotations
 
@@ -26,12 +26,12 @@ from graphkin.numbers.arithmetic import Point, pick
 
 @action("alike", move=Move(COINCIDE, place_and_image))
 def alike(image: Point) -> Point:
-    """The image of a point that moves as another does: a block does not turn."""
+    """The image of a point that moves as another point does: a block does not turn."""
     return image
 
 
 class TranslatedImage(FallsOnImage, frozen=True, kw_only=True):
-    """The ``image`` of a point ``q``, on the image ``start`` of ``p``, for it moves as that."""
+    """The ``image`` of a point ``q``, which coincides with the image ``start`` of ``p``."""
 
     gives: ClassVar[tuple[str, ...]] = ("image",)
     reasons: ClassVar[Mapping[str, str]] = {"image": "why.alike"}
@@ -49,18 +49,18 @@ class TranslatedImage(FallsOnImage, frozen=True, kw_only=True):
         return self.start
 
     def point_sentence(self, drawing: Drawing, role: str) -> str:
-        """It falls on the same point."""
+        """The sentence that both images coincide."""
         name = drawing.lettered(self.image)
         return drawing.words("step.alike", name=name, p=symbol(self.p), q=symbol(self.q))
 
     def equations(self, drawing: Drawing, role: str) -> Iterator[Relation]:
-        """Its vector is that of the other point."""
+        """The equation that its vector equals that of the other point."""
         whole = Term(symbol(f"{drawing.vector.letter}_{self.q}"))
         yield as_relation(VectorEquation(whole, ((known_term(drawing, self.p),),)))
 
 
 def translated_image(pen: Pen, start: int, ends: tuple[str, str], name: str) -> int:
-    """The image of the second of two points, on that of the first, under its name in the plan."""
+    """The image of the second of two points, at that of the first, under its name in the plan."""
     image = pen.draw(alike, start, name=name)
     pen.make(TranslatedImage(p=ends[0], q=ends[1], start=start, image=image))
     return image
@@ -84,16 +84,15 @@ class CrossedImage(FindsImage, frozen=True, kw_only=True):
 
     @property
     def sought(self) -> str:
-        """Its point."""
         return self.point
 
     def point_sentence(self, drawing: Drawing, role: str) -> str:
-        """Where they meet."""
+        """The sentence that both lines meet in the image."""
         name = drawing.lettered(self.image)
         return drawing.words("step.meet", name=name)
 
     def point_apart(self, drawing: Drawing, role: str) -> str:
-        """Where both lines meet."""
+        """The sentence for the image, after its lines have sentences of their own."""
         name = drawing.lettered(self.image)
         return drawing.words("step.meet-apart", name=name)
 
@@ -106,15 +105,15 @@ def crossed_image(pen: Pen, first: int, second: int, *, name: str = "", of: str 
 
 
 IN_LINE = 1e-9
-"""How far beside its line, in parts of its distance, a point still counts as on it."""
+"""Largest distance of a collinear point from its line, as a fraction of its distance along it."""
 
 
 class ImageOfLink(Construction, frozen=True, kw_only=True):
-    """The ``image`` of a point ``r`` of a link, of which those of ``p`` and ``q`` are known.
+    """The ``image`` of a point ``r`` of a link, from the known images of ``p`` and ``q``.
 
-    ``first`` and ``second`` are their images, ``ratio`` says how r lies to p and q, and ``hand`` is
-    the step that finds the same by crossing two lines, None where similarity alone does. ``whole``
-    is the index of its own vector. ``touching`` are the names of the images where links touch
+    ``first`` and ``second`` are those images. ``ratio`` gives the place of r relative to p and q.
+    ``hand`` is the step that finds the same image by crossing two lines; None where only similarity
+    does. ``whole`` is the index of its own vector. ``touching`` are the names of the contact images
     in p and q.
     """
 
@@ -138,7 +137,7 @@ class ImageOfLink(Construction, frozen=True, kw_only=True):
         return {**names, "bar": bar(self.p, self.q)}
 
     def crossing(self, drawing: Drawing) -> CrossedImage | None:
-        """The crossing that finds it by hand on a sheet; None where similarity does."""
+        """The crossing that finds it by hand on a sheet; None where similarity finds it."""
         if self.hand not in drawing.trace.values:
             return None
         assert self.hand is not None
@@ -147,12 +146,12 @@ class ImageOfLink(Construction, frozen=True, kw_only=True):
         return kind
 
     def is_in_line(self, drawing: Drawing) -> bool:
-        """Whether the point lies on the line of the two that it follows from."""
+        """Whether the point is collinear with the two points from which it follows."""
         ratio = drawing.trace.values[self.ratio]
         return bool(abs(ratio.imag) <= IN_LINE * abs(ratio))
 
     def figures(self, drawing: Drawing) -> dict[str, str]:
-        """Its name, the two similar figures, and the points of the link."""
+        """The name of the image, the two similar figures, and the points of the link."""
         name = drawing.lettered(self.image)
         images = drawing.lettered(self.first) + drawing.lettered(self.second)
         figure = bar(self.p, self.q) + symbol(self.r)
@@ -162,7 +161,7 @@ class ImageOfLink(Construction, frozen=True, kw_only=True):
     # --- drawing it ------------------------------------------------------------------------------
 
     def marks(self, canvas: Canvas, role: str) -> None:
-        """The point, with the sides of the image that nothing else draws."""
+        """Draw the image, with the sides of the figure that nothing else draws."""
         drawing = canvas.drawing.choosing
         sides = [*self.undrawn_sides(drawing)]
         if len(sides) == 3 and self.is_in_line(drawing):
@@ -176,10 +175,10 @@ class ImageOfLink(Construction, frozen=True, kw_only=True):
         canvas.image()
 
     def undrawn_sides(self, drawing: Drawing) -> Iterator[tuple[int, int]]:
-        """The sides of the image, by the steps of their ends, along which no arrow of a plan lies.
+        """The sides of the figure without an arrow along them, by the steps of their ends.
 
-        None where the hand finds the point by crossing two lines. Of three points in line, where an
-        arrow lies along a part of the longest side, those from each to the next.
+        None where the point is found by crossing two lines. For three collinear points with an
+        arrow on part of the longest side, the sides between neighbours.
         """
         if self.hand in drawing.trace.values:
             return
@@ -195,10 +194,10 @@ class ImageOfLink(Construction, frozen=True, kw_only=True):
             bare.remove(whole)
         yield from bare
 
-    # --- saying it -------------------------------------------------------------------------------
+    # --- its sentences ---------------------------------------------------------------------------
 
     def reason(self, drawing: Drawing, role: str) -> str:
-        """The similarity, or the lines that find it by hand."""
+        """The key of the reason: similarity, or the lines that find the image by hand."""
         return "why.similar" if self.crossing(drawing) is None else "why.meet"
 
     def said_before(self, drawing: Drawing, role: str) -> tuple[int, ...]:
@@ -207,7 +206,7 @@ class ImageOfLink(Construction, frozen=True, kw_only=True):
         return crossing.said_before(drawing, role) if crossing else ()
 
     def point_sentence(self, drawing: Drawing, role: str) -> str:
-        """The similar figures, or that the lines meet."""
+        """The sentence on the similar figures, or on the lines that meet."""
         fields = self.figures(drawing)
         if self.crossing(drawing) is not None:
             return drawing.words("step.meet", **fields)
@@ -219,7 +218,7 @@ class ImageOfLink(Construction, frozen=True, kw_only=True):
         return drawing.words("step.similar-touch", **touching, **fields)
 
     def point_apart(self, drawing: Drawing, role: str) -> str:
-        """Where the lines meet that find it by hand."""
+        """The sentence for the crossing, after its lines have sentences of their own."""
         if self.crossing(drawing) is None:
             return ""
         return drawing.words("step.meet-apart", **self.figures(drawing))
@@ -234,7 +233,7 @@ class ImageOfLink(Construction, frozen=True, kw_only=True):
 
 
 def is_joined(drawing: Drawing, one: int, other: int) -> bool:
-    """Whether a plan draws an arrow between two of its points, or points at the same places."""
+    """Whether a plan draws an arrow between two of its points, or between coinciding points."""
     values, near = drawing.trace.values, NOISE * drawing.largest
     for (tail, tip), step in drawing.joins.items():
         if drawing.number_of(step) in values and (
@@ -249,12 +248,12 @@ def is_joined(drawing: Drawing, one: int, other: int) -> bool:
 def is_same(
     values: Mapping[int, Any], ends: tuple[int, int], side: tuple[int, int], near: float
 ) -> bool:
-    """Whether two points of a plan lie where two others do, and stand by then."""
+    """Whether two points of a plan, drawn by then, coincide with two others."""
     pairs = zip(ends, side, strict=True)
     return max(ends) <= max(side) and all(abs(values[a] - values[b]) <= near for a, b in pairs)
 
 
-# --- planning it ---------------------------------------------------------------------------------
+# --- writing its steps ---------------------------------------------------------------------------
 
 
 def image_of_link(
@@ -267,10 +266,10 @@ def image_of_link(
     hand: int | None = None,
     touching: tuple[str, ...] = (),
 ) -> int:
-    """The image of the third of three ``points``, lettered as in figures, under its ``name``.
+    """The image of the third of three ``points``, with letters as in figures, under its ``name``.
 
-    ``images`` are the steps of the first two images and of the ratio, ``whole`` the index of its
-    vector where it is not its letter, ``hand`` the step that crosses two lines.
+    ``images`` are the steps of the first two images and of the ratio. ``whole`` is the index of its
+    vector where that differs from its letter. ``hand`` is the step that crosses two lines.
     """
     first, second, ratio = images
     image = pen.draw(similar_point, *images, name=name, by_hand=hand)

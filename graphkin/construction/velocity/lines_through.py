@@ -1,6 +1,7 @@
-"""Lines through the image of a known point, on which another point has its image.
+"""Lines through the image of a known point on which the image of another point lies.
 
-Perpendicular to a bar, for it keeps its length; parallel to a guide, for slides move along it only.
+The line is perpendicular to a bar, which keeps its length, or parallel to a guide, along which the
+slide moves.
 """
 
 from __future__ import annotations
@@ -27,14 +28,14 @@ from graphkin.structure.pairs import is_in_scene
 
 @action("square-to", move=Move(PERPENDICULAR, point_and_bar))
 def square_to(start: Point, p: Point, q: Point) -> Line:
-    """Through a point the perpendicular to a bar."""
+    """The perpendicular to a bar through a point."""
     return Line(start, 1j * (q - p))
 
 
 class PerpendicularThrough(AboutPivot, frozen=True, kw_only=True):
-    """The ``line`` through the image ``start`` of a pivot on which that of a pin must lie.
+    """The ``line`` through the image ``start`` of a pivot on which the image of a pin lies.
 
-    Where the pivot is a point where links touch, ``touch`` is the name of its image.
+    If the pivot is a contact point, ``touch`` is the name of its image.
     """
 
     gives: ClassVar[tuple[str, ...]] = ("line",)
@@ -48,16 +49,16 @@ class PerpendicularThrough(AboutPivot, frozen=True, kw_only=True):
 
     @property
     def runs(self) -> Run:
-        """Square to the bar."""
+        """Perpendicular to the bar."""
         return Run(self.p + self.q, square=True)
 
     def reason(self, drawing: Drawing, role: str) -> str:
-        """That the bar keeps its length; of a pivot at rest, that its image is the pole."""
+        """The key of the reason: a bar keeps its length; a pivot at rest has the pole as image."""
         at_rest = self.index == self.whole and not self.touch
         return "why.perpendicular_at_rest" if at_rest else super().reason(drawing, role)
 
     def clause(self, drawing: Drawing, role: str) -> str:
-        """Through which point it is drawn; both points where links touch have one image."""
+        """The clause with the point that the line passes through; contact points share one."""
         start = drawing.trace.program.steps[self.start].name
         key = "square-to"
         if self.touch:
@@ -66,7 +67,7 @@ class PerpendicularThrough(AboutPivot, frozen=True, kw_only=True):
         return drawing.words(f"step.{key}", **fields)
 
     def marks(self, canvas: Canvas, role: str) -> None:
-        """The line, with the bar to which it is perpendicular."""
+        """Draw the line, labelled with the bar to which it is perpendicular."""
         canvas.locus(f"⊥{self.runs.what}", f"⊥ {self.bar}")
 
     def equations(self, drawing: Drawing, role: str) -> Iterator[Relation]:
@@ -75,7 +76,7 @@ class PerpendicularThrough(AboutPivot, frozen=True, kw_only=True):
 
 
 def perpendicular_through(pen: Pen, pivot: str, pin: str) -> int:
-    """Through the velocity image of one end of a bar the perpendicular to the bar."""
+    """The perpendicular to a bar through the velocity image of one of its ends."""
     start, p, q = pen.the("velocity", pivot), letter(pivot), letter(pin)
     ends = pen.the("position", pivot), pen.the("position", pin)
     line = pen.draw(square_to, start, *ends)
@@ -89,12 +90,12 @@ def perpendicular_through(pen: Pen, pivot: str, pin: str) -> int:
 
 @action("parallel-to", move=Move(PARALLEL, two, in_plan=True))
 def parallel_to(start: Point, line: Line) -> Line:
-    """Through a point the parallel to a line, such as a guide."""
+    """The parallel to a line, such as a guide, through a point."""
     return Line(start, line.along)
 
 
 class ParallelThrough(AlongGuide, frozen=True, kw_only=True):
-    """The ``line`` on which the image of a point that slides on a guide must lie."""
+    """The ``line`` on which the image of a point that slides on a guide lies."""
 
     gives: ClassVar[tuple[str, ...]] = ("line",)
     lines: ClassVar[Mapping[str, str]] = {"line": "∥ guide {guide}"}
@@ -104,7 +105,7 @@ class ParallelThrough(AlongGuide, frozen=True, kw_only=True):
     line: int
 
     def reason(self, drawing: Drawing, role: str) -> str:
-        """Relative to its guide a block moves, and accelerates, along it only."""
+        """The key of the reason: relative to its guide, a block only moves along the guide."""
         velocity = drawing.trace.program.steps[self.line].plane is Plane.VELOCITIES
         return "why.along" if velocity else "why.along_acceleration"
 
@@ -113,7 +114,7 @@ class ParallelThrough(AlongGuide, frozen=True, kw_only=True):
         return {"g": escape(self.guide)}
 
     def clause(self, drawing: Drawing, role: str) -> str:
-        """Through which point it is drawn, or which end of the component laid off before."""
+        """The clause with the point through which the line passes, or the end of a component."""
         steps, start = drawing.trace.program.steps, end_before(drawing, self.start)
         letter, key = letter_at(drawing, start), "parallel-to"
         if letter and not steps[start].name:
@@ -126,16 +127,16 @@ class ParallelThrough(AlongGuide, frozen=True, kw_only=True):
         return drawing.words(f"step.{key}", s=symbol(letter), **fields)
 
     def marks(self, canvas: Canvas, role: str) -> None:
-        """The line, with the guide to which it is parallel."""
+        """Draw the line, labelled with the guide to which it is parallel."""
         canvas.locus(f"∥{self.guide}", f"∥ {self.way(canvas.drawing)}")
 
     def equations(self, drawing: Drawing, role: str) -> Iterator[Relation]:
-        """The motion along the guide of the point that is found on it."""
+        """The motion along the guide of the point that is found on the line."""
         if sought := self.found_on_it(drawing):
             yield self.motion_of(drawing, sought)
 
     def found_on_it(self, drawing: Drawing) -> str:
-        """The point whose image is found on the line; nothing where none is."""
+        """The point whose image is found on the line; empty where there is none."""
         steps = drawing.trace.program.steps
         for child in drawing.children.get(self.line, ()):
             user = steps[drawing.results.get(child, child)]
@@ -146,7 +147,7 @@ class ParallelThrough(AlongGuide, frozen=True, kw_only=True):
 
 
 def parallel_through(pen: Pen, start: int, along: int, guide: str) -> int:
-    """Through a point of a plan the parallel to a line of the mechanism: a block's guide."""
+    """The parallel to a line of the mechanism, such as a guide, through a point of a plan."""
     line = pen.draw(parallel_to, start, along)
     pen.make(ParallelThrough(guide=guide, start=start, line=line))
     return line

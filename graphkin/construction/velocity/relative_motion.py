@@ -1,6 +1,6 @@
-"""The motion of one point about another, or along a guide, and vectors that are known beside it.
+"""The motion of one point about another or along a guide, and known vectors.
 
-What lines and vectors of both plans have in common.
+Shared by the lines and vectors of both plans.
 """
 
 from __future__ import annotations
@@ -17,7 +17,7 @@ from graphkin.scene.link_points import ends_of, is_under, lettered, under
 
 
 def known_term(drawing: Drawing, point: str) -> Term:
-    """The vector of a point that is known: with direction and size where a driver gives them."""
+    """The vector of a known point, with its direction and magnitude where a driver gives them."""
     program = drawing.trace.program
     number = program.targets.get((drawing.kind, point))
     kind = construction(program.steps[number]) if number is not None else None
@@ -26,21 +26,21 @@ def known_term(drawing: Drawing, point: str) -> Term:
 
 
 def joined(*notes: str) -> str:
-    """Notes with a comma between them."""
     return ", ".join(filter(None, notes))
 
 
 def as_relation(equation: VectorEquation) -> Relation:
-    """A relation that is a vector equation."""
+    """A relation that consists of a vector equation."""
     alone = equation.whole if not equation.sums else None
     left = f"{alone.symbol} {alone.note}" if alone else equation.markup
     return Relation(left, equation=equation)
 
 
 class AboutPivot(Construction, frozen=True, kw_only=True):
-    """What follows from the motion of a point ``q`` about ``p``, both lettered as in a bar.
+    """The motion of a point ``q`` about ``p``, both with letters as in a bar.
 
-    ``index`` is that of the relative vectors, ``whole`` and ``base`` those of both points' own.
+    ``index`` is the index of the relative vectors. ``whole`` and ``base`` are the indices of the
+    vectors of q and p.
     """
 
     p: str
@@ -51,7 +51,7 @@ class AboutPivot(Construction, frozen=True, kw_only=True):
 
     @property
     def bar(self) -> str:
-        """Markup of the bar between both points."""
+        """The bar between both points, as markup."""
         return bar(self.p, self.q)
 
     def symbols(self) -> Mapping[str, str]:
@@ -61,9 +61,9 @@ class AboutPivot(Construction, frozen=True, kw_only=True):
     def euler(
         self, drawing: Drawing, *, omega: str = "", epsilon: str = "", steady: bool = False
     ) -> Relation:
-        """Euler's theorem for the motion of a pin about another, or about a fixed pivot.
+        """Euler's theorem for the motion of a pin about another pin or about a fixed pivot.
 
-        ``omega`` and ``epsilon`` are the rates that are known; what turns ``steady`` gives no
+        ``omega`` and ``epsilon`` are the known rates. A link with ``steady`` rotation gives no
         tangential component.
         """
         letter, fixed = drawing.vector.letter, self.index == self.whole
@@ -87,20 +87,20 @@ class AboutPivot(Construction, frozen=True, kw_only=True):
 
 
 class AlongGuide(Construction, frozen=True, kw_only=True):
-    """What follows from the motion of a point along the guide of a block, or a wheel's track.
+    """The motion of a point along the guide of a block, or along a wheel's track.
 
-    ``start`` is the end of what is known of that motion.
+    ``start`` is the end of the known part of that motion.
     """
 
     guide: str
     start: int
 
     def way(self, drawing: Drawing) -> str:
-        """The guide, or the track, in words."""
+        """The guide or the track, in words."""
         return way_of(drawing, self.guide)
 
     def vector_along(self, drawing: Drawing, number: int) -> str:
-        """The vector along the guide: from its line's or its own beginning to the point found."""
+        """The symbol of the vector along the guide, which ends in the point found."""
         tips = [number, *drawing.children.get(number, ())]
         found = (vector_of(drawing, self.start, tip) for tip in tips)
         index = index_before(drawing.trace.program, self.start)
@@ -108,10 +108,10 @@ class AlongGuide(Construction, frozen=True, kw_only=True):
         return next((name for name in found if name), default)
 
     def motion_of(self, drawing: Drawing, sought: str, size: str = "") -> Relation:
-        """The motion of a point: alone where the guide stands still, else on its point's.
+        """The motion of a point along a guide, with the guide's own motion if it moves.
 
-        Of the point that slides and the one beneath it the one that is ``sought`` is unknown.
-        ``size`` is that of the motion along the guide, where it is given or tried.
+        Of the sliding point and the point beneath it, the point ``sought`` is unknown. ``size`` is
+        the magnitude along the guide where it is given or tried.
         """
         point, beneath = self.slider(drawing, sought)
         velocity, guide = drawing.kind == "velocity", self.way(drawing)
@@ -140,12 +140,12 @@ class AlongGuide(Construction, frozen=True, kw_only=True):
         return as_relation(VectorEquation(whole, (tuple(terms),)))
 
     def rests(self, drawing: Drawing, point: str) -> str:
-        """That a fixed point does not move; nothing of one that does."""
+        """The remark that a fixed point has a zero vector; empty for a moving point."""
         fixed = point in drawing.scene.frame.points
         return f"{symbol(f'{drawing.vector.letter}_{point}')} = 0" if fixed else ""
 
     def slider(self, drawing: Drawing, sought: str) -> tuple[str, str]:
-        """The point that slides and the one beneath it on the guide, as the index of symbols."""
+        """The sliding point and the point beneath it on the guide, as indices of symbols."""
         point, link = ends_of(sought)
         block = drawing.scene.links[self.guide]
         if not link:

@@ -1,4 +1,4 @@
-"""Vectors of the plans that a rate gives, such as that of a turned pin: from a known point."""
+"""Vectors of the plans from a known rate, such as the velocity of a turning pin."""
 
 from __future__ import annotations
 
@@ -44,11 +44,11 @@ class LaidOffByRate(Construction, frozen=True):
 
     @abstractmethod
     def tried_rate(self, role: str) -> int | None:
-        """The rate by which an auxiliary plan lays off a role's vector; None for others."""
+        """The rate with which an auxiliary plan lays off a role's vector; None for other roles."""
 
     @abstractmethod
     def fields(self, drawing: Drawing, role: str) -> dict[str, str]:
-        """What a sentence about the vector that ends in a role speaks of."""
+        """The words and lengths for a sentence about the vector that ends in a role."""
 
 
 class LaidOffAboutPivot(AboutPivot, LaidOffByRate, frozen=True, kw_only=True):
@@ -57,14 +57,14 @@ class LaidOffAboutPivot(AboutPivot, LaidOffByRate, frozen=True, kw_only=True):
     link: str
 
     def is_of_driver(self, drawing: Drawing, rate: int) -> bool:
-        """Whether it is that of a crank on the frame, of which the driver's own relations tell."""
+        """Whether the rate belongs to a crank on the frame, which has relations of its own."""
         driver = driver_of_rate(drawing, rate)
         if driver is None or self.p not in drawing.scene.frame.points:
             return False
         return self.link in (driver.link, driver.against)
 
     def by_turning(self, drawing: Drawing, rate: int, sign: str) -> Relation:
-        """What a known turning gives: rate times bar, or its square for what leads to the pivot."""
+        """The vector from a known rate: rate times bar, or rate squared times bar inwards."""
         value = drawing.rate_size(rate, "acceleration" if sign == "τ" else "velocity")
         length = length_of(drawing, self.p, self.q)
         square, letter = "^2" if sign == "ν" else "", "ε" if sign == "τ" else "ω"
@@ -88,20 +88,20 @@ class LaidOffAboutPivot(AboutPivot, LaidOffByRate, frozen=True, kw_only=True):
 
 
 def signed(sign: str) -> str:
-    """The sign of a component as it stands in a symbol."""
+    """The sign of a component as written in a symbol."""
     return f"^{sign}" if sign else ""
 
 
 def length_drawn(drawing: Drawing, tail: int, tip: int) -> str:
-    """How long a vector is drawn in its plan, in mm, without the unit."""
+    """The drawn length of a vector in its plan, in mm, without the unit."""
     plane = drawing.trace.program.steps[tip].plane
     return in_mm(drawing.words, drawn_between(drawing, tail, tip, plane))
 
 
 def by_bar(drawing: Drawing, rate: int, fields: dict[str, str]) -> str:
-    """How a sentence says the length of a driven pin's vector: by its bar, or in mm.
+    """The key for the length of a driven pin's vector: by its bar, or in mm.
 
-    It joins to its ``fields`` how many times as long as the bar that is.
+    Adds to ``fields`` the ratio of that length to the bar.
     """
     times = drawing.scales.of_bar(drawing.kind) if is_driven(drawing, rate) else 0.0
     fields["m"] = figure(drawing, times)
@@ -109,9 +109,9 @@ def by_bar(drawing: Drawing, rate: int, fields: dict[str, str]) -> str:
 
 
 def falls(drawing: Drawing, number: int, start: str) -> str:
-    """The key of the sentence of a point that falls on its vector's ``start``: its rate is nought.
+    """The key of the sentence for an image at the ``start`` of its vector, whose rate is zero.
 
-    No rate is told of an auxiliary plan, which tries it.
+    In an auxiliary plan, which tries the rate, the sentence does not mention it.
     """
     if not start:
         return "step.falls-end"
@@ -119,7 +119,7 @@ def falls(drawing: Drawing, number: int, start: str) -> str:
 
 
 def rate_words(drawing: Drawing, number: int, rate: int, link: str, letter: str) -> str:
-    """The rate by which a step lays off a vector; one that is tried is named by its link."""
+    """The rate by which a step lays off a vector, as words; a tried rate is named by its link."""
     from graphkin.construction.core.auxiliary_plan import auxiliary_plan
 
     plan = auxiliary_plan(drawing, number)
@@ -133,7 +133,7 @@ def rate_words(drawing: Drawing, number: int, rate: int, link: str, letter: str)
 
 
 def source_of_rate(drawing: Drawing, number: int, rate: int) -> str:
-    """From what of this plan a rate is found, where it is taken the first time."""
+    """The source of a rate in this plan, where the rate is used for the first time."""
     steps = drawing.trace.program.steps
     kind, action = construction(steps[rate]), steps[number].action
     first = next(user for user in drawing.children[rate] if steps[user].action is action)
@@ -142,14 +142,14 @@ def source_of_rate(drawing: Drawing, number: int, rate: int) -> str:
 
 @action("turned-velocity")
 def turned_velocity(start: Point, pivot: Point, pin: Point, omega: Real) -> Point:
-    """Image of a pin turning about a pivot: omega times the bar, turned a quarter (Galileo)."""
+    """The image of a pin turning about a pivot: omega times the bar, turned 90° (Galileo)."""
     return start + 1j * (pin - pivot) * omega
 
 
 class TurnedVelocity(LaidOffAboutPivot, GivenVector, frozen=True, kw_only=True):
-    """ω·l laid off in the velocity plan from the image ``start`` of a pivot to that of a pin.
+    """ω·l laid off in the velocity plan, from the image ``start`` of a pivot to the pin's image.
 
-    ``omega`` is how fast the ``link`` of both turns.
+    ``omega`` is the angular velocity of their ``link``.
     """
 
     gives: ClassVar[tuple[str, ...]] = ("image",)
@@ -180,33 +180,34 @@ class TurnedVelocity(LaidOffAboutPivot, GivenVector, frozen=True, kw_only=True):
         }
 
     def point_sentence(self, drawing: Drawing, role: str) -> str:
-        """How it is laid off: as long as the bar is drawn where the driver sets the scale."""
+        """The sentence on how it is laid off: as long as the bar if the driver sets the scale."""
         fields = self.fields(drawing, role)
         if has_no_length(drawing, self.image):
             return drawing.words(falls(drawing, self.image, fields["s"]), **fields)
         return drawing.words(f"step.turned-velocity{by_bar(drawing, self.omega, fields)}", **fields)
 
     def equations(self, drawing: Drawing, role: str) -> Iterator[Relation]:
-        """Euler's theorem, and its size; a driver's crank has relations of its own."""
+        """Euler's theorem, and its magnitude; a driver's crank has relations of its own."""
         if not self.is_of_driver(drawing, self.omega):
             yield self.euler(drawing, omega=rate_symbol(drawing, self.omega, link=self.link))
             if self.image not in drawing.auxiliary:
                 yield self.by_turning(drawing, self.omega, "")
 
     def known_by(self, drawing: Drawing) -> str:
-        """Square to its bar, by the rate of a driver."""
+        """Perpendicular to its bar, by the rate of a driver; empty for other links."""
         rate = rate_symbol(drawing, self.omega)
         driven = self.is_of_driver(drawing, self.omega)
         return f"⊥ {self.bar}, {rate}·{self.bar}" if driven else ""
 
     def rate_taken(self, drawing: Drawing, role: str) -> str:
-        """The angular velocity."""
         return rate_symbol(drawing, self.omega)
 
 
 def turned_image(pen: Pen, link: str, points: tuple[str, str], start: int, *, name: str) -> int:
-    """The image of the second of two ``points`` of a turning link, from that of the first, where it
-    is the ``start``."""
+    """The image of the second of two ``points`` of a turning link, from the first one's image.
+
+    ``start`` is the image of the first point.
+    """
     pivot, pin = points
     places = pen.the("position", pivot), pen.the("position", pin)
     rate = pen.the(OMEGA, link)

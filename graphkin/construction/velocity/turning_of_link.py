@@ -1,4 +1,4 @@
-"""How a link turns: what two of its points move relative to one another, over their bar."""
+"""The rotation of a link: the relative motion of two of its points, over their bar."""
 
 from __future__ import annotations
 
@@ -22,26 +22,26 @@ from graphkin.scene.model import Driver
 
 @action(OMEGA)
 def omega(p: Point, q: Point, image_p: Point, image_q: Point) -> Real:
-    """Angular velocity of a link from the relative velocity of two of its points."""
+    """The angular velocity of a link from the relative velocity of two of its points."""
     bar = q - p
     return cross(bar, image_q - image_p) / dot(bar, bar)
 
 
 @action(EPSILON)
 def epsilon(p: Point, q: Point, image_p: Point, image_q: Point) -> Real:
-    """Angular acceleration from the tangential part of a relative acceleration, with its sense."""
+    """The angular acceleration from the tangential part of a relative acceleration."""
     bar = q - p
     return cross(bar, image_q - image_p) / dot(bar, bar)
 
 
 ACTIONS = {OMEGA: omega, EPSILON: epsilon}
-"""How each rate follows from the bar and its image."""
+"""The action that finds each rate from the bar and its image."""
 
 
 class TurningOfLink(GivesRate, frozen=True, kw_only=True):
     """The ``rate`` of a link from the relative motion of ``q`` about ``p``, read off a plan.
 
-    ``quantity`` is omega or epsilon, ``places`` and ``images`` are the steps of both points.
+    ``quantity`` is omega or epsilon. ``places`` and ``images`` are the steps of both points.
     """
 
     gives: ClassVar[tuple[str, ...]] = ("rate",)
@@ -63,13 +63,14 @@ class TurningOfLink(GivesRate, frozen=True, kw_only=True):
         return self.vectors[self.quantity].format(index)
 
     def rate_reason(self, drawing: Drawing) -> str:
-        """It is read off the bar and its image, as each sheet says."""
+        """The key of the reason: each sheet says how the rate is read off the bar and its image."""
         return self.turns[drawing.kind]
 
     def relative(self, drawing: Drawing) -> tuple[str, tuple[str, str]]:
-        """The symbol of the relative vector that is drawn, and the bar from its end at rest.
+        """The symbol of the drawn relative vector, and the bar from the end taken as fixed.
 
-        It is that of ``q`` about ``p``; where the plan draws the other alone, of ``p`` about ``q``.
+        It is the vector of ``q`` about ``p``, or of ``p`` about ``q`` where the plan draws only
+        that one.
         """
         found = (plan_vector(step) for _, step, _ in drawing.steps(drawing.plane))
         drawn = {vector.symbol for vector in found if vector}
@@ -84,7 +85,7 @@ class TurningOfLink(GivesRate, frozen=True, kw_only=True):
         return f" = {vector}/{bar(*ends)}"
 
     def relation(self, drawing: Drawing, tail: tuple[str, str, str]) -> Relation:
-        """The same as it is computed; ``tail`` is the result with its unit and sense."""
+        """The relation for the rate; ``tail`` is the result with its unit and sense."""
         vector, ends = self.relative(drawing)
         length = length_of(drawing, *ends)
         size = abs(float(drawing.trace.values[self.rate])) * length
@@ -120,13 +121,13 @@ def turning_of_link(
     return pen.make(found).rate
 
 
-# --- the rate of a crank that turns on a moving link: that link's rate and the given one ----------
+# --- the rate of a crank on a moving link: the rate of that link plus the given one --------------
 
 
 class SummedRate(GivesRate, frozen=True, kw_only=True):
-    """The ``rate`` of a ``link`` from that of the one against which a driver turns it.
+    """The ``rate`` of a ``link`` that a driver turns against another: the other rate plus ``own``.
 
-    Of the link against which another is turned the given rate ``own`` is taken away.
+    For the link against which another one is turned, the given rate ``own`` is subtracted.
     """
 
     gives: ClassVar[tuple[str, ...]] = ("rate",)
@@ -138,11 +139,10 @@ class SummedRate(GivesRate, frozen=True, kw_only=True):
     rate: int
 
     def sign(self, drawing: Drawing) -> str:
-        """The sign of the given rate."""
         return "+" if drawing.scene.drivers[self.driver].link == self.link else "−"
 
     def whole(self, drawing: Drawing) -> str:
-        """Markup of the sum or the difference."""
+        """The sum or the difference, as markup."""
         other = rate_symbol(drawing, self.other, drawing.rate.letter)
         index = driver_index(drawing.scene.drivers[self.driver])
         return f"{other} {self.sign(drawing)} *{drawing.rate.letter}*_{{{index}}}"
@@ -153,7 +153,7 @@ class SummedRate(GivesRate, frozen=True, kw_only=True):
         return f" = {self.whole(drawing)} = {value} {drawing.rate.caret_unit}"
 
     def relation(self, drawing: Drawing) -> Relation:
-        """The sum with its figures."""
+        """The relation for the sum, with its values."""
         one, two = (float(drawing.trace.values[each]) for each in (self.other, self.own))
         sign = self.sign(drawing)
         value = one + two if sign == "+" else one - two
@@ -169,7 +169,7 @@ class SummedRate(GivesRate, frozen=True, kw_only=True):
 
 
 def summed_rate(pen: Pen, driver: Driver, link: str, other: int, own: int) -> int:
-    """The rate of a driven link on top of the other's, or of that on which it is driven."""
+    """The rate of a driven link from the other link's rate; or of the link it is driven against."""
     rate = pen.draw(sum_of if driver.link == link else difference, other, own, name=link)
     number = pen.scene.drivers.index(driver)
     found = SummedRate(link=link, driver=number, other=other, own=own, rate=rate)

@@ -1,4 +1,4 @@
-"""What pairs with known links say of the velocity of a point, and of the motion along a guide."""
+"""Velocities of points that pairs join to known links, and motions along guides."""
 
 from __future__ import annotations
 
@@ -18,17 +18,17 @@ from graphkin.structure.pairs import Joint, Leading, Sliding
 
 
 class BoundVelocity(Struct, frozen=True):
-    """What a pair says of the velocity of a point: a line on which its image lies."""
+    """The line on which a pair with a known link puts the image of a point."""
 
     def component(self, pen: Pen, sides: list[tuple[Joint, str]] | None = None) -> None:
-        """No part of it is known."""
+        """None: no part of the velocity is known beforehand."""
 
     def rest(self, pen: Pen, end: int, found: int) -> None:
-        """Its arrows follow once it is found."""
+        """Nothing: the arrows follow once the image is found."""
 
 
 class BarVelocity(BoundVelocity, frozen=True):
-    """What a bar to a known ``pivot`` says of the velocity of a ``point``."""
+    """The line that a bar to a known ``pivot`` gives for the velocity of a ``point``."""
 
     pivot: str
     point: str
@@ -38,18 +38,19 @@ class BarVelocity(BoundVelocity, frozen=True):
         return pen.the("velocity", self.pivot)
 
     def line(self, pen: Pen, vector: int | None) -> tuple[int, int]:
-        """That, and the perpendicular to the bar through it."""
+        """The image of the pivot, and the perpendicular to the bar through it."""
         return self.end(pen, vector), perpendicular_through(pen, self.pivot, self.point)
 
     def finish(self, pen: Pen) -> None:
-        """The arrow from the pole, and that about the pivot."""
+        """Draw the arrow from the pole, and the arrow from the pivot's image."""
         velocity_arrows(pen, self.point, self.pivot)
 
 
 class GuideVelocity(BoundVelocity, frozen=True):
-    """What a pair says of the velocity of the point ``name`` that it leads against ``link``.
+    """The line that a guiding pair gives for the velocity of the point ``name`` of ``link``.
 
-    It lies at ``point``, which is another where that of a guide's link under a block's is sought.
+    The point lies at ``point``. The two differ where the unknown is the point of the guide's link
+    under a block's point.
     """
 
     pair: Leading
@@ -58,19 +59,19 @@ class GuideVelocity(BoundVelocity, frozen=True):
     point: str
 
     def end(self, pen: Pen, vector: int | None) -> int:
-        """The image of the point beneath; where that is the one sought, of the point above."""
+        """The image of the point underneath; if that one is unknown, of the point above it."""
         known, point = partner(self.pair, self.link), self.point
         own = known in pen.bases and pen.bases[known].start == point and pen.has("velocity", point)
         return pen.the("velocity", point) if own else image_under(pen, known, point, VELOCITY)
 
     def line(self, pen: Pen, vector: int | None) -> tuple[int, int]:
-        """That, and the parallel to the guide through it."""
+        """The known image, and the parallel to the guide through it."""
         along = led_by(self.pair).direction(pen)
         end = self.end(pen, vector)
         return end, parallel_through(pen, end, along, self.pair.links[0])
 
     def finish(self, pen: Pen, *, driven: bool = False) -> None:
-        """The arrow from the pole, that along the guide, and the point where it touches."""
+        """Draw the arrow from the pole, the arrow along the guide, and the contact point."""
         velocity_arrows(pen, self.name, ends_of(self.name)[0] if is_under(self.name) else None)
         if driven or (isinstance(self.pair, Sliding) and not is_under(self.name)):
             slide_arrow(pen, self.pair, self.link, self.name)
@@ -78,10 +79,10 @@ class GuideVelocity(BoundVelocity, frozen=True):
 
 
 def slide_arrow(pen: Pen, pair: Joint, link: str, point: str) -> None:
-    """The arrow of a relative velocity along a guide that moves.
+    """Draw the arrow of a relative velocity along a moving guide.
 
-    Of one that only shifts, so that no component of an acceleration comes of it, that of the guide
-    along the block suffices.
+    A translating guide causes no acceleration component. Then an arrow in the other direction, of
+    the guide along the block, is enough.
     """
     known, o = partner(pair, link), pen.pole(Plane.VELOCITIES)
     start, tip = image_under(pen, known, point, VELOCITY), pen.the("velocity", point)
@@ -91,7 +92,7 @@ def slide_arrow(pen: Pen, pair: Joint, link: str, point: str) -> None:
 
 
 def is_joined(pen: Pen, tail: int, tip: int) -> bool:
-    """Whether an arrow leads from one image to another, or between others on which they fall."""
+    """Whether an arrow joins two images, or two images that coincide with them."""
     ends = source_of(pen, tail), source_of(pen, tip)
     arrows = (step.args for step in pen.steps if step.arrow and step.action is join)
     return any((source_of(pen, start), source_of(pen, end)) == ends for start, end in arrows)
