@@ -33,14 +33,15 @@ from graphkin.numbers.plane import (
 class Action(Struct, frozen=True):
     """One thing a hand can do: its sentence's key, its value, and the margin of a crossing.
 
-    What may fail by what it is drawn of has ``reaches``, a smooth function of that, positive where
-    it succeeds. ``move`` is how a student draws it on a page; None for what comes along by itself.
+    What may fail by what it is drawn of has ``reaches``: factors of a smooth function of that, all
+    of them positive where it succeeds. ``move`` is how a student draws it on a page; None for what
+    comes along by itself.
     """
 
     key: str
     value: Callable[..., Any]
     margin: Callable[..., Real] | None = None
-    reaches: Callable[..., Real] | None = None
+    reaches: Callable[..., tuple[Real, ...]] | None = None
     move: Move | None = None
 
     def __call__(self, *args: Any) -> Any:
@@ -51,7 +52,7 @@ class Action(Struct, frozen=True):
 def action(
     key: str,
     margin: Callable[..., Real] | None = None,
-    reaches: Callable[..., Real] | None = None,
+    reaches: Callable[..., tuple[Real, ...]] | None = None,
     move: Move | None = None,
 ) -> Callable[..., Action]:
     """Make an action of a function, under the key of its sentence."""

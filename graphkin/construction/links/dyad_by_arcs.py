@@ -75,8 +75,8 @@ Beside a flat crossing rounding is as large as the root of eps.
 """
 
 
-def arcs_reach(m: Circle, n: Circle, *_: Any) -> Any:
-    """By how much two circles meet: positive where they cross, negative where they do not.
+def arcs_reach(m: Circle, n: Circle, *_: Any) -> tuple[Any, Any]:
+    """By how much two circles lie neither apart nor one in the other.
 
     Equal circles that fall together do not: their centres may stay together on all the way, and
     where the circles cross is then rounding.
@@ -84,7 +84,7 @@ def arcs_reach(m: Circle, n: Circle, *_: Any) -> Any:
     distance, most = abs(n.centre - m.centre), m.radius + n.radius
     least, hidden = abs(m.radius - n.radius), TOGETHER * most
     least = pick(least < hidden, hidden, least)
-    return (most**2 - distance**2) * (distance**2 - least**2)
+    return most**2 - distance**2, distance**2 - least**2
 
 
 @action(
