@@ -190,7 +190,7 @@ class Enclosure:
         return Enclosure(*(np.where(condition, one, two) for one, two in pairs))
 
     def picked(self, condition: Array, other: Any) -> Enclosure:
-        """This where a condition holds, elsewhere the other; what holds both where it is not sure."""
+        """This where a condition holds, elsewhere the other; both where it is not sure."""
         other, sure = like(other, self), np.asarray(condition, dtype=float)
         return self.hull(other).where(sure == 0.5, self.where(sure > 0.5, other))
 
