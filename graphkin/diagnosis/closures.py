@@ -17,6 +17,7 @@ from graphkin.construction.core.crossings import letter_of
 from graphkin.construction.core.program import Part, Program, Step, Target
 from graphkin.construction.core.run import StepFailed
 from graphkin.construction.higher_class.closure_solver import closer_of, run_settled, ways
+from graphkin.construction.higher_class.completeness import is_complete
 from graphkin.construction.links.position import FITS
 from graphkin.scene.model import Branch, Scene, Side, Way
 from graphkin.structure.groups import Dyad, Group, Higher, OnTwoPins, Stretched, Tie
@@ -47,6 +48,7 @@ class Choice(Struct, frozen=True):
 
     Where no point of it tells them apart, ``pin`` is a link of it, ``is_turned``, and the places
     are unit vectors along that link's x axis. [branches] states the closure under ``key``.
+    ``is_complete`` says whether the closures are proved to be all; None where no proof was tried.
     """
 
     links: tuple[str, ...]
@@ -54,6 +56,7 @@ class Choice(Struct, frozen=True):
     closures: tuple[GroupClosure, ...]
     key: str = ""
     is_turned: bool = False
+    is_complete: bool | None = None
 
 
 class IdleBar(Struct, frozen=True):
@@ -92,8 +95,13 @@ APART = 1e-6
 """Distance of two places, in parts of the largest coordinate, that a reader sees as two."""
 
 
-def choices(scene: Scene, groups: tuple[Group, ...], program: Program) -> tuple[Choice, ...]:
-    """The closures of every group that closes in more than one way."""
+def choices(
+    scene: Scene, groups: tuple[Group, ...], program: Program, *, proving: bool = False
+) -> tuple[Choice, ...]:
+    """The closures of every group that closes in more than one way.
+
+    With ``proving`` a proof is tried that groups of higher class close in no other way.
+    """
     axes = [target for target in program.targets if target[0] == "axis"]
     every = program.needed([*positions_of(program), *axes])
     stated = values_as_stated(scene, program, every)
@@ -109,10 +117,11 @@ def choices(scene: Scene, groups: tuple[Group, ...], program: Program) -> tuple[
         told = told_by(scene, group, program)
         if isinstance(group, Dyad):
             both = [dyad_closure(positions, number, group, told, way) for way in (1, -1)]
-            closures = tuple(both)
+            closures, complete = tuple(both), None
         else:
-            closures = numbered(positions, number, told)
-        found.append(told_apart(group.links, told, closures, key_of(scene, group) or ""))
+            closures, complete = numbered(positions, number, told, proving=proving)
+        choice = told_apart(group.links, told, closures, key_of(scene, group) or "")
+        found.append(replace(choice, is_complete=complete))
     return tuple(found)
 
 
@@ -223,9 +232,10 @@ def dyad_closure(
 
 
 def numbered(
-    positions: Positions, number: int, told: tuple[Target, ...]
-) -> tuple[GroupClosure, ...]:
-    """All closures of a group of higher class, in the order of their numbers."""
+    positions: Positions, number: int, told: tuple[Target, ...], *, proving: bool
+) -> tuple[tuple[GroupClosure, ...], bool | None]:
+    """The closures of a group of higher class, in the order of their numbers; whether they are
+    proved to be all."""
     scene, program = positions.scene, positions.program
     step = program.steps[number]
     closer = closer_of(step)
@@ -234,14 +244,14 @@ def numbered(
     try:
         known = run_settled(scene, alone, alone.needed(alone.targets)).values
     except StepFailed:
-        return ()
-    found = []
-    for k in range(1, ways(scene, program, number, [known[arg] for arg in step.args]) + 1):
+        return (), None
+    found, args = [], [known[arg] for arg in step.args]
+    for k in range(1, ways(scene, program, number, args) + 1):
         action = replace(step.action, value=replace(closer, number=k))
         own = replace(positions, program=replaced(program, number, replace(step, action=action)))
         chosen = k == closer.number
         found.append(closure(own, number, f"closure {k}", told, chosen=chosen))
-    return tuple(found)
+    return tuple(found), is_complete(closer.trying, args) if proving else None
 
 
 def replaced(program: Program, number: int, step: Step) -> Program:

@@ -136,6 +136,11 @@ def is_ball(value: Any) -> bool:
     return hasattr(value, "rel_accuracy_bits")
 
 
+def is_disc(value: Any) -> bool:
+    """Whether a number is a disc with slopes, real or complex."""
+    return hasattr(value, "rises")
+
+
 def is_formal(value: Any) -> bool:
     """Whether a number is a polynomial in letters."""
     return hasattr(value, "terms")
@@ -152,7 +157,7 @@ def sqrt(x: Real) -> Real:
         if x < 0:
             raise ValueError("the square root of a negative number")
         return x.context.sqrt(x)
-    if is_ball(x) or is_formal(x):
+    if is_ball(x) or is_formal(x) or is_disc(x):
         return x.sqrt()
     return np.sqrt(x)
 
@@ -163,7 +168,7 @@ def phase(z: Point) -> Real:
         return cmath.phase(z)
     if is_decimal(z):
         return z.context.arg(z)
-    if is_ball(z) or is_formal(z):
+    if is_ball(z) or is_formal(z) or is_disc(z):
         return z.arg()
     return np.angle(z)
 
@@ -176,7 +181,7 @@ def turn_by(angle: Real) -> Point:
         return angle.context.expj(angle)
     if is_ball(angle):
         return at(angle.cos(), angle.sin())
-    if is_formal(angle):
+    if is_formal(angle) or is_disc(angle):
         return angle.turn()
     return np.cos(angle) + 1j * np.sin(angle)
 
@@ -185,6 +190,10 @@ def pick(condition: Any, yes: Any, no: Any) -> Any:
     """One of two values by a condition, element by element in a batch."""
     if isinstance(condition, bool):
         return yes if condition else no
+    if is_disc(yes):
+        return yes.picked(condition, no)
+    if is_disc(no):
+        return no.picked(1.0 - np.asarray(condition, dtype=float), yes)
     return np.where(condition, yes, no)
 
 
@@ -204,6 +213,8 @@ def either(condition: Any, one: Point, other: Point) -> Point:
         return acb(x, y)
     if is_formal(one):
         return one.simpler(other)
+    if is_disc(one):
+        return one.tighter(other)
     return pick(condition, one, other)
 
 

@@ -9,7 +9,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from typing import Any, NamedTuple
 
-from graphkin.numbers.arithmetic import Point, Real, at, either, pick, sqrt
+from graphkin.numbers.arithmetic import Point, Real, at, either, is_disc, pick, sqrt
 
 
 class Line(NamedTuple):
@@ -77,7 +77,9 @@ def crossing_sine(m: Line, n: Line) -> Real:
 
 
 def in_order(a: Real, b: Real) -> tuple[Real, Real]:
-    """Two numbers, the smaller first."""
+    """Two numbers, the smaller first; discs as they come, for only rounding asks their order."""
+    if not isinstance(a, float) and (is_disc(a) or is_disc(b)):
+        return a, b
     return pick(a <= b, a, b), pick(a <= b, b, a)
 
 

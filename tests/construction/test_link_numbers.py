@@ -106,8 +106,8 @@ def test_two_arcs_reach_one_another_where_their_circles_cross(one, r, other, s):
     found = arcs_reach(Circle(one, r), Circle(other, s))
     distance = abs(other - one)
     if min(abs(distance - r - s), abs(distance - abs(r - s))) > 1e-6:
-        assert (found > 0) == (abs(r - s) < distance < r + s)
-    assert arcs_reach(Circle(one, r), Circle(one, r)) < 0
+        assert (min(found) > 0) == (abs(r - s) < distance < r + s)
+    assert min(arcs_reach(Circle(one, r), Circle(one, r))) < 0
 
 
 @pytest.mark.parametrize("shown", [2, 3])

@@ -380,7 +380,7 @@ class Checking:
         except StructureError:  # the stated closure may have no room for an idle link
             groups = mechanism.groups
             program = write(mechanism.scene, groups, fitted=False)
-        for choice in choices(mechanism.scene, groups, program):
+        for choice in choices(mechanism.scene, groups, program, proving=True):
             lines += closure_lines(choice)
         stated = any(line.startswith("*") for line in lines)
         legend = ["(* as the scene says)"] if stated else []
@@ -449,6 +449,8 @@ def closure_lines(choice: Choice) -> list[str]:
             rest = ""
         mark = "*" if closure.picked else " "
         lines.append(f"{mark} {closure.words:<18} {where:<26} {rest}".rstrip())
+    if choice.is_complete is False:
+        lines.append("  others may exist: no proof that the search found every closure")
     return lines
 
 

@@ -29,15 +29,15 @@ from graphkin.numbers.plane import (
 class Action(Struct, frozen=True):
     """One drawing action: the key of its sentence, its value, and the margin of a crossing.
 
-    An action that can fail has ``reaches``, a smooth function of its inputs that is positive where
-    the action succeeds. ``move`` is how a student draws it on a page; None for an action that comes
-    along by itself.
+    An action that can fail has ``reaches``, factors of a smooth function of its inputs; all of them
+    are positive where the action succeeds. ``move`` is how a student draws it on a page; None for
+    an action that comes along by itself.
     """
 
     key: str
     value: Callable[..., Any]
     margin: Callable[..., Real] | None = None
-    reaches: Callable[..., Real] | None = None
+    reaches: Callable[..., tuple[Real, ...]] | None = None
     move: Move | None = None
 
     def __call__(self, *args: Any) -> Any:
@@ -48,7 +48,7 @@ class Action(Struct, frozen=True):
 def action(
     key: str,
     margin: Callable[..., Real] | None = None,
-    reaches: Callable[..., Real] | None = None,
+    reaches: Callable[..., tuple[Real, ...]] | None = None,
     move: Move | None = None,
 ) -> Callable[..., Action]:
     """Make an action from a function, under the key of its sentence."""

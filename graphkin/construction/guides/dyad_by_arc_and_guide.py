@@ -19,10 +19,10 @@ from graphkin.numbers.plane import Circle, Line, cross, line_circle_sine, line_m
 from graphkin.scene.link_points import lettered
 
 
-def line_reached(line: Line, circle: Circle, *_: Any) -> Any:
-    """The square of a circle's half-chord on a line; negative where they do not meet."""
+def line_reached(line: Line, circle: Circle, *_: Any) -> tuple[Any, Any]:
+    """By how much a circle reaches a line from its right and from its left."""
     height = cross(line.along, circle.centre - line.point) / abs(line.along)
-    return circle.radius**2 - height**2
+    return circle.radius - height, circle.radius + height
 
 
 @action(

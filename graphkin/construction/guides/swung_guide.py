@@ -48,9 +48,10 @@ def swing_margin(pivot: Point, pin: Point, height: Real, way: int, size: float) 
     return sqrt((bar - height) * (bar + height)) / pick(bar < size, size, bar)
 
 
-def swing_reached(pivot: Any, pin: Any, height: Any, *_: Any) -> Any:
-    """Positive where a pin is far enough from a pivot for a guide at a height between them."""
-    return abs(pin - pivot) ** 2 - height**2
+def swing_reached(pivot: Any, pin: Any, height: Any, *_: Any) -> tuple[Any, Any]:
+    """By how much a pin is far enough from a pivot for a guide at a height between them."""
+    bar = abs(pin - pivot)
+    return bar - height, bar + height
 
 
 @action("swing", margin=swing_margin, reaches=swing_reached)

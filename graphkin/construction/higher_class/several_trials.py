@@ -1,8 +1,9 @@
 """Groups in which several links are tried at once until all cuts fit.
 
 Cells of a grid in which no misfit can vanish are dropped as soon as the links tried so far show
-this. The closures are found in the remaining cells. The search may miss a closure whose dyads can
-be drawn only within less than a grid step, or one that nearly merges with another.
+this. The closures are found in the remaining cells. The search may miss a closure where a misfit
+takes all its range within one cell, or one that nearly merges with another. The module completeness
+says whether that is ruled out.
 """
 
 from __future__ import annotations
@@ -195,6 +196,7 @@ class SeveralTrials(Trying, frozen=True, dict=True):
                 low, least = np.fmin.reduce(spans[:, :2])
                 most, high = np.fmax.reduce(spans[:, 2:])
                 ranges[misfit] = np.fmin(high - low, WIDER * (most - least))
+            ranges = np.where(np.isfinite(ranges), ranges, max(map(abs, known)))
             side = self.grid_of_shares()[1] / self.across
             kept = [part.kept(ranges[[*stage.misfits]], side) for part in parts]
             row, place = (np.concatenate(column) for column in zip(*kept, strict=True))
@@ -237,7 +239,11 @@ class SeveralTrials(Trying, frozen=True, dict=True):
             trace = run_moving(stage.ready, self.values, batch_kind(), overrides=overrides)
             shape = len(first), len(new), across + 1
             misfits = [trace.values[self.unknowns[k].misfit] for k in stage.misfits]
-            reaches = [far(*(trace.values[arg] for arg in args)) for far, args in stage.reaches]
+            reaches = [
+                factor
+                for far, args in stage.reaches
+                for factor in far(*(trace.values[arg] for arg in args))
+            ]
             misfits, reaches = (
                 [np.broadcast_to(each, shape) for each in some] for some in (misfits, reaches)
             )
@@ -335,12 +341,14 @@ class DrawnChain:
         return self.trying.drawable(k, *self.trials(row, share))
 
     def at(self, row: Array, share: Array) -> tuple[list[Array], list[Array]]:
-        """Each misfit, and how far each dyad is drawable, in their order: (K,) each."""
+        """Each misfit, and each factor of how far a dyad is drawable, in their order: (K,) each."""
         found = self.trying.run(self.trying.looked_at, *self.trials(row, share))
         choices = [choice for choice in self.trying.choices if choice is not None]
         misfits = [found[one.misfit] for one in self.trying.unknowns]
         with np.errstate(all="ignore"):
-            reaches = [far(*(found[arg] for arg in args)) for _, far, args in choices]
+            reaches = [
+                factor for _, far, args in choices for factor in far(*(found[arg] for arg in args))
+            ]
         count = len(row)
         return (
             [np.broadcast_to(each, count) for each in misfits],

@@ -7,7 +7,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
 from functools import cached_property
-from math import pi
+from math import pi, prod
 from typing import Any
 
 from msgspec import Struct
@@ -187,7 +187,7 @@ class Trial(Struct, frozen=True, dict=True):
         ready, reaches, args = choice
         found = self.run(ready, known, tried, signs)
         with np.errstate(all="ignore"):
-            return np.broadcast_to(reaches(*(found[arg] for arg in args)), len(tried))
+            return np.broadcast_to(prod(reaches(*(found[arg] for arg in args))), len(tried))
 
     @cached_property
     def crossings(self) -> tuple[tuple[Ready, tuple[int, ...]], ...]:
@@ -331,7 +331,7 @@ class TrialChain:
         choice = self.trial.choices[k]
         assert choice is not None
         _, reaches, args = choice
-        return middle(reaches(*self.drawn((tried,), args)))
+        return middle(prod(reaches(*self.drawn((tried,), args))))
 
     def with_sign(self, k: int, sign: float) -> TrialChain:
         """The same chain with another sign of a dyad."""

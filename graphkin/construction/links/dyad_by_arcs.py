@@ -75,8 +75,8 @@ Near a flat crossing, rounding is as large as the square root of eps.
 """
 
 
-def arcs_reach(m: Circle, n: Circle, *_: Any) -> Any:
-    """Positive where two circles cross, negative where they do not.
+def arcs_reach(m: Circle, n: Circle, *_: Any) -> tuple[Any, Any]:
+    """By how much two circles lie neither apart nor one in the other.
 
     Coincident equal circles count as not crossing: their centres may coincide along a whole motion,
     and a crossing would then be rounding.
@@ -84,7 +84,7 @@ def arcs_reach(m: Circle, n: Circle, *_: Any) -> Any:
     distance, most = abs(n.centre - m.centre), m.radius + n.radius
     least, hidden = abs(m.radius - n.radius), TOGETHER * most
     least = pick(least < hidden, hidden, least)
-    return (most**2 - distance**2) * (distance**2 - least**2)
+    return most**2 - distance**2, distance**2 - least**2
 
 
 @action(
