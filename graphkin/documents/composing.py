@@ -47,13 +47,13 @@ LOSS = 0.02
 SHORT, LONG = 20.0, 90.0
 """Lengths in mm of a longest vector on the mechanism: the least, and the largest wanted."""
 COARSEST = 0.02
-"""Least part of the natural time for the vectors, if none has a length."""
+"""Least factor of coarseness, for vectors of length zero."""
 NOISE = 1e-9
 """Relative size below which a plan consists of rounding errors."""
 WEIGHT = 1.3
 """Weight of the size of the mechanism against its plans together."""
 BLUR = 0.2
-"""Loss in size for components laid off e times as long as their figures."""
+"""Loss in size where components are laid off e times as long as in their triangles."""
 LINE = 0.1
 """Least ratio of a plan's breadth to its length; a plan below it counts as a line."""
 LITTLE = 0.12
@@ -229,7 +229,7 @@ def is_short(needs: Needs, kL: float) -> bool:
 
 
 def coarseness(needs: Needs, kL: float) -> float:
-    """The factor of coarseness at which no vector is longer than LONG."""
+    """The factor of coarseness of a plan's scale at which no vector is longer than LONG."""
     speed, thrust = (needs.longest.get(kind, 0.0) for kind in ("velocity", "acceleration"))
     times = 1000 / kL / LONG
     return max(times * speed, sqrt(times * thrust), COARSEST)

@@ -39,10 +39,12 @@ def plot(
 ) -> Axes:
     """Draw the mechanism, its velocity plan or its acceleration plan into matplotlib axes.
 
-    One unit of the axes is a millimetre of the sheet, with y up; the origin is the pole of a plan,
+    One unit of the axes is a millimetre of the sheet, with y up. The origin is the pole of a plan,
     or the origin of the frame. The drawing fills the axes at their present size. Lines, arrowheads
     and letters have the sheet's own sizes in every figure (capitals of 2.5 mm, as text of 10
-    points). Raises the errors of hand_out, PageError where the axes are too small for the letters,
+    points).
+
+    Raises the errors of hand_out. Raises PageError where the axes are too small for the letters,
     and SceneError where the scene asks for nothing of a plan.
     """
     from graphkin.writers.axes import put_drawing, size_of

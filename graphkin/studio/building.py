@@ -488,10 +488,10 @@ def spoke(work: Builder, table: Any, centre: str, at: complex) -> None:
 
 
 def wheel(work: Builder, act: Act) -> None:
-    """Add a wheel about a pin, turning about a fixed pin or rolling on a wheel or straight track.
+    """Add a wheel about a pin, which turns about a fixed pin or rolls.
 
-    A pin of a moving link without a second wheel makes the wheel roll on a track of the frame that
-    touches it.
+    It rolls on a second wheel if one is given. Otherwise a wheel about a moving pin rolls on a
+    straight track of the frame, which touches it.
     """
     centre, *rest = act.of
     at, table = work.place(centre), tomlkit.inline_table()

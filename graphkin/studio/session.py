@@ -476,8 +476,8 @@ class Session:
     def open(self, name: str, kind: str) -> Opened:
         """The text to open, by its kind.
 
-        It is a scene here, a copy of one under another name, a lab or another scene of graphkin, an
-        empty scene, or by default a first scene. Raises SceneError for an unknown name.
+        It is a scene here, a copy of one under another name, a scene of graphkin, an empty scene,
+        or by default a first scene. Raises SceneError for an unknown name.
         """
         match kind:
             case "lab":

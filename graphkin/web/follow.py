@@ -71,7 +71,8 @@ def mechanism_bindings(binder: FieldBinder, angles: Mapping[str, Any]) -> Told:
 
 
 def line_to_edge(binder: FieldBinder, mark: LineMark, room: Rect) -> Binding:
-    """Bind a line that does not move: the field's edge clips it, and it grows to ``room``."""
+    """Bind a fixed line that the field clips; where the field grows, the line extends within
+    ``room``."""
     ends = (mark.x1, mark.y1), (mark.x2, mark.y2)
     start, end = (binder.tape.lifted(complex(*place)) for place in ends)
     return binder.joining(start, end, room)
@@ -324,11 +325,11 @@ class MarkBindings(Struct, frozen=True, dict=True):
         return all(graph.constant(node) is not None for node in way)
 
     def more(self) -> Iterator[tuple[int, str, str, Record]]:
-        """Marks that the drawn position does not have: number of the preceding mark, element,
-        class, record.
+        """Marks missing from the drawn position: number of the preceding mark, element, class,
+        record.
 
-        These are the head of a vector that was too short for one, and the far part of a line that
-        was too short to be split.
+        These are the head of a vector too short for one, and the far part of a line too short to be
+        split.
         """
         for k, mark in enumerate(self.marks):
             first = style_class(mark)
@@ -347,8 +348,7 @@ class MarkBindings(Struct, frozen=True, dict=True):
                     yield k, "line", mark.cls, found
 
     def binding(self, k: int, mark: Mark) -> Binding:
-        """How a mark follows; a mark of which nothing is known holds for the drawn position
-        alone."""
+        """How a mark follows; a mark without a rule holds for the drawn position alone."""
         found = self.bodies.get(mark)
         if found is not None:
             return found
@@ -396,7 +396,7 @@ class MarkBindings(Struct, frozen=True, dict=True):
         return still if name in self.curves else only_at_start
 
     def text_of(self, k: int) -> Text | None:
-        """The text of a label, of which the leader and the circle come right before it."""
+        """The text of a label; the leader and the circle come right before it."""
         for mark in self.marks[k : k + 3]:
             if isinstance(mark, Text):
                 return mark

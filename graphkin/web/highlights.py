@@ -28,8 +28,8 @@ HIDDEN = {*DRAWN, "detail", "note", "caption"}
 def rates(sheets: Sequence[ScreenSheet], told: PageProtocol) -> dict[int, list[dict[str, object]]]:
     """The rates that each sentence reads off, by the number of the sentence.
 
-    Each rate has its row, its formula, its sense as drawn, the ids of its link's marks and of the
-    ring around the link's number, the ends of its bar, and its vector.
+    Each rate has its row, its formula, and its sense as drawn. It has the ids of its link's marks
+    and of the ring around the link's number, the ends of its bar, and its vector.
     """
     found: dict[int, list[dict[str, object]]] = {}
     for at, said in enumerate(told.said, 1):

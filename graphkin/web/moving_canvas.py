@@ -102,8 +102,8 @@ class MovingCanvas(Struct, frozen=True):
         return shown if seen is None else smaller(shown, seen)
 
     def within(self, point: Any) -> Any:
-        """How far a point lies inside the rectangle that the field can grow to, less 2 mm, in
-        mm."""
+        """How far a point lies inside the rectangle that the field can grow to, less 2 mm (in
+        mm)."""
         left, top, right, bottom = self.binder.room
         place = self.binder.page(point)
         x, y = place.real, place.imag
@@ -113,8 +113,8 @@ class MovingCanvas(Struct, frozen=True):
     # --- on the mechanism ----------------------------------------------------------------------
 
     def vector(self, name: str, look: str, tail: Any, tip: Any) -> None:
-        """Draw a vector between two moving points; a vector of a centre holds at the drawn position
-        only."""
+        """Draw a vector between two moving points; a vector of a centre only at the drawn
+        position."""
         if isinstance(self.value(self.number), Ratio):
             self.put(lambda: only_at_start)
             return
@@ -156,8 +156,7 @@ class MovingCanvas(Struct, frozen=True):
         self.put(lambda: self.part(LAST))
 
     def part(self, which: int, *, is_beyond: bool = False) -> Binding:
-        """Bind a part of the step's own line, clipped at the rectangle that the field can grow
-        to."""
+        """Bind a part of the step's own line, clipped where the field can grow no further."""
         binder, line, number = self.binder, self.value(self.number), self.number
         origin = binder.page(line.point)
         way = binder.places.way(number).conjugate()
@@ -192,8 +191,7 @@ class MovingCanvas(Struct, frozen=True):
         self.put(lambda: self.arc_about(centre, end, SWEEP))
 
     def arc_about(self, centre: Any, end: Any, sweep: float) -> Binding:
-        """Bind an arc about a centre through ``end``, ``sweep`` mm long on both sides of that
-        point."""
+        """Bind an arc about a centre through ``end``, extended by ``sweep`` mm to both sides."""
         way, degrees = self.binder.tape.lifted(end - centre), 180 / pi
         radius = abs(way)
         bearing = way.imag.do("atan2", way.real) * degrees

@@ -1,8 +1,8 @@
 """Where letters lie in an animation: each keeps its place relative to its point.
 
 A letter lies off its point in a fixed direction of the page, or in a direction that turns with
-another point seen from its own. The best direction is found once, from what the letter covers over
-the motion. So the letter moves smoothly with its point and avoids bars, walls and other letters.
+another point. The best direction is found once, from what the letter covers over the motion. So the
+letter moves smoothly with its point and avoids bars, walls and other letters.
 """
 
 from __future__ import annotations

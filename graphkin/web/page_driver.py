@@ -270,8 +270,7 @@ def window(driven: PageDriver) -> tuple[float, float]:
 def reach_of(
     driven: PageDriver, graph: Graph, closed: Sequence[int], near: Callable[[Any], dict[str, Any]]
 ) -> Reach | None:
-    """The range around the start in which the outputs ``closed`` are finite; None for a single
-    position.
+    """The range around the start where the outputs ``closed`` are finite; None for one position.
 
     ``near`` gives the other inputs of the graph at positions of the driver. A gap narrower than
     half a degree may be missed.

@@ -325,8 +325,8 @@ def panes(sheet: ScreenSheet, s: int) -> dict[str, object]:
 def letters(set_up: Stage, sheet: ScreenSheet, s: int) -> Iterator[list[list[object]]]:
     """The letters of each field with their rules, as moving_labels.lettering places them.
 
-    Each has the ids of its text and of its point's circle, the middle of its ink as drawn, its
-    width, its distance, its turn, and the ids of the circles that guide it.
+    Each has the ids of its text and of its point's circle. It has the middle and width of its ink
+    as drawn, its distance, its turn, and the ids of the circles that guide it.
     """
     first, kind = 0, sheet.drawing.kind
     for rules, marks in (

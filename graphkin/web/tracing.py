@@ -39,10 +39,10 @@ SLACK = 1e-6
 
 
 class Tracing(Struct, frozen=True, dict=True):
-    """The traced steps of a mechanism; each sheet reuses what earlier sheets have traced.
+    """The traced steps of a mechanism; each sheet reuses the steps that earlier sheets have traced.
 
-    ``margins`` are the sines of all crossings, ``closings`` the closings of groups of higher class,
-    ``counting`` the links whose whole turns are followed, by their inputs.
+    ``margins`` are the sines of all crossings. ``closings`` are the closings of groups of higher
+    class. ``counting`` are the links whose whole turns are followed, by their inputs.
     """
 
     mechanism: Mechanism
@@ -200,8 +200,8 @@ class Tracing(Struct, frozen=True, dict=True):
     def closed(self, trace: Trace, size: float) -> list[int]:
         """The outputs that are finite where the mechanism closes.
 
-        They are the places of all points, and a root for each bar's length, which idle links may
-        not keep.
+        They are the places of all points, and for each bar the square root of its remaining
+        tolerance of length, which idle links may exceed.
         """
         places = {
             of: self.tape.lifted(trace.values[number])

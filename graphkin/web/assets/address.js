@@ -13,7 +13,7 @@ function keep() {
   const x = (moved() ? `&x=${Number(state.x.toFixed(4))}` : "") + (set && `&set=${encodeURIComponent(set)}`);
   try {
     history.replaceState(null, "", `#step=${state.step}${x}`);
-  } catch { /* a page inside another page may not write its address */ }
+  } catch { /* a page shown inside another may not */ }
   address = location.hash;
 }
 

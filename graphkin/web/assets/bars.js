@@ -1,5 +1,5 @@
 // The scale bars next to the captions of the fields, each a round number of millimetres of paper long.
-const LONGEST = 0.2, SHORTEST = 0.2; // parts of the narrower field: the longest bar, and the shortest as part of the longest
+const LONGEST = 0.2, SHORTEST = 0.2; // of the narrower field's width, and of that
 
 /** Set the bars of a sheet, given the sizes and view boxes of its fields. */
 function bars(sheet, sizes, boxes) {

@@ -1,5 +1,5 @@
 // Highlights next to the strokes of a step: links whose rates are read off, and similar triangles.
-const ROUND = 6.5, SWING = 1.9, BARB = 2.6; // arrow around a link number: radius in mm, half its arc in radians, head in mm
+const ROUND = 6.5, SWING = 1.9, BARB = 2.6; // mm of an arrow round a link's number, half its arc in radians, mm of its head
 const CORNERS = [5, 7]; // mm of the arcs that mark equal angles, in both figures
 
 /** The rates that the current step reads off. */

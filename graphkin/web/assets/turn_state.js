@@ -85,7 +85,7 @@ function keep_turn() {
     if (!one || !is_begun(one)) return localStorage.removeItem(MEMORY);
     const { done, from, log, lines, wrong, hinted } = one;
     localStorage.setItem(MEMORY, JSON.stringify({ done: [...done], from, log, lines, wrong, hinted, open: turn !== null }));
-  } catch { /* the turn is lost with the page */ }
+  } catch { /* it is lost with the page */ }
 }
 
 /** Restore the stored turn of this page, and resume it if the page was left during the turn. */
@@ -138,7 +138,7 @@ function show_turn() {
     mark.classList.toggle("now", turn.fresh.includes(Number(mark.dataset.of)));
     mark.classList.remove("rest");
   }
-  for (const key of [...rest].flatMap(step => moves[step].inputs)) { // such as the ray at the angle of the crank
+  for (const key of [...rest].flatMap(step => moves[step].inputs)) { // such as the ray at the crank's angle
     const unseen = () => sheets[sheet].of.get(key)?.every(mark => mark.matches(".later"));
     if (picks[key].kind === "guide" && Number(key) && is_there(key) && unseen()) turn.open.add(Number(key));
   }

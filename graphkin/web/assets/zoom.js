@@ -58,7 +58,7 @@ function mark_beyond({ svg, front, view }, [x, y, width, height]) {
   }));
 }
 
-/** The magnification of lettering at a scale: up to `most` where legible text suffices, else up to `largest`. */
+/** The magnification of lettering at a scale: up to `most` for easy reading, up to `largest` for legibility. */
 function legible({ least }, scale, most, largest) {
   return Math.max(Math.min(READABLE / scale, most), Math.min(LEGIBLE / (scale * least), largest));
 }
