@@ -72,8 +72,7 @@ def width(equation: VectorEquation, *, solved: bool) -> float:
 def placed(
     equation: VectorEquation, x: float, *, solved: bool
 ) -> Iterator[tuple[float, float, str, Term | None]]:
-    """The start, width and markup of each sign and vector of an equation, with the vector's
-    term."""
+    """The start, width and markup of each sign and vector of an equation, with its term."""
     signs: list[tuple[str, Term | None]] = [(equation.whole.symbol, equation.whole)]
     for terms in equation.sums:
         for i, term in enumerate(terms):
@@ -217,8 +216,7 @@ def legends(drawings: Sequence[Drawing], found: Sequence[Relation]) -> Iterator[
 def broken(
     relation: Relation, tag: str, drawing: Drawing, hint: str = "", *, solved: bool
 ) -> Iterator[CalculationRow]:
-    """A relation in as many lines as it needs, with its number on the last line and a hint after
-    it."""
+    """A relation in as many lines as needed, its number on the last one, a hint after it."""
     parts = relation.parts(solved=solved)
     room = RIGHT - LEFT - NUMBER
     parts = [

@@ -115,10 +115,9 @@ class Composition(Struct, frozen=True):
 Ladders = Mapping[str, Sequence[float]]
 """The possible enlargements of each plan relative to the mechanism, the largest first."""
 Search = Generator[Scales, Needs, Scales]
-"""A search for scale factors: it yields drafts at 1:1, receives their needs, and returns the
-result.
+"""A search for scale factors: it yields drafts at 1:1 and receives their needs.
 
-It raises PageError where the stated factors leave no room.
+It returns the scale factors found. It raises PageError where the stated factors leave no room.
 """
 
 
@@ -146,8 +145,7 @@ Best = Generator[Scales, Needs, Attempt]
 
 
 def searched_scales(stated: Stated, crank: float, natural: float, *, may_give_way: bool) -> Search:
-    """The scale factors of a mechanism whose ``crank`` has a speed in rad/s, or zero without a
-    crank.
+    """The scale factors of a mechanism whose ``crank`` has a speed in rad/s, 0 without one.
 
     ``natural`` is the time in which vectors are about as large as the mechanism. Optional triangles
     (``may_give_way``) are dropped where they cause a smaller mechanism, or much smaller drawings.
@@ -167,8 +165,7 @@ def searched_scales(stated: Stated, crank: float, natural: float, *, may_give_wa
 
 
 def by_crank(stated: Stated, crank: float, triangles: bool) -> Best:
-    """The best composition with vectors of the crank's length, or shorter or longer where that
-    helps."""
+    """The best composition with vectors of the crank's length, or another if that helps."""
 
     def draft(times: float) -> Scales:
         return Scales(1.0, times / crank, of_crank=times, triangles=triangles)
@@ -249,8 +246,7 @@ def lengths(needs: Needs, stated: Stated) -> Iterator[float]:
 
 
 def least(box: Extent) -> float:
-    """The kL at which a mechanism just leaves room for a plan. Raises PageError for a single
-    point."""
+    """The kL at which a mechanism just leaves room for a plan. Raises PageError for a dot."""
     needed = max(1000 * box.width / (WIDTH - NARROW), 1000 * box.height / HEIGHT)
     if not needed > 0:
         raise PageError(Problem("scale", "the mechanism has no extent", "points apart"))
@@ -258,8 +254,7 @@ def least(box: Extent) -> float:
 
 
 def largest(needs: Needs, stated: Stated, seconds: float, ladders: Ladders) -> Composition | None:
-    """The scale at which mechanism and plans together are largest; None where no scale holds
-    them."""
+    """The scale at which mechanism and plans together are largest; None if none fits."""
     found: list[Composition] = []
     for kL in islice(lengths(needs, stated), MOST):
         choice = composed(needs, kL, ladders, stated, seconds)

@@ -111,8 +111,7 @@ def plan_with_trials(drawing: Drawing, rect: Rect) -> list[Mark]:
 
 
 def data_and_tables(drawing: Drawing, view: str, moved: Set[Moved]) -> Iterator[list[Mark]]:
-    """The sheets of data that do not fit on one sheet, and of tables, which begin below the
-    data."""
+    """The sheets of data too long for one sheet, and of tables, which begin below the data."""
     head, x, y = title_line(drawing, drawing.words("page.continued"))
     room = int((LOW - y) / LEADING) + 1
     lines = told_lines(drawing, view, moved, x)

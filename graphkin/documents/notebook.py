@@ -87,11 +87,10 @@ LEAST = 0.4
 def for_axes(
     drawing: Drawing, width: float, height: float, *, mechanism: bool
 ) -> tuple[list[Mark], Field, float]:
-    """The marks of a mechanism or of its plan, their field, and the enlargement relative to the
-    sheet.
+    """The marks of a mechanism or of its plan, their field, and the enlargement.
 
-    The axes have a size in mm and their upper left corner at (0, 0). Raises PageError where the
-    axes are too small for the letters.
+    The enlargement is relative to the sheet. The axes have a size in mm and their upper left corner
+    at (0, 0). Raises PageError where the axes are too small for the letters.
     """
     rect: Rect = (EDGE, EDGE, width - EDGE, height - EDGE)
     mm, metres = 1000 / drawing.scales.kL, drawing.scales.metres(drawing.kind)

@@ -229,8 +229,7 @@ def sections_of(drawing: Drawing) -> list[Section]:
 
 
 def of_plan(drawing: Drawing) -> list[Relation]:
-    """The relations that a plan is drawn from and that are read off it, each once and before its
-    use."""
+    """The relations that a plan needs and gives, each once and before its use."""
     found: list[Relation] = []
     if drawing.kind == "acceleration":
         for driver in drawing.scene.drivers:

@@ -108,8 +108,7 @@ def stated_of(sheet: Sheet, values: Mapping[str, Any], count: int, *kind: Any) -
 def found(
     mechanism: Mechanism, curves: tuple[Curve, ...], asking: Search
 ) -> tuple[Scales, list[Drawing]]:
-    """The result of a search, which receives the needs of its drafts; and the drafts of the
-    result."""
+    """The result of a search, which receives the needs of its drafts; and its final drafts."""
     sheets = sheet_targets(mechanism)
     drafted: dict[tuple[float, bool], list[Drawing]] = {}
     draft = next(asking)
@@ -141,8 +140,7 @@ def drafts_of(
     curves: tuple[Curve, ...],
     scales: Scales,
 ) -> list[Drawing]:
-    """The drawings of all sheets at full size, with velocities drawn as displacements in some
-    time."""
+    """The drawings of all sheets at full size, with velocities as displacements in a time."""
     nobody = Verdict(True, 0.0, "", 0.0, 0.0, 0.0)
     return [
         drawing(mechanism, kind, found, replace(scales, kL=1.0), nobody, words("en"), curves)
@@ -151,8 +149,7 @@ def drafts_of(
 
 
 def the_crank(mechanism: Mechanism) -> float:
-    """Speed in rad/s of the only driver if it is a crank; 0 for other drivers and for a crank at
-    rest."""
+    """Speed in rad/s of the only driver if it is a moving crank, otherwise 0."""
     drivers = mechanism.scene.drivers
     if len(drivers) != 1 or drivers[0].kind != "turn":
         return 0.0

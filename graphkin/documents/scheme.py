@@ -70,8 +70,7 @@ def scheme(drawing: Drawing) -> list[Mark]:
 
 
 def drawn(drawing: Drawing, *, numbered: bool) -> FieldContent:
-    """The mechanism with its symbols in the middle of the scheme's field, and drivers by
-    letters."""
+    """The mechanism with its symbols in the middle of the scheme's field."""
     box = drawing.mechanism_extent()
     sides = [room / side for room, side in zip(SIZE, (box.width, box.height), strict=True) if side]
     field = Field(SCHEME, min(sides, default=1.0), box.middle, centre(SCHEME))
@@ -199,8 +198,7 @@ def angle_between(one: tuple[complex, complex], other: tuple[complex, complex]) 
 def lie_on_one_another(
     one: tuple[complex, complex], other: tuple[complex, complex], near: float
 ) -> bool:
-    """Whether nearly parallel bars are within ``near`` of each other along much of the shorter
-    one."""
+    """Whether nearly parallel bars overlap within ``near`` along much of the shorter one."""
     shorter, longer = sorted((one, other), key=lambda ends: abs(ends[1] - ends[0]))
     along = (longer[1] - longer[0]) / abs(longer[1] - longer[0])
     ends = [(end - longer[0]) / along for end in shorter]

@@ -28,8 +28,7 @@ from graphkin.text.markup import AND, names_in
 
 
 class IndexNote(NamedTuple):
-    """The meaning of an index: the kind of note, the names with the index, and the note's
-    fields."""
+    """The meaning of an index: the kind of note, the names with the index, and its fields."""
 
     kind: str
     names: AbstractSet[str]

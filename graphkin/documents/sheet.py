@@ -58,8 +58,7 @@ BLANK = ". . . . . . . . ."
 HEADING = "heading"
 """The name of the lines of captions."""
 LOOKS = ((3.5, 1), (2.5, 1), (2.5, 2))
-"""Heights of captions in mm with their largest number of lines; the first that fits both is
-used."""
+"""Heights of captions in mm with their largest number of lines; the first that fits is used."""
 LEAST = 1.8
 """Height in mm of the letters where none of these fits."""
 CAPTION_LEADING = 1.4
@@ -165,8 +164,7 @@ SPACED, CLOSE = 4.2, 3.85
 SMALL, NEAR = 2.0, (3.3, 2.8, 2.45)
 """Height of letters in mm where drawings leave no room for larger ones, and distances of lines."""
 AIR = 1.0
-"""Extra distance in mm of the captions from many lines of data, since both may have large
-letters."""
+"""Extra distance in mm of the captions from many lines of data: both may have large letters."""
 SHORTER = (0.0, *range(4, 49, 4))
 """Reductions of line width tried in mm, until no characters touch."""
 
@@ -477,8 +475,7 @@ def title_block(drawing: Drawing, view: str, number: str) -> TitleBlock:
 
 
 def sheet_heading(drawing: Drawing, view: str = "key") -> tuple[list[Mark], set[Moved], float]:
-    """The sheet's title and data, the parts that do not fit, and the extra height of the data in
-    mm."""
+    """The sheet's title and data, the parts that do not fit, and extra height in mm."""
     marks, x, y = title_line(drawing)
 
     def made() -> list[Mark]:
@@ -716,8 +713,7 @@ def wanted(drawing: Drawing, x: float, y: float) -> tuple[list[Mark], set[Moved]
 
 
 def task_lines(drawing: Drawing, moved: set[Moved], width: float) -> list[str]:
-    """The lines of a task in a width, with an empty line between parts; moved parts are only
-    named."""
+    """The lines of a task in a width, an empty line between parts; moved parts are named."""
     elsewhere = drawing.words("page.moved")
     lines = flowed([elsewhere] if Moved.ASKED in moved else asked_words(drawing), "; ", width, 2.5)
     links = members(drawing)

@@ -125,8 +125,7 @@ def language_of(mechanism: Mechanism, language: str | None) -> Words:
 
 
 def proved(mechanism: Mechanism, solution: Solution) -> Verdict:
-    """The verdict of the independent route. Raises WitnessError if it disagrees or cannot be
-    trusted."""
+    """The verdict of the independent route. Raises WitnessError if it fails or is unreliable."""
     if solution.margin < FAIR:
         raise WitnessError(nearly_singular(mechanism))
     verdict = mechanism.witness(solution)

@@ -268,8 +268,7 @@ def round_below(most: float) -> tuple[float, int]:
 
 
 def corners(rect: Rect, wide: float, high: float) -> Iterator[XY]:
-    """The middles of boxes in the corners of a field, lower corners first, and between the
-    corners."""
+    """The middles of boxes in the corners of a field, lower ones first, then in between."""
     left, top, right, bottom = rect
     low, far = left + wide + APART + 1, right - wide - APART - 1
     for y in (bottom - high - APART - 1, top + high + APART + 1):

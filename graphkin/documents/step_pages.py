@@ -175,8 +175,10 @@ def accompanied(marks: Sequence[Mark]) -> Iterator[tuple[Mark, Mark]]:
 
 
 def when_told(drawing: Drawing, staged: Mapping[int, int]) -> dict[str, int]:
-    """The sentence that finds each letter of the plan, each centre, and each vector by its
-    symbol."""
+    """The sentence that finds each letter of the plan, each centre and each vector.
+
+    Vectors are given by their symbols.
+    """
     found: dict[str, int] = {}
     for number, step in enumerate(drawing.trace.program.steps):
         if number in staged:
@@ -246,8 +248,10 @@ def noted(mark: Text, stage: int, telling: Mapping[str, int]) -> Iterator[Mark]:
 
 
 LARGE, CLOSE, DONE = (3.5, 6.2), (2.5, 4.2), (2.5, 4.6)
-"""Height and line distance in mm of sentences to do, of such sentences without room, and of done
-ones."""
+"""Height and line distance in mm of sentences: large, small, and done.
+
+The small size is for sentences to do that have no room in the large one.
+"""
 LEFT, TOP, RIGHT = BELOW[0] + 2, BELOW[1] + 4.5, BELOW[2] - 4
 """Start and end of these lines, in mm."""
 FIRST, ABOVE = TOP + 8, A3_TITLE_BLOCK[1] - 4

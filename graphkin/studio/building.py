@@ -1,5 +1,4 @@
-"""Actions of building by hand in the field: each is one edit of the text that keeps its
-comments."""
+"""Actions of building by hand in the field: each is one edit that keeps the text's comments."""
 
 from __future__ import annotations
 
@@ -301,8 +300,7 @@ class Built(Struct, frozen=True):
 
 
 def built(text: str, act: Act) -> Built:
-    """Carry out one action. Raises SceneError, with a message for the pointer, if it is
-    impossible."""
+    """Carry out one action. Raises SceneError, with a message for the pointer, on failure."""
     try:
         tables = tables_of(text)
         document = tomlkit.parse(text)
@@ -676,8 +674,7 @@ def turned_driver(work: Builder, link: str, point: str) -> bool:
 
 
 def delete(work: Builder, act: Act) -> None:
-    """Delete a point or a link, with everything about it and everything left without a
-    connection."""
+    """Delete a point or a link, with all that depends on it or loses its connection."""
     name, links = act.of[0], table_of(work.document, "links")
     if act.words == "link":
         links.pop(name, None)

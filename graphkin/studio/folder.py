@@ -24,8 +24,7 @@ LONGEST, DEEPEST = 200, 6
 FORBIDDEN = re.compile(r'[\x00-\x1f\x7f\\:*?"<>|]')
 """Characters that some file system treats in a special way."""
 UNSEEN = frozenset(("Cc", "Cf", "Co", "Cn", "Zl", "Zp"))
-"""Categories of characters that reverse, hide or break a text: a name must be what it looks
-like."""
+"""Categories of characters that reverse, hide or break a text: a name must be as it looks."""
 WORD = re.compile(r"\w[\w-]{0,60}")
 """A name that works on every file system."""
 OTHERS = frozenset((scene_files.LAB, "pyproject.toml"))
@@ -181,8 +180,7 @@ def title_in(path: Path, language: str) -> str:
 
 
 def shipped_text(name: str) -> str:
-    """The text of the scene of a lab that comes with graphkin. Raises SceneError for an unknown
-    lab."""
+    """The text of the scene of a lab of graphkin. Raises SceneError for an unknown lab."""
     if name not in scene_files.names():
         raise SceneError(Problem("lab", f"there is no lab {name}", ", ".join(scene_files.names())))
     return decoded(read_bytes(scene_files.shelf() / name / SCENE))

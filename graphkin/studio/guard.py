@@ -68,8 +68,7 @@ def new_token() -> str:
 
 
 class Guard:
-    """Guards an application: requests that are not the page's own are answered 403 and go no
-    further.
+    """Guards an application: requests that are not the page's own get the answer 403 only.
 
     ``hosts`` are the names under which a browser may call the server, with its port; ``known`` is
     called for every request with the token.

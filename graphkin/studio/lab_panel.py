@@ -299,8 +299,7 @@ def scale_rows(outcome: LabTrial) -> Iterator[Row]:
 
 
 class ParameterShares(Struct, frozen=True):
-    """The fair share, in percent, by the values of a parameter, and how much the parameter
-    decides."""
+    """The fair share, in percent, by the values of a parameter, and the parameter's weight."""
 
     name: str
     decides: int

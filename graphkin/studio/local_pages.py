@@ -34,8 +34,7 @@ def file(folder: Path, name: str) -> Any:
 
 
 def answering(work: Callable[[bytes], bytes], most: int) -> Callable[[], Any]:
-    """A handler that takes JSON of at most ``most`` bytes and returns the JSON that ``work`` makes
-    of it."""
+    """A handler that takes JSON of at most ``most`` bytes and returns the result of ``work``."""
 
     def handler() -> Any:
         from bottle import request

@@ -174,8 +174,7 @@ def mark_of(problem: Problem, text: str, span: Span | None) -> MarkedProblem:
 
 
 def span_of(problem: Problem, text: str, found: Mapping[Path, Span]) -> Span | None:
-    """The piece of the text that a problem is about, or the nearest heading if its key is
-    missing."""
+    """The piece of the text that a problem is about, or the nearest heading."""
     if told := line_of(problem):
         return span_of_line(text, told)
     if not problem.place:

@@ -207,8 +207,7 @@ class Panel(Struct, frozen=True):
 
 
 def moved(drawing: Drawing, layout: Layout) -> Layout:
-    """The layout of a drawing whose values have moved, with the scale and origin of its fields
-    kept."""
+    """The layout of a drawing with moved values, with scale and origin of its fields kept."""
     metres = drawing.scales.metres(drawing.kind)
     fields = replace(
         layout,

@@ -31,8 +31,7 @@ class Redirect:
         self.folder: Path | None = None
 
     def write(self, address: str) -> str:
-        """Write the file into a folder that only this user may open, and return the file's
-        address."""
+        """Write the file into a folder that only this user may open; return its address."""
         self.folder = Path(mkdtemp(prefix="graphkin-"))
         path = self.folder / "studio.html"
         path.write_text(PAGE.format(address=escape(address)), encoding="utf-8")

@@ -41,8 +41,10 @@ WHERE = {
 
 
 def results(drawings: Sequence[Drawing], solution: Solution) -> str:
-    """The results: notes on what cannot be read off, vectors, angular values, sliding values,
-    centres."""
+    """The results as HTML: notes, then vectors, angular values, sliding values and centres.
+
+    The notes say what is asked for but cannot be read off.
+    """
     notes = [note for drawing in drawings for note in unread(drawing, symbol)]
     parts: list[str] = [from_template("studio/web/notes.html", notes=notes)]
     parts += [part for drawing in drawings for part in read_off(drawing, solution)]

@@ -144,8 +144,7 @@ THREADS = 16
 CONNECTIONS = 500
 NOTHING: Mapping[str, str] = {}
 IDLE, SWEEP = 2, 1
-"""Seconds before an idle connection is closed, and seconds between two searches for such
-connections.
+"""Seconds before an idle connection is closed, and seconds between two searches for them.
 
 When too many connections are open, a page waits no longer than the sum of both.
 """

@@ -165,10 +165,9 @@ class WantedSheets(Struct, frozen=True):
 
 
 def sheets_of(folder: Folder, wanted: WantedSheets) -> dict[str, bytes]:
-    """The files of a scene's sheets by name, as ``graphkin sheet`` writes them with every parameter
-    set.
+    """The files of a scene's sheets by name, as ``graphkin sheet`` writes and names them.
 
-    Raises the errors of reading a scene and of hand_out.
+    Every parameter is set. Raises the errors of reading a scene and of hand_out.
     """
     name, settings, view, formats = wanted.name, wanted.settings, wanted.view, wanted.formats
     text, language = wanted.text, wanted.language
@@ -199,8 +198,7 @@ def lab_of(folder: Folder, name: str, text: str) -> str:
 
 
 def save_files(folder: Folder, files: Mapping[str, bytes], *, replace: bool) -> Saved:
-    """Write files into the folder, all or none; existing files are kept unless ``replace`` is
-    set."""
+    """Write files, all or none; existing files are kept unless ``replace`` is set."""
     exist = tuple(name for name in files if os.path.lexists(folder.root / name))
     if exist and not replace:
         return Saved(exist=exist)
@@ -456,8 +454,7 @@ class Session:
         self.moving: OrderedDict[str, str] = OrderedDict()
 
     def words(self, text: str, chosen: str = "") -> Words:
-        """The words of the page: those chosen on it or at the start, else those of the scene's
-        language."""
+        """The words of the page: as chosen, else those of the scene's language."""
         return spoken_in(chosen or self.language or language_of(text))
 
     def address_of(self, name: str) -> dict[str, str]:
@@ -538,8 +535,7 @@ class Session:
 
     @contextmanager
     def drawing(self, go_on: Callable[[], None] = lambda: None) -> Iterator[None]:
-        """Wait until no drawing is in progress; ``go_on`` is called while waiting, and may
-        raise."""
+        """Wait for other drawings to finish; ``go_on`` is called meanwhile and may raise."""
 
         def free() -> bool:
             go_on()

@@ -67,10 +67,10 @@ AIR = 8.0
 SHARES = (0.4, 0.5, 0.6, 0.7)
 """Shares of the picture's width or height that the mechanism may take."""
 HELD = (1.0, 0.95, 0.9, 0.85, 0.8, 0.75)
-"""Shares of a motion during which a plan fits its pane: the largest that keeps the plan large
-enough.
+"""Shares of a motion during which a plan fits its pane; the largest usable share is taken.
 
-Below three quarters the plan would leave its pane too often.
+A share is usable if it leaves the plan large enough. Below three quarters the plan would leave its
+pane too often.
 """
 ENOUGH = 0.5
 """A plan is large enough when its median size over the motion is this part of its room."""
@@ -177,8 +177,7 @@ def plan_pane(field: Field, box: Extent) -> Field:
 
 
 def aside(low: float, high: float, pole: float, start: float, end: float) -> float:
-    """How far a plan from ``low`` to ``high`` is moved to lie between ``start`` and ``end``, on one
-    axis.
+    """The shift, along one axis, that moves a plan from ``low``..``high`` into ``start``..``end``.
 
     A larger plan overhangs the room on both sides, in proportion to its parts on each side of the
     pole.
@@ -360,8 +359,7 @@ def plan_box(drawing: Drawing) -> Extent:
 
 
 def cut(marks: Sequence[Mark], rect: Rect) -> Iterator[Mark]:
-    """The marks of a plan that lie in its pane: lines are clipped, other marks are kept or
-    dropped."""
+    """The marks of a plan in its pane: lines are clipped, other marks are kept or dropped."""
     left, top, right, bottom = rect
     for mark in marks:
         if isinstance(mark, LineMark):

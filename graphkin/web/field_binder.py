@@ -110,8 +110,7 @@ def rounded(*numbers: float) -> list[float]:
 
 
 class FieldBinder(Struct, frozen=True):
-    """Binds the marks of one field: the sheet's traced values, the field, and the clip
-    rectangles."""
+    """Binds the marks of one field: traced values, the field, and the clip rectangles."""
 
     places: MovingSheet
     field: Field

@@ -71,8 +71,7 @@ def mechanism_bindings(binder: FieldBinder, angles: Mapping[str, Any]) -> Told:
 
 
 def line_to_edge(binder: FieldBinder, mark: LineMark, room: Rect) -> Binding:
-    """Bind a fixed line that the field clips; where the field grows, the line extends within
-    ``room``."""
+    """Bind a fixed line that the field clips; where the field grows, it extends within ``room``."""
     ends = (mark.x1, mark.y1), (mark.x2, mark.y2)
     start, end = (binder.tape.lifted(complex(*place)) for place in ends)
     return binder.joining(start, end, room)
@@ -301,8 +300,7 @@ class MarkBindings(Struct, frozen=True, dict=True):
         return 2 if led else 1
 
     def going_before(self, k: int, bound: Mapping[int, int]) -> list[int]:
-        """The records of the leader and the circle that go with a label, out of those in
-        ``bound``."""
+        """The records of the leader and the circle that go with a label, from ``bound``."""
         return [bound[before] for before in self.led(k) if before in bound]
 
     def led(self, k: int) -> list[int]:
@@ -325,8 +323,7 @@ class MarkBindings(Struct, frozen=True, dict=True):
         return all(graph.constant(node) is not None for node in way)
 
     def more(self) -> Iterator[tuple[int, str, str, Record]]:
-        """Marks missing from the drawn position: number of the preceding mark, element, class,
-        record.
+        """Marks that the drawn position lacks: number of the mark before, element, class, record.
 
         These are the head of a vector too short for one, and the far part of a line too short to be
         split.

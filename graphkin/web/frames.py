@@ -34,8 +34,7 @@ if TYPE_CHECKING:
 FRAMES = 72
 """Pictures for a full turn or for a time; a range has half as many."""
 MOST_TURNS = 4
-"""Largest number of driver turns in a cycle that are all shown; of a longer cycle one turn is
-shown."""
+"""Largest number of turns in a cycle that are all shown; of a longer cycle one turn is shown."""
 GROWN = 3.0
 """Limit of rates near a dead point, in medians of the motion; the animation ends beyond it."""
 LEAST, LITTLE = 4, 1e-4
@@ -155,8 +154,7 @@ def end_to_end(cycle: Cycle, low: float, high: float, frames: int) -> tuple[list
 
 
 def place_in(cycle: Cycle, low: float, high: float) -> float:
-    """The scene's position within a range, up to whole turns; for a time, the time of the
-    drawing."""
+    """The scene's position in a range, up to whole turns; for a time, the drawing's time."""
     start = cycle.sweep.start
     if cycle.sweep.what == "time":
         return float(cycle.scene.values.get(TIME, start))

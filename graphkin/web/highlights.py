@@ -82,8 +82,10 @@ def vector_of(drawing: Drawing, kind: TurningOfLink) -> int | None:
 
 
 def triangles(sheets: Sequence[ScreenSheet]) -> dict[int, list[list[int]]]:
-    """The corners of the similar triangles by acceleration pole: pole and points, pole of plan and
-    images."""
+    """The corners of the similar triangles that find each acceleration pole.
+
+    They are the pole and points of the mechanism, then the pole of the plan and images.
+    """
     found = {}
     for sheet in sheets:
         for number, value in enumerate(sheet.drawing.trace.program.steps):

@@ -79,8 +79,7 @@ class Moving(Struct, frozen=True):
 def moving(
     mechanism: Mechanism, sheets: Sequence[ScreenSheet], number: int | None = None
 ) -> Moving | None:
-    """The script that makes the marks of some sheets follow the driver, driver ``number`` of
-    several.
+    """The script with which the marks of some sheets follow driver ``number`` of several.
 
     None where ``still`` says why they cannot move.
     """
@@ -92,8 +91,7 @@ def moving(
 
 
 def still(mechanism: Mechanism) -> str | None:
-    """The key of the sentence that says why a mechanism does not move on a page; None if it
-    moves."""
+    """The key of the sentence that says why a mechanism cannot move; None if it moves."""
     targets = [target for target in mechanism.program.targets if target[0] == "position"]
     try:
         driven = driven_by(mechanism.scene)
@@ -219,8 +217,7 @@ def followed(
 def grips(
     s: int, sheet: ScreenSheet, places: MovingSheet, driven: PageDriver
 ) -> Iterator[tuple[str, str, bool, int]]:
-    """The pins by which the mechanism of a sheet can be dragged: id, name, whether driven, and
-    figure.
+    """The pins that can be dragged on a sheet: id, name, whether driven, and figure.
 
     The figure is -1 for the driver itself or the time.
     """

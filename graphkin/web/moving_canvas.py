@@ -102,8 +102,7 @@ class MovingCanvas(Struct, frozen=True):
         return shown if seen is None else smaller(shown, seen)
 
     def within(self, point: Any) -> Any:
-        """How far a point lies inside the rectangle that the field can grow to, less 2 mm (in
-        mm)."""
+        """The distance of a point from the edge of the field's growth, less 2 mm, in mm."""
         left, top, right, bottom = self.binder.room
         place = self.binder.page(point)
         x, y = place.real, place.imag
@@ -113,8 +112,7 @@ class MovingCanvas(Struct, frozen=True):
     # --- on the mechanism ----------------------------------------------------------------------
 
     def vector(self, name: str, look: str, tail: Any, tip: Any) -> None:
-        """Draw a vector between two moving points; a vector of a centre only at the drawn
-        position."""
+        """Draw a vector between two moving points; one of a centre only as drawn."""
         if isinstance(self.value(self.number), Ratio):
             self.put(lambda: only_at_start)
             return

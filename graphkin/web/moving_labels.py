@@ -53,10 +53,10 @@ DISTANT = 0.2
 
 
 class Rule(Struct, frozen=True):
-    """The place of a letter: ``far`` from its point, in the direction away from ``others`` turned
-    by ``turn``.
+    """The place of a letter: its distance ``far`` from its point, and its direction.
 
-    Without others the direction is ``turn`` itself on the page (x to the right, y down).
+    The direction is away from ``others``, turned by ``turn``. Without others it is ``turn`` itself
+    on the page (x to the right, y down).
     """
 
     others: tuple[str, ...] = ()
@@ -64,8 +64,7 @@ class Rule(Struct, frozen=True):
     far: float = FAR[0]
 
     def ways(self, at: XY, others: Sequence[XY]) -> list[XY]:
-        """The direction of the letter, then the directions it may change to where another letter
-        lies."""
+        """The direction of the letter, then its alternatives where another letter lies."""
         u, v = off(at, others) if self.others else (1.0, 0.0)
         c, s = self.turn
         u, v = (u * c - v * s, u * s + v * c) if u or v else LEFT
@@ -86,8 +85,7 @@ def off(at: XY, others: Sequence[XY]) -> XY:
 
 
 class PointLetter(Struct, frozen=True):
-    """The letter of a point: its markup and class, its step, and the stroke that draws its
-    point."""
+    """The letter of a point: markup, class, step, and the stroke that draws its point."""
 
     markup: str
     look: str = ""
@@ -109,8 +107,7 @@ class PointLetter(Struct, frozen=True):
 
 
 class FrameView(Struct, frozen=True):
-    """The content of a field at one moment: its points with their letters, and the marks around
-    them.
+    """The content of a field at one moment: points with letters, and the marks around them.
 
     ``near`` are the points that may guide the letter of another point.
     """
@@ -190,8 +187,7 @@ def turns() -> tuple[XY, ...]:
 
 
 def spots_of(seen: FrameView, name: str, near: tuple[str, ...], fars: Sequence[float]) -> Any:
-    """The places that the rules give a point's letter at one moment, in their order (n by 2,
-    mm)."""
+    """The places that the rules give a letter at one moment, in their order (n by 2, mm)."""
     at, wide, found = seen.places[name], seen.letters[name].width / 4, []
     c, s = np.array(turns()).T
     for others in frames_of(near):

@@ -193,8 +193,7 @@ def field_picture(marks: Sequence[tuple[str, Timed]], rect: Rect, named_by: str)
 
 
 def bar_rules(fields: str, rects: Sequence[Rect]) -> Iterator[str]:
-    """The style rules for the scale bars of fields side by side: the width and height of each
-    field."""
+    """The style rules for the scale bars of fields side by side: width and height of each."""
     for place, (left, top, right, bottom) in enumerate(rects, 1):
         box = f"--bar:{BAR};--wide:{number(right - left)};--high:{number(bottom - top)}"
         yield f"{fields}>:nth-child({place}){{{box}}}"
@@ -221,8 +220,7 @@ def drawn_mark(timed: Timed) -> str:
 
 
 def ink_sheet(marks: Iterable[Mark], ink: Ink) -> str:
-    """The style sheet of some marks, with their fonts. A vector's shaft keeps its width while it
-    moves."""
+    """The style sheet of some marks, with fonts. A shaft keeps its width while it moves."""
     marks = [replace(mark, cls=mark.cls.removesuffix(f" {BRIEF}")) for mark in marks]
     return "\n".join(
         (font_face(False), font_face(True), LETTERING, *map(themed, rules(marks, ink)))

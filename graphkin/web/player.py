@@ -150,8 +150,7 @@ class Figure(Struct, frozen=True):
 
 
 class VectorName(Struct, frozen=True):
-    """The name of a vector of a plan: its id, the id of its line, its text, and whether it is asked
-    for."""
+    """The name of a plan's vector: its id, the id of its line, its text, and if it is asked for."""
 
     id: str
     line: str
@@ -179,8 +178,7 @@ def vector_names(sheet: ScreenSheet, s: int) -> Iterator[VectorName]:
 
 
 def placed_label(name: VectorName) -> list[object]:
-    """The ids of a name and of its vector, the middle and size of its ink, and whether it is asked
-    for."""
+    """The ids of a name and its vector, the middle and size of its ink, if it is asked for."""
     (left, top), _, (right, bottom), _ = name.text.corners()
     middle = (left + right) / 2, (top + bottom) / 2
     return [name.id, name.line, *middle, right - left, bottom - top, name.asked]

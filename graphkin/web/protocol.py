@@ -1,5 +1,4 @@
-"""The construction of all sheets as one sequence of sentences, and the dependencies of each
-mark."""
+"""The construction of all sheets as one sequence of sentences, and what each mark depends on."""
 
 from __future__ import annotations
 
@@ -47,8 +46,7 @@ MOST = 3
 
 
 class SentencePart(Struct, frozen=True):
-    """A part of a sentence: the step that it ends with, and the step of the point that it helps to
-    find.
+    """A part of a sentence: the step that it ends with, and the step of the point to be found.
 
     ``name`` and ``link`` belong to its sentence; ``reason`` is one of the sentence's reasons.
     """
@@ -95,8 +93,7 @@ class PartedSentence(Struct, frozen=True):
 
 
 def grouped(parts: Sequence[SentencePart], strokes: Sequence[int]) -> Iterator[list[SentencePart]]:
-    """The parts grouped into sentences: one point each, with no more strokes than a sentence may
-    draw."""
+    """The parts grouped into sentences: one point each, with at most MOST strokes."""
     for _, run in groupby(zip(parts, strokes, strict=True), lambda each: each[0].point):
         some, drawn = list[SentencePart](), 0
         for part, count in run:
@@ -294,8 +291,7 @@ def telling(sheets: Sequence[ScreenSheet]) -> PageProtocol:
 
 
 def in_parts(sheet: ScreenSheet) -> tuple[list[Sentence], dict[int, int], tuple[Timed, ...]]:
-    """The page's sentences for one sheet, the sentence (from 0) of each step, and the sheet's
-    marks."""
+    """The page's sentences for one sheet, the sentence (from 0) of each step, and the marks."""
     drawing = sheet.drawing
     found = parted_sentences(drawing)
     parts = [part.sentence for one in found for part in one.parts]
@@ -461,8 +457,7 @@ def shown_by(drawing: Drawing, number: int, fresh: Iterable[int], shown: Abstrac
 
 
 def rates_read(drawing: Drawing, sentence: Sentence) -> Iterator[str]:
-    """The links whose rates a sentence reads off, without those that only keep a wheel on its
-    track."""
+    """The links whose rates a sentence reads off, without mere keepers of wheels on tracks."""
     if sentence.name == TURNING:
         told = {relation.left for relation in of_turning(drawing)}
         for (what, link), number in drawing.trace.program.targets.items():
@@ -510,8 +505,7 @@ def timed_marks(
 
 
 def marked_beside(sheet: ScreenSheet) -> Iterator[tuple[Mark, int]]:
-    """Marks that show a contact point and its letter on the mechanism, each with the point's
-    step."""
+    """Marks that show a contact point and its letter on the mechanism, each with its step."""
     steps, field = sheet.drawing.trace.program.steps, sheet.layout.mechanism
     for number, at in sheet.drawing.trace.values.items():
         kind = construction(steps[number])

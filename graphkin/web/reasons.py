@@ -71,8 +71,7 @@ def reasons(drawing: Drawing, numbers: Iterable[int]) -> list[tuple[str, int]]:
 
 
 def of_sentence(drawing: Drawing, sentence: Sentence) -> Iterator[tuple[str, int]]:
-    """The reasons of a sentence that belongs to no step, reads off a rate, or begins an auxiliary
-    plan."""
+    """The reasons of a sentence without a step, of a reading, and of an auxiliary plan's start."""
     steps, words = drawing.trace.program.steps, drawing.words
     plan = auxiliary_plan(drawing, sentence.step)
     if sentence.name == TURNING:

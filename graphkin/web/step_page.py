@@ -78,8 +78,7 @@ def meanings(words: Words, sheets: Sequence[ScreenSheet]) -> Iterator[tuple[str,
 
 
 def images(words: Words, arrows: Sequence[Arrow], sheet: ScreenSheet) -> Iterator[tuple[str, str]]:
-    """One segment that is the vector of a point, and one that is a relative vector, with
-    meanings."""
+    """One segment of a point's vector, and one of a relative vector, with their meanings."""
     steps = sheet.drawing.trace.program.steps
     whole = [(step, vector) for step, vector in arrows if not vector.sign]
     for key, has_pivot in (("legend.image", False), ("legend.relative", True)):
@@ -317,8 +316,7 @@ def written(
 
 
 def shapes(sheets: Sequence[ScreenSheet]) -> str:
-    """The style rules for the widths of each sheet's two fields side by side, and for their
-    bars."""
+    """The style rules for the widths of each sheet's two fields, and for their scale bars."""
     found = []
     for place, sheet in enumerate(sheets):
         rects = (sheet.layout.mechanism.rect, sheet.layout.plan.rect)
@@ -337,8 +335,7 @@ def width(rect: Rect) -> float:
 
 
 class SheetFields(Struct, frozen=True):
-    """The fields of a sheet: its name, and the caption's id, the caption and the picture of
-    each."""
+    """The fields of a sheet: its name, and id, caption and picture of each field."""
 
     place: int
     kind: str

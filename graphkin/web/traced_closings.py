@@ -81,8 +81,7 @@ def drawn_state(closer: Any, drawn: Sequence[Any]) -> State:
 
 
 def tried(names: Sequence[str], graph: Graph, closer: Any) -> tuple[Any, ...]:
-    """The traced value of a closing step: the tried values, the signs, and a placeholder for the
-    sine."""
+    """The traced value of a closing step: tried values, signs, and a placeholder for the sine."""
     numbers = [TracedNumber(graph, graph.input(name)) for name in names]
     unknowns = closer.trying.unknowns
     pairs = zip(unknowns, numbers[: len(unknowns)], strict=True)
@@ -170,8 +169,7 @@ BESIDE = (256, 64, 16, 4)
 
 
 class TrackedBranch(Struct, frozen=True):
-    """The course of groups from the scene's position: positions of the driver, and closing
-    states."""
+    """The course of groups from the scene's position: driver positions and closing states."""
 
     at: tuple[float, ...] = ()
     states: tuple[State, ...] = ()
@@ -180,8 +178,7 @@ class TrackedBranch(Struct, frozen=True):
 def around(
     path: Path, driven: PageDriver, start: float, closings: Sequence[TracedClosing]
 ) -> tuple[Reach, TrackedBranch] | None:
-    """The range around the driver's position, and the course through it; None for a single
-    position.
+    """The range around the driver's position, and the course through it; None for one position.
 
     ``start`` is the position in the path, which may differ by whole turns.
     """
@@ -234,8 +231,7 @@ def sampled(piece: Piece, groups: Sequence[int]) -> Iterator[tuple[float, State]
 
 
 def beside(signs: Callable[[Any], Any], low: float, high: float, step: float) -> Iterator[float]:
-    """Positions on both sides of the place between ``low`` and ``high`` where a dyad changes its
-    sign."""
+    """Positions on both sides of a sign change of a dyad between ``low`` and ``high``."""
     for _ in range(ROUNDS):
         at = np.linspace(low, high, CUT + 1)
         turned = signs(at)

@@ -73,8 +73,7 @@ class Tracing(Struct, frozen=True, dict=True):
 
     @property
     def inputs(self) -> dict[str, int]:
-        """The index of each input: driver, tried values of groups, counting angles of links,
-        figures."""
+        """The index of each input: driver, tried values, counting angles, figures."""
         names = [INPUT, *(name for each in self.closings for name in each.names)]
         return {
             name: place
@@ -154,14 +153,12 @@ class Tracing(Struct, frozen=True, dict=True):
         return found
 
     def counting_angles(self, at: Any) -> dict[str, Any]:
-        """The angles near which links count their turns at positions of the driver, by their
-        inputs."""
+        """The angles near which links count their turns at driver positions, by input."""
         every = self.turned.values(at) if self.counting and self.turned is not None else {}
         return {name: every[name] for name in self.counting}
 
     def fixed_inputs(self, at: Any) -> dict[str, Any]:
-        """The inputs that no closing sets, at positions of the driver: counting angles and figures
-        as drawn."""
+        """The inputs that no closing sets: counting angles and figures as drawn."""
         return {
             **self.counting_angles(at),
             **{each.name: at * 0 + each.start for each in self.driven.figures},

@@ -199,8 +199,7 @@ class MoveFinder:
     # --- moves -----------------------------------------------------------------------------------
 
     def move(self, number: int) -> None:
-        """Record the move that gives a step, if any; a step drawn like an earlier one maps to
-        it."""
+        """Record the move that gives a step, if any; like steps map to the first one."""
         step = self.steps[number]
         key = self.drawn_alike(number)
         alike = self.known.get(key, number)
@@ -241,8 +240,7 @@ class MoveFinder:
         return *drawn, self.values[number]
 
     def way(self, number: int) -> Way | None:
-        """The action that gives a step, and its inputs; None where the step needs no move of its
-        own."""
+        """The action that gives a step, and its inputs; None for a step without a move."""
         step, kind = self.steps[number], construction(self.steps[number])
         if isinstance(kind, Component) and kind.vector == number:
             if kind.palette is None or not kind.is_drawn(self.drawing(number)):
@@ -264,8 +262,7 @@ class MoveFinder:
         return self.by_move(move, number, drawn) if move is not None else None
 
     def by_move(self, move: Move, number: int, drawn: Step) -> Way | None:
-        """A move with its inputs; None where it is no move in this drawing, or its point has no
-        place."""
+        """A move with its inputs; None if this drawing has no such move or place."""
         if move.in_plan and self.steps[number].plane not in PLANES[1:3]:
             return None
         if move.action.shape == "point" and self.place(number) is None:
@@ -375,8 +372,7 @@ class MoveFinder:
         return self.noted(key, "bar", name, Plane.MECHANISM, self.needs([p, q]), None, (p, q))
 
     def arrow(self, tail: int, tip: int, name: str = "") -> str | None:
-        """The vector between two points of a plan; without a name it follows its arrow's
-        direction."""
+        """The vector between two points of a plan; unnamed, it follows its arrow."""
         if not name and (tip, tail) in self.arrows:
             tail, tip = tip, tail
         ends = self.point_or_line(tail), self.point_or_line(tip)
@@ -450,8 +446,7 @@ class MoveFinder:
         return self.noted(f"r{number}", "rate", *own)
 
     def more_picks(self) -> None:
-        """Add picks that no move starts from, so that the student has a choice: points, bars,
-        vectors."""
+        """Add picks that no move starts from, to give the student a choice."""
         targets = self.drawings[0].trace.program.targets
         for number in self.told.at:
             step = self.steps[number]
@@ -500,8 +495,7 @@ class MoveFinder:
         return drawing.words("turn.end_of", vector=vector) + tag
 
     def name_of_line(self, number: int) -> str:
-        """The name of a line that no move draws: a guide, the line of a crank, a side of the
-        mechanism."""
+        """The name of a line that no move draws, such as a guide or a side of a link."""
         kind, drawing = construction(self.steps[number]), self.drawing(number)
         if kind is not None and (name := kind.path_name(drawing)):
             return name
@@ -592,8 +586,7 @@ SAID = (
 
 
 class TurnOwner(Struct, frozen=True):
-    """The owner of a turn: the ``stem`` of the names of saved files, and in a class an id and a
-    code.
+    """The owner of a turn: the ``stem`` of saved files, and in a class an id and a code.
 
     The opaque code of the variant seals a saved score sheet.
     """
@@ -675,8 +668,7 @@ def plane_of(sheet: ScreenSheet) -> int:
 
 
 def frame(field: Field) -> list[float]:
-    """The placement of values in a field: its place on the page, its middle, millimetres per
-    unit."""
+    """The placement of values in a field: its place, its middle, millimetres per unit."""
     return [*field.at, field.middle.real, field.middle.imag, field.mm]
 
 
