@@ -47,7 +47,7 @@ LOSS = 0.02
 SHORT, LONG = 20.0, 90.0
 """Lengths in mm of a longest vector on the mechanism: the least, and the largest wanted."""
 COARSEST = 0.02
-"""Least factor of coarseness, for vectors of length zero."""
+"""Least factor on the natural kv, for vectors of length zero."""
 NOISE = 1e-9
 """Relative size below which a plan consists of rounding errors."""
 WEIGHT = 1.3
@@ -226,7 +226,7 @@ def is_short(needs: Needs, kL: float) -> bool:
 
 
 def coarseness(needs: Needs, kL: float) -> float:
-    """The factor of coarseness of a plan's scale at which no vector is longer than LONG."""
+    """The factor on the natural kv at which no vector is longer than LONG."""
     speed, thrust = (needs.longest.get(kind, 0.0) for kind in ("velocity", "acceleration"))
     times = 1000 / kL / LONG
     return max(times * speed, sqrt(times * thrust), COARSEST)

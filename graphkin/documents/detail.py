@@ -285,7 +285,6 @@ def dots(labels: Sequence[Label]) -> Iterator[Mark]:
 
 
 def is_vector(mark: Mark) -> TypeGuard[LineMark]:
-    """Whether a mark is the line of a vector."""
     return isinstance(mark, LineMark) and style_class(mark) in VECTORS
 
 

@@ -48,7 +48,7 @@ def with_indices(drawing: Drawing, found: Sequence[Sentence]) -> list[Sentence]:
 
 
 def explained(drawing: Drawing) -> Iterator[IndexNote]:
-    """The indices in a sheet's letters: of a link, and of an image that differs from the pole."""
+    """The indices in a sheet's letters: of a link, and of an image kept apart from the pole."""
     steps, images = drawing.trace.program.steps, drawing.kind
     prime = PRIME if images == "acceleration" else ""
     for (what, name), number in drawing.trace.program.targets.items():

@@ -432,7 +432,6 @@ def sheet(
 
 
 def page_title(drawing: Drawing) -> str:
-    """The title of a page's file."""
     return f"{title_of(drawing)} – {drawing.words('sheet.' + name_of_sheet(drawing))}"
 
 

@@ -705,7 +705,6 @@ def drop_loose(work: Builder) -> None:
 
 
 def close(work: Builder, act: Act) -> None:
-    """Choose a closure."""
     work.table("branches")[act.of[0]] = act.words
 
 

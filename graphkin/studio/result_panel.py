@@ -52,7 +52,7 @@ def results(drawings: Sequence[Drawing], solution: Solution) -> str:
 
 
 def read_off(drawing: Drawing, solution: Solution) -> Iterator[str]:
-    """The tables of one sheet; a value without a reliable digit is left out."""
+    """The tables of one sheet, with a dash for each value without a reliable digit."""
     words = drawing.words
     lost = losses(drawing, solution)
     unit = words(f"table.{drawing.kind}")

@@ -1,11 +1,12 @@
 """How a mark follows the driver: a record of a kind, outputs by their index, and constants.
 
-Every record begins with the id of its mark, its kind, and the index of the output that must be
-positive for the mark to show (or -1). The kinds, as moving.js draws them:
+Every record begins with the id of its mark, its kind, and the index of an output. The mark shows
+while this output is positive; the index -1 means that it always shows. The kinds, as moving.js
+draws them:
 
 - ``l`` a line between two places; ``g`` a polygon between places; ``h`` an arrowhead at the second
-- ``f`` a line, ``r`` a polygon, ``m`` a circle, ``t`` a text that a pose carries;
-  ``x`` a polygon whose corners are carried by several poses; ``b`` a text next to a segment
+- ``f`` a line, ``r`` a polygon, ``m`` a circle, ``t`` a text that a pose carries; ``x`` a polygon
+  whose corners are carried by several poses; ``b`` a text next to a segment
 - ``a`` an arc, ``i`` a circle as a broken line, both given by centre and size
 - ``s`` a part of a construction line
 - ``o`` a mark that holds for the drawn position alone

@@ -102,7 +102,7 @@ class MovingCanvas(Struct, frozen=True):
         return shown if seen is None else smaller(shown, seen)
 
     def within(self, point: Any) -> Any:
-        """The distance of a point from the edge of the field's growth, less 2 mm, in mm."""
+        """How far inside the rectangle of the field's growth a point lies, less 2 mm, in mm."""
         left, top, right, bottom = self.binder.room
         place = self.binder.page(point)
         x, y = place.real, place.imag
@@ -112,7 +112,7 @@ class MovingCanvas(Struct, frozen=True):
     # --- on the mechanism ----------------------------------------------------------------------
 
     def vector(self, name: str, look: str, tail: Any, tip: Any) -> None:
-        """Draw a vector between two moving points; one of a centre only as drawn."""
+        """Draw a vector between two moving points; a centre's vector holds as drawn only."""
         if isinstance(self.value(self.number), Ratio):
             self.put(lambda: only_at_start)
             return
