@@ -1,1 +1,1 @@
-"""What is handed out: sheets, calculations and step pages, proved before they are drawn."""
+"""The documents handed out: sheets, calculations and step pages, all verified before drawing."""

@@ -1,4 +1,4 @@
-"""The A4 calculation pages: every relation with its number, symbols, figures, result and sense."""
+"""The A4 calculation pages: each relation with number, symbols, figures, result and sense."""
 
 from __future__ import annotations
 
@@ -30,21 +30,22 @@ from graphkin.text import Words
 from graphkin.text.errors import PageError, Problem
 
 EQUATION_LETTER, NOTE = 2.5, 1.8
-"""Heights of symbols and of what is known of them, in mm."""
+"""Heights of symbols and of the notes on what is known of them, in mm."""
 UNDER, BETWEEN, BELOW = 1.7, 0.6, 5.3
-"""The first line below a symbol, the distance of two, and the baseline of its note, in mm: a power
-in the note stays clear of both lines."""
+"""Distances in mm: first line below a symbol, spacing of two lines, and baseline of the note.
+
+They keep a power in the note clear of both lines.
+"""
 OVER, RAISED, BEYOND, HEAD = 3.2, 4.0, 0.35, 0.5
-"""Where the arrow above a vector stands, and above one with a superscript, of which it stays clear,
-how far it reaches beyond its letter, its head, in mm."""
+"""Arrows above vectors, in mm: height, height above a superscript, overhang, length of the head."""
 APART, SPACE = 1.6, 1.2
-"""Least room between notes, and what stands between signs besides, in mm."""
+"""Least room between notes, and space between symbols, in mm."""
 DEPTH, UNDERLINED = 5.2, 2.0
-"""How much deeper than others a line with notes is, and one that is underlined alone, in mm."""
+"""Extra depth of a line with notes, and of a line with underlines only, in mm."""
 
 
 def depth(equation: VectorEquation, *, solved: bool) -> float:
-    """How much deeper than others the line of an equation is, in mm."""
+    """The extra depth of the line of an equation, in mm."""
     terms = (equation.whole, *chain(*equation.sums))
     if not solved:
         return 0.0
@@ -64,14 +65,14 @@ def equation_lines(equation: VectorEquation, room: float, *, solved: bool) -> li
 
 
 def width(equation: VectorEquation, *, solved: bool) -> float:
-    """How wide an equation is, in mm."""
+    """The width of an equation, in mm."""
     return max(x + wide for x, wide, _, _ in placed(equation, 0.0, solved=solved))
 
 
 def placed(
     equation: VectorEquation, x: float, *, solved: bool
 ) -> Iterator[tuple[float, float, str, Term | None]]:
-    """Where each sign and each vector begins, how wide it is, and its markup."""
+    """The start, width and markup of each sign and vector of an equation, with its term."""
     signs: list[tuple[str, Term | None]] = [(equation.whole.symbol, equation.whole)]
     for terms in equation.sums:
         for i, term in enumerate(terms):
@@ -90,7 +91,7 @@ def placed(
 def equation_marks(
     equation: VectorEquation, x: float, y: float, words: Words, *, solved: bool
 ) -> list[Mark]:
-    """An equation with its baseline's start at a place; solved with underlines and notes."""
+    """An equation whose baseline starts at a place; with underlines and notes if solved."""
     marks: list[Mark] = []
     for left, wide, markup, term in placed(equation, x, solved=solved):
         marks.append(Text(left, y, markup, "caption equation", EQUATION_LETTER))
@@ -113,7 +114,7 @@ def equation_marks(
 
 
 def vector_mark(x: float, y: float, runs: Sequence[TextRun], kind: str) -> Iterator[Mark]:
-    """The arrow, or the bar, above the letter of a vector, the first of its runs."""
+    """The arrow or the bar above the letter of a vector, which is the first of its runs."""
     letter, *scripts = runs
     y -= RAISED if any(run.y < 0 for run in scripts) else OVER
     end = x + advance(letter.text, letter.italic) * letter.size + BEYOND
@@ -128,28 +129,28 @@ def vector_mark(x: float, y: float, runs: Sequence[TextRun], kind: str) -> Itera
 
 LETTER = 2.5
 LINE, GAP = 6.0, 3.0
-"""Distance of lines, and what a heading adds above it, in mm."""
+"""Distance of lines, and the extra distance above a heading, in mm."""
 BY_HAND = (7.5, 7.0, 6.5)
-"""Distances of lines to be filled in, where these take no more pages for it."""
+"""Distances of lines to be filled in, wider first; a wider one must not need more pages."""
 LEFT, RIGHT = A4_AREA[0] + 4, A4_AREA[2] - 4
 INDENT = 3.0
-"""How far lines are set in below their heading, in mm."""
+"""Indent of lines below their heading, in mm."""
 ROOM = RIGHT - LEFT - INDENT
 """The width of these lines, in mm."""
 TOP, BOTTOM = A4_AREA[1] + 8, A4_AREA[3] - 4
 DOT = ". "
 BLANK = DOT * 13 + DOT[0]
-"""The least room to write in, on the form that is to be filled in."""
+"""The least room to write in, on the form to be filled in."""
 FIRST = "velocities"
-"""The section in whose head it is said how vector equations are marked."""
+"""The section whose heading explains the marks of vector equations."""
 NUMBER = 12.0
-"""Width kept at the right for the relation's number, in mm."""
+"""Width kept free at the right for the relation's number, in mm."""
 
 
 class CalculationRow(Struct, frozen=True):
-    """A line of the page: a heading, a legend, a relation with its number, or a vector equation.
+    """A line of the page: a heading, a legend, a numbered relation, or a vector equation.
 
-    ``depth`` is how much deeper than others it is, in mm.
+    ``depth`` is the extra depth of the line in mm.
     """
 
     markup: str
@@ -166,9 +167,9 @@ NOTHING: Mapping[str, str] = {}
 def calculation(
     drawings: Sequence[Drawing], view: str, computed: Mapping[str, str] = NOTHING
 ) -> tuple[Page, ...]:
-    """The calculation pages of the sheets that were drawn: solved, or to be filled in.
+    """The calculation pages of the drawn sheets, solved or to be filled in.
 
-    ``computed`` says by the symbol why a quantity is computed, not measured.
+    ``computed`` gives, by symbol, the reason why a quantity is computed instead of measured.
     """
     rows = list(all_rows(drawings, computed, solved=view == "key"))
     pages = laid_out(rows, solved=view == "key")
@@ -180,7 +181,7 @@ def calculation(
 def all_rows(
     drawings: Sequence[Drawing], computed: Mapping[str, str], *, solved: bool
 ) -> Iterator[CalculationRow]:
-    """All lines in order, relations numbered through."""
+    """All lines in order, with the relations numbered."""
     number = 0
     for section, found in relations(drawings, solved=solved):
         if not found:
@@ -204,7 +205,7 @@ def all_rows(
 
 
 def legends(drawings: Sequence[Drawing], found: Sequence[Relation]) -> Iterator[str]:
-    """What is said below the first heading: of readings, and of vector equations if there are."""
+    """The keys of the legends below the first heading: readings, and vector equations if any."""
     yield "readings"
     if any(relation.equation for relation in found):
         yield "underlined"
@@ -215,7 +216,7 @@ def legends(drawings: Sequence[Drawing], found: Sequence[Relation]) -> Iterator[
 def broken(
     relation: Relation, tag: str, drawing: Drawing, hint: str = "", *, solved: bool
 ) -> Iterator[CalculationRow]:
-    """A relation in as many lines as it needs, its number beside the last, a hint after it."""
+    """A relation in as many lines as needed, its number on the last one, a hint after it."""
     parts = relation.parts(solved=solved)
     room = RIGHT - LEFT - NUMBER
     parts = [
@@ -248,7 +249,7 @@ def broken(
 
 
 def dotted(line: str, room: float) -> str:
-    """A line with its first blank as long as there is room."""
+    """A line whose first blank is extended to the room available."""
     more = int((room - extent(line, LETTER)[0]) / extent(DOT + DOT, LETTER)[0] * 2)
     return line.replace(BLANK, DOT * max(more, 0) + BLANK, 1)
 
@@ -256,10 +257,10 @@ def dotted(line: str, room: float) -> str:
 def laid_out(
     rows: Sequence[CalculationRow], *, solved: bool
 ) -> list[list[tuple[float, CalculationRow]]]:
-    """The lines on as few pages as hold them, and on each of these about as many.
+    """The lines on as few pages as possible, balanced between the pages.
 
-    Pages begin with a heading where it takes no more of them. Those to be filled in stand as far
-    apart as takes no more pages.
+    Pages begin with a heading where that needs no extra page. Lines to be filled in are spaced as
+    widely as the number of pages allows.
     """
     count = len(paged(rows, LINE, BOTTOM))
     wider = (line for line in BY_HAND if len(paged(rows, line, BOTTOM)) == count)
@@ -281,9 +282,9 @@ def laid_out(
 def paged(
     rows: Sequence[CalculationRow], line: float, bottom: float, *, whole: bool = False
 ) -> list[list[tuple[float, CalculationRow]]]:
-    """The lines with their places, page by page; no heading stands last on a page.
+    """The lines with their places, page by page; no heading ends a page.
 
-    Those below a heading stand on its page if they are to stay ``whole`` and one page holds them.
+    With ``whole``, the lines below a heading stay on its page if one page holds them.
     """
     pages: list[list[tuple[float, CalculationRow]]] = [[]]
     y = TOP

@@ -1,4 +1,4 @@
-"""Centres and poles of links: at a point, at infinity, or none where the link is at rest."""
+"""Centres and poles of links: at a point, at infinity, or none for a link at rest."""
 
 from __future__ import annotations
 
@@ -18,16 +18,16 @@ from graphkin.structure.pairs import guides_under
 from graphkin.text.plain_table import NOISE, Cell, number, table
 
 FAR = 1e9
-"""Breadths of the mechanism beyond which a centre counts as at infinity."""
+"""Distance beyond which a centre counts as at infinity, in breadths of the mechanism."""
 NOT_SURE = "not sure"
 SURE = 9
-"""Decimals of a direction in degrees, beyond which it is rounding."""
+"""Decimals of a direction in degrees, beyond which digits are rounding errors."""
 
 
 def place_of(ratio: Ratio | None, breadth: float) -> complex | None:
-    """The point that a ratio names (m); None at infinity, and where no point is singled out.
+    """The point of a ratio (m); None at infinity and where every point would do.
 
-    NaN where no digit of it is sure.
+    NaN where no digit is reliable.
     """
     if ratio is not None and not isfinite(ratio.shift):
         return UNKNOWN
@@ -37,7 +37,7 @@ def place_of(ratio: Ratio | None, breadth: float) -> complex | None:
 
 
 def breadth_of(solution: Solution) -> float:
-    """Half the perimeter of the box around all points (m), 1 when they all coincide."""
+    """Half the perimeter of the box around all points (m), 1 if they coincide."""
     places = [p.position for p in solution.points.values() if p.position is not None]
     places = [z for z in places if isfinite(z)]
     xs, ys = [z.real for z in places], [z.imag for z in places]
@@ -45,15 +45,15 @@ def breadth_of(solution: Solution) -> float:
 
 
 def largest(values: Iterable[complex | float | None]) -> float:
-    """The largest magnitude among values that are known; zero when there is none."""
+    """The largest magnitude among the known values; zero if there are none."""
     known = (abs(value) for value in values if value is not None)
     return max((size for size in known if isfinite(size)), default=0.0)
 
 
 def with_blocks(scene: Scene, solution: Solution) -> Solution:
-    """The solution with every moving link in it: a block turns as its guide does.
+    """The solution with every moving link added: a block turns with its guide.
 
-    A link at rest has neither centre nor pole, for each of its points is one.
+    A link at rest has neither centre nor pole, since each of its points is one.
     """
     turning = largest(link.omega for link in solution.links.values())
     spinning = largest(link.epsilon for link in solution.links.values())
@@ -74,7 +74,7 @@ def with_blocks(scene: Scene, solution: Solution) -> Solution:
 
 
 def with_pole(motion: LinkMotion | None, turned: LinkMotion) -> LinkMotion:
-    """The motion of a link, its pole from its turning where no two of its points gave one."""
+    """The motion of a link, with its pole from its rotation where no two points gave the pole."""
     if motion is None:
         return turned
     if motion.acceleration_pole is not None or motion.epsilon is None:
@@ -83,13 +83,13 @@ def with_pole(motion: LinkMotion | None, turned: LinkMotion) -> LinkMotion:
 
 
 def still(values: Iterable[complex | float | None], biggest: float) -> bool:
-    """True when every value is known and nothing beside the largest of its kind."""
+    """Whether every value is known and negligible relative to the largest of its kind."""
     found = list(values)
     return bool(found) and all(z is not None and abs(z) <= NOISE * biggest for z in found)
 
 
 def motion_of_block(scene: Scene, name: str, solution: Solution) -> LinkMotion:
-    """Motion of a block that turns with its guide: on the frame it does not turn."""
+    """The motion of a block that turns with its guide; on the frame it does not turn."""
     point = next((p for p in scene.links[name].points if p in solution.points), None)
     motion = solution.points[point] if point is not None else PointMotion()
     own = solution.links.get(name)
@@ -107,7 +107,7 @@ def motion_of_block(scene: Scene, name: str, solution: Solution) -> LinkMotion:
 def turning_of_guide(
     scene: Scene, name: str, solution: Solution
 ) -> tuple[float | None, float | None]:
-    """ω and ε of the link that carries the guides under a block, however many lie between."""
+    """ω and ε of the link that carries the guides under a block, through any number of blocks."""
     for link in guides_under(scene, name):
         if link == FRAME:
             return 0.0, 0.0
@@ -117,7 +117,7 @@ def turning_of_guide(
 
 
 def centre_words(ratio: Ratio | None, breadth: float) -> str:
-    """Where an instantaneous centre lies (m), or the direction in which it is at infinity."""
+    """The place of an instantaneous centre (m), or its direction at infinity."""
     place = place_of(ratio, breadth)
     if place is not None:
         return point_words(place)
@@ -127,7 +127,7 @@ def centre_words(ratio: Ratio | None, breadth: float) -> str:
 
 
 def pole_words(ratio: Ratio | None, acceleration: complex | None, breadth: float) -> str:
-    """Where an acceleration pole lies (m), or the common direction when it is at infinity."""
+    """The place of an acceleration pole (m), or the common direction when it is at infinity."""
     place = place_of(ratio, breadth)
     if place is not None:
         return point_words(place)
@@ -137,12 +137,12 @@ def pole_words(ratio: Ratio | None, acceleration: complex | None, breadth: float
 
 
 def direction(vector: complex) -> float:
-    """The direction of a vector in degrees, without what is only rounding."""
+    """The direction of a vector in degrees, without rounding errors."""
     return round(degrees(phase(vector)), SURE) + 0.0
 
 
 def relative_table(solution: Solution, names: Iterable[str]) -> list[str]:
-    """Where the relative centres of two links lie (m)."""
+    """The places of the relative centres of two links (m)."""
     breadth = breadth_of(solution)
     rows: list[list[Cell]] = []
     for name in names:
@@ -155,7 +155,7 @@ def relative_table(solution: Solution, names: Iterable[str]) -> list[str]:
 
 
 def circles_table(links: Mapping[str, dict[str, Any]], quantity: MotionQuantity) -> list[str]:
-    """The circle of a quantity of each link that has one reported (m)."""
+    """The circle of a quantity for each link that reports one (m)."""
     rows: list[list[Cell]] = []
     for name, link in links.items():
         if quantity.target not in link:

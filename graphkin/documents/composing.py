@@ -1,11 +1,12 @@
-"""How large mechanism and plans are drawn beside one another, from the boxes that they take up.
+"""The sizes of the mechanism and its plans on a sheet, from the boxes that they occupy.
 
-The mechanism stands at one place on all sheets, whose fields are divided alike. Vectors are set on
-it as long as the one crank says that drives, or at a round kv; each plan is as many times as large
-as its field holds. Of the scales of the mechanism that is taken at which all is largest together.
+The mechanism has the same place on all sheets, and their fields are divided alike. Vectors on the
+mechanism have the length that the single driving crank sets, or a round kv. Each plan is enlarged
+as far as its field allows. The search chooses the mechanism's scale at which the drawings together
+are largest.
 
-The search asks for boxes by yielding the scale factors of drafts, so that one search serves a
-single sheet and, all at a time, the variants of a class.
+The search asks for boxes by yielding the scale factors of drafts. So one search serves a single
+sheet and, in parallel, the variants of a class.
 """
 
 from __future__ import annotations
@@ -22,50 +23,51 @@ from graphkin.drawing.scale import Extent, Scales, digits, preferred, preferred_
 from graphkin.text.errors import PageError, Problem
 
 TIMES = (5.0, 4.0, 3.0, 2.5, 2.0, 1.5, 1.0, 0.75, 0.5, 0.4, 0.3, 0.25, 0.2, 0.15, 0.1, 0.05, 0.02)
-"""How many times as large as on the mechanism plans are drawn."""
+"""Possible enlargements of plans relative to the vectors on the mechanism."""
 ROUND = (5.0, 4.0, 2.5, 2.0, 1.0, 0.5, 0.4, 0.25, 0.2, 0.1, 0.05, 0.02)
-"""The same of velocity plans where no crank says how large: a round kv stays round."""
+"""The same for velocity plans without a crank, where a round kv stays round."""
 STILL_LARGER = (10.0, 8.0, 6.0, *TIMES)
-"""The same of acceleration plans there."""
+"""The same for acceleration plans without a crank."""
 SHORTER = (0.5, 0.25, *(digit * 10.0**-power for power in range(1, 15) for digit in (2, 1, 0.5)))
-"""How many times as long as the crank vectors are set on a mechanism that they outgrow."""
+"""Lengths of vectors relative to the crank's, for a mechanism that its vectors outgrow."""
 LONGER = (2.0, 4.0, 5.0)
-"""The same where they are short."""
+"""The same for short vectors."""
 NARROW = LEAST_FIELD - 2 * MARGIN
-"""Width that mechanism and plan have at least, in mm, so that captions have room above them."""
+"""Least width of mechanism and plan in mm, so that captions have room above them."""
 LADDER, MOST = 6, 90
-"""Preferred scales that are tried from the first that holds all, and in search of it."""
+"""Number of preferred scales tried from the first that holds everything, and in search of it."""
 PACES = 4
-"""Round kv that are tried where no crank says one."""
+"""Number of round kv tried without a crank."""
 OUTGROWN = 1.1
-"""Vectors outgrow a mechanism that is so many times as large with them."""
+"""Vectors outgrow a mechanism if they enlarge it by more than this factor."""
 GAIN, PLAIN = 0.15, 0.05
-"""Gain in size for which vectors are set shorter than a crank says; for which a kv is less fine."""
+"""Least gain in size for shorter vectors than the crank's, and for a coarser kv."""
 LOSS = 0.02
-"""Loss in size for which they are set longer."""
+"""Largest loss in size for longer vectors."""
 SHORT, LONG = 20.0, 90.0
-"""A longest vector on the mechanism that is long enough, and long, in mm."""
+"""Lengths in mm of a longest vector on the mechanism: the least, and the largest wanted."""
 COARSEST = 0.02
-"""Part of the natural time in which vectors of no length are set."""
+"""Least factor on the natural kv, for vectors of length zero."""
 NOISE = 1e-9
-"""A plan so many times smaller than the mechanism is rounding."""
+"""Relative size below which a plan consists of rounding errors."""
 WEIGHT = 1.3
-"""How much the size of a mechanism counts against that of its plans together."""
+"""Weight of the size of the mechanism against its plans together."""
 BLUR = 0.2
-"""Loss in size for components that are laid off e times as long as their figures are."""
+"""Loss in size where components are laid off e times as long as in their triangles."""
 LINE = 0.1
-"""Part of its length that a plan is broad at least, or else is called a line."""
+"""Least ratio of a plan's breadth to its length; a plan below it counts as a line."""
 LITTLE = 0.12
-"""Part of its field that a plan has at least, or else counts as smaller than it is."""
+"""Least part of its field that a plan fills; below it the plan counts as smaller than it is."""
 JUST = 1 + 1e-12
-"""What fits but for rounding, fits."""
+"""Tolerance for rounding in tests of fit."""
 
 
 class Needs(Struct, frozen=True):
     """The boxes of a mechanism's drawings, in metres of the mechanism.
 
-    ``bare`` holds the mechanism, ``whole`` all that any sheet draws on it; of each sheet's plan the
-    box where it is as large as its vectors are set on the mechanism, and of those the ``longest``.
+    ``bare`` holds the mechanism, ``whole`` all that any sheet draws on it. ``plans`` are the boxes
+    of the plans at the scale of their vectors on the mechanism; ``longest`` are the longest of
+    these vectors.
     """
 
     bare: Extent
@@ -75,15 +77,15 @@ class Needs(Struct, frozen=True):
 
     @property
     def outgrown(self) -> bool:
-        """Whether vectors reach far beyond the mechanism."""
+        """Whether vectors extend far beyond the mechanism."""
         return self.whole.diagonal > OUTGROWN * self.bare.diagonal
 
 
 class Stated(Struct, frozen=True):
-    """What a scene says of its scale factors, 0 where it says nothing.
+    """The scale factors that a scene states, 0 for each factor not stated.
 
-    ``scale`` is kL, ``ka`` in m/s² for each metre of paper; ``times`` how many times as long as the
-    crank each plan draws the vectors of its pin.
+    ``scale`` is kL; ``ka`` is in m/s² per metre of paper. ``times`` is the length of the pin's
+    vector in each plan relative to the crank.
     """
 
     scale: float
@@ -92,16 +94,16 @@ class Stated(Struct, frozen=True):
 
     @property
     def keys(self) -> list[str]:
-        """What of [sheet] it states."""
+        """The keys of [sheet] that the scene states."""
         enlarge = max(self.times.values())
         said = {"scale": self.scale, "enlarge": enlarge, "ka": self.ka}
         return [key for key, value in said.items() if value]
 
 
 class Composition(Struct, frozen=True):
-    """A scale of the mechanism, how many times as large each plan is, and how large all is.
+    """A scale of the mechanism, the enlargement of each plan, and a measure of the total size.
 
-    The size is less by what plans ``lack`` that fill little of their fields.
+    The size is reduced by ``lack`` for plans that fill little of their fields.
     """
 
     size: float
@@ -111,11 +113,11 @@ class Composition(Struct, frozen=True):
 
 
 Ladders = Mapping[str, Sequence[float]]
-"""How many times as large as on the mechanism each plan may be, the largest first."""
+"""The possible enlargements of each plan relative to the mechanism, the largest first."""
 Search = Generator[Scales, Needs, Scales]
-"""The search for scale factors: it asks what drafts need, at 1:1, and ends in what it found.
+"""A search for scale factors: it yields drafts at 1:1 and receives their needs.
 
-It raises PageError where what is stated leaves no room.
+It returns the scale factors found. It raises PageError where the stated factors leave no room.
 """
 
 
@@ -127,26 +129,26 @@ class Attempt(Struct, frozen=True):
 
     @property
     def size(self) -> float:
-        """How large all is."""
+        """The measure of the total size."""
         return self.composition.size
 
     @property
     def scales(self) -> Scales:
-        """Its scale factors."""
+        """The scale factors of the composition."""
         kL, times = self.composition.kL, self.composition.times
         m, again = (times.get(kind, 1.0) for kind in ("velocity", "acceleration"))
         return replace(self.draft, kL=kL, larger=m, larger_still=again)
 
 
 Best = Generator[Scales, Needs, Attempt]
-"""A search with all triangles drawn, or without those that may give way."""
+"""A search with all triangles drawn, or without the optional ones."""
 
 
 def searched_scales(stated: Stated, crank: float, natural: float, *, may_give_way: bool) -> Search:
-    """The scale factors of a mechanism that a ``crank`` drives with a speed in rad/s, or nought.
+    """The scale factors of a mechanism whose ``crank`` has a speed in rad/s, 0 without one.
 
-    ``natural`` is the time in which its vectors are about as large as itself. Triangles that
-    ``may_give_way`` do where they leave a smaller mechanism, or much smaller drawings.
+    ``natural`` is the time in which vectors are about as large as the mechanism. Optional triangles
+    (``may_give_way``) are dropped where they cause a smaller mechanism, or much smaller drawings.
     """
 
     def best(*, triangles: bool) -> Best:
@@ -163,7 +165,7 @@ def searched_scales(stated: Stated, crank: float, natural: float, *, may_give_wa
 
 
 def by_crank(stated: Stated, crank: float, triangles: bool) -> Best:
-    """Vectors on the mechanism as long as the crank says; shorter or longer where that serves."""
+    """The best composition with vectors of the crank's length, or another if that helps."""
 
     def draft(times: float) -> Scales:
         return Scales(1.0, times / crank, of_crank=times, triangles=triangles)
@@ -198,7 +200,7 @@ def by_crank(stated: Stated, crank: float, triangles: bool) -> Best:
 
 
 def by_round_kv(stated: Stated, natural: float, triangles: bool) -> Best:
-    """Vectors on the mechanism at a round kv, at which the longest is at most 90 mm long."""
+    """The best composition at a round kv, with the longest vector at most 90 mm long."""
     first = yield Scales(1.0, natural, triangles=triangles)
     ladders = {**times_of(stated, STILL_LARGER, 1.0), "velocity": ROUND}
     best: Attempt | None = None
@@ -219,32 +221,32 @@ def by_round_kv(stated: Stated, natural: float, triangles: bool) -> Best:
 
 
 def is_short(needs: Needs, kL: float) -> bool:
-    """Whether the longest velocity on a mechanism is short, though not zero."""
+    """Whether the longest velocity on a mechanism is short but not zero."""
     return 0 < 1000 * needs.longest.get("velocity", 0.0) / kL < SHORT
 
 
 def coarseness(needs: Needs, kL: float) -> float:
-    """How many times as much a millimetre must stand for that no vector is longer than LONG."""
+    """The factor on the natural kv at which no vector is longer than LONG."""
     speed, thrust = (needs.longest.get(kind, 0.0) for kind in ("velocity", "acceleration"))
     times = 1000 / kL / LONG
     return max(times * speed, sqrt(times * thrust), COARSEST)
 
 
 def times_of(stated: Stated, ladder: Sequence[float], of_crank: float) -> Ladders:
-    """How many times as large as on the mechanism each plan may be, the largest first."""
+    """The possible enlargements of each plan relative to the mechanism, the largest first."""
     own = {"velocity": of_crank, "acceleration": of_crank**2}
     return {kind: [times / own[kind]] if times else ladder for kind, times in stated.times.items()}
 
 
 def lengths(needs: Needs, stated: Stated) -> Iterator[float]:
-    """The scales that are tried: the stated one, or preferred ones from which all may fit."""
+    """The scales to try: the stated one, or the preferred ones from the first that may fit."""
     if stated.scale:
         return iter([stated.scale])
     return preferred_scales(least(needs.bare))
 
 
 def least(box: Extent) -> float:
-    """The kL at which a mechanism just leaves room for a plan. Raises PageError for a mere dot."""
+    """The kL at which a mechanism just leaves room for a plan. Raises PageError for a dot."""
     needed = max(1000 * box.width / (WIDTH - NARROW), 1000 * box.height / HEIGHT)
     if not needed > 0:
         raise PageError(Problem("scale", "the mechanism has no extent", "points apart"))
@@ -252,7 +254,7 @@ def least(box: Extent) -> float:
 
 
 def largest(needs: Needs, stated: Stated, seconds: float, ladders: Ladders) -> Composition | None:
-    """The scale at which mechanism and plans are largest together; None where none holds them."""
+    """The scale at which mechanism and plans together are largest; None if none fits."""
     found: list[Composition] = []
     for kL in islice(lengths(needs, stated), MOST):
         choice = composed(needs, kL, ladders, stated, seconds)
@@ -269,11 +271,11 @@ def composed(
     stated: Stated,
     seconds: float,
 ) -> Composition | None:
-    """The largest plans beside a mechanism at a scale; None where it, or one of them, has no room.
+    """The largest plans next to a mechanism at a scale; None where any drawing has no room.
 
-    Its size is the logarithm of a harmonic mean of the diagonals of the mechanism and the plans,
-    less what a plan lacks that fills little of its field, and less what the errors of triangles
-    cost that are laid off many times.
+    The size is the logarithm of a harmonic mean of the diagonals of the mechanism and the plans. It
+    is reduced for plans that fill little of their fields, and for the errors of triangles laid off
+    at many times their length.
     """
     mm = 1000 / kL
     room = WIDTH - max(needs.whole.width * mm, NARROW)
@@ -301,7 +303,7 @@ def composed(
 
 
 def no_room(needs: Needs, stated: Stated, seconds: float) -> Problem:
-    """The problem of scale factors that leave drawings no room: of the one that is stated."""
+    """The problem of stated scale factors that leave no room for the drawings."""
     if stated.ka:
         ka = digits(stated.ka / 1000)
         found = f"does not fit: at {ka} (m/s²)/mm the acceleration plan leaves its field"
@@ -317,5 +319,5 @@ def no_room(needs: Needs, stated: Stated, seconds: float) -> Problem:
 
 
 def fits_at(needs: Needs, stated: Stated, kL: float) -> bool:
-    """Whether all has room at a scale."""
+    """Whether everything fits at a scale."""
     return composed(needs, kL, times_of(stated, TIMES, 1.0), stated, 1.0) is not None

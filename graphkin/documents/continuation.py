@@ -1,5 +1,7 @@
-"""The sheets on which goes on what has no room beside the drawings: data, sentences, tables, and
-auxiliary points with their names."""
+"""The continuation sheets: data, sentences and tables that do not fit next to the drawings.
+
+They also hold plans with the names of auxiliary points.
+"""
 
 from __future__ import annotations
 
@@ -33,24 +35,24 @@ from graphkin.text.errors import PageError, Problem
 LEADING = 4.6
 """Distance of the lines of data in mm."""
 GAP, HEAD = 8.0, 6.0
-"""Room above the heading of a part, and below it, in mm."""
+"""Room above and below the heading of a part, in mm."""
 INSIDE = 3.0
-"""How far tables and numbers of sentences stay clear of the centring mark at the left, in mm."""
+"""Clearance of tables and sentence numbers from the centring mark at the left, in mm."""
 MIDDLE = MARKED[0]
-"""Where the left column ends, clear of the centring mark, in mm."""
+"""The right end of the left column, clear of the centring mark, in mm."""
 LOW = A3_TITLE_BLOCK[1] - 4
-"""Where the right column ends, above the title block, in mm."""
+"""The lower end of the right column, above the title block, in mm."""
 TIMES = (2.0, 1.5, 1.25, 1.0)
-"""How many times as large as on its sheet a plan may be that is drawn again."""
+"""Possible enlargements of a plan that is drawn again."""
 LEAST = 60.0
-"""Room below the data in which tables begin that go on to more sheets, in mm."""
+"""Least room below the data in which tables that need more sheets begin, in mm."""
 
 
 def rest(drawing: Drawing, view: str, moved: Set[Moved], said: int = 0) -> list[list[Mark]]:
-    """What is on the sheets that go on: one, or where it has no room there as many as it takes.
+    """The continuation sheets: one, or as many as the remaining parts need.
 
-    So many sentences as are said before are left out there.
-    Raises PageError where a sentence or a row of a table is longer than a sheet is wide.
+    The first ``said`` sentences are left out. Raises PageError where a sentence or a row of a table
+    is longer than a sheet is wide.
     """
     if Moved.AUXILIARY in moved:
         return with_trials(drawing, rest(drawing, view, moved - {Moved.AUXILIARY}, said))
@@ -75,9 +77,9 @@ def rest(drawing: Drawing, view: str, moved: Set[Moved], said: int = 0) -> list[
 
 
 def with_trials(drawing: Drawing, sheets: list[list[Mark]]) -> list[list[Mark]]:
-    """The sheets with the plan beside the words of the last, or on a sheet of its own.
+    """The sheets with the plan next to the words of the last sheet, or on a sheet of its own.
 
-    It is drawn again as large as there is room for, and its auxiliary points have names.
+    The plan is drawn as large as possible, with the names of its auxiliary points.
     """
     head, x, y = title_line(drawing, drawing.words("page.continued"))
     top = y + GAP
@@ -91,7 +93,7 @@ def with_trials(drawing: Drawing, sheets: list[list[Mark]]) -> list[list[Mark]]:
 
 
 def plan_with_trials(drawing: Drawing, rect: Rect) -> list[Mark]:
-    """The plan in a field, with the letters of its points; nothing where it has no room."""
+    """The plan in a field, with the letters of its points; empty where it has no room."""
     layout, box, mm = lay_out(drawing), drawing.plan_extent(), 1000 / drawing.scales.kL
     room = rect[2] - rect[0] - 2 * MARGIN, rect[3] - rect[1] - 2 * ABOVE
     times = min(
@@ -109,7 +111,7 @@ def plan_with_trials(drawing: Drawing, rect: Rect) -> list[Mark]:
 
 
 def data_and_tables(drawing: Drawing, view: str, moved: Set[Moved]) -> Iterator[list[Mark]]:
-    """The sheets of data that have no room on one, and of tables, which begin below the data."""
+    """The sheets of data too long for one sheet, and of tables, which begin below the data."""
     head, x, y = title_line(drawing, drawing.words("page.continued"))
     room = int((LOW - y) / LEADING) + 1
     lines = told_lines(drawing, view, moved, x)
@@ -135,8 +137,7 @@ def data_and_tables(drawing: Drawing, view: str, moved: Set[Moved]) -> Iterator[
 
 
 def told_lines(drawing: Drawing, view: str, moved: Set[Moved], x: float) -> list[str]:
-    """The data, what is asked and what the links are, so far as they are moved, in lines across a
-    sheet from a place on."""
+    """The moved data, requests and links, in lines across a sheet from a place on."""
     words, width, lines = drawing.words, AREA[2] - x - 3, list[str]()
     if Moved.DATA in moved:
         first, *others = given(drawing, solved=view != "task", laws=True)
@@ -154,12 +155,12 @@ def told_lines(drawing: Drawing, view: str, moved: Set[Moved], x: float) -> list
 
 
 def cut(line: str, width: float) -> list[str]:
-    """A line that is too long in lines of a width in mm, between words."""
+    """A line divided between words into lines of a width in mm."""
     return flowed(narrow_words(line, width, 2.5), " ", width, 2.5)
 
 
 def one_sheet(drawing: Drawing, view: str, moved: Set[Moved], said: int) -> list[Mark]:
-    """What is on a sheet that goes on alone. Raises PageError where not even it holds the rest."""
+    """The content of a single continuation sheet. Raises PageError where it does not fit."""
     marks, x, y = title_line(drawing, drawing.words("page.continued"))
     if lines := told_lines(drawing, view, moved, x):
         for line in lines:

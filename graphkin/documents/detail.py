@@ -1,4 +1,4 @@
-"""Small pictures beside a drawing: its shortest vectors, and where much meets, enlarged."""
+"""Small pictures next to a drawing: its shortest vectors and its crowded places, enlarged."""
 
 from __future__ import annotations
 
@@ -39,17 +39,17 @@ from graphkin.drawing.symbols import SHORT, head
 SHOWN = (*VECTORS, "construction", "link")
 """The classes of lines that a detail shows."""
 CROWDED, ENLARGED = 5, (5, 10)
-"""How many times a place where much meets is enlarged, and how many times a short vector."""
+"""Enlargement of a crowded place, and enlargements of a short vector."""
 RADIUS = 16.0
 """Radius of a detail circle in mm."""
 LETTERS = 2.5
-"""Height of the letters of a detail in mm, whose indices are as high as the smallest lettering."""
+"""Height of the letters of a detail in mm, with indices as high as the smallest lettering."""
 SEEN = 5.0
-"""Length in mm that a part of a vector must have in a detail to be named there."""
+"""Least length in mm of a part of a vector in a detail for it to be named there."""
 WHOLE = 6
-"""Priority of the name of a vector that lies whole in a detail."""
+"""Priority of the name of a vector that lies entirely in a detail."""
 TOO_SHORT = 0.5
-"""Vectors shorter than this, in mm, are not worth a detail."""
+"""Length in mm below which vectors are not worth a detail."""
 
 
 def length_of(line: LineMark) -> float:
@@ -58,7 +58,7 @@ def length_of(line: LineMark) -> float:
 
 
 class Source(NamedTuple):
-    """What is to be enlarged: the middle of a small circle, and how many times."""
+    """The source of a detail: the centre of a small circle, and the enlargement."""
 
     at: XY
     times: int
@@ -69,7 +69,7 @@ class Source(NamedTuple):
 
 
 def sources(board: FieldContent) -> Iterator[Source]:
-    """The place of a drawing's first short vector worth a detail, and where much meets apart."""
+    """The sources of a drawing: its first short vector, and crowded places elsewhere."""
     for mark in board.marks:
         if is_vector(mark) and TOO_SHORT <= length_of(mark) < SHORT:
             times = ENLARGED[0] if length_of(mark) * ENLARGED[0] >= 4 else ENLARGED[1]
@@ -81,9 +81,7 @@ def sources(board: FieldContent) -> Iterator[Source]:
 
 
 class FieldMarks(NamedTuple):
-    """The marks of a finished field, apart from these its details, and how many times each of them
-    enlarges.
-    """
+    """The marks of a finished field, its details, and the enlargement of each detail."""
 
     marks: list[Mark]
     details: list[Mark]
@@ -91,9 +89,7 @@ class FieldMarks(NamedTuple):
 
 
 class Detail(NamedTuple):
-    """What a detail shows: the board that it belongs to, its source, and a board with the part
-    enlarged, aside of the page.
-    """
+    """A detail: its field, its source, and a board with the enlarged part, off the page."""
 
     of: FieldContent
     source: Source
@@ -101,15 +97,15 @@ class Detail(NamedTuple):
 
 
 def with_detail(*boards: FieldContent) -> list[Mark]:
-    """Finished fields, with detail circles for very short vectors where there is room for them."""
+    """Finished fields, with detail circles for very short vectors where there is room."""
     return [mark for each in parted(*boards) for mark in (*each.marks, *each.details)]
 
 
 def parted(*boards: FieldContent) -> list[FieldMarks]:
-    """Finished fields, and apart from each its detail circles; no marks where there is none.
+    """Finished fields with their detail circles kept separate.
 
-    The letters of points that find no place in a field are those of a detail about them, where
-    there is room for it.
+    The letters of points without a place in a field go into a detail around the points, where there
+    is room for one.
     """
     before = [copied(board) for board in boards]
     fields = enlarged(boards)
@@ -128,7 +124,7 @@ def parted(*boards: FieldContent) -> list[FieldMarks]:
 
 
 def copied(board: FieldContent) -> FieldContent:
-    """The same field, to be finished by itself."""
+    """A copy of a field that can be finished by itself."""
     return replace(
         board, marks=[*board.marks], labels=[*board.labels], crowds=[*board.crowds], unplaced=[]
     )
@@ -137,7 +133,7 @@ def copied(board: FieldContent) -> FieldContent:
 def enlarged(
     boards: Sequence[FieldContent], lost: Sequence[Sequence[Label]] = ()
 ) -> list[FieldMarks]:
-    """Finished fields and their details; the labels that are ``lost`` in each are its details'."""
+    """Finished fields and their details; the ``lost`` labels of each field go into its details."""
     needed = [label for letters in lost for label in letters]
     found = [(board, source) for board in boards for source in sources(board)]
     details = [
@@ -162,14 +158,14 @@ def enlarged(
 
 
 def aside(boards: Sequence[FieldContent]) -> Iterator[XY]:
-    """Places for details, one below another, where they overlap neither boards nor each other."""
+    """Places for details, one below another, clear of the boards and of each other."""
     x, y = max(board.rect[2] for board in boards) + RADIUS, boards[0].rect[1] + RADIUS
     for nth in count():
         yield x + 1, y + nth * (2 * RADIUS + 1)
 
 
 def put_in_disc(marks: Sequence[Mark], detail: Detail, spots: Sequence[Spot]) -> list[Mark]:
-    """A detail where there is room for it among the marks of its field; else nothing."""
+    """A detail where it has room among the marks of its field; otherwise empty."""
     disc = Space(marks, detail.of.rect).disc(detail.source.at, RADIUS + 4)
     if disc is None:
         return []
@@ -180,7 +176,7 @@ def put_in_disc(marks: Sequence[Mark], detail: Detail, spots: Sequence[Spot]) ->
 
 
 def pointing(disc: FreeDisc, source: Source) -> Iterator[Mark]:
-    """The line from a small circle to its large one, and how many times that enlarges."""
+    """The line from a small circle to its large one, and the enlargement."""
     small, (x, y) = RADIUS / source.times, source.at
     far = dist(disc.at, source.at)
     u, v = (disc.at[0] - x) / far, (disc.at[1] - y) / far
@@ -192,16 +188,16 @@ def pointing(disc: FreeDisc, source: Source) -> Iterator[Mark]:
 
 
 def scale_words(times: int) -> str:
-    """How many times a detail enlarges, as its scale."""
+    """The enlargement of a detail, written as its scale."""
     return f"{times}:1"
 
 
 def enlarged_part(
     board: FieldContent, source: Source, at: XY, needed: Sequence[Label] = ()
 ) -> FieldContent:
-    """What lies in a small circle, drawn again in a large one with its middle at a place.
+    """The content of a small circle, drawn again in a large one centred at a place.
 
-    Labels that are ``needed`` there take a leader where they have no place beside their point.
+    Labels that are ``needed`` take a leader where they have no place next to their point.
     """
     x, y = at
     part = FieldContent((x - RADIUS, y - RADIUS, x + RADIUS, y + RADIUS))
@@ -216,14 +212,14 @@ def enlarged_part(
 
 
 def passes(line: LineMark, centre: XY, radius: float) -> bool:
-    """True when a line's carrier passes through a circle."""
+    """Whether a line, extended at both ends, passes through a circle."""
     dx, dy = line.x2 - line.x1, line.y2 - line.y1
     across = dx * (centre[1] - line.y1) - dy * (centre[0] - line.x1)
     return abs(across) <= radius * hypot(dx, dy)
 
 
 def draw_part(board: FieldContent, line: LineMark, source: Source, at: XY) -> None:
-    """The part of a line that lies in the small circle, enlarged, with its head if that is in."""
+    """Draw the enlarged part of a line in the small circle, with its head if the head is inside."""
     found = within(line, source.at, RADIUS / source.times)
     if found is None:
         return
@@ -236,7 +232,7 @@ def draw_part(board: FieldContent, line: LineMark, source: Source, at: XY) -> No
 
 
 def within(line: LineMark, centre: XY, radius: float) -> tuple[XY, XY] | None:
-    """The part of a line that lies in a circle; None where there is none."""
+    """The part of a line that lies in a circle; None without one."""
     dx, dy = line.x2 - line.x1, line.y2 - line.y1
     x, y = line.x1 - centre[0], line.y1 - centre[1]
     square, half = dx * dx + dy * dy, x * dx + y * dy
@@ -252,13 +248,13 @@ def within(line: LineMark, centre: XY, radius: float) -> tuple[XY, XY] | None:
 
 
 def larger(point: XY, source: Source, at: XY) -> XY:
-    """Where a point of the small circle lies in the large one, which has its middle at a place."""
+    """The place in the large circle, centred at a place, of a point of the small circle."""
     (x, y), times = source
     return at[0] + times * (point[0] - x), at[1] + times * (point[1] - y)
 
 
 def named(board: FieldContent, source: Source, at: XY, needed: Sequence[Label]) -> Iterator[Label]:
-    """The names of the vectors and points of a small circle; those that lie whole in it come first.
+    """The names of the vectors and points of a small circle; those entirely in it come first.
 
     The others are left out where they find no place.
     """
@@ -282,30 +278,29 @@ def named(board: FieldContent, source: Source, at: XY, needed: Sequence[Label]) 
 
 
 def dots(labels: Sequence[Label]) -> Iterator[Mark]:
-    """The points of a detail whose letters are sought."""
+    """The points of a detail whose letters are to be placed."""
     for label in labels:
         if segment_of(label) is None:
             yield CircleMark(*label.point, DOT, f"point {label.cls} detail".replace("  ", " "))
 
 
 def is_vector(mark: Mark) -> TypeGuard[LineMark]:
-    """True for the line of a vector."""
     return isinstance(mark, LineMark) and style_class(mark) in VECTORS
 
 
-# --- A small picture at a smaller scale for a centre or pole that lies off its field --------------
+# --- insets: a small picture at a smaller scale for a centre or pole off its field ----------------
 
 
 LARGEST, SMALLEST = (80.0, 60.0), 26.0
-"""Width and height of an inset at most, and the longer of both at least, in mm."""
+"""Largest width and height of an inset, and least length of its longer side, in mm."""
 EDGE = 8.0
 """Room inside an inset for names, in mm."""
 FARTHEST = 200.0
-"""A centre this many times farther than the field is wide is only named, not shown."""
+"""Distance in widths of the field beyond which a centre is only named."""
 
 
 def insets(drawing: Drawing, field: Field, marks: Sequence[Mark]) -> list[Mark]:
-    """The insets of a mechanism's field, one for each far place, where there is room for it."""
+    """The insets of a mechanism's field, one for each far place, where there is room."""
     found: list[FieldContent] = []
     space: Space | None = None
     for kind, place in far_places(drawing, field):
@@ -320,7 +315,7 @@ def insets(drawing: Drawing, field: Field, marks: Sequence[Mark]) -> list[Mark]:
 
 
 def far_places(drawing: Drawing, field: Field) -> Iterator[tuple[Centre, complex]]:
-    """The centres and poles that lie off a field, but not too far to be shown, each place once."""
+    """The centres and poles off a field but near enough to be shown, each place once."""
     shown: list[complex] = []
     for number, step, _ in drawing.on_mechanism:
         kind = construction(step)
@@ -340,7 +335,7 @@ def far_places(drawing: Drawing, field: Field) -> Iterator[tuple[Centre, complex
 def inset(
     drawing: Drawing, kind: Centre, centre: complex, field: Field, space: Space
 ) -> FieldContent | None:
-    """The mechanism and the lines that find a far centre, as large as there is room for."""
+    """The mechanism and the lines that find a far centre, as large as possible."""
     around = ring(circle[1]) if (circle := kind.around(drawing)) else []
     extent = extent_of([*drawing.positions.values(), *spots_of(drawing, kind), centre, *around])
     inner = [size - 2 * EDGE for size in LARGEST]
@@ -357,7 +352,7 @@ def inset(
 
 
 def pictured(drawing: Drawing, kind: Centre, centre: complex, field: Field) -> FieldContent:
-    """What an inset shows: its frame and scale, bars, rays, the centre, and their names."""
+    """The content of an inset: frame and scale, bars, rays, the centre, and their names."""
     left, top, right, bottom = field.rect
     lines, far = kind.lines_to(drawing), field(centre)
     firsts = [field(next(iter(line.values()))) for line in lines]
@@ -380,7 +375,7 @@ def pictured(drawing: Drawing, kind: Centre, centre: complex, field: Field) -> F
 
 
 def names_of(drawing: Drawing, kind: Centre) -> list[str]:
-    """The name of a centre, and that which it has as the centre of its link and the frame."""
+    """The name of a centre, and its name as the centre of its link and the frame."""
     others = (construction(step) for _, step, _ in drawing.on_mechanism)
     pairs = (each for each in others if isinstance(each, RelativeCentre))
     again = (each.name for each in pairs if each.same(drawing) == kind.found)

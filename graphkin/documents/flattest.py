@@ -1,4 +1,4 @@
-"""The quiet line on the sheet's margin that says where a pencil's error grows most."""
+"""The line on the sheet's margin that says where a pencil error grows most."""
 
 from __future__ import annotations
 
@@ -22,9 +22,9 @@ from graphkin.drawing.symbol_markup import symbol, without_index
 HEIGHT = 1.8
 """Height of the lettering in mm."""
 APART = 2.5
-"""Room in mm between this line and what stands before it."""
+"""Room in mm between this line and the text before it."""
 END = TABLES[0] - 22.0
-"""Where the line ends, in mm from the page's left edge: clear of the centring mark."""
+"""The right end of the line, in mm from the page's left edge, clear of the centring mark."""
 OWN = {
     "velocity": (Part.POSITION, Part.VELOCITY, Part.CENTRE),
     "acceleration": (Part.POSITION, Part.NORMAL, Part.ACCELERATION, Part.POLE),
@@ -33,11 +33,11 @@ OWN = {
 
 
 def flattest_line(drawing: Drawing, start: float) -> Iterator[Mark]:
-    """The flattest crossing of a sheet, its angle, and what a millimetre of pencil becomes there.
+    """The flattest crossing of a sheet, its angle, and the effect of a millimetre of pencil error.
 
-    ``start`` is where there is room, in mm; a name that has none there is written shorter, then
-    it goes without what a millimetre becomes.
-    Nothing where no lines cross. What stands on a sheet before this one is not drawn again.
+    ``start`` is where the free room begins, in mm. Where the room is too short, the name is
+    shortened, then the effect is left out. Empty where no lines cross. Crossings drawn on the sheet
+    before this one are not counted again.
     """
     worst = flattest(crossings_on(drawing))
     if worst is None:
@@ -56,7 +56,7 @@ def flattest_line(drawing: Drawing, start: float) -> Iterator[Mark]:
 
 
 def crossings_on(drawing: Drawing) -> tuple[Crossing, ...]:
-    """The crossings with a letter that a sheet draws itself, where its lines lead anywhere."""
+    """The lettered crossings that a sheet itself draws and uses."""
     parts = [part for part in OWN[drawing.kind] if not (drawing.again and part is Part.POSITION)]
     return tuple(
         crossing
@@ -74,16 +74,16 @@ def group_closed(drawing: Drawing, crossing: Crossing) -> ClosedGroup | None:
 
 
 def is_gap(drawing: Drawing, crossing: Crossing) -> bool:
-    """True where two loci show how a group closes: where they are a bar apart, not by crossing."""
+    """Whether two loci close a group where they are a bar apart, rather than where they cross."""
     group = group_closed(drawing, crossing)
     return group is not None and len(group.traced) > 1
 
 
 def names_of_crossing(drawing: Drawing, crossing: Crossing) -> tuple[str, str]:
-    """Markup of what a crossing is called, and the same shorter.
+    """Markup of the name of a crossing, and a shorter form.
 
-    Its letter as it is drawn; of one that closes a group that of the locus; of a triangle whose
-    corners no sentence names, and perhaps no letter, the component that it is for.
+    The name is the letter as drawn. A crossing that closes a group has the letter of its locus. A
+    triangle whose corners no sentence names is called by its component.
     """
     group, step = group_closed(drawing, crossing), drawing.trace.program.steps[crossing.number]
     kind, letter = construction(step), step.name or crossing.name

@@ -15,23 +15,23 @@ from graphkin.text.errors import PageError, Problem
 LOOKS = ((2.5, 5.6, 3.6), (2.2, 4.9, 3.4), (1.8, 4.0, 3.4))
 """Heights of lettering, each with the largest and the least distance of its lines, in mm."""
 SHORTER = (0.0, 4.0, 8.0, 12.0, 16.0)
-"""By how much lines are made shorter, in mm, until no signs touch."""
+"""Reductions of line width tried in mm, until no characters touch."""
 FINE = 0.05
-"""By how much, in mm, lines are set closer until they fit."""
+"""Step in mm by which lines are set closer until they fit."""
 PARTED = 4.6
-"""Distance of the lines of a construction that goes on on another sheet, in mm."""
+"""Distance of the lines of a construction that continues on another sheet, in mm."""
 INDENT = 7.0
-"""Where sentences begin, behind their numbers, in mm."""
+"""Start of sentences after their numbers, in mm."""
 
 Numbered = tuple[str, str]
-"""A line, with the number of the sentence that it begins; with nothing where it goes on."""
+"""The number of a sentence, and a line; the number is empty on continuation lines."""
 
 
 def listed(drawing: Drawing, x: float, y: float, width: float, bottom: float) -> list[Mark]:
-    """The sentences from a place on, as far apart as there is room for their lines.
+    """The sentences from a place on, with their lines as far apart as there is room.
 
-    Where signs of lines would touch these are shorter, else in smaller lettering. Raises PageError
-    where even small lines are too many.
+    Where characters of neighbouring lines would touch, lines are shortened, then the lettering is
+    made smaller. Raises PageError where there are too many lines even in small lettering.
     """
     for (height, most, least), less in product(LOOKS, SHORTER):
         flown = both_ways(drawing, x, width - less, height)
@@ -51,9 +51,9 @@ def listed(drawing: Drawing, x: float, y: float, width: float, bottom: float) ->
 def first_part(
     drawing: Drawing, x: float, y: float, width: float, bottom: float
 ) -> tuple[list[Mark], int]:
-    """As many whole sentences from a place on as leave a line below them, and how many these are.
+    """As many whole sentences as leave a line free below them, and their number.
 
-    Their lettering is the largest; the line says that the rest is on the continuation sheet.
+    They have the largest lettering; the free line says that the rest is on the continuation sheet.
     """
     height, leading = LOOKS[0][0], PARTED
     wide, narrow = both_ways(drawing, x, width, height)
@@ -72,7 +72,7 @@ def first_part(
 def both_ways(
     drawing: Drawing, x: float, width: float, height: float
 ) -> tuple[list[list[str]], list[list[str]]]:
-    """The lines of each sentence across a width, and clear of the centring mark."""
+    """The lines of each sentence at full width, and clear of the centring mark."""
     said = [words_of(sentence.markup) for sentence in sentences(drawing)]
     return (
         [flowed(words, " ", width - INDENT, height) for words in said],
@@ -93,9 +93,9 @@ def written(
 
 
 def in_columns(drawing: Drawing, columns: Sequence[Rect], begun: int) -> list[Mark]:
-    """The sentences of a continuation sheet, from one column to the next, none of them parted.
+    """The sentences of a continuation sheet, column by column, none of them divided.
 
-    So many as are begun before are left out. Raises PageError where there are too many.
+    The first ``begun`` sentences are left out. Raises PageError where there are too many.
     """
     said = [words_of(sentence.markup) for sentence in sentences(drawing)]
     for height, most, least in LOOKS:
@@ -111,9 +111,9 @@ def in_columns(drawing: Drawing, columns: Sequence[Rect], begun: int) -> list[Ma
 
 
 def on_sheets(drawing: Drawing, columns: Sequence[Rect], begun: int) -> Iterator[list[Mark]]:
-    """The sentences but those begun before, on as many sheets with the same columns as they need.
+    """The sentences after the first ``begun``, on as many sheets of equal columns as they need.
 
-    They are in large lettering. One that is longer than a column is parted.
+    They have large lettering. A sentence longer than a column is divided.
     """
     height, leading, _ = LOOKS[0]
     widths = [right - left - INDENT for left, _, right, _ in columns]
@@ -140,9 +140,9 @@ def filled(
     begun: int,
     numbers: Sequence[str] = (),
 ) -> tuple[list[Mark], int]:
-    """Columns with the lines of sentences from one on, broken for each, and which has no room.
+    """Columns filled with sentences from ``begun`` on, and the first sentence without room.
 
-    ``numbers`` are what stands before each where sentences are parted.
+    ``numbers`` are the labels of the sentences where sentences are divided.
     """
     marks: list[Mark] = []
     place, y = 0, columns[0][1]
@@ -162,7 +162,7 @@ def filled(
 
 
 def too_long(lines: int, hint: str) -> PageError:
-    """The problem of a construction that has too many lines."""
+    """The problem of a construction with too many lines."""
     found, expected = f"does not fit: {lines} lines", "a shorter construction"
     return PageError(Problem("construction", found, expected, hint))
 
@@ -174,8 +174,10 @@ def distances(most: float, least: float) -> Iterator[float]:
 
 
 def lined(wide: list[list[str]], narrow: list[list[str]], above: int) -> list[Numbered]:
-    """The lines of sentences; those of one that goes on beneath so many lines are the narrow ones,
-    which stay clear of the centring mark."""
+    """The lines of sentences; a sentence that extends below ``above`` lines takes its narrow form.
+
+    The narrow form stays clear of the centring mark.
+    """
     lines: list[Numbered] = []
     for number, (own, short) in enumerate(zip(wide, narrow, strict=True), 1):
         chosen = own if len(lines) + len(own) <= above else short

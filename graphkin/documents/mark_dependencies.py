@@ -1,4 +1,4 @@
-"""On what a mark of the mechanism rests that is of no step: points, axes, what a driver turns."""
+"""The dependencies of mechanism marks without a step: points, axes, and driver positions."""
 
 from __future__ import annotations
 
@@ -19,9 +19,9 @@ BODY = ("plate", "outline", "link", "number", "label", "leader")
 
 
 def ground_of(drawing: Drawing, field: Field) -> Mapping[Mark, tuple[Target, ...]]:
-    """The guides and straight tracks of the frame, each with the points about which it is drawn.
+    """The guides and straight tracks of the frame, each with the points around which it is drawn.
 
-    Their lines alone, across the field, tell nothing of where blocks and wheels stand.
+    Their lines across the field say nothing of the positions of blocks and wheels.
     """
     found: dict[Mark, tuple[Target, ...]] = {}
     links = drawing.scene.links
@@ -35,7 +35,7 @@ def ground_of(drawing: Drawing, field: Field) -> Mapping[Mark, tuple[Target, ...
 
 
 def rests_on(drawing: Drawing, mark: Mark) -> Iterator[Target]:
-    """The targets of the program that a mark cannot stand without; none for what is given."""
+    """The targets of the program that a mark depends on; none for a given mark."""
     link = drawing.scene.links.get(mark.name)
     if mark.shows is not None:
         drivers = (d for d in drawing.scene.drivers if d.link == mark.shows.link)
@@ -48,7 +48,7 @@ def rests_on(drawing: Drawing, mark: Mark) -> Iterator[Target]:
 
 
 def of_link(drawing: Drawing, link: Link, kind: str) -> Iterator[Target]:
-    """What the mark of a link rests on: points, and its axis where they do not show it."""
+    """The targets of a link's mark: points, and its axis where the points do not define it."""
     points = list(link.points)
     turned = len(points) < 2
     carriers = {way.slide.on for way in drawing.standing.guideways}
@@ -81,7 +81,7 @@ def body_of(drawing: Drawing, link: Link) -> list[str]:
 
 
 def of_driver(drawing: Drawing, driver: Driver) -> Iterator[Target]:
-    """The points that show how a driver stands."""
+    """The targets that show the position of a driver."""
     link = drawing.scene.links[driver.link]
     if driver.kind == "turn":
         yield from (("position", point) for point in (driver.of or link.points)[:2])

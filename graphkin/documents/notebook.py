@@ -1,4 +1,4 @@
-"""Drawings in a notebook: both sheets as one picture, or one drawing in matplotlib's axes."""
+"""Drawings in a notebook: both sheets as one picture, or one drawing in matplotlib axes."""
 
 from __future__ import annotations
 
@@ -37,13 +37,15 @@ def plot(
     language: str | None = None,
     ink: Ink = "colour",
 ) -> Axes:
-    """Draw the mechanism, its velocity plan or its acceleration plan into axes of matplotlib.
+    """Draw the mechanism, its velocity plan or its acceleration plan into matplotlib axes.
 
-    One unit of the axes is a millimetre of the sheet, y up; the pole of a plan, or the origin of
-    the frame, is the axes' origin. The drawing fills the axes as large as they are now; lines,
-    arrowheads and letters have the sheet's own sizes (capitals of 2.5 mm, as text of 10 points)
-    in every figure. Raises as hand_out does, PageError where the axes are too small for the
-    letters, and SceneError where nothing of a plan is asked.
+    One unit of the axes is a millimetre of the sheet, with y up. The origin is the pole of a plan,
+    or the origin of the frame. The drawing fills the axes at their present size. Lines, arrowheads
+    and letters have the sheet's own sizes in every figure (capitals of 2.5 mm, as text of 10
+    points).
+
+    Raises the errors of hand_out. Raises PageError where the axes are too small for the letters,
+    and SceneError where the scene asks for nothing of a plan.
     """
     from graphkin.writers.axes import put_drawing, size_of
 
@@ -56,7 +58,7 @@ def plot(
 
 
 def chosen(drawings: list[Drawing], which: Which) -> Drawing:
-    """The drawing that shows a plan; the mechanism stands on the first."""
+    """The drawing that shows a plan; the mechanism is on the first."""
     from graphkin.construction.core.naming import has_plan
 
     if which not in get_args(Which):
@@ -77,18 +79,18 @@ def chosen(drawings: list[Drawing], which: Which) -> Drawing:
 BESIDE = 12.0
 """Room left and right of a drawing for its letters, in mm."""
 EDGE = 1.0
-"""Room between the axes' edge and what stands inside, in mm."""
+"""Room between the axes' edge and their content, in mm."""
 LEAST = 0.4
-"""Part of the axes that a drawing gets at least, whatever its letters need."""
+"""Least part of the axes for a drawing, whatever its letters need."""
 
 
 def for_axes(
     drawing: Drawing, width: float, height: float, *, mechanism: bool
 ) -> tuple[list[Mark], Field, float]:
-    """The marks of a mechanism or of its plan, their field, and how many times as large as on the
-    sheet it is, in axes of a size in mm that have their upper left corner at (0, 0).
+    """The marks of a mechanism or of its plan, their field, and the enlargement.
 
-    Raises PageError where the axes are too small for the letters.
+    The enlargement is relative to the sheet. The axes have a size in mm and their upper left corner
+    at (0, 0). Raises PageError where the axes are too small for the letters.
     """
     rect: Rect = (EDGE, EDGE, width - EDGE, height - EDGE)
     mm, metres = 1000 / drawing.scales.kL, drawing.scales.metres(drawing.kind)
@@ -105,7 +107,7 @@ def for_axes(
 
 
 def times(extent: Extent, mm: float, width: float, height: float) -> float:
-    """How many times as large as on the sheet a drawing is in axes of a size."""
+    """The enlargement of a drawing relative to the sheet, in axes of a size."""
     sides = (
         (extent.width * mm, max(width - 2 * BESIDE, LEAST * width)),
         (extent.height * mm, max(height - 2 * ABOVE, LEAST * height)),
@@ -114,7 +116,7 @@ def times(extent: Extent, mm: float, width: float, height: float) -> float:
 
 
 def lettered(board: FieldContent, width: float, height: float) -> list[Mark]:
-    """The marks of a board with its letters. Raises PageError where there is no place for them."""
+    """The marks of a board with its letters. Raises PageError where the letters have no place."""
     try:
         return with_detail(board)
     except PageError as error:

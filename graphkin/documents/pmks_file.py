@@ -1,9 +1,9 @@
-"""A mechanism as a file that PMKS+ opens: its joints where they stand, and the links between them.
+"""A mechanism as a file for PMKS+: its joints at their places, and the links between them.
 
-The file holds what the address of a mechanism does that PMKS+ shares (class StringTranscoder of
-github.com/PMKS-Web/PMKSWeb): numbers of a thousandth in base 64, flags as bits, the length of all
-at the end. PMKS+ knows pins, bars and plates, blocks pinned on fixed guides, and one crank; what it
-does not know is refused, never left out.
+The file has the content of the address with which PMKS+ shares a mechanism (class StringTranscoder
+of github.com/PMKS-Web/PMKSWeb): thousandths as numbers in base 64, flags as bits, and the length of
+the text at the end. PMKS+ knows pins, bars and plates, blocks pinned on fixed guides, and one
+crank. Anything else is refused, never left out.
 """
 
 from __future__ import annotations
@@ -21,7 +21,7 @@ from graphkin.text.errors import PageError, Problem
 
 ALPHABET = f"{digits}{ascii_uppercase}{ascii_lowercase}_-"
 LETTERS = f"{ascii_uppercase}{ascii_lowercase}"
-"""Names of joints: PMKS+ puts them together to those of links, and takes these apart again."""
+"""Names of joints: PMKS+ joins them to form names of links, and splits those again."""
 LETTER_OF_LENGTH = f"{digits}{LETTERS}"
 MASS, THOUSANDTH = 1.0, 1000
 CENTIMETRES, INCHES = "1", "0"
@@ -31,13 +31,13 @@ GRIDS = 0b11000
 CURVE, GROUND, INPUT, PRISMATIC = 16, 4, 2, 1
 COLOURS = ("c5cae9", "303e9f", "0d125a", "b2dfdb", "26a69a", "00695c")
 SIZE = 0.3
-"""How large joints are drawn, in parts of a third of the mechanism's extent."""
+"""Drawn size of joints, in parts of a third of the mechanism's extent."""
 
 
 def pmks_file(mechanism: Mechanism) -> bytes:
-    """A mechanism as the text of a ``.pmks`` file, lengths to 0.01 mm (in inches to 0.001 in).
+    """A mechanism as the text of a ``.pmks`` file, with lengths to 0.01 mm (in inches to 0.001 in).
 
-    Raises PageError for what PMKS+ has no joint or link for, with a problem for each.
+    Raises PageError for everything that PMKS+ has no joint or link for, with a problem for each.
     """
     scene = mechanism.scene
     refused = list(unknown(scene))
@@ -47,7 +47,7 @@ def pmks_file(mechanism: Mechanism) -> bytes:
 
 
 def unknown(scene: Scene) -> Iterator[Problem]:
-    """What of a scene PMKS+ does not know."""
+    """The problems of a scene that PMKS+ does not support."""
     hint = "leave pmks out"
     for link in scene.links.values():
         place = f"links.{link.name}"
@@ -87,7 +87,7 @@ class PmksText:
         return (name for name, link in self.scene.links.items() if link.slides)
 
     def text(self) -> str:
-        """The whole file, with its length as the last letter."""
+        """The complete file, with its length as the last letter."""
         driver = self.scene.drivers[0]
         omega = float(self.motion.links[driver.link].omega or 0.0)
         xs, ys = ([getattr(z, part) for z in self.at.values()] for part in ("real", "imag"))
@@ -113,7 +113,6 @@ class PmksText:
             yield self.joint(CURVE | GROUND | PRISMATIC, own, own, self.at[link.points[0]], angle)
 
     def joint(self, flags: int, own: str, name: str, at: complex, angle: float) -> str:
-        """One joint."""
         place = f"{decimal(at.real)},{decimal(at.imag)},{decimal(angle)}"
         return f"{whole(flags)}{own},{name},{place}"
 
@@ -148,7 +147,7 @@ def decimal(number: float) -> str:
 
 
 def whole(number: int) -> str:
-    """A whole number in base 64; a zero before it makes it negative."""
+    """A whole number in base 64; a leading zero makes it negative."""
     rest, found = abs(number), ""
     while rest or not found:
         rest, digit = divmod(rest, len(ALPHABET))

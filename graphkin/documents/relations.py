@@ -1,6 +1,6 @@
 """The relations of the calculation in the order of the work, read off the steps.
 
-What was laid off, what was crossed, and what follows by length.
+They cover lengths laid off, lengths found by crossing lines, and lengths that follow from others.
 """
 
 from __future__ import annotations
@@ -76,7 +76,7 @@ def of_structure(drawing: Drawing) -> Iterator[Relation]:
 
 
 def group_words(words: Words, group: Group, unseen: frozenset[str] = frozenset()) -> str:
-    """A group with its links, by kind, class and order; unseen keepers go without saying."""
+    """A group with its links, by kind, class and order; unseen keepers are not mentioned."""
     seen = sorted({*group.links} - unseen, key=natural)
     noun = "one_link" if len(seen) == 1 else "many_links"
     numbers = words("list_mark").join(map(escape, seen))
@@ -122,8 +122,9 @@ ROOM = ". . . . . . . ."
 def relations(drawings: Sequence[Drawing], *, solved: bool = True) -> list[Section]:
     """The sections of the calculation, in the order of the work.
 
-    The data of one that is not solved leave out what it asks. What a cam's centre of curvature is
-    driven at follows once that is found. Without a plan of accelerations none of a driver are told.
+    An unsolved calculation leaves out data that it asks for. The drive of a cam's centre of
+    curvature follows once the centre is found. Without an acceleration plan, accelerations of
+    drivers are left out.
     """
     first = drawings[0]
     whole = any(each.kind == "acceleration" for each in drawings)
@@ -148,10 +149,10 @@ def relations(drawings: Sequence[Drawing], *, solved: bool = True) -> list[Secti
 
 
 def of_lengths(drawing: Drawing, bars: Sequence[Bar]) -> tuple[Section, Section]:
-    """The lengths that follow from radii of wheels, then those that are measured on the mechanism,
-    bars that lie on one another together.
+    """The lengths that follow from wheel radii, then the lengths measured on the mechanism.
 
-    What the data tell, or is laid off when the mechanism is drawn, is known.
+    Bars that lie on one another share a relation. Lengths in the data, and lengths laid off in
+    drawing the mechanism, are known already.
     """
     radii, measured = [], []
     told = (*told_bars(drawing.scene.bare), *laid_bars(drawing))
@@ -173,8 +174,9 @@ def of_lengths(drawing: Drawing, bars: Sequence[Bar]) -> tuple[Section, Section]
 
 
 def wheel_about(drawing: Drawing, places: frozenset[complex]) -> tuple[Disc, int] | None:
-    """The wheel of which a bar with its ends at two places is a radius, from the centre to where it
-    touches, or a diameter, from one such place to that across; with the number of radii.
+    """The wheel of which a bar is a radius or a diameter, with the number of radii.
+
+    A radius joins the centre to a contact point; a diameter joins two opposite contact points.
     """
     near, touches = NOISE * drawing.reach, drawing.standing.touches
     for disc in (each for touch in touches for each in (touch.disc, touch.other) if each):
@@ -188,7 +190,7 @@ def wheel_about(drawing: Drawing, places: frozenset[complex]) -> tuple[Disc, int
 
 
 def told_bars(scene: Scene) -> Iterator[Bar]:
-    """The ends of the bars whose lengths the data tell, cylinders that are driven too."""
+    """The ends of the bars whose lengths the data give, driven cylinders included."""
     for link in scene.every_link:
         for placing in link.placings:
             yield from ((p, q) for p, q, _ in lengths_of(placing))
@@ -202,7 +204,7 @@ def told_bars(scene: Scene) -> Iterator[Bar]:
 
 
 def ends_on(drawing: Drawing, p: str, q: str) -> frozenset[complex]:
-    """Where the ends of a bar stand: as those of every bar that lies on it."""
+    """The places of the ends of a bar, equal for all bars that lie on one another."""
     return frozenset((drawing.standing.spot(p), drawing.standing.spot(q)))
 
 
@@ -227,7 +229,7 @@ def sections_of(drawing: Drawing) -> list[Section]:
 
 
 def of_plan(drawing: Drawing) -> list[Relation]:
-    """What a plan is drawn from, and what is read off it, each before it is used, and once."""
+    """The relations that a plan needs and gives, each once and before its use."""
     found: list[Relation] = []
     if drawing.kind == "acceleration":
         for driver in drawing.scene.drivers:
@@ -241,13 +243,13 @@ def of_plan(drawing: Drawing) -> list[Relation]:
 
 
 def read_besides(drawing: Drawing) -> Iterator[Relation]:
-    """What is read off without a vector of its own."""
+    """The readings without a vector of their own."""
     for also in ALSO_READ:
         yield from also(drawing)
 
 
 def before_use(drawing: Drawing, rate: str) -> Iterator[Relation]:
-    """How a rate is found by which a vector is computed, and what is read off for it."""
+    """The relation for a rate that computes a vector, and the reading that the rate needs."""
     for relation in of_turning(drawing):
         if relation.left == rate:
             if relation.takes == SHARE:
@@ -285,14 +287,14 @@ def read_off(drawing: Drawing) -> Iterator[Relation]:
 
 
 def of_laid_off(drawing: Drawing) -> Iterator[Relation]:
-    """How long the vectors are drawn that drivers give."""
+    """The drawn lengths of the vectors that drivers give."""
     for _, step, value in drawing.steps(drawing.plane):
         if plan_vector(step) and isinstance(value, Vector) and is_by_driver(drawing, step):
             yield laid_off_length(drawing, step, value)
 
 
 def laid_off_length(drawing: Drawing, step: Step, value: Vector) -> Relation:
-    """How long a vector is drawn that is known before: its size over the scale factor."""
+    """The drawn length of a known vector: its size divided by the scale factor."""
     vector, scale = plan_vector(step), scale_of(drawing, drawing.plane) / 1000
     assert vector is not None
     size = drawing.settled(abs(value.tip - value.tail))
@@ -308,8 +310,9 @@ def laid_off_length(drawing: Drawing, step: Step, value: Vector) -> Relation:
 
 
 def is_by_rate(drawing: Drawing, step: Step) -> bool:
-    """True for a whole vector, or what a driver gives along a guide, that is laid off by a rate,
-    which has a relation of its own.
+    """Whether a vector is laid off by a rate, which has a relation of its own.
+
+    Such a vector is whole, or is given by a driver along a guide.
     """
     if plan_vector(step) is None:
         return False
@@ -322,7 +325,7 @@ def is_by_rate(drawing: Drawing, step: Step) -> bool:
 
 
 def is_by_driver(drawing: Drawing, step: Step) -> bool:
-    """True for the whole velocity or acceleration of a point that a driver gives."""
+    """Whether a step is the whole velocity or acceleration of a point that a driver gives."""
     kind = construction(drawing.trace.program.steps[step.args[1]])
     known = isinstance(kind, GivenVector) and kind.known_by(drawing)
     return is_by_rate(drawing, step) and bool(known)
@@ -335,14 +338,18 @@ def of_components(drawing: Drawing) -> list[Section]:
         for each in components_on(drawing):
             if isinstance(each, kind):
                 section, relation = each.section(drawing), each.relation(drawing)
-                if relation not in found.setdefault(section, []):  # plans may say it alike
+                # plans may give the same relation
+                if relation not in found.setdefault(section, []):
                     found[section].append(relation)
     return list(found.items())
 
 
 def of_centres(drawing: Drawing) -> Iterator[Relation]:
-    """Where instantaneous centres and acceleration poles lie: in millimetres on paper from the
-    first fixed pivot, as they are measured, and in the axes of the frame."""
+    """The places of instantaneous centres and acceleration poles.
+
+    They are in millimetres on paper from the first fixed pivot, as measured, and in the axes of the
+    frame.
+    """
     part = Part.CENTRE if drawing.kind == "velocity" else Part.POLE
     for _, step, value in drawing.on_mechanism:
         if step.part is not part or not isinstance(value, Ratio) or not step.name:
@@ -359,7 +366,7 @@ def of_centres(drawing: Drawing) -> Iterator[Relation]:
 
 
 def blank_place(drawing: Drawing) -> tuple[str, str]:
-    """Room for a place, and from where it is counted."""
+    """Room for a place, and the origin of its coordinates."""
     words, pivots = drawing.words, drawing.scene.frame.points
     pair = words.place(ROOM, ROOM)
     if not pivots:

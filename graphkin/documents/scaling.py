@@ -1,4 +1,4 @@
-"""At which scale factors the sheets of a mechanism are drawn, all of them at the same."""
+"""The scale factors of a mechanism's sheets, which are the same on all of them."""
 
 from __future__ import annotations
 
@@ -24,9 +24,9 @@ from graphkin.text.errors import PageError, Problem, SceneError
 
 
 def targets_of(mechanism: Mechanism, kind: str) -> tuple[Target, ...]:
-    """What is asked on one sheet, with the whole mechanism; nothing when nothing is asked.
+    """The targets of one sheet, with the whole mechanism; empty where nothing is asked for.
 
-    Velocities that the sheet of accelerations takes up are drawn on the first, asked or not.
+    Velocities that the acceleration sheet uses are drawn on the first sheet, asked for or not.
     """
     ask = mechanism.scene.ask
     asked = [target for target in mechanism.asked() if is_found_on(kind, target)]
@@ -40,7 +40,7 @@ def targets_of(mechanism: Mechanism, kind: str) -> tuple[Target, ...]:
 
 
 def sheet_targets(mechanism: Mechanism) -> dict[str, tuple[Target, ...]]:
-    """What is drawn on each sheet; everything on both where nothing is asked."""
+    """The targets of each sheet; everything on both where nothing is asked for."""
     asked = {kind: targets_of(mechanism, kind) for kind in SHEETS}
     if not any(asked.values()):
         return dict.fromkeys(SHEETS, tuple(mechanism.program.targets))
@@ -48,7 +48,7 @@ def sheet_targets(mechanism: Mechanism) -> dict[str, tuple[Target, ...]]:
 
 
 def sheet_motion(mechanism: Mechanism) -> Solution:
-    """The motion that the sheets show: where everything stands, and of the rest what is asked."""
+    """The motion that the sheets show: all positions, and otherwise what is asked for."""
     targets = dict.fromkeys(t for kind in SHEETS for t in targets_of(mechanism, kind))
     return gathered(mechanism.trace(targets or None), mechanism.scene.links)
 
@@ -56,8 +56,8 @@ def sheet_motion(mechanism: Mechanism) -> Solution:
 def scales(mechanism: Mechanism, curves: tuple[Curve, ...] | None = None) -> Scales:
     """The one set of scale factors at which every sheet's drawings fit their fields.
 
-    Where triangles that may give way leave no room for a larger mechanism, they do. Raises
-    PageError where what the scene states leaves them no room, or leaves nothing of them.
+    Optional triangles are dropped where they leave no room for a larger mechanism. Raises PageError
+    where the factors stated in the scene leave no room for the drawings, or shrink them to nothing.
     """
     curves = curves_drawn(mechanism) if curves is None else curves
     said = stated(mechanism)
@@ -71,7 +71,7 @@ def scales(mechanism: Mechanism, curves: tuple[Curve, ...] | None = None) -> Sca
 
 
 def curves_drawn(mechanism: Mechanism) -> tuple[Curve, ...]:
-    """The curves on the sheets; what traces them is loaded for mechanisms that have some."""
+    """The curves on the sheets; the code that traces them is loaded only where there are any."""
     ask = mechanism.scene.ask
     if not (ask.centrodes or ask.curves or mechanism.is_of_higher_class):
         return ()
@@ -81,7 +81,7 @@ def curves_drawn(mechanism: Mechanism) -> tuple[Curve, ...]:
 
 
 def stated(mechanism: Mechanism) -> Stated:
-    """What a scene says of its scale factors. Raises SceneError where no crank can follow it."""
+    """The scale factors that a scene states. Raises SceneError where no crank can follow them."""
     sheet = mechanism.scene.sheet
     (said,) = stated_of(sheet, mechanism.scene.values, 1)
     if any(said.times.values()) and not the_crank(mechanism):
@@ -93,7 +93,7 @@ def stated(mechanism: Mechanism) -> Stated:
 
 
 def stated_of(sheet: Sheet, values: Mapping[str, Any], count: int, *kind: Any) -> list[Stated]:
-    """The same of variants, whose parameters are arrays or shared."""
+    """The scale factors stated by variants, whose parameters are arrays or shared."""
 
     def numbers(quantity: Quantity | None) -> list[float]:
         value = quantity.number(values, *kind) if quantity is not None else 0.0
@@ -108,7 +108,7 @@ def stated_of(sheet: Sheet, values: Mapping[str, Any], count: int, *kind: Any) -
 def found(
     mechanism: Mechanism, curves: tuple[Curve, ...], asking: Search
 ) -> tuple[Scales, list[Drawing]]:
-    """What a search ends in, told what the drafts need that it asks for; and its own drafts."""
+    """The result of a search, which receives the needs of its drafts; and its final drafts."""
     sheets = sheet_targets(mechanism)
     drafted: dict[tuple[float, bool], list[Drawing]] = {}
     draft = next(asking)
@@ -140,7 +140,7 @@ def drafts_of(
     curves: tuple[Curve, ...],
     scales: Scales,
 ) -> list[Drawing]:
-    """The material of each sheet at full size, a velocity drawn as its way in some time."""
+    """The drawings of all sheets at full size, with velocities as displacements in a time."""
     nobody = Verdict(True, 0.0, "", 0.0, 0.0, 0.0)
     return [
         drawing(mechanism, kind, found, replace(scales, kL=1.0), nobody, words("en"), curves)
@@ -149,7 +149,7 @@ def drafts_of(
 
 
 def the_crank(mechanism: Mechanism) -> float:
-    """Speed in rad/s of the one crank that drives alone; 0 where there is none or it stands."""
+    """Speed in rad/s of the only driver if it is a moving crank, otherwise 0."""
     drivers = mechanism.scene.drivers
     if len(drivers) != 1 or drivers[0].kind != "turn":
         return 0.0
@@ -176,7 +176,7 @@ def drawing(
     spoken: Words,
     curves: tuple[Curve, ...] = (),
 ) -> Drawing:
-    """The material of one sheet: everything a hand draws for it."""
+    """The drawing of one sheet: everything drawn by hand for it."""
     trace = as_drawn(
         mechanism.trace(targets, by_hand=True, seconds=scales.seconds), triangles=scales.triangles
     )
@@ -185,16 +185,16 @@ def drawing(
 
 
 LEAST = 5.0
-"""Length in mm below which the longest vector of a plan is no drawing."""
+"""Length in mm below which the longest vector of a plan is too short to draw."""
 LEAST_ACROSS = 15.0
-"""Length in mm below which a mechanism is none: its pins and letters hide its bars."""
+"""Width in mm below which pins and letters hide the bars of a mechanism."""
 
 
 def refuse_dots(scales: Scales, sheets: Sequence[Drawing], stated: Sequence[str]) -> None:
-    """Raise PageError where a stated scale factor draws a mechanism or a plan as a mere dot.
+    """Raise PageError where a stated scale factor shrinks a mechanism or a plan to a dot.
 
-    ``sheets`` are drawn at full size, ``stated`` the keys that the scene writes. A plan of
-    which all is nought is no fault.
+    ``sheets`` are drawn at full size; ``stated`` are the keys that the scene writes. A plan whose
+    vectors are all zero is no error.
     """
     across = min(1000 * sheet.reach / scales.kL for sheet in sheets)
     if across < LEAST_ACROSS and "scale" in stated:
@@ -223,11 +223,11 @@ def refuse_dots(scales: Scales, sheets: Sequence[Drawing], stated: Sequence[str]
 
 
 def dot(key: str, found: str, what: str, least: float = LEAST) -> PageError:
-    """What is wrong with a scale factor that is too coarse, and what to write."""
+    """The error of a scale factor that is too coarse, with a hint what to write."""
     hint = f"write {what}, or leave it out"
     return PageError(Problem(f"sheet.{key}", found, f"{least:g} mm or more", hint))
 
 
 def not_above(number: float) -> float:
-    """The largest preferred number 1, 2, 5 times a power of ten that is not above another."""
+    """The largest number 1, 2 or 5 times a power of ten that does not exceed another."""
     return 1 / next(preferred(1 / number))

@@ -1,6 +1,6 @@
-"""The kinematic scheme of a task: its links, letters and drivers' coordinates, not to scale.
+"""The kinematic scheme of a task: links, letters and drivers' coordinates, not to scale.
 
-The mechanism stands in another position than the student's, so that nothing can be traced.
+The mechanism is in another position than the student's, so that nothing can be traced.
 """
 
 from __future__ import annotations
@@ -33,30 +33,27 @@ from graphkin.scene.model import Link
 from graphkin.text.errors import PageError
 
 SCHEMATIC = "scheme"
-"""The class that tells marks of the scheme from those that are drawn to scale."""
+"""The class that separates marks of the scheme from those drawn to scale."""
 SIZE = (60.0, 50.0)
-"""Width and height of the mechanism in its scheme at most, in mm."""
+"""Largest width and height of the mechanism in its scheme, in mm."""
 SMALLER = 0.7
-"""How large symbols are, as a part of those of a sheet, so that they hide little of the small
-mechanism."""
+"""Size of symbols relative to those of a sheet, so that they hide little of the small mechanism."""
 TURNS = tuple(
     sign * turn for turn in (35.0, 25.0, 15.0, 50.0, 70.0, 90.0, 115.0, 150.0) for sign in (1, -1)
 )
-"""By how much drivers are turned from the student's position, in degrees, in the order tried."""
+"""Angles in degrees by which drivers are turned from the student's position, in the order tried."""
 WAY = 1 / 200
-"""How far one along a line is moved instead of a degree, in breadths of the mechanism."""
+"""Displacement of a sliding driver for one degree, in breadths of the mechanism."""
 CLEAR, CROSSING = 0.07, 0.25
-"""The least distance of pins, in breadths of the mechanism, and sine of a crossing, that are read
-well."""
+"""Least legible distance of pins, in breadths of the mechanism, and least sine of a crossing."""
 APART, OPEN = 15.0, 20.0
-"""The least angle between links that lie on one another, and of a crank from its axis, in degrees,
-that are read well."""
+"""Least legible angles in degrees: between overlapping links, and of a crank from its axis."""
 COMMON = 0.25
-"""The part of the shorter of two bars along which they lie on one another, so that they are one."""
+"""Least part of the shorter of two bars along which they count as overlapping."""
 
 
 def scheme(drawing: Drawing) -> list[Mark]:
-    """The scheme with its title; without numbers of links where letters find no room, or none."""
+    """The scheme with its title; without link numbers, or empty, where letters find no room."""
     moved = elsewhere(drawing)
     left, top = SCHEME[:2]
     title = Text(left, top - 2.0, drawing.words("task.scheme"), "caption", 2.5, name="scheme")
@@ -73,7 +70,7 @@ def scheme(drawing: Drawing) -> list[Mark]:
 
 
 def drawn(drawing: Drawing, *, numbered: bool) -> FieldContent:
-    """The mechanism with its symbols amid the scheme's field, its drivers told by their letters."""
+    """The mechanism with its symbols in the middle of the scheme's field."""
     box = drawing.mechanism_extent()
     sides = [room / side for room, side in zip(SIZE, (box.width, box.height), strict=True) if side]
     field = Field(SCHEME, min(sides, default=1.0), box.middle, centre(SCHEME))
@@ -93,7 +90,7 @@ def drawn(drawing: Drawing, *, numbered: bool) -> FieldContent:
 
 
 def symbols(drawing: Drawing, field: Field) -> FieldContent:
-    """The symbols of links, guides, pins and drivers, with the letters that they wish for."""
+    """The symbols of links, guides, pins and drivers, with their labels."""
     left, top, right, low = (side / SMALLER for side in field.rect)
     at = field.at[0] / SMALLER, field.at[1] / SMALLER
     board = full_size(drawing, Field((left, top, right, low), field.mm / SMALLER, field.middle, at))
@@ -106,7 +103,7 @@ def symbols(drawing: Drawing, field: Field) -> FieldContent:
 
 
 def smaller(label: Label) -> Label:
-    """A label, of its height, at what it names where that is drawn smaller."""
+    """A label of unchanged height, moved to its object in the smaller drawing."""
     ends = segment_of(label)
     if ends is None:
         x, y = label.point
@@ -118,7 +115,7 @@ def smaller(label: Label) -> Label:
 
 
 def full_size(drawing: Drawing, field: Field) -> FieldContent:
-    """The same with symbols as large as on a sheet."""
+    """The same symbols as large as on a sheet."""
     board = FieldContent(field.rect)
     draw_plates(board, drawing, field)
     draw_ground(board, drawing, field)
@@ -129,8 +126,10 @@ def full_size(drawing: Drawing, field: Field) -> FieldContent:
 
 
 def elsewhere(drawing: Drawing) -> Drawing:
-    """The mechanism in another position: the first that is read well, else the widest apart of
-    those that close, else its own."""
+    """The mechanism in another position: the first legible one.
+
+    Otherwise the position with the largest clearance that closes, otherwise the student's own.
+    """
     own = replace(drawing, curves=())
     best, widest = own, 0.0
     for turn in TURNS:
@@ -146,8 +145,10 @@ def elsewhere(drawing: Drawing) -> Drawing:
 
 
 def clearance(drawing: Drawing) -> float:
-    """How well a position is read, 1 where all pins stand apart and no two loci meet flatly, no
-    link lies on another, and each crank's angle is open.
+    """The legibility of a position, 1 or more where it is fully legible.
+
+    It is legible where all pins are apart, no two loci cross flatly, no link lies on another, and
+    each crank's angle is open.
     """
     places = [*drawing.positions.values()]
     near = min((abs(p - q) for p, q in combinations(places, 2) if p != q), default=drawing.reach)
@@ -164,7 +165,7 @@ def clearance(drawing: Drawing) -> float:
 
 
 def between_links(drawing: Drawing) -> float:
-    """The least angle between links of bars that lie on one another, in degrees; 90 if none."""
+    """The least angle between overlapping links drawn as bars, in degrees; 90 if there are none."""
     bars = [bar for link in drawing.scene.links.values() if (bar := bar_of(drawing, link))]
     return min(
         (
@@ -197,7 +198,7 @@ def angle_between(one: tuple[complex, complex], other: tuple[complex, complex]) 
 def lie_on_one_another(
     one: tuple[complex, complex], other: tuple[complex, complex], near: float
 ) -> bool:
-    """Whether nearly parallel bars lie as ``near`` as that along much of the shorter one."""
+    """Whether nearly parallel bars overlap within ``near`` along much of the shorter one."""
     shorter, longer = sorted((one, other), key=lambda ends: abs(ends[1] - ends[0]))
     along = (longer[1] - longer[0]) / abs(longer[1] - longer[0])
     ends = [(end - longer[0]) / along for end in shorter]
@@ -207,7 +208,7 @@ def lie_on_one_another(
 
 
 def moved_by(drawing: Drawing, turn: float) -> Drawing | None:
-    """The positions with every driver moved so many degrees, or as much of the mechanism's breadth.
+    """The positions with every driver moved by some degrees, or a matching part of the breadth.
 
     None where the mechanism does not close there.
     """

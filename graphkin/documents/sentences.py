@@ -28,7 +28,7 @@ from graphkin.text.markup import AND, names_in
 
 
 class IndexNote(NamedTuple):
-    """What an index means: the kind of note, the names that bear it, and what the note says."""
+    """The meaning of an index: the kind of note, the names with the index, and its fields."""
 
     kind: str
     names: AbstractSet[str]
@@ -36,7 +36,7 @@ class IndexNote(NamedTuple):
 
 
 def with_indices(drawing: Drawing, found: Sequence[Sentence]) -> list[Sentence]:
-    """The sentences, after the first of a kind in brackets what its index means."""
+    """The sentences; the first with an index of some kind explains it in brackets."""
     told, kinds, every = list(found), set[str](), list(explained(drawing))
     for place, sentence in enumerate(found):
         for each in every:
@@ -48,7 +48,7 @@ def with_indices(drawing: Drawing, found: Sequence[Sentence]) -> list[Sentence]:
 
 
 def explained(drawing: Drawing) -> Iterator[IndexNote]:
-    """The indices of a link, and of an image beside the pole, that a sheet's letters may bear."""
+    """The indices in a sheet's letters: of a link, and of an image kept apart from the pole."""
     steps, images = drawing.trace.program.steps, drawing.kind
     prime = PRIME if images == "acceleration" else ""
     for (what, name), number in drawing.trace.program.targets.items():
@@ -67,7 +67,7 @@ def explained(drawing: Drawing) -> Iterator[IndexNote]:
 
 
 def vectors_of(drawing: Drawing, point: str) -> Iterator[str]:
-    """The vectors that bear a point's letters as index, and the letters of their feet."""
+    """The vectors with a point's letters as index, and the letters of their feet."""
     for step in drawing.trace.program.steps:
         vector = plan_vector(step)
         if vector is not None and point in (vector.q, vector.p):
@@ -78,18 +78,18 @@ def vectors_of(drawing: Drawing, point: str) -> Iterator[str]:
 
 
 TURNING = "turning"
-"""The name of the last sentence where it says how the turning of links is read off."""
+"""The name of the last sentence where it reads off the rates of links."""
 SET_ON = "set-on"
-"""The name of that which only sets vectors on the mechanism."""
+"""The name of a last sentence that only sets vectors on the mechanism."""
 
 
 def sentences(drawing: Drawing) -> list[Sentence]:
-    """What to draw on a sheet, in the order of drawing, and what to read off at the end."""
+    """The sentences of a sheet in the order of drawing, with the readings at the end."""
     return with_indices(drawing, unexplained(drawing))
 
 
 def unexplained(drawing: Drawing) -> list[Sentence]:
-    """The same without what indices mean."""
+    """The sentences of a sheet without the meanings of indices."""
     found: list[Sentence] = []
     if drawing.again:
         found.append(Sentence(-1, "again", drawing.words("step.again")))
@@ -110,7 +110,7 @@ def unexplained(drawing: Drawing) -> list[Sentence]:
 
 
 def read_off(drawing: Drawing) -> Iterator[Sentence]:
-    """What is read off at the end, if anything; how a link turns only where one's rate is found."""
+    """The readings at the end, if any; rates of links only where the sheet finds one."""
     words, velocity = drawing.words, drawing.kind == "velocity"
     turns = finds_rates(drawing)
     turning = words(f"step.read-{'omega' if velocity else 'epsilon'}") if turns else ""
@@ -119,9 +119,9 @@ def read_off(drawing: Drawing) -> Iterator[Sentence]:
 
 
 def set_on_mechanism(drawing: Drawing, turning: str, only: Collection[int] | None = None) -> str:
-    """Which vectors are set on the mechanism, and how what turns is read off.
+    """The sentence that sets vectors on the mechanism, followed by the reading of rates.
 
-    ``only`` are the steps of those of which it is said; all if not told.
+    ``only`` limits it to the vectors of some steps; None means all.
     """
     words, velocity = drawing.words, drawing.kind == "velocity"
     part = Part.VELOCITY if velocity else Part.ACCELERATION
@@ -170,12 +170,12 @@ def said_of_steps(drawing: Drawing) -> Iterator[Sentence]:
 
 
 def is_again(drawing: Drawing, step: Step) -> bool:
-    """True for a step that the sheet before has shown: the mechanism itself."""
+    """Whether the previous sheet has shown a step: the mechanism itself."""
     return drawing.again and step.part is Part.POSITION
 
 
 def said_alone(drawing: Drawing, step: Step) -> str:
-    """What a construction says of a step that finds no point."""
+    """The sentence of a construction for a step that finds no point."""
     kind = construction(step)
     if kind is None or not is_own(drawing, step):
         return ""
@@ -183,13 +183,13 @@ def said_alone(drawing: Drawing, step: Step) -> str:
 
 
 def is_own(drawing: Drawing, step: Step) -> bool:
-    """True for a step that this sheet is about: not what the sheet before has found."""
+    """Whether a step belongs to this sheet, and was not found on the previous one."""
     found_before = (Part.POSITION, Part.VELOCITY) if drawing.kind == "acceleration" else ()
     return not is_again(drawing, step) and step.part not in found_before
 
 
 def is_found_point(drawing: Drawing, number: int, step: Step) -> bool:
-    """True for a step that finds a point, a pole or a centre of this sheet."""
+    """Whether a step finds a point, a pole or a centre of this sheet."""
     if step.action is None or not step.name or step.arrow or number in drawing.results:
         return False
     if step.plane is Plane.MECHANISM:

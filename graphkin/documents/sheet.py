@@ -54,24 +54,27 @@ from graphkin.text.errors import PageError, Problem
 from graphkin.text.markup import names_in
 
 BLANK = ". . . . . . . . ."
-"""Room to write in what a task does not give away."""
+"""Room to write in for values that a task does not reveal."""
 HEADING = "heading"
 """The name of the lines of captions."""
 LOOKS = ((3.5, 1), (2.5, 1), (2.5, 2))
-"""Heights of captions in mm with the lines that they may have, the first that does for both."""
+"""Heights of captions in mm with their largest number of lines; the first that fits is used."""
 LEAST = 1.8
-"""Height in mm of the letters where nothing else does."""
+"""Height in mm of the letters where none of these fits."""
 CAPTION_LEADING = 1.4
 """Distance of the lines of a caption, in heights of its letters."""
 FOOT = 2.2
-"""How far above its field the first line of a caption stands, in mm: clear of three lines of data;
-a second line of the lower letters ends above what begins 3 mm below the field's edge."""
+"""Distance of a caption's first line above its field, in mm.
+
+It is clear of three lines of data; a second line of the lower letters ends above the marks that
+begin 3 mm below the field's edge.
+"""
 
 
 def headlines(drawing: Drawing, layout: Layout, view: str) -> tuple[list[Mark], list[Mark]]:
     """The captions of both fields, of one height on both sheets of a mechanism.
 
-    A task leaves the scale factors to be computed. A field without a plan has none.
+    A task leaves the scale factors to be computed. A field without a plan has no caption.
     """
     own = said_above(drawing, drawing.kind if has_plan(drawing) else "", view)
     every = [*own, *(said for kind in others(drawing) for said in said_above(drawing, kind, view))]
@@ -83,14 +86,14 @@ def headlines(drawing: Drawing, layout: Layout, view: str) -> tuple[list[Mark], 
 
 
 def others(drawing: Drawing) -> list[str]:
-    """The kinds of the other sheets of a mechanism: one with accelerations has both."""
+    """The kinds of the other sheets of a mechanism; one with accelerations has both sheets."""
     ask = drawing.scene.ask
     later = any(getattr(ask, q) for q, some in ASKED.items() if some[0].kind == SHEETS[1])
     return [kind for kind in SHEETS if later and kind != drawing.kind]
 
 
 def said_above(drawing: Drawing, kind: str, view: str) -> tuple[str, str]:
-    """What the captions of a mechanism say with a kind of plan beside it, or with none."""
+    """The captions of a mechanism and of a kind of plan next to it, which may be missing."""
     words, scales, task = drawing.words, drawing.scales, view == "task"
     beside = beside_plan(drawing, kind) if kind else ""
     kL = f"{BLANK if task else length_scale(drawing)} m/mm" + (f"; {beside}" if beside else "")
@@ -102,7 +105,7 @@ def said_above(drawing: Drawing, kind: str, view: str) -> tuple[str, str]:
 
 
 def plan_enlarged(drawing: Drawing, rect: Rect, times: float) -> list[Mark]:
-    """The caption of a plan that is drawn again, so many times as large, with auxiliary points."""
+    """The caption of a plan that is drawn again, enlarged and with auxiliary points."""
     words, factor = drawing.words, scale_of(drawing, drawing.plane) / 1000
     said = words(f"page.{drawing.kind}_heading", k=figure(drawing, factor / times))
     larger = "" if times == 1 else words("page.as_large", m=figure(drawing, times))
@@ -110,7 +113,7 @@ def plan_enlarged(drawing: Drawing, rect: Rect, times: float) -> list[Mark]:
 
 
 def lines(said: str, rect: Rect, height: float) -> list[str]:
-    """A field's caption, what stands in brackets in a second line if need be."""
+    """The lines of a field's caption; the part in brackets takes a second line if necessary."""
     room = rect[2] - rect[0] - 5
     if extent(said, height)[0] <= room:
         return [said]
@@ -121,7 +124,7 @@ def lines(said: str, rect: Rect, height: float) -> list[str]:
 
 
 def caption(said: str, rect: Rect, height: float) -> list[Mark]:
-    """A field's caption in letters of a height; the first lines of both stand level."""
+    """A field's caption in letters of a height; the first lines of both fields are level."""
     first = rect[1] - FOOT
     return [
         Text(
@@ -132,7 +135,7 @@ def caption(said: str, rect: Rect, height: float) -> list[Mark]:
 
 
 def apart(marks: Sequence[Mark]) -> tuple[str, list[Mark]]:
-    """The markup of a field's caption, nothing where it has none, and the marks in the field."""
+    """The markup of a field's caption, empty without one, and the other marks of the field."""
     lines = [mark.markup for mark in marks if isinstance(mark, Text) and mark.name == HEADING]
     return " ".join(lines), [mark for mark in marks if mark.name != HEADING]
 
@@ -143,44 +146,46 @@ def apart(marks: Sequence[Mark]) -> tuple[str, list[Mark]]:
 NAME = "data"
 """The name of the marks of the data."""
 LETTERS, ROW, BASE, PAD = 2.5, 4.5, 3.1, 3.0
-"""Of the table in mm: letters, least rows, least depth of a baseline, room beside the letters."""
+"""Sizes of the table in mm: letters, least row height, least depth of a baseline, side margins."""
 CLEAR = 0.3
-"""How far signs of the table stay from its lines above and below, in mm."""
+"""Clearance of characters from the lines of the table above and below, in mm."""
 ABOVE = 2.6
-"""How far the table begins above the first line's foot, in mm."""
+"""Start of the table above the baseline of the first line, in mm."""
 GAP = 5.0
 """Distance of the words from the table in mm."""
 BESIDE = {1: (ROW, 2.75), 2: (ROW, 0.5), 3: (3.6, -0.2)}
-"""The distance in mm of so many lines beside the table, of which there are three at most, and how
-far below the first line's foot they begin: amid the table, level with its rows, or as high."""
+"""By the number of lines next to the table, at most three: their distance and offset, in mm.
+
+The offset is from the baseline of the first line: one line is centred on the table, two are level
+with its rows, three are as high as the table.
+"""
 SPACED, CLOSE = 4.2, 3.85
-"""Distance of two lines of data without a table, and of more, in mm."""
+"""Distance of two lines of data without a table, and of more lines, in mm."""
 SMALL, NEAR = 2.0, (3.3, 2.8, 2.45)
 """Height of letters in mm where drawings leave no room for larger ones, and distances of lines."""
 AIR = 1.0
-"""How much farther from data of more lines the captions stand, in mm: both may be of large letters
-then."""
+"""Extra distance in mm of the captions from many lines of data: both may have large letters."""
 SHORTER = (0.0, *range(4, 49, 4))
-"""By how much lines are made shorter, in mm, until no signs touch."""
+"""Reductions of line width tried in mm, until no characters touch."""
 
 LOWEST = AREA[1] - 7.2
-"""The foot of the lowest line in mm: below it stand the captions, of two lines where they must."""
+"""The baseline of the lowest line in mm; below it are the captions, in two lines if necessary."""
 
 
 def data_heading(
     drawing: Drawing, view: str, x: float, y: float, spare: Callable[[], float] = float
 ) -> list[Mark]:
-    """The data from a point on, whose y is the foot of the first line.
+    """The data from a point on, whose y is the baseline of the first line.
 
-    ``spare`` is the height in mm that the drawings leave free below the captions, into which data
-    of many lines reach, and the captions with them. Raises PageError where they do not fit.
+    ``spare`` is the height in mm that the drawings leave free below the captions. Many lines of
+    data extend into it, and the captions move down. Raises PageError where the data do not fit.
     """
     found = data(drawing, solved=view != "task", laws=True)
     return in_table(found, x, y) or in_lines(drawing, found, x, y, spare)
 
 
 def in_table(found: Sequence[Datum], x: float, y: float) -> list[Mark]:
-    """A table of the values with the rest beside it; nothing where there is no room for it."""
+    """A table of the values with the other data next to it; empty where there is no room."""
     valued = [datum for datum in found if datum.value]
     said = [datum.remark for datum in found if datum.remark]
     widths = [
@@ -210,7 +215,7 @@ def in_table(found: Sequence[Datum], x: float, y: float) -> list[Mark]:
 
 
 def row_for(texts: Sequence[str]) -> tuple[float, float]:
-    """The height of a row of texts, and how deep their baseline is in it, in mm."""
+    """The height of a row of texts, and the depth of its baseline, in mm."""
     _, tops, bottoms = zip(*(extent(text, LETTERS) for text in texts), strict=True)
     base = max(BASE, CLEAR - min(tops))
     return max(ROW, base + max(bottoms) + CLEAR), base
@@ -223,7 +228,7 @@ def ruled(
     x: float,
     top: float,
 ) -> Iterator[Mark]:
-    """The table: names over values, in rows of a height with their baselines."""
+    """The table: names above values, in rows of a height with their baselines."""
     (upper, named), (lower, told) = rows
     middle, low, right = top + upper, top + upper + lower, x + sum(widths)
     yield box(x, top, right - x, upper, "shade")
@@ -240,11 +245,11 @@ def ruled(
 def in_lines(
     drawing: Drawing, found: Sequence[Datum], x: float, y: float, spare: Callable[[], float]
 ) -> list[Mark]:
-    """All data in three lines, which end where their signs are clear of each other.
+    """All data in lines that end where their characters are clear of each other.
 
-    Where they need more, these reach down as far as the drawings leave room; else they are of
-    smaller lettering. Long data end within a line only there. All stay clear of the fields'
-    captions, also where a title of two lines moves them down.
+    More lines than usual extend down as far as the drawings leave room; otherwise the lettering is
+    smaller, and long data may be divided within a piece. All lines stay clear of the fields'
+    captions, even below a title of two lines.
     """
     first, *pieces = (datum.said for datum in found)
     pieces = [f"{drawing.words('page.data')}: {first}", *pieces]
@@ -271,17 +276,16 @@ def in_lines(
 def spread(
     told: Sequence[str], mark: str, width: float, height: float, leading: float
 ) -> list[str]:
-    """Pieces in lines no longer than a width, and so long that their signs are clear if they can
-    be."""
+    """Pieces in lines of at most a width, chosen so that their characters are clear if possible."""
     every = (flowed(told, mark, width - less, height) for less in SHORTER)
     first = next(every)
     return next((lines for lines in (first, *every) if are_clear(lines, height, leading)), first)
 
 
 def looks(y: float, spare: Callable[[], float]) -> Iterator[tuple[float, float, int]]:
-    """How lines from a foot on may look: their letters, their distance in mm, how many there are.
+    """The possible forms of lines from a baseline on: letters, distance in mm, number of lines.
 
-    First as they are wished, then down to the drawings, then of small lettering.
+    First the preferred form, then lines down to the drawings, then small lettering.
     """
     yield LETTERS, SPACED, 2
     yield LETTERS, CLOSE, rows(LOWEST - y, CLOSE)
@@ -292,21 +296,21 @@ def looks(y: float, spare: Callable[[], float]) -> Iterator[tuple[float, float, 
 
 
 def height_beyond(marks: Sequence[Mark]) -> float:
-    """How much more height data take up than stands above the fields, in mm."""
+    """The extra height of data beyond the room above the fields, in mm."""
     low = max((mark.y for mark in marks if isinstance(mark, Text)), default=0.0)
     return low - LOWEST + AIR if low > LOWEST else 0.0
 
 
 def rows(height: float, leading: float) -> int:
-    """How many lines stand between the feet of the first and of the lowest."""
+    """The number of lines whose baselines fit into a height."""
     return int(height / leading + 1e-9) + 1
 
 
-# --- what the links of a mechanism are, in a line: their points, blocks and wheels ----------------
+# --- the links of a mechanism in one line: their points, blocks and wheels ------------------------
 
 
 def members(drawing: Drawing) -> str:
-    """The links by their numbers and the points that they join, as a task tells them."""
+    """The links by their numbers and the points that they join, as in a task."""
     words, scene = drawing.words, drawing.scene.bare
     told = [f"{escape(name)} = {of_link(words, link)}" for name, link in scene.links.items()]
     for centre, follower in scene.cam_centres.items():
@@ -316,7 +320,7 @@ def members(drawing: Drawing) -> str:
 
 
 def of_link(words: Words, link: Link) -> str:
-    """The points of a link in order; one with a single point is a block, or a wheel on it."""
+    """The points of a link in order; a link with a single point is a block, or a wheel on it."""
     points = "".join(symbol(point) for point in link.points)
     if link.slides and len(link.points) < 2:
         return words("page.member_block", points=points)
@@ -325,20 +329,20 @@ def of_link(words: Words, link: Link) -> str:
     return points
 
 
-# --- the scale at which a task's plan is to be drawn: the rule that the crank gives, or a value ---
+# --- the scale of a task's plan: the rule that the crank gives, or a value ------------------------
 
 
 def plan_at(drawing: Drawing) -> str:
-    """At which scale the plan of a task is to be drawn, as a sentence; nothing without a plan."""
+    """The sentence for the scale of a task's plan; empty without a plan."""
     if not has_plan(drawing):
         return ""
     return drawing.words("task.plan", rule=", ".join(rules(drawing)))
 
 
 def rules(drawing: Drawing) -> Iterator[str]:
-    """The scale of a plan: how the crank says it, with what is as long as what, or its value.
+    """The scale of a plan: by the crank, with the segment equal to the crank, or by value.
 
-    A plan without the velocity of a pin of the crank has nothing that is as long as the crank.
+    A plan without the velocity of a crank pin has no segment equal to the crank.
     """
     scales, first = drawing.scales, drawing.kind == "velocity"
     kv, ka = plan_scales(drawing)
@@ -364,21 +368,21 @@ def segment(drawing: Drawing, pin: str) -> str:
 
 
 TITLE = 182.0
-"""Widest title that stays clear of the centring mark, in mm."""
+"""Largest width of a title that stays clear of the centring mark, in mm."""
 LEADING = 4.6
 """Distance of lines of text in mm."""
 CROWD = 3
-"""So many triangles at one pin are shown enlarged."""
+"""Number of triangles at one pin from which they are shown enlarged."""
 MANY = 24
-"""So many named auxiliary points of a plan have their names on a continuation sheet."""
+"""Number of named auxiliary points from which their names go to a continuation sheet."""
 CUT = 3.0
-"""How far below the fields' upper edges guides and loci begin, in mm."""
+"""Distance below the fields' upper edges at which guides and loci begin, in mm."""
 RAISED = (*VECTORS, "arrowhead")
-"""What stands above bars and pins, so that one sees where vectors begin and where they point."""
+"""Marks drawn above bars and pins, to show where vectors begin and where they point."""
 
 
 class Moved(Enum):
-    """What goes on to a continuation sheet where it has no room; its value names it in words."""
+    """The parts that go to a continuation sheet where they do not fit; values are keys of words."""
 
     DATA = "data"
     ASKED = "asked"
@@ -389,10 +393,10 @@ class Moved(Enum):
 
 
 class Writing(Struct, frozen=True):
-    """What is written above and below the drawings of a sheet, and what of it has no room.
+    """The text above and below the drawings of a sheet, and the parts that do not fit.
 
-    Of a construction that has no room, so many sentences are ``said`` here, the others moved.
-    Data of many lines take ``more`` height than others, in mm, of the fields below.
+    The first ``said`` sentences of a long construction fit on this sheet; the rest are moved. Many
+    lines of data take ``more`` height, in mm, from the fields below.
     """
 
     head: list[Mark]
@@ -409,7 +413,7 @@ def sheet(
     layout: Layout | None = None,
     written: Writing | None = None,
 ) -> Page:
-    """One A3 page of a sheet: the key with everything, or the task with nothing given away."""
+    """One A3 page of a sheet: the complete key, or the task without any result."""
     written = written or writing(drawing, view)
     layout = lowered(layout or lay_out(drawing), written.more)
     (left, detail, _), (right, other, _) = parted(*boards(drawing, layout, view))
@@ -428,12 +432,11 @@ def sheet(
 
 
 def page_title(drawing: Drawing) -> str:
-    """The title of a page's file."""
     return f"{title_of(drawing)} – {drawing.words('sheet.' + name_of_sheet(drawing))}"
 
 
 def panels(layout: Layout) -> list[Mark]:
-    """The lines between the mechanism, the plan and what stands below them."""
+    """The lines between the mechanism, the plan and the part below them."""
     x, top = layout.plan.rect[:2]
     return [
         LineMark(x, top - 6, x, AREA[3] - 2, "panel"),
@@ -471,8 +474,7 @@ def title_block(drawing: Drawing, view: str, number: str) -> TitleBlock:
 
 
 def sheet_heading(drawing: Drawing, view: str = "key") -> tuple[list[Mark], set[Moved], float]:
-    """The sheet's title and the data, in as many lines as they need; what has no room; how much
-    more height than others these lines take, in mm."""
+    """The sheet's title and data, the parts that do not fit, and extra height in mm."""
     marks, x, y = title_line(drawing)
 
     def made() -> list[Mark]:
@@ -483,8 +485,10 @@ def sheet_heading(drawing: Drawing, view: str = "key") -> tuple[list[Mark], set[
 
 
 def spare_above(drawing: Drawing) -> float:
-    """By how much the fields' upper edges may be lowered, in mm, so that nothing that is drawn on
-    the key is cut but what reaches up to them: guides and lines without end."""
+    """The height in mm by which the fields' upper edges may be lowered without cutting the key.
+
+    Guides and lines without end, which extend to the edges, are not counted.
+    """
     layout = lay_out(drawing)
     both = left_board(drawing, layout, "key"), right_board(drawing, layout, "key")
     tops = (reach(mark)[1] for board in both for mark in board.marks if mark.name != HEADING)
@@ -493,11 +497,11 @@ def spare_above(drawing: Drawing) -> float:
 
 
 def title_line(drawing: Drawing, remark: str = "") -> tuple[list[Mark], float, float]:
-    """The sheet's title and the bar that checks the print; where the data may begin.
+    """The sheet's title, the bar that checks the print, and the place where the data may begin.
 
-    Velocity and acceleration sheets have titles of one height, with as many lines: one, else two of
-    small lettering, which stay clear of the frame and the data. A sheet that goes on, with a
-    ``remark``, has room for two of larger lettering.
+    Velocity and acceleration sheets have titles of one height with equally many lines. A title has
+    one line, or two of small lettering that stay clear of the frame and the data. A continuation
+    sheet, with a ``remark``, has room for two lines of larger lettering.
     """
     words = drawing.words
     left, top = AREA[0] + 2, A3_AREA[1]
@@ -525,7 +529,7 @@ def title_line(drawing: Drawing, remark: str = "") -> tuple[list[Mark], float, f
 def with_room(
     drawing: Drawing, part: Moved, made: Callable[[], Iterable[Mark]], x: float, y: float
 ) -> tuple[list[Mark], set[Moved]]:
-    """The marks of a part; where they have no room, a line at a place that says where they are."""
+    """The marks of a part; where they have no room, a line that says where the part is."""
     try:
         return list(made()), set()
     except PageError:
@@ -534,7 +538,7 @@ def with_room(
 
 
 def writing(drawing: Drawing, view: str) -> Writing:
-    """What is written above and below the drawings of a sheet."""
+    """The text above and below the drawings of a sheet."""
     head, moved, lower = sheet_heading(drawing, view)
     foot, more, said = below(drawing, view)
     if view == "key" and has_many_auxiliary(drawing):
@@ -578,10 +582,9 @@ def left_board(drawing: Drawing, layout: Layout, view: str) -> FieldContent:
 def boards(
     drawing: Drawing, layout: Layout, view: str, said: Sequence[Sentence] = ()
 ) -> tuple[FieldContent, FieldContent]:
-    """Both fields; the letters of the construction that no sentence says are dispensable there.
+    """Both fields; construction letters that no sentence mentions may be dropped.
 
-    Many auxiliary points have no letters, but on the pages that grow, whose sentences are
-    ``said``.
+    Many auxiliary points have no letters, except on the step pages, whose sentences are ``said``.
     """
     both = left_board(drawing, layout, view), right_board(drawing, layout, view)
     settle_in_plates(both[0])
@@ -597,7 +600,7 @@ def boards(
 
 
 def has_many_auxiliary(drawing: Drawing) -> bool:
-    """Whether so many auxiliary points have names that these stand on a sheet of their own."""
+    """Whether there are so many named auxiliary points that they get a sheet of their own."""
     steps = drawing.trace.program.steps
     return sum(bool(steps[number].name) for number in drawing.auxiliary) >= MANY
 
@@ -616,12 +619,12 @@ def without_auxiliary(drawing: Drawing, labels: Iterable[Label]) -> Iterator[Lab
 
 
 def is_thin(mark: Mark) -> bool:
-    """True for a line of the construction, which lies below bars that it runs along."""
+    """Whether a mark is a construction line, which lies below bars that it runs along."""
     return isinstance(mark, LineMark) and mark.cls in ("construction", "ray")
 
 
 def raise_marks(board: FieldContent, some: Sequence[Mark]) -> None:
-    """Put some marks above all others that are drawn so far."""
+    """Move some marks above all others drawn so far."""
     raised = {id(mark) for mark in some}
     board.marks = [*(mark for mark in board.marks if id(mark) not in raised), *some]
 
@@ -649,8 +652,10 @@ def right_board(drawing: Drawing, layout: Layout, view: str) -> FieldContent:
 
 
 def below(drawing: Drawing, view: str) -> tuple[list[Mark], set[Moved], int]:
-    """The construction in words, the tables, the check bar and the witness's verdict; what of them
-    has no room, and how many sentences have some where not all have."""
+    """The part below the drawings: construction, tables, check bar, and residual check.
+
+    Also returns the parts that do not fit, and the number of sentences that fit where not all do.
+    """
     words, moved, said = drawing.words, set[Moved](), 0
     left, top = BELOW[0] + 2, BELOW[1]
     if view == "key":
@@ -681,14 +686,14 @@ def below(drawing: Drawing, view: str) -> tuple[list[Mark], set[Moved], int]:
 
 
 def construction_head(drawing: Drawing, x: float, y: float) -> Text:
-    """What stands above the construction in sentences."""
+    """The heading above the construction in sentences."""
     return Text(x, y, drawing.words("page.construction"), "caption", 3.5)
 
 
 def wanted(drawing: Drawing, x: float, y: float) -> tuple[list[Mark], set[Moved]]:
-    """What a task asks, what the links are and how the plan is drawn, beside the scheme.
+    """The requests, links and plan scale of a task, next to the scheme.
 
-    Where lines have no room, the links go on to a continuation sheet, and then what is asked.
+    Where lines do not fit, the links go to a continuation sheet, then the requests.
     """
     words, room = drawing.words, int((BELOW[3] - y - 10.5) / LEADING) + 1
     moved = set[Moved]()
@@ -707,7 +712,7 @@ def wanted(drawing: Drawing, x: float, y: float) -> tuple[list[Mark], set[Moved]
 
 
 def task_lines(drawing: Drawing, moved: set[Moved], width: float) -> list[str]:
-    """The lines of a task in a width, an empty one between parts; what is moved is only named."""
+    """The lines of a task in a width, an empty line between parts; moved parts are named."""
     elsewhere = drawing.words("page.moved")
     lines = flowed([elsewhere] if Moved.ASKED in moved else asked_words(drawing), "; ", width, 2.5)
     links = members(drawing)
@@ -719,7 +724,7 @@ def task_lines(drawing: Drawing, moved: set[Moved], width: float) -> list[str]:
 
 
 def asked_words(drawing: Drawing) -> Sequence[str]:
-    """What a sheet asks for, in words."""
+    """The quantities that a sheet asks for, in words."""
     words, ask = drawing.words, drawing.scene.ask
     shown = {drawing.kind, "position" if drawing.kind == "velocity" else drawing.kind}
     found = []

@@ -1,4 +1,4 @@
-"""What is handed out: the sheets of a mechanism, each one proved right before it is drawn."""
+"""The sheets of a mechanism, each verified before it is drawn and handed out."""
 
 from __future__ import annotations
 
@@ -38,7 +38,7 @@ CALCULATED = ("key", "task")
 class SheetDocument(Struct, frozen=True):
     """The pages of one document: velocity, acceleration or calculation.
 
-    ``unread`` says what is asked of it and cannot be read off it.
+    ``unread`` says which quantities it asks for but does not allow to be read off.
     """
 
     kind: str
@@ -49,9 +49,10 @@ class SheetDocument(Struct, frozen=True):
 def hand_out(
     mechanism: Mechanism, view: str = "key", language: str | None = None
 ) -> list[SheetDocument]:
-    """The sheets that a scene asks for, in a language (the scene's own if None).
+    """The sheets that a scene asks for, in a language (None: the scene's own).
 
-    Raises WitnessError when the independent route disagrees, PageError when a page does not fit.
+    Raises WitnessError when the independent route disagrees, and PageError when a page does not
+    fit.
     """
     from graphkin.documents.calculation import calculation
 
@@ -72,9 +73,9 @@ def hand_out(
 
 
 def drawn_sheets(drawings: Sequence[Drawing], view: str) -> list[SheetDocument]:
-    """The sheets of a mechanism's drawings in a view, numbered through.
+    """The numbered sheets of a mechanism's drawings in a view.
 
-    What has no room on a key or a task goes on to continuation sheets.
+    Parts that do not fit on a key or a task go to continuation sheets.
     """
     if view in CALCULATED:
         from graphkin.documents.continuation import as_page, rest
@@ -100,7 +101,7 @@ def drawn_sheets(drawings: Sequence[Drawing], view: str) -> list[SheetDocument]:
 
 
 def by_itself(drawing: Drawing, view: str, number: str) -> tuple[Page, ...]:
-    """The pages of one drawing, step by step, or as an overlay."""
+    """The pages of one drawing, step by step or as an overlay."""
     if view == "steps":
         from graphkin.documents.continuation import as_page, rest
         from graphkin.documents.sheet import sheet_heading
@@ -114,7 +115,7 @@ def by_itself(drawing: Drawing, view: str, number: str) -> tuple[Page, ...]:
 
 
 def language_of(mechanism: Mechanism, language: str | None) -> Words:
-    """The words of a language. Raises SceneError for one that is not there."""
+    """The words of a language. Raises SceneError for an unknown language."""
     code = language or mechanism.scene.sheet.language
     if code not in LANGUAGES:
         raise SceneError(
@@ -124,7 +125,7 @@ def language_of(mechanism: Mechanism, language: str | None) -> Words:
 
 
 def proved(mechanism: Mechanism, solution: Solution) -> Verdict:
-    """The witness's verdict. Raises WitnessError when it does not agree, or cannot be trusted."""
+    """The verdict of the independent route. Raises WitnessError if it fails or is unreliable."""
     if solution.margin < FAIR:
         raise WitnessError(nearly_singular(mechanism))
     verdict = mechanism.witness(solution)
@@ -136,7 +137,7 @@ def proved(mechanism: Mechanism, solution: Solution) -> Verdict:
 
 
 def lost(verdict: Verdict) -> Problem:
-    """The problem of quantities of which no digit is sure, told of the first."""
+    """The problem of quantities without a reliable digit; its place is the first of them."""
     return Problem(
         verdict.unsure[0],
         "no digit of it is sure: the rounding of doubles, which flat crossings and angles of many "
@@ -147,7 +148,7 @@ def lost(verdict: Verdict) -> Problem:
 
 
 def disagreements(scene: Scene, verdict: Verdict) -> Iterator[Problem]:
-    """Why the witness does not agree: the numbers, the branches, or both."""
+    """The reasons why the independent route disagrees: the numbers, the branches, or both."""
     refused = "no sheet is handed out"
     if verdict.differs:
         difference = f"{verdict.largest_difference:.1e}"
@@ -177,9 +178,9 @@ def nearly_singular(mechanism: Mechanism) -> Problem:
 def drawings_of(
     mechanism: Mechanism, verdict: Verdict, spoken: Words, held: Scales | None = None
 ) -> list[Drawing]:
-    """The material of each sheet, all at the same scale and the mechanism at the same place.
+    """The drawings of all sheets, at one scale and with the mechanism at one place.
 
-    The scale factors are those ``held``, whose layout is held as well, else those that fit best.
+    The scale factors are those ``held``, whose layout is kept as well, or else those that fit best.
     """
     curves = curves_of(mechanism)
     chosen = held or scales(mechanism, curves)
@@ -196,21 +197,21 @@ def drawings_of(
     return [replace(each, stand=stand, again=i > 0) for i, each in enumerate(drawings)]
 
 
-# --- the key on transparent ground ----------------------------------------------------------------
+# --- the key on a transparent ground --------------------------------------------------------------
 
 
 HALF, GAP, STROKE = 3.0, 2.0, 3.0
-"""Half a cross, what is left free beyond it, and the stroke outside, in mm."""
+"""Half the size of a cross, the gap outside it, and the stroke beyond the gap, in mm."""
 FOOT = 10.0
-"""How far above the frame's lower edge the title stands: where the task sheet has no words."""
+"""Distance of the title above the frame's lower edge, where the task sheet has no words."""
 
 
 def overlay(drawing: Drawing, number: str) -> Page:
-    """Mechanism and plan of the key at the places and scale that they have on the task sheet.
+    """Mechanism and plan of the key at the places and scale of the task sheet.
 
-    The letters of the task sheet are left to it, whose places need not be those of the key.
-    Crosses stand on the corners of the task sheet's frame, crop marks outside them. The caption
-    tells which variant of the mechanism it is.
+    Labels that the task sheet has are left out, since their places may differ on the key. Crosses
+    mark the corners of the task sheet's frame, with crop marks outside them. The caption names the
+    variant of the mechanism.
     """
     layout = lowered(lay_out(drawing), sheet_heading(drawing, "task")[2])
     words = drawing.words
@@ -235,14 +236,14 @@ def overlay(drawing: Drawing, number: str) -> Page:
 
 
 def untinted(mark: Mark) -> Mark:
-    """A mark without the light tint that would lie over the drawing below."""
+    """A mark without its light tint, which would cover the drawing below."""
     if style_of(mark.cls).fill not in TINTS:
         return mark
     return replace(mark, cls=f"{mark.cls} {BARE}")
 
 
 def crop_marks(rect: Rect) -> Iterator[Mark]:
-    """A cross on each corner of a frame, and beyond it two strokes that a cut leaves behind."""
+    """A cross on each corner of a frame, with two strokes outside it that remain after a cut."""
     for x, outward in ((rect[0], -1), (rect[2], 1)):
         for y, down in ((rect[1], -1), (rect[3], 1)):
             near, far = HALF + GAP, HALF + GAP + STROKE

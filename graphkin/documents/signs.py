@@ -1,6 +1,6 @@
-"""What is put into free room at last: senses of links' turning, the axes, the scale of a plan.
+"""Marks put into free room last: senses of links' rotation, the axes, the scale of a plan.
 
-Each is left out where there is no room for it; senses are then told in words.
+Each is left out where there is no room for it; senses are then given in words.
 """
 
 from __future__ import annotations
@@ -31,42 +31,42 @@ from graphkin.scene.model import FRAME
 ROUND, OPEN = 3.4, 230.0
 """Least radius of a turning arrow in mm, and the angle in degrees at which it ends or begins."""
 TINY, BESIDE = 2.2, 0.8
-"""Radius of an arrow with its letter beside it, and how far apart these are, in mm."""
+"""Radius of an arrow with its letter next to it, and the gap between them, in mm."""
 RINGS, WAYS = (0.0, 4.5, 6.0, 8.0, 10.0, 12.5, 15.0, 18.0, 21.0, 25.0), 16
-"""How far from a link, in mm, and in how many ways there, room for its arrow is sought."""
+"""Distances from a link, in mm, and number of directions in which its arrow is tried."""
 AIR = 1.0
-"""How far a turning arrow stays from all else, in mm."""
+"""Clearance of a turning arrow from everything else, in mm."""
 NEAR, FARTHER = 0.1, 3.0
-"""How much farther from its bar it stands, in mm: as little as can be, or where there is room."""
+"""Extra distances of an arrow from its bar, in mm: the least, and one where there is room."""
 APART = 3.0
-"""The same of the axes and of a scale, in mm."""
+"""Clearance of the axes and of a scale, in mm."""
 AXIS = 9.0
 """Length of the arrows of the axes in mm."""
 LONGEST, TICK = 45.0, 1.5
-"""The longest bar of a scale, and how high its ticks are, in mm."""
+"""The longest bar of a scale, and the height of its ticks, in mm."""
 STEPS = {1: 2, 2: 2, 5: 5}
-"""Into how many parts a bar is divided, by the first digit of its length."""
+"""Number of parts of a bar, by the first digit of its length."""
 HEIGHT = 2.5
 """Height of their lettering in mm."""
 
 
 def mechanism_signs(drawing: Drawing, field: Field, marks: Sequence[Mark]) -> list[Mark]:
-    """The senses of links' turning and the axes, in the field in which all else is placed."""
+    """The senses of links' rotation and the axes, in a field that is otherwise complete."""
     space = Space(marks, field.rect)
     return [*senses(drawing, field, space), *axes(space)]
 
 
 def plan_signs(drawing: Drawing, field: Field, marks: Sequence[Mark]) -> list[Mark]:
-    """The scale of the plan, in the field in which all else is placed."""
+    """The scale of the plan, in a field that is otherwise complete."""
     return [*plan_scale(drawing, Space(marks, field.rect))] if has_plan(drawing) else []
 
 
 def senses(drawing: Drawing, field: Field, space: Space) -> Iterator[Mark]:
-    """A turning arrow about ω or ε at each link whose rate the sheet tells.
+    """A turning arrow about ω or ε at each link whose rate the sheet gives.
 
-    First beside the bars and in the plates, driven links last; what finds no room there stands
-    where there is some around the link, with its letter beside a smaller arrow where that is long.
-    What finds none is told at the foot of the field.
+    Arrows are tried next to the bars and in the plates first, with driven links last. An arrow
+    without room there is placed where there is room around the link; a long letter then goes next
+    to a smaller arrow. A sense without any room is written at the foot of the field.
     """
     driven = {driver.link for driver in drawing.scene.drivers if driver.kind == "turn"}
     shown = told_by_drivers(drawing)
@@ -102,8 +102,10 @@ def senses(drawing: Drawing, field: Field, space: Space) -> Iterator[Mark]:
 
 
 def told_by_drivers(drawing: Drawing) -> set[str]:
-    """The links whose rate the arrow of their driver shows: on the velocity sheet, where they turn
-    against the frame."""
+    """The links whose rate the arrow of their driver shows.
+
+    These are links on the velocity sheet that turn relative to the frame.
+    """
     return {
         driver.link
         for driver in drawing.scene.drivers
@@ -115,7 +117,7 @@ def told_by_drivers(drawing: Drawing) -> set[str]:
 
 
 class Sign(NamedTuple):
-    """A turning arrow with the letter of a rate in it, or beside it where it is ``apart``."""
+    """A turning arrow with the letter of a rate in it, or next to it where it is ``apart``."""
 
     text: str
     kind: str
@@ -124,17 +126,17 @@ class Sign(NamedTuple):
 
     @property
     def aside(self) -> Sign:
-        """The same with its letter beside a small arrow, where that saves room."""
+        """The sign with its letter next to a small arrow, where that saves room."""
         width = extent(self.text, HEIGHT)[0]
         return self if self.radius <= ROUND else Sign(self.text, self.kind, TINY, width)
 
     @property
     def half(self) -> XY:
-        """Half the sides of the box that it takes up."""
+        """Half the sides of the box that it occupies."""
         return self.radius + (self.apart + BESIDE) / 2 if self.apart else self.radius, self.radius
 
     def put(self, space: Space, at: XY, rate: float) -> Iterator[Mark]:
-        """Its marks with the middle at a place, which is taken."""
+        """Its marks centred at a place, which is then occupied."""
         (wide, high), (x, y) = self.half, at
         space.take((x - wide, y - high, x + wide, y + high))
         yield from sense((x - wide + self.radius, y), self.radius, rate, self.kind)
@@ -153,7 +155,7 @@ def sign_of(drawing: Drawing, name: str) -> Sign:
 def places_around(
     drawing: Drawing, field: Field, name: str, bodies: Mapping[str, Body | None]
 ) -> Iterator[XY]:
-    """Places around a link, the nearest first, in no other plate or wheel."""
+    """Places around a link, the nearest first, outside all other plates and wheels."""
     body = bodies[name]
     anchors = [complex(*field(place)) for place in places_of(drawing, name)]
     discs = [disc for disc in drawing.standing.discs if disc.link == name]
@@ -169,7 +171,7 @@ def places_around(
 
 
 def wheels_of_others(drawing: Drawing, field: Field, name: str) -> list[tuple[complex, float]]:
-    """The centres and radii of all links' wheels but one link's, rings left out."""
+    """The centres and radii of all other links' wheels, except rings."""
     return [
         (complex(*field(disc.centre)), disc.outer * field.mm)
         for disc in drawing.standing.discs
@@ -178,12 +180,12 @@ def wheels_of_others(drawing: Drawing, field: Field, name: str) -> list[tuple[co
 
 
 def is_beside(place: complex, wheels: Sequence[tuple[complex, float]]) -> bool:
-    """Whether a place lies in none of some wheels."""
+    """Whether a place is outside some wheels."""
     return all(abs(place - centre) > radius for centre, radius in wheels)
 
 
 def at_foot(drawing: Drawing, space: Space, rates: Mapping[str, float]) -> Iterator[Mark]:
-    """The senses that find no room, in words, in one line as low in the field as there is room."""
+    """The senses without room, in words, in one line as low in the field as possible."""
     if not rates:
         return
     letter, words = drawing.rate.letter, drawing.words
@@ -201,7 +203,7 @@ def at_foot(drawing: Drawing, space: Space, rates: Mapping[str, float]) -> Itera
 
 
 def places_beside(body: Body, off: float) -> Iterator[XY]:
-    """Places along a bar on both sides, from its middle on; of a plate first those inside."""
+    """Places along a bar on both sides, from its middle on; in a plate the inside comes first."""
     if body.corners:
         middle = sum(body.corners) / len(body.corners)
         inside = sorted(within(body.corners), key=lambda place: abs(place - middle))
@@ -214,7 +216,7 @@ def places_beside(body: Body, off: float) -> Iterator[XY]:
 
 
 def sense(at: XY, radius: float, rate: float, kind: str) -> Iterator[Mark]:
-    """An open circle with an arrowhead, counter-clockwise for a rate above zero."""
+    """An open circle with an arrowhead, counter-clockwise for a positive rate."""
     end, back = (OPEN, -(2 * OPEN - 180)) if rate > 0 else (180 - OPEN, 2 * OPEN - 180)
     way = cos(radians(end)), -sin(radians(end))
     yield from turned_arrow(at, radius, way, (end, back), f"sense {kind}")
@@ -259,14 +261,14 @@ def plan_scale(drawing: Drawing, space: Space) -> Iterator[Mark]:
 
 
 def round_below(most: float) -> tuple[float, int]:
-    """The largest of 1, 2, 5 times a power of ten up to a value, with its first digit."""
+    """The largest number 1, 2 or 5 times a power of ten up to a value, with its first digit."""
     power = floor(log10(most))
     first = max(digit for digit in STEPS if digit * 10.0**power <= most * (1 + 1e-9))
     return float(f"{first}e{power}"), first
 
 
 def corners(rect: Rect, wide: float, high: float) -> Iterator[XY]:
-    """The middles of boxes in the corners of a field, the lower ones first, then between these."""
+    """The middles of boxes in the corners of a field, lower ones first, then in between."""
     left, top, right, bottom = rect
     low, far = left + wide + APART + 1, right - wide - APART - 1
     for y in (bottom - high - APART - 1, top + high + APART + 1):

@@ -34,21 +34,21 @@ from graphkin.drawing.symbol_markup import symbol
 from graphkin.scene.link_points import lettered
 
 AT_LAST = ("detail", "note")
-"""The names of marks that stand when all is drawn."""
+"""The names of marks that appear when everything is drawn."""
 PINS = ("pin", "hinge", "label", "leader")
 """The classes of a pin, and of its letter."""
 TOLD_BY = {"fixed-centrode": "moving-centrode"}
-"""The names of sentences that tell of a curve of another kind than their name."""
+"""Names of sentences for kinds of curves that have no sentence of their own."""
 BEFORE = -1
-"""The stage of what stands before the first sentence."""
+"""The stage of the marks before the first sentence."""
 
 
 def stages(drawing: Drawing, said: Sequence[Sentence]) -> dict[int, int]:
-    """For each step that was run the number of the sentence, from 0, that draws it.
+    """The number of the sentence, from 0, that draws each step that was run.
 
-    A sentence draws what its own points hang on and no sentence before has drawn. An arrow or any
-    other step that no sentence finds appears as soon as all that it is drawn from is there. What
-    is given, the points of the frame and the pole of the plan, stands before the first sentence.
+    A sentence draws the steps that its points depend on and that no earlier sentence has drawn. An
+    arrow, or any other step that no sentence finds, appears once all its sources are drawn. Given
+    steps, the points of the frame and the pole of the plan come before the first sentence.
     """
     program = drawing.trace.program
     found: dict[int, int] = {}
@@ -77,7 +77,7 @@ def stages(drawing: Drawing, said: Sequence[Sentence]) -> dict[int, int]:
 
 
 def of_component(drawing: Drawing, step: Step) -> Iterator[int]:
-    """The images between which a tangential component is told: it is not there before them."""
+    """The images between which a tangential component lies, which appears only after them."""
     vector = plan_vector(step)
     if vector is not None and vector.sign == "τ":
         ends = (vector.p, vector.q)
@@ -93,10 +93,10 @@ def stage_of(
     said: Sequence[Sentence],
     ground: Mapping[Mark, tuple[Target, ...]],
 ) -> int:
-    """The sentence at which a mark of a field appears; BEFORE for what stands from the start.
+    """The sentence at which a mark of a field appears; BEFORE for marks shown from the start.
 
-    A mark that belongs to no step appears with the last of what it rests on: one of the ``ground``
-    with the points about which it is drawn.
+    A mark without a step appears with the last of its dependencies. For a ``ground`` mark these are
+    the points around which it is drawn.
     """
     if mark.step is not None:
         return staged.get(mark.step, BEFORE)
@@ -115,7 +115,7 @@ def stage_of(
 
 
 def settled(drawing: Drawing, number: int, staged: dict[int, int]) -> int:
-    """The sentence by which a value stands; that of a number as soon as it can be reckoned."""
+    """The sentence that fixes a value; a number is fixed as soon as it can be computed."""
     step = drawing.trace.program.steps[number]
     closes = isinstance(step.of, ClosedGroup) and step.role == "closing"
     if number in staged and (closes or step.plane is not Plane.NUMBERS):
@@ -124,7 +124,7 @@ def settled(drawing: Drawing, number: int, staged: dict[int, int]) -> int:
 
 
 def stage_of_curve(drawing: Drawing, mark: Mark, said: Sequence[Sentence]) -> int | None:
-    """The sentence that tells of a curve, of several of its kind each its own; else None."""
+    """The sentence for a curve, one for each curve of its kind; None for other marks."""
     for curve in drawing.curves:
         if mark.name == curve.name:
             if curve.kind == "locus":
@@ -149,7 +149,7 @@ def traced(drawing: Drawing, said: Sentence) -> tuple[str, ...]:
     return kind.traced if isinstance(kind, ClosedGroup) else ()
 
 
-# --- what stands in the fields of a sheet at each sentence of the construction, and what is new ---
+# --- the content of a sheet's fields at each sentence, with new marks highlighted -----------------
 
 
 def appearing(
@@ -166,15 +166,19 @@ def appearing(
 
 
 def accompanied(marks: Sequence[Mark]) -> Iterator[tuple[Mark, Mark]]:
-    """The marks of a field, each with the one with which it appears: the frame around a link's name
-    with the name after it, all others with themselves.
+    """The marks of a field, each with the mark with which it appears.
+
+    The frame around a link's name appears with the name after it, any other mark by itself.
     """
     for mark, after in zip(marks, (*marks[1:], *marks[-1:]), strict=True):
         yield mark, after if style_class(mark) == "number" and not mark.name else mark
 
 
 def when_told(drawing: Drawing, staged: Mapping[int, int]) -> dict[str, int]:
-    """The sentence that finds each letter of the plan, each centre, each vector by its symbol."""
+    """The sentence that finds each letter of the plan, each centre and each vector.
+
+    Vectors are given by their symbols.
+    """
     found: dict[str, int] = {}
     for number, step in enumerate(drawing.trace.program.steps):
         if number in staged:
@@ -191,7 +195,7 @@ def when_told(drawing: Drawing, staged: Mapping[int, int]) -> dict[str, int]:
 def marks_at_stage(
     timed: Sequence[tuple[int, Mark]], stage: int, telling: Mapping[str, int]
 ) -> Iterator[Mark]:
-    """The marks that stand at a sentence; those that it draws are marked as new.
+    """The marks at a sentence; those that the sentence draws are highlighted.
 
     ``telling`` gives the sentence at which each letter and each vector is found.
     """
@@ -213,10 +217,10 @@ def marks_at_stage(
 
 
 def shared(mark: Text, stage: int, stages: Sequence[int], subject: float) -> Iterator[Mark]:
-    """Of the letters that share a label those that stand already, as near as all to their point.
+    """The letters of a shared label that have appeared, as near to their point as the whole label.
 
-    ``stages`` are those at which the letters appear, ``subject`` is where their leader or their
-    point stands from left to right.
+    ``stages`` are the sentences at which the letters appear; ``subject`` is the x of their leader
+    or their point.
     """
     every = zip(mark.letters, stages, strict=True)
     seen = [letter for letter, appears in every if appears <= stage]
@@ -229,7 +233,7 @@ def shared(mark: Text, stage: int, stages: Sequence[int], subject: float) -> Ite
 
 
 def noted(mark: Text, stage: int, telling: Mapping[str, int]) -> Iterator[Mark]:
-    """Of the notes in a line at the foot those of vectors and key numbers that stand already."""
+    """The parts of a note line at the foot whose vectors and key numbers have appeared."""
     parts = mark.letters
     stands = [telling.get(part.name, stage + 1) <= stage for part in parts]
     for i, part in enumerate(parts):
@@ -240,30 +244,32 @@ def noted(mark: Text, stage: int, telling: Mapping[str, int]) -> Iterator[Mark]:
             yield replace(mark, x=mark.x + aside, markup=ended)
 
 
-# --- step by step: pages on which a sheet grows, each with the sentence that says what to do ------
+# --- step by step: pages on which a sheet grows, each with its sentence ---------------------------
 
 
 LARGE, CLOSE, DONE = (3.5, 6.2), (2.5, 4.2), (2.5, 4.6)
-"""Height and distance in mm of the lines of sentences to do, of those to do that have no room so
-large, and of those that are done."""
+"""Height and line distance in mm of sentences: large, small, and done.
+
+The small size is for sentences to do that have no room in the large one.
+"""
 LEFT, TOP, RIGHT = BELOW[0] + 2, BELOW[1] + 4.5, BELOW[2] - 4
-"""Where these begin and end, in mm."""
+"""Start and end of these lines, in mm."""
 FIRST, ABOVE = TOP + 8, A3_TITLE_BLOCK[1] - 4
-"""The foot of the first line to do, and of the lowest above the title block, in mm."""
+"""The baselines of the first line to do, and of the lowest above the title block, in mm."""
 BESIDE, CLEAR = A3_TITLE_BLOCK[0] - LEFT - 5, MARKED[0] - LEFT - 7
-"""The width of lines beside the title block, and of those clear of the centring mark, in mm."""
+"""The width of lines next to the title block, and of lines clear of the centring mark, in mm."""
 MOST = 150
-"""Words that no line holds."""
+"""Number of words that exceeds any line."""
 LEFT_OUT = "…"
-"""What stands for the sentences that are done and have no room."""
+"""The sign for done sentences that have no room."""
 
 
 def growing(drawing: Drawing, number: str) -> tuple[Page, ...]:
-    """A page for each sentence of the construction: what it draws stands out, the rest follows.
+    """A page for each sentence of the construction, with its new marks highlighted.
 
-    One that draws nothing, as of what is computed, is told with the next that does. ``number`` is
-    that of the sheet; each page adds which step it is, of how many. Every mark and letter has on
-    each page the place that it has on the finished sheet.
+    A sentence that draws nothing, such as a computed one, shares the page of the next that does.
+    ``number`` is the number of the sheet; each page adds its step and the number of steps. Every
+    mark and letter has the place that it has on the finished sheet.
     """
     head, _, more = sheet_heading(drawing)
     layout = lowered(lay_out(drawing), more)
@@ -312,9 +318,9 @@ def growing(drawing: Drawing, number: str) -> tuple[Page, ...]:
 def spans(
     fields: Sequence[Sequence[Mark]], held: Callable[[int, int], bool]
 ) -> Iterator[tuple[int, int]]:
-    """The first and the last sentence of each page, which holds those from one to another or not.
+    """The first and the last sentence of each page, as far as ``held`` allows them together.
 
-    The last draws what is new on the page, or is followed by one for which there is no room.
+    The last sentence draws new marks, or the next one has no room on the page.
     """
     first = 0
     for stage, field in enumerate(fields):
@@ -325,12 +331,12 @@ def spans(
 
 
 def numbered(drawing: Drawing, number: str, stage: int, total: int) -> str:
-    """Which page of its sheet a step is, as the title block says it."""
+    """The number of a step's page within its sheet, for the title block."""
     return drawing.words("page.sheet_step", sheet=number, number=stage + 1, all=total)
 
 
 def crossed(drawing: Drawing, found: Sequence[Crossing]) -> Iterator[Mark]:
-    """The flattest crossing of a sentence, and what a millimetre of pencil becomes there."""
+    """The flattest crossing of a sentence, and the effect of a millimetre of pencil error there."""
     worst = flattest(tuple(found))
     if worst is None:
         return
@@ -351,8 +357,7 @@ def stage_of_crossing(drawing: Drawing, crossing: Crossing, staged: Mapping[int,
 
 
 class ToDo(NamedTuple):
-    """The lines of sentences to do with their feet, the height of their letters, the foot of a line
-    below them, and whether the page holds them."""
+    """The lines of sentences to do: lines with baselines, letter height, next baseline, and fit."""
 
     lines: list[tuple[float, str]]
     height: float
@@ -361,7 +366,7 @@ class ToDo(NamedTuple):
 
 
 def to_do(said: Sequence[Sentence], first: int, last: int) -> ToDo:
-    """Sentences from one to another: large above the title block, else smaller and beside it."""
+    """The sentences from ``first`` to ``last``: large above the title block, or else smaller."""
     markups = [
         f"{number}. {each.markup}" if first < last else each.markup
         for number, each in enumerate(said[first : last + 1], first + 1)
@@ -379,7 +384,7 @@ def to_do(said: Sequence[Sentence], first: int, last: int) -> ToDo:
 
 
 def wrapped(markup: str, height: float, leading: float, y: float) -> Iterator[str]:
-    """The lines of a sentence from a foot on, narrower where they are beside the title block."""
+    """The lines of a sentence from a baseline on, narrower next to the title block."""
     words = words_of(markup)
     while words:
         wide = RIGHT - LEFT if y <= ABOVE else BESIDE if y <= MARKED[1] else CLEAR
@@ -408,7 +413,7 @@ def told(drawing: Drawing, said: Sequence[Sentence], first: int, stage: int) -> 
     ]
     room = max(int((BELOW[3] - y - 3.5) // DONE[1]) + 1, 0)
     shown = done
-    if len(done) > room:  # a line tells that sentences before are left out
+    if len(done) > room:  # a line shows that earlier sentences are left out
         shown = done[len(done) - room + 1 :]
         while shown and not shown[0][0]:
             shown = shown[1:]

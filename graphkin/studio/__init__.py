@@ -1,1 +1,1 @@
-"""A page on this computer alone in which a scene is written, moved, looked at and saved."""
+"""The studio: a page on this computer in which a scene is written, moved, viewed and saved."""

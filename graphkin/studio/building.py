@@ -1,4 +1,4 @@
-"""Acts of a hand that builds in the field: each is one edit of the text, comments kept."""
+"""Actions of building by hand in the field: each is one edit that keeps the text's comments."""
 
 from __future__ import annotations
 
@@ -44,11 +44,11 @@ from graphkin.studio.sketch import (
 from graphkin.text.errors import GraphkinError, Problem, SceneError
 
 TRIED = 64
-"""Combinations of closures that are compared with what was drawn."""
+"""Number of combinations of closures that are compared with the drawing."""
 
 
 def drawn_closed(text: str, places: Places) -> str:
-    """The text with the branches that it lacks, as the closure nearest to what was drawn."""
+    """The text with its missing branches filled in, in the closure nearest to the drawing."""
     try:
         scene = read_text(text, "scene", None, {})
         groups = decompose(scene)
@@ -79,7 +79,7 @@ def drawn_closed(text: str, places: Places) -> str:
 
 
 def ways(groups: tuple[Group, ...]) -> Iterator[tuple[str, tuple[str, ...]]]:
-    """Under each name that may state a branch the words that it may say."""
+    """The possible words of each name that may state a branch."""
     for group in groups:
         for name in choosing((group,))[:1]:
             dyad = group.dyad if isinstance(group, Stretched) else group
@@ -108,7 +108,7 @@ def fits(groups: tuple[Group, ...], name: str, document: tomlkit.TOMLDocument) -
 
 
 def apart(text: str, places: Places) -> float:
-    """How far the points of a mechanism lie from where they were drawn, in all."""
+    """The total distance of a mechanism's points from their drawn places."""
     try:
         found = solved(Mechanism(read_text(text, "scene", None, {})))
     except GraphkinError:
@@ -116,21 +116,21 @@ def apart(text: str, places: Places) -> float:
     return sum(abs(at - places[name]) for name, at in found.items() if name in places)
 
 
-# --- where the text of a scene names points and links: found, named anew, and forgotten -----------
+# --- names of points and links in the text of a scene: found, renamed, and removed ----------------
 
 
 LINES = ("along", "through", "centres", "about", "contact")
-"""Keys of a joint that name one point or a line of two which other bodies may own."""
+"""Keys of a joint that name a point, or a line of two points, possibly of other bodies."""
 COUNTED = ("start", "turns")
-"""Keys of a joint that hold a number for each of some links."""
+"""Keys of a joint that hold one number for each of some links."""
 NAMING = ("through", "along", "centre", "from", "of")
-"""Keys under which one point or a line of two is named."""
+"""Keys that name a point or a line of two points."""
 PHRASES = ("left", "right", "on", "beyond")
-"""How a text begins that says where a point lies."""
+"""First words of a text that gives the place of a point."""
 
 
 def renamed(table: Any, gone: str, kept: str) -> None:
-    """Give a point another name, in the keys of a link or driver and in what they say."""
+    """Rename a point in the keys of a link or driver, and in the texts of these keys."""
     for key in list(table):
         value = table[key]
         if key in NAMING or (
@@ -156,12 +156,12 @@ def renamed(table: Any, gone: str, kept: str) -> None:
 
 
 def in_words(words: str, gone: str, kept: str) -> str:
-    """A line or phrase with another name for one of its points."""
+    """A line or phrase with one of its points renamed."""
     return re.sub(rf"\b{re.escape(gone)}\b", kept, words)
 
 
 def asked_lists(ask: Any) -> Iterator[tuple[Whose, Any]]:
-    """The lists of [ask], each with whose names it holds."""
+    """The lists of [ask], each with the kind of names that it holds."""
     yield from ((whose, ask[key]) for key, whose in WHOSE.items() if isinstance(ask.get(key), list))
 
 
@@ -175,7 +175,7 @@ def names_asked(whose: Whose, item: object) -> dict[Whose, set[str]]:
 
 
 def named_anew(ask: Any, gone: str, kept: str) -> None:
-    """Ask of a point under its other name, and once."""
+    """Rename a point in [ask], without repeating it in a list."""
     for listed in [listed for whose, listed in asked_lists(ask) if whose == "points"]:
         said = {str(each) for each in listed}
         for n in reversed(range(len(listed))):
@@ -189,7 +189,7 @@ def named_anew(ask: Any, gone: str, kept: str) -> None:
 
 
 def says(point: str, key: str, value: object) -> bool:
-    """Whether a key of a link, or what it says, names a point."""
+    """Whether a key of a link, or its text, names a point."""
     if key in JOINED and isinstance(value, Mapping):
         named = (str(value.get(each, "")) for each in ("along", "centre", "through"))
         return any(point in each.split("-") for each in named)
@@ -199,7 +199,7 @@ def says(point: str, key: str, value: object) -> bool:
 
 
 def known_names(document: Any) -> dict[Whose, set[str]]:
-    """The names of a text's points, of its moving links, and of those among them that slide."""
+    """The names of a text's points, of its moving links, and of the links that slide."""
     links = links_of(document)
     bodies = (table_of(document, FRAME_WORD), *links.values())
     return {
@@ -210,7 +210,7 @@ def known_names(document: Any) -> dict[Whose, set[str]]:
 
 
 def let_go(document: Any) -> None:
-    """Take out of bodies what joins them to points and links that are gone."""
+    """Remove from bodies the joints to points and links that no longer exist."""
     names = known_names(document)
     for table in (table_of(document, FRAME_WORD), *links_of(document).values()):
         own = {*points_of(table)}
@@ -224,9 +224,9 @@ def let_go(document: Any) -> None:
 
 
 def is_joined(record: Any, own: set[str], names: Mapping[Whose, set[str]]) -> bool:
-    """Whether what a joint of a body names is there; it counts no more what is not.
+    """Whether everything that a joint of a body names exists; removes counts of missing links.
 
-    The centre of a wheel is one of its body's ``own`` points.
+    The centre of a wheel must be one of its body's ``own`` points.
     """
     links = names["links"] | {FRAME, FRAME_WORD}
     lines = (str(record[key]) for key in LINES if isinstance(raw(record.get(key)), str))
@@ -240,7 +240,7 @@ def is_joined(record: Any, own: set[str], names: Mapping[Whose, set[str]]) -> bo
 
 
 def forget(document: Any) -> None:
-    """Take out drivers, branches, titles and wishes about what is no longer there."""
+    """Remove drivers, branches, titles and requests about things that no longer exist."""
     names = known_names(document)
     known = names["points"] | names["links"]
     drivers = document.get("drivers", [])
@@ -267,21 +267,21 @@ def forget(document: Any) -> None:
 
 
 def raw(value: object) -> object:
-    """A value without the style in which it is written."""
+    """A value without its TOML style."""
     return value.unwrap() if hasattr(value, "unwrap") else value
 
 
-# --- acts of a hand that builds in the field: each is one edit of the text, comments kept ---------
+# --- actions of building by hand in the field -----------------------------------------------------
 
 
 TURN = 0.5
-"""The step of angles that a hand draws, in degrees."""
+"""The step of drawn angles, in degrees."""
 
 
 class Act(Struct, frozen=True):
-    """What a hand does: its kind, what it is done to, and where.
+    """An action of the user: its kind, its objects, and its place.
 
-    ``of`` names points and links; ``words`` is a closure that is chosen, ``speed`` a driver's.
+    ``of`` names points and links; ``words`` is a chosen closure, ``speed`` the speed of a driver.
     """
 
     kind: str
@@ -293,14 +293,14 @@ class Act(Struct, frozen=True):
 
 
 class Built(Struct, frozen=True):
-    """The text after an act, and where its points stand that no text places."""
+    """The text after an action, and the places of points that the text does not give."""
 
     text: str
     places: Places
 
 
 def built(text: str, act: Act) -> Built:
-    """Do one act. Raises SceneError for what is impossible, in words for the pointer."""
+    """Carry out one action. Raises SceneError, with a message for the pointer, on failure."""
     try:
         tables = tables_of(text)
         document = tomlkit.parse(text)
@@ -316,7 +316,7 @@ def built(text: str, act: Act) -> Built:
 
 
 def without_empty(text: str, table: str) -> str:
-    """A text without the heading of a table in which nothing stands."""
+    """A text without the heading of an empty table."""
     document = tomlkit.parse(text)
     if document.get(table) == {}:
         document.pop(table)
@@ -324,7 +324,7 @@ def without_empty(text: str, table: str) -> str:
 
 
 def spaced(text: str, before: str) -> str:
-    """A text with a blank line above each heading that is new in it."""
+    """A text with a blank line above each new heading."""
     lines, known = text.split("\n"), {*before.split("\n")}
     found = lines[:1]
     for above, line in pairwise(lines):
@@ -335,7 +335,7 @@ def spaced(text: str, before: str) -> str:
 
 
 def refuse_shapes(tables: Mapping[str, Any]) -> None:
-    """Raise SceneError where what holds links, points or drivers is no table."""
+    """Raise SceneError where links, points or drivers are not in tables."""
     wanted = {key: tables.get(key, {}) for key in ("units", "frame", "links", "branches", "ask")}
     links = wanted["links"]
     wanted |= {f"links.{k}": v for k, v in links.items()} if isinstance(links, dict) else {}
@@ -349,7 +349,7 @@ def refuse_shapes(tables: Mapping[str, Any]) -> None:
 
 
 class Builder:
-    """A text that is changed, with the places of its points."""
+    """Edits a text, and keeps the places of its points."""
 
     def __init__(self, document: tomlkit.TOMLDocument, places: Places, unit: str) -> None:
         self.document = document
@@ -367,7 +367,7 @@ class Builder:
         return points_of(table_of(self.document, "frame"))
 
     def table(self, name: str, *, headed: bool = True) -> Any:
-        """A table of the text, made where there is none."""
+        """A table of the text, created if it is missing."""
         if name not in self.document:
             self.document[name] = tomlkit.table(is_super_table=not headed)
         return self.document[name]
@@ -387,7 +387,7 @@ class Builder:
         return name, links[name]
 
     def length(self, value: float) -> Any:
-        """A length on the grid, at least one step of it."""
+        """A length on the grid, at least one step."""
         return number(max(1, round(value / self.grid)) * self.grid)
 
     def pair(self, at: complex) -> Any:
@@ -398,32 +398,32 @@ class Builder:
         return found
 
     def place(self, point: str) -> complex:
-        """Where a point stands. Raises SceneError for one that is not in the field."""
+        """The place of a point. Raises SceneError for a point that is not in the field."""
         if point not in self.places:
             raise SceneError(Problem(point, "is at no known place", "a point that is drawn"))
         return self.places[point]
 
     def known_link(self, name: str) -> Any:
-        """The table of a link. Raises SceneError where there is none."""
+        """The table of a link. Raises SceneError for a missing link."""
         if name not in self.links:
             raise SceneError(Problem(f"link {name}", "is not there", "a moving link"))
         return self.document["links"][name]
 
 
 def number(value: float) -> int | float:
-    """A number as it is written: whole where it can be."""
+    """A number as it is written, as an integer where possible."""
     rounded = round(value, 6)
     return int(rounded) if rounded == int(rounded) else rounded
 
 
 def pivot(work: Builder, act: Act) -> None:
-    """A fixed pin."""
+    """Add a fixed pin."""
     name = next(name for n in count(1) if (name := f"O{n}") not in work.fixed)
     work.table("frame")[name] = work.pair(act.at)
 
 
 def bar(work: Builder, act: Act) -> None:
-    """A link of two pins, from a pin to another or to a new one."""
+    """Add a link of two pins, from a pin to another pin or to a new one."""
     start, *rest = act.of
     if rest:
         end = rest[0]
@@ -449,7 +449,7 @@ def refuse_bar(work: Builder, start: str, end: str) -> None:
 
 
 def plate(work: Builder, act: Act) -> None:
-    """One more pin of a link: by its distances to the first two, or on their line."""
+    """Add a pin to a link, by its distances to the first two pins or on their line."""
     table = work.known_link(act.of[0])
     points = work.links[act.of[0]]
     if len(points) == 1 and "wheel" in table:
@@ -477,7 +477,7 @@ def plate(work: Builder, act: Act) -> None:
 
 
 def spoke(work: Builder, table: Any, centre: str, at: complex) -> None:
-    """A pin of a wheel that had its centre alone."""
+    """Add a pin to a wheel that had only its centre."""
     way, name = at - work.place(centre), work.point_name()
     table.pop(centre)
     length = table[f"{centre}-{name}"] = work.length(abs(way))
@@ -486,9 +486,10 @@ def spoke(work: Builder, table: Any, centre: str, at: complex) -> None:
 
 
 def wheel(work: Builder, act: Act) -> None:
-    """A wheel about a pin: it turns about a fixed one, or rolls on a wheel or on a straight track.
+    """Add a wheel about a pin, which turns about a fixed pin or rolls.
 
-    The pin of a moving link alone lets it roll on the frame, on the line that it touches there.
+    It rolls on a second wheel if one is given. Otherwise a wheel about a moving pin rolls on a
+    straight track of the frame, which touches it.
     """
     centre, *rest = act.of
     at, table = work.place(centre), tomlkit.inline_table()
@@ -516,7 +517,7 @@ def wheel(work: Builder, act: Act) -> None:
 
 
 def meeting(work: Builder, link: str, at: complex) -> DrawnWheel:
-    """The wheel of a link whose rim lies nearest to a place. Raises SceneError for none."""
+    """The wheel of a link whose rim is nearest to a place. Raises SceneError if there is none."""
     all_wheels = [each for each in wheels_of(work.document.unwrap()) if each.link == link]
     placed = [each for each in all_wheels if each.centre in work.places]
     if not placed or any(abs(at - work.place(each.centre)) < work.grid for each in placed):
@@ -526,7 +527,7 @@ def meeting(work: Builder, link: str, at: complex) -> DrawnWheel:
 
 
 def block(work: Builder, act: Act) -> None:
-    """A block pinned at a point, on a fixed guide or in the slot of a link."""
+    """Add a block pinned at a point, on a fixed guide or in the slot of a link."""
     point, *rest = act.of
     slides = tomlkit.inline_table()
     if rest:
@@ -557,7 +558,7 @@ def block(work: Builder, act: Act) -> None:
 
 
 def driver(work: Builder, act: Act) -> None:
-    """A bar on a fixed pin is turned from where it lies; one that is driven, at another speed."""
+    """Drive a bar on a fixed pin from its drawn angle, or change the speed of a driven bar."""
     name = act.of[0]
     work.known_link(name)
     points = work.links[name]
@@ -583,7 +584,7 @@ def driver(work: Builder, act: Act) -> None:
 
 
 def move(work: Builder, act: Act) -> None:
-    """A point goes elsewhere: the numbers that say where it lies follow."""
+    """Move a point: the numbers that place it follow."""
     point = act.of[0]
     work.place(point)
     if not moved(work, point, act.at):
@@ -592,7 +593,7 @@ def move(work: Builder, act: Act) -> None:
 
 
 def moved(work: Builder, point: str, at: complex) -> bool:
-    """Let the numbers that place a point follow it; whether there are any."""
+    """Change the numbers that place a point; returns whether there are any."""
     frame, changed = table_of(work.document, "frame"), False
     work.places[point] = at
     if point in frame:
@@ -613,7 +614,7 @@ def moved(work: Builder, point: str, at: complex) -> bool:
 
 
 def join(work: Builder, act: Act) -> None:
-    """A pin is laid on another and is one with it: a fixed one keeps its name, else the other."""
+    """Join two pins into one. A fixed pin keeps its name; otherwise the second pin does."""
     first, second = act.of[0], act.of[-1]
     goal = work.place(second)
     work.place(first)
@@ -636,7 +637,7 @@ def join(work: Builder, act: Act) -> None:
 
 
 def refuse_join(work: Builder, first: str, second: str) -> None:
-    """Raise SceneError where two pins cannot be one."""
+    """Raise SceneError where two pins cannot be joined."""
     both = f"{first} and {second}"
     if first == second:
         raise SceneError(Problem(first, "is one pin already", "another pin"))
@@ -661,7 +662,7 @@ def refuse_join(work: Builder, first: str, second: str) -> None:
 
 
 def turned_driver(work: Builder, link: str, point: str) -> bool:
-    """Turn the driver of a link whose point has moved; whether its angle is a number."""
+    """Update the driver of a link whose point has moved; returns whether its angle is a number."""
     points, found = work.links[link], False
     for each in work.document.get("drivers", ()):
         if str(each.get("turn")) != link or point not in points[:2]:
@@ -673,7 +674,7 @@ def turned_driver(work: Builder, link: str, point: str) -> bool:
 
 
 def delete(work: Builder, act: Act) -> None:
-    """Take away a point or a link, and what is said of them and of what is left alone."""
+    """Delete a point or a link, with all that depends on it or loses its connection."""
     name, links = act.of[0], table_of(work.document, "links")
     if act.words == "link":
         links.pop(name, None)
@@ -694,7 +695,7 @@ def delete(work: Builder, act: Act) -> None:
 
 
 def drop_loose(work: Builder) -> None:
-    """Take away links that are no bodies any more: single pins, and blocks that nothing touches."""
+    """Remove links that are no longer bodies: single pins, and blocks that nothing touches."""
     links = table_of(work.document, "links")
     for link, points in work.links.items():
         others = {point for name, held in work.links.items() if name != link for point in held}
@@ -704,7 +705,6 @@ def drop_loose(work: Builder) -> None:
 
 
 def close(work: Builder, act: Act) -> None:
-    """Choose a closure."""
     work.table("branches")[act.of[0]] = act.words
 
 
@@ -715,10 +715,10 @@ KINDS: Mapping[str, Callable[[Builder, Act], None]] = {
 
 
 def key_of(link: str) -> int | str:
-    """The name of a link as a value."""
+    """The name of a link as a TOML value."""
     return int(link) if link.isdecimal() else link
 
 
 def turned(way: complex, step: float = TURN) -> float:
-    """The direction of a way in degrees, on the grid of angles."""
+    """The direction of a vector in degrees, on the grid of angles."""
     return round(degrees(phase(way)) / step) * step

@@ -1,4 +1,4 @@
-"""The one folder that the studio reads and writes: nothing outside it has a name here."""
+"""The folder that the studio reads and writes; files outside it cannot be named."""
 
 from __future__ import annotations
 
@@ -18,17 +18,17 @@ ENDING = ".toml"
 SCENE = "scene.toml"
 """The scene of a lab, in its folder."""
 MOST = 500
-"""Scenes that are listed."""
+"""Largest number of scenes listed."""
 LONGEST, DEEPEST = 200, 6
-"""Signs of a name, and its parts."""
+"""Largest number of characters and of parts of a name."""
 FORBIDDEN = re.compile(r'[\x00-\x1f\x7f\\:*?"<>|]')
-"""Signs that some file system takes for something else."""
+"""Characters that some file system treats in a special way."""
 UNSEEN = frozenset(("Cc", "Cf", "Co", "Cn", "Zl", "Zp"))
-"""Kinds of signs that turn, hide or break what is written: a name must be what it looks like."""
+"""Categories of characters that reverse, hide or break a text: a name must be as it looks."""
 WORD = re.compile(r"\w[\w-]{0,60}")
-"""A name that is good everywhere."""
+"""A name that works on every file system."""
 OTHERS = frozenset((scene_files.LAB, "pyproject.toml"))
-"""Files that are no scenes: neither listed nor read nor written."""
+"""Files that are not scenes: neither listed, read nor written."""
 
 
 class Folder:
@@ -40,8 +40,8 @@ class Folder:
     def path(self, name: str) -> Path:
         """The file of a name such as ``pump.toml`` or ``crank-lab/scene.toml``.
 
-        A name has one file, whether accents are written with their letters (NFC) or apart (NFD).
-        Raises SceneError for a name that leads out of the folder, in whatever way, or that is none.
+        A name has one file, whether its accents are composed (NFC) or decomposed (NFD). Raises
+        SceneError for an invalid name and for a name that leads out of the folder.
         """
         problem = doubt(name)
         forms = [name, *(unicodedata.normalize(form, name) for form in ("NFC", "NFD"))]
@@ -53,9 +53,10 @@ class Folder:
         return target
 
     def lab_path(self, name: str) -> Path:
-        """The lab.toml beside a scene, by the scene's name.
+        """The lab.toml next to a scene, by the scene's name.
 
-        Raises SceneError where the scene is not called scene.toml, or the file leads elsewhere.
+        Raises SceneError where the scene is not called scene.toml, or the file is outside the
+        folder.
         """
         scene = self.path(name)
         if scene.name != SCENE:
@@ -68,7 +69,7 @@ class Folder:
         return path
 
     def rules(self, name: str) -> str:
-        """The text of the lab.toml beside a scene.toml; empty where there is none."""
+        """The text of the lab.toml next to a scene.toml; empty if there is none."""
         if name.rpartition("/")[2] != SCENE or not self.lab_path(name).is_file():
             return ""
         return decoded(read_bytes(self.lab_path(name)))
@@ -80,20 +81,20 @@ class Folder:
         return [name for name in names if self.holds(name)]
 
     def holds(self, name: str) -> bool:
-        """Whether a name is that of a scene that can be read here."""
+        """Whether a name is the name of a readable scene here."""
         try:
             return self.path(name).is_file()
         except SceneError:
             return False
 
     def free(self, name: str) -> str:
-        """A name like that of a scene, under which there is nothing here yet."""
+        """A name derived from a scene's, under which no file exists yet."""
         stem = stem_of(name)
         names = (f"{stem}-{n}{ENDING}" for n in count(2))
         return next(each for each in names if not os.path.lexists(self.root / each))
 
     def read(self, name: str) -> str:
-        """The text of a scene. Raises SceneError where there is none, or none that can be read."""
+        """The text of a scene. Raises SceneError where it is missing or unreadable."""
         path = self.path(name)
         scene_files.settle(path)
         if not path.is_file():
@@ -101,11 +102,11 @@ class Folder:
         return decoded(read_bytes(path))
 
     def name_as_written(self, path: Path) -> str:
-        """The name of a path that was made from one."""
+        """The name of a path that was made from a name."""
         return path.relative_to(self.root).as_posix()
 
     def name_of(self, path: Path) -> str:
-        """The name of a file by its path. Raises SceneError for one that lies elsewhere."""
+        """The name of a file by its path. Raises SceneError for a file outside the folder."""
         found = path.resolve()
         if not found.is_relative_to(self.root):
             hint = f"start the studio in {found.parent}"
@@ -114,20 +115,20 @@ class Folder:
 
 
 def meant(name: str) -> str:
-    """A name that would do, as near to a given one as it can be."""
+    """A valid name as near as possible to a given one."""
     stem = name.replace("\\", "/").rpartition("/")[2].removesuffix(ENDING)
     near = f"{stem}{ENDING}"
     return near if WORD.fullmatch(stem) and near not in OTHERS else f"pump{ENDING}"
 
 
 def with_ending(name: str) -> str:
-    """A name with the ending of a scene, where it has none of its own."""
+    """A name with the ending of a scene, if it has no ending of its own."""
     last = name.rpartition("/")[2]
     return name if not last or "." in last else f"{name}{ENDING}"
 
 
 def doubt(name: str) -> str:
-    """What is wrong with a name by itself; nothing for a sound one."""
+    """The error of a name in itself; empty for a valid one."""
     parts = name.split("/")
     if not name.endswith(ENDING) or name == ENDING:
         return f"the name does not end in {ENDING}"
@@ -139,7 +140,7 @@ def doubt(name: str) -> str:
 
 
 def doubt_of_part(part: str) -> str:
-    """What is wrong with one part of a name."""
+    """The error of one part of a name."""
     if not part or part.startswith(".") or part != part.rstrip(" ."):
         return "a part of the name is empty, or begins or ends with a dot"
     if FORBIDDEN.search(part):
@@ -152,7 +153,7 @@ def doubt_of_part(part: str) -> str:
 
 
 def stem_of(name: str) -> str:
-    """What a scene is called by the name of its file: that of its folder for scene.toml."""
+    """The name of a scene by its file, or by its folder for scene.toml."""
     *folders, file = name.split("/")
     return folders[-1] if folders and file == SCENE else file.removesuffix(ENDING)
 
@@ -166,12 +167,12 @@ def shipped(language: str) -> list[tuple[str, str]]:
 
 @lru_cache(maxsize=8)
 def examples(language: str) -> list[tuple[str, str]]:
-    """The other scenes that come with it: names and titles."""
+    """The other scenes that come with graphkin: names and titles."""
     return [(name, title_in(path, language)) for name, path in scene_files.examples().items()]
 
 
 def title_in(path: Path, language: str) -> str:
-    """The title of a scene that comes with it, in a language where it has one there."""
+    """The title of a scene that comes with graphkin, in the given language where it has one."""
     tables = tables_of(decoded(read_bytes(path)))
     titles = tables.get("titles")
     own = titles.get(language) if isinstance(titles, dict) else None
@@ -179,14 +180,14 @@ def title_in(path: Path, language: str) -> str:
 
 
 def shipped_text(name: str) -> str:
-    """The text of the scene of a shipped lab. Raises SceneError for a name that is none."""
+    """The text of the scene of a lab of graphkin. Raises SceneError for an unknown lab."""
     if name not in scene_files.names():
         raise SceneError(Problem("lab", f"there is no lab {name}", ", ".join(scene_files.names())))
     return decoded(read_bytes(scene_files.shelf() / name / SCENE))
 
 
 def example_text(name: str) -> str:
-    """The text of another scene that comes with it. Raises SceneError for a name that is none."""
+    """The text of another scene that comes with graphkin. Raises SceneError for an unknown name."""
     found = scene_files.examples().get(name)
     if found is None:
         raise SceneError(Problem("scene", f"there is no scene {name}", "one that is listed"))
@@ -194,6 +195,6 @@ def example_text(name: str) -> str:
 
 
 def shipped_rules(name: str) -> str:
-    """The text of the lab.toml of a shipped lab; empty where it has none."""
+    """The text of the lab.toml of a lab that comes with graphkin; empty if it has none."""
     path = scene_files.shelf() / name / scene_files.LAB
     return decoded(read_bytes(path)) if path.is_file() else ""

@@ -1,8 +1,8 @@
-"""Who may speak with the studio: only the page whose address holds the token, only from here.
+"""Access to the studio: only from the page whose address holds the token, and only from here.
 
 The server listens on the loopback address alone. A page of another site can still send requests
-there: it does not know the token, and one that has let its own name point here (DNS rebinding) is
-told by the Host that its browser names.
+there. It does not know the token; and a site that points its own name here (DNS rebinding) is
+recognized by the Host that its browser sends.
 """
 
 from __future__ import annotations
@@ -23,7 +23,7 @@ POLICY = "; ".join(
         "script-src 'self'",
         "style-src 'self'",
         "font-src 'self'",
-        "img-src 'self' blob:",  # the sheets of students, as the page was given them
+        "img-src 'self' blob:",  # the sheets of students, as they were sent to the page
         "connect-src 'self'",
         "frame-src 'self'",
         "base-uri 'none'",
@@ -31,7 +31,7 @@ POLICY = "; ".join(
         "frame-ancestors 'none'",
     )
 )
-"""What a browser may load with the page: nothing from outside, nothing written into it."""
+"""What a browser may load with the page: nothing from outside, and no inline code or styles."""
 OWN_POLICY = "; ".join(
     (
         "default-src 'none'",
@@ -45,8 +45,10 @@ OWN_POLICY = "; ".join(
         "frame-ancestors 'self'",
     )
 )
-"""What a page that moves by itself may do within the page: run, without a name of its own, so that
-it reaches neither the page around it nor the server."""
+"""What a moving page inside the page may do: run its own script.
+
+It has no origin of its own, so it reaches neither the page around it nor the server.
+"""
 FRAMED = (("Content-Security-Policy", OWN_POLICY), ("X-Frame-Options", "SAMEORIGIN"))
 HEADERS = (
     ("Content-Security-Policy", POLICY),
@@ -66,10 +68,10 @@ def new_token() -> str:
 
 
 class Guard:
-    """Stands before an application: what is not the page's own is answered 403, and goes no way.
+    """Guards an application: requests that are not the page's own get the answer 403 only.
 
     ``hosts`` are the names under which a browser may call the server, with its port; ``known`` is
-    called whenever somebody shows the token.
+    called for every request with the token.
     """
 
     def __init__(
@@ -96,7 +98,7 @@ class Guard:
         return self.inside(within, guarded)
 
     def path(self, environ: Environ) -> str | None:
-        """The path behind the token; None for a request that is to be refused."""
+        """The path behind the token; None for a request that must be refused."""
         host = environ.get("HTTP_HOST", "")
         if host not in self.hosts or environ["REQUEST_METHOD"] not in METHODS:
             return None

@@ -1,4 +1,4 @@
-"""What the page shows of a lab that was tried: fairness, neighbours, students, what is proposed."""
+"""The page's view of a lab that was tried: fairness, neighbours, students, and proposals."""
 
 from __future__ import annotations
 
@@ -40,13 +40,13 @@ from graphkin.text import Words
 from graphkin.text.errors import GraphkinError, Problem
 
 POLL = 0.05
-"""Seconds between two looks whether what is worked out is still wanted."""
+"""Seconds between two checks whether a result is still wanted."""
 ONE_AT_A_TIME = Lock()
 Found = TypeVar("Found")
 
 
 class LabTexts(Struct, frozen=True):
-    """The texts of a scene and of its lab.toml, and what the lab is called."""
+    """The texts of a scene and of its lab.toml, and the name of the lab."""
 
     scene: str
     rules: str
@@ -54,7 +54,7 @@ class LabTexts(Struct, frozen=True):
 
     @contextmanager
     def lab(self) -> Iterator[Lab]:
-        """The lab that they state. Raises SceneError as its reading does."""
+        """The lab that the texts state. Raises SceneError for mistakes in them."""
         with TemporaryDirectory() as folder:
             for name, text in ((SCENE, self.scene), (LAB, self.rules)):
                 (Path(folder) / name).write_text(text, encoding="utf-8")
@@ -62,14 +62,14 @@ class LabTexts(Struct, frozen=True):
 
 
 class LabProblems(Struct, frozen=True):
-    """Why a lab cannot be tried: what is wrong with its rules, or with its scene."""
+    """Why a lab cannot be tried: problems of its rules, or of its scene."""
 
     rules: tuple[Problem, ...]
     scene: tuple[Problem, ...]
 
 
 class LabProposal(Struct, frozen=True):
-    """Where a lab is fair, what is proposed to it, and of a formula to whom it is unfair."""
+    """The fair ranges of a lab, the proposed ranges, and the faults of a formula."""
 
     found: FairRanges
     proposed: ProposedRanges | None
@@ -94,7 +94,7 @@ def searched(lab: Lab) -> LabProposal:
 
 
 def answered(texts: LabTexts, work: Callable[[Lab], Found]) -> Found | LabProblems:
-    """What comes of a lab, or why nothing does."""
+    """The result of work on a lab, or the problems that prevent it."""
     try:
         with texts.lab() as lab:
             return work(lab)
@@ -104,7 +104,7 @@ def answered(texts: LabTexts, work: Callable[[Lab], Found]) -> Found | LabProble
 
 
 def beside(work: Callable[[LabTexts], Any], texts: LabTexts, go_on: Callable[[], None]) -> Any:
-    """What comes of a piece of work in a process of its own, one after another.
+    """The result of a piece of work in a separate process; such processes run one after another.
 
     ``go_on`` is called while waiting and may raise, which ends the process.
     """
@@ -131,14 +131,14 @@ def beside(work: Callable[[LabTexts], Any], texts: LabTexts, go_on: Callable[[],
 
 
 def told(work: Callable[[LabTexts], Any], texts: LabTexts, sending: Any) -> None:
-    """Work something out, and tell it to the studio."""
+    """Run a piece of work and send its result to the studio."""
     from graphkin.classroom.printing.workers import begin
 
     begin()
     sending.send(work(texts))
 
 
-# --- what the page shows of a lab that was tried --------------------------------------------------
+# --- the page's view of a lab that was tried ------------------------------------------------------
 
 
 UNITS = {
@@ -148,14 +148,14 @@ UNITS = {
     "apart": (100, " %"),
     "pencil": (100, " %"),
 }
-"""By what the value of a limit is multiplied, and in which unit it is told."""
+"""The factor and unit in which the value of a limit is printed."""
 
 
 class StudentRow(Struct, frozen=True):
-    """A student of the class: who, the data, what is unfair, and what makes the sheet hard.
+    """A student of the class: name, data, faults, and what makes the sheet hard.
 
-    ``earns`` is the largest share, in percent, that another's right values earn on this sheet, and
-    ``whose`` they are; ``settings`` draw the sheet.
+    ``earns`` is the largest share, in percent, that another student's right values earn on this
+    sheet; ``whose`` is that student. ``settings`` draw the sheet.
     """
 
     name: str
@@ -169,10 +169,11 @@ class StudentRow(Struct, frozen=True):
 
 
 class LabReport(Struct, frozen=True):
-    """A lab as it was tried: how many are fair, tables in tags, the students, and of each two the
-    percent that one's right values earn on the other's sheet, a row for each sheet (-1 for itself);
-    more than ``apart`` is too much. ``exact`` tells how many of the fair ones a pencil draws
-    exactly enough.
+    """A lab that was tried: the number of fair variants, tables as HTML, and the students.
+
+    ``shares`` has a row for each sheet: the percent that each student's right values earn on it (-1
+    for the student's own). More than ``apart`` is too much. ``exact`` says how many of the fair
+    variants a pencil draws with sufficient accuracy.
     """
 
     fair: int = 0
@@ -186,7 +187,7 @@ class LabReport(Struct, frozen=True):
 
 
 def lab_report(outcome: LabTrial, words: Words) -> LabReport:
-    """What is shown of a lab that was tried, in the language of the page."""
+    """The report on a lab that was tried, in the language of the page."""
     count, near = len(outcome.many), outcome.neighbours
     shares = [] if near is None else [[percent(share) for share in row] for row in near.exact]
     names = [each.student.id for each in outcome.compared]
@@ -207,7 +208,7 @@ def lab_report(outcome: LabTrial, words: Words) -> LabReport:
 
 
 def percent(share: float) -> int:
-    """A share in percent; -1 for a sheet beside itself."""
+    """A share in percent; -1 for a student's own sheet."""
     return -1 if isnan(share) else round(100 * share)
 
 
@@ -230,7 +231,7 @@ def student_row(
 
 
 def fault_words(fault: Fault, words: Words, where: Callable[[str], str] = str) -> str:
-    """A limit that is broken, where, with the value and the bound; ``where`` writes its name."""
+    """A broken limit with its place, value and bound; ``where`` formats the name of the place."""
     what = f"{words(f'studio.limit_{fault.limit}')} {where(fault.where)}".strip()
     if isnan(fault.value):
         return what
@@ -241,7 +242,7 @@ def fault_words(fault: Fault, words: Words, where: Callable[[str], str] = str) -
 
 
 def trial_tables(outcome: LabTrial, words: Words) -> Iterator[str]:
-    """The tables of a lab that was tried: what is unfair, the spread, the scales."""
+    """The tables of a lab that was tried: faults, spread, and scales."""
     head = tuple(map(words, ("studio.limit_broken", "studio.times", "studio.whose")))
     yield table(words("studio.unfair"), head, list(unfair_rows(outcome, words)))
     head = tuple(map(words, ("studio.on_sheets", "studio.least", "studio.half", "studio.most")))
@@ -251,7 +252,7 @@ def trial_tables(outcome: LabTrial, words: Words) -> Iterator[str]:
 
 
 def unfair_rows(outcome: LabTrial, words: Words) -> Iterator[Row]:
-    """Each limit that is broken somewhere: the worst, how often, by whom."""
+    """Each broken limit with its worst value, its count, and the students concerned."""
     found: dict[tuple[str, str], list[tuple[str, Fault]]] = {}
     for name, faults in outcome.faults():
         for fault in faults:
@@ -265,7 +266,7 @@ def unfair_rows(outcome: LabTrial, words: Words) -> Iterator[Row]:
 
 
 def spread_rows(outcome: LabTrial, words: Words) -> Iterator[Row]:
-    """The least, the middle and the most of what makes sheets hard, or alike."""
+    """Minimum, median and maximum of the quantities that make sheets hard or alike."""
     fairness, near = outcome.fairness, outcome.neighbours
     drawn = fairness.closes & fairness.fits
     spread = [
@@ -285,7 +286,7 @@ def spread_rows(outcome: LabTrial, words: Words) -> Iterator[Row]:
 
 
 def scale_rows(outcome: LabTrial) -> Iterator[Row]:
-    """The scales of the sheets, and how many students have which, the most first."""
+    """The scales of the sheets with their numbers of students, the most frequent first."""
     fairness = outcome.fairness
     drawn = (fairness.closes & fairness.fits).nonzero()[0]
     columns = (fairness.kL, fairness.larger, fairness.larger_still)
@@ -298,7 +299,7 @@ def scale_rows(outcome: LabTrial) -> Iterator[Row]:
 
 
 class ParameterShares(Struct, frozen=True):
-    """The fair share, in percent, by the values of a parameter; how much of fairness it decides."""
+    """The fair share, in percent, by the values of a parameter, and the parameter's weight."""
 
     name: str
     decides: int
@@ -306,10 +307,10 @@ class ParameterShares(Struct, frozen=True):
 
 
 class LabAdvice(Struct, frozen=True):
-    """What is proposed to a lab: its fair share by parameters, new ranges, a mended formula.
+    """Advice for a lab: its fair share by parameters, new ranges, and a corrected formula.
 
-    ``shares`` tell of each parameter the part of fairness that it decides and the fair share by its
-    values; ``ranges`` is the text of the proposal and ``rules`` the whole lab.toml with it;
+    ``shares`` has for each parameter the part of fairness that it decides and the fair share by its
+    values. ``ranges`` is the text of the proposal and ``rules`` the whole lab.toml with it;
     ``mending`` is an edit of the scene.
     """
 
@@ -323,7 +324,7 @@ class LabAdvice(Struct, frozen=True):
 
 
 def lab_advice(proposal: LabProposal, texts: LabTexts, words: Words) -> LabAdvice:
-    """What is shown of a search for fair ranges, in the language of the page."""
+    """The report on a search for fair ranges, in the language of the page."""
     tried, new = proposal.found.tried, proposal.proposed
     guilt = sorted(((tried.guilt(name), name) for name in tried.space), reverse=True)
     shares = [
@@ -353,14 +354,14 @@ def value_shares(proposal: LabProposal, name: str) -> Iterator[tuple[str, int]]:
 
 
 def with_variants(rules: str, lines: Sequence[str]) -> str:
-    """The text of a lab.toml with other [variants]; all else stays as it is written."""
+    """The text of a lab.toml with new [variants]; everything else stays as written."""
     document = tomlkit.parse(rules)
     document["variants"] = tomlkit.parse("\n".join([*lines, "", ""]))["variants"]
     return tomlkit.dumps(document)
 
 
 def formula_words(proposal: LabProposal, scene: str, words: Words) -> tuple[str, Edit | None]:
-    """To which numbers a formula is unfair and what mends that, in words and as an edit."""
+    """The numbers for which a formula is unfair and the correction, in words and as an edit."""
     found = proposal.formula
     if found is None:
         return "", None

@@ -1,4 +1,4 @@
-"""What the pages of this computer alone share: how they are answered, and the files beside them."""
+"""The common parts of pages on this computer: answers to requests, and static files."""
 
 from __future__ import annotations
 
@@ -16,11 +16,11 @@ JSON = "application/json"
 
 
 def new_application(folder: Path) -> Any:
-    """A WSGI application that has the files of a folder and the fonts of the sheets."""
+    """A WSGI application with the files of a folder and the fonts of the sheets."""
     from bottle import Bottle
 
     app = Bottle()
-    app.config["catchall"] = False  # a fault is told where the page was started
+    app.config["catchall"] = False  # an internal error is printed where the page was started
     app.route("/<name:re:[a-zA-Z-]+\\.(css|js|svg|woff2)>", "GET", lambda name: file(folder, name))
     return app
 
@@ -34,7 +34,7 @@ def file(folder: Path, name: str) -> Any:
 
 
 def answering(work: Callable[[bytes], bytes], most: int) -> Callable[[], Any]:
-    """A handler that takes JSON of so many bytes at most, and gives the JSON that is made of it."""
+    """A handler that takes JSON of at most ``most`` bytes and returns the result of ``work``."""
 
     def handler() -> Any:
         from bottle import request
@@ -52,7 +52,7 @@ def answering(work: Callable[[bytes], bytes], most: int) -> Callable[[], Any]:
 
 
 def answer(status: int, kind: str, body: bytes) -> Any:
-    """An answer of some kind; texts are UTF-8."""
+    """An answer with a status and a content type; texts are UTF-8."""
     from bottle import HTTPResponse
 
     whole = kind if kind.startswith(("font", "image/jpeg")) else f"{kind}; charset=utf-8"

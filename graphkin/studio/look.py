@@ -1,4 +1,4 @@
-"""What is seen of a scene's text at once: mistakes in place, keys, sliders, drawings, numbers."""
+"""The immediate view of a scene's text: mistakes in place, keys, sliders, drawings, numbers."""
 
 from __future__ import annotations
 
@@ -33,17 +33,17 @@ from graphkin.text.markup import as_text
 from graphkin.text.problems import spoken
 
 MOST = 1000
-"""Places of a slider at most; where a scene allows more, a slider stands at some of them."""
+"""Largest number of stops of a slider; a scene with more values gets some of them."""
 FINE = 200
-"""Places, about, of a slider to which the scene gives no step."""
+"""Approximate number of stops of a slider without a step in the scene."""
 HALF = Fraction(1, 2)
-"""How far a slider without a bound goes either way, in parts of its value."""
+"""Range of a slider without a bound to each side, in parts of its value."""
 
 
 class ParameterSlider(Struct, frozen=True):
-    """A parameter: its value as set, the values at which its slider stands, and which is nearest.
+    """A parameter: its value as set, the stops of its slider, and the index of the nearest stop.
 
-    ``low`` and ``high`` are its bounds as the scene states them, empty where it states none.
+    ``low`` and ``high`` are the bounds that the scene states, or empty.
     """
 
     name: str
@@ -63,7 +63,7 @@ def sliders(scene: Scene) -> Iterator[ParameterSlider]:
 
 
 def slider(scene: Scene, parameter: Parameter) -> ParameterSlider:
-    """The slider of one parameter, as it is set."""
+    """The slider of one parameter at its current value."""
     value = Fraction(str(scene.values[parameter.name]))
     low, high = ends(parameter, value)
     step = plain(parameter.step) if parameter.step else None
@@ -92,7 +92,7 @@ def nearest(places: Sequence[Fraction], value: Fraction) -> int:
 
 
 def ends(parameter: Parameter, value: Fraction) -> tuple[Fraction, Fraction]:
-    """How far a slider goes: to the bounds, or where there are none, about its own value."""
+    """The range of a slider: the bounds, or a range around its own value where there are none."""
     own = plain(parameter.value)
     least = plain(parameter.minimum) if parameter.minimum else None
     most = plain(parameter.maximum) if parameter.maximum else None
@@ -106,9 +106,10 @@ def ends(parameter: Parameter, value: Fraction) -> tuple[Fraction, Fraction]:
 def stops(
     start: Fraction, low: Fraction, high: Fraction, step: Fraction | None
 ) -> tuple[Sequence[Fraction], tuple[str, ...]]:
-    """The values at which a slider stands, and how they are written: the same while it moves.
+    """The stops of a slider and their texts; they do not change while the slider moves.
 
-    They lie on the steps from ``start``; without steps on round values, both ends included.
+    They lie on the steps from ``start``. Without steps they are round values, with both ends
+    included.
     """
     stride, begin = (fine(high - low), Fraction(0)) if step is None else (step, start)
     first, last = ceil((low - begin) / stride), floor((high - begin) / stride)
@@ -119,14 +120,14 @@ def stops(
 
 
 def fine(span: Fraction) -> Fraction:
-    """A round step, 1, 2 or 5 at some power of ten, that cuts a span into about so many."""
+    """A round step, 1, 2 or 5 times a power of ten, that divides a span into at most FINE steps."""
     if not span:
         return Fraction(1)
     power = Fraction(10) ** floor(log10(span / FINE))
     return next(step for m in (1, 2, 5, 10) if (step := m * power) * FINE >= span)
 
 
-# --- from the place that a problem names to the line and the key of the text that it is about -----
+# --- from the place of a problem to the line and key of the text ----------------------------------
 
 
 SOLID = ("frame", "links")
@@ -136,10 +137,10 @@ DRIVERS = ("drivers",)
 
 
 class MarkedProblem(Struct, frozen=True):
-    """A problem with where it stands: its line from 1, 0 where it has none, and what to select.
+    """A problem with its place: its line from 1 (0 without a place), and the piece to select.
 
-    ``start`` and ``end`` count as a browser does, a sign beyond the basic plane as two. ``column``,
-    from 1, is where the text fails to be TOML. ``mends`` are changes of which each would mend it.
+    ``start`` and ``end`` count UTF-16 units, as a browser does. ``column``, from 1, is where the
+    text fails to be TOML. ``mends`` are edits, each of which would correct the problem.
     """
 
     problem: Problem
@@ -173,7 +174,7 @@ def mark_of(problem: Problem, text: str, span: Span | None) -> MarkedProblem:
 
 
 def span_of(problem: Problem, text: str, found: Mapping[Path, Span]) -> Span | None:
-    """What of the text a problem is about; the nearest heading where its key is not written."""
+    """The piece of the text that a problem is about, or the nearest heading."""
     if told := line_of(problem):
         return span_of_line(text, told)
     if not problem.place:
@@ -188,16 +189,16 @@ def span_of(problem: Problem, text: str, found: Mapping[Path, Span]) -> Span | N
 
 
 def line_of(problem: Problem) -> InLine | None:
-    """The line that a problem is about, if it is about one."""
+    """The line that a problem is about, if any."""
     return next((each for each in problem.about if isinstance(each, InLine)), None)
 
 
 def paths(problem: Problem, found: Mapping[Path, Span]) -> Iterator[Path]:
-    """The paths that a problem may mean, the likeliest first.
+    """The paths that a problem may mean, the most likely first.
 
-    A pin that is missing is a point that one link alone has; of lengths that make no triangle the
-    longest is meant; what cannot be found by drawing is settled by a branch, else by a length
-    there, else by where the drivers stand.
+    A missing pin is a point of one link only; of lengths that form no triangle the longest is
+    meant. A position that cannot be found by drawing depends on a branch, or on a length, or on the
+    drivers.
     """
     for about in problem.about:
         match about:
@@ -217,7 +218,7 @@ def paths(problem: Problem, found: Mapping[Path, Span]) -> Iterator[Path]:
 
 
 def pinned(path: Path, found: Mapping[Path, Span]) -> Span | None:
-    """The first key of a link, or of the frame, that holds a point: ``B`` stands in ``A-B``."""
+    """The first key of a link, or of the frame, that holds a point: ``A-B`` holds ``B``."""
     if len(path) < 2 or path[0] not in SOLID:
         return None
     table = path[:-1]
@@ -226,7 +227,7 @@ def pinned(path: Path, found: Mapping[Path, Span]) -> Span | None:
 
 
 def holding(point: str, found: Mapping[Path, Span]) -> Iterator[Path]:
-    """The keys of links that hold a point and another: the lengths that place it."""
+    """The keys of links that hold a point and another point: the lengths that place it."""
     for path in found:
         names = str(path[-1]).split("-")
         if path[0] == "links" and len(path) == 3 and len(names) > 1 and point in names:
@@ -234,7 +235,7 @@ def holding(point: str, found: Mapping[Path, Span]) -> Iterator[Path]:
 
 
 def span_of_line(text: str, told: InLine) -> Span:
-    """A line without the blanks around it, from the sign at which it fails to be TOML."""
+    """A line without the blanks around it, from the character at which it fails to be TOML."""
     lines = text.split("\n")
     number, column = min(told.line, len(lines)), told.column - 1
     start = sum(len(line) + 1 for line in lines[: number - 1])
@@ -246,7 +247,7 @@ def span_of_line(text: str, told: InLine) -> Span:
     return Span(start + first, start + last)
 
 
-# --- what is seen of a scene's text at once -------------------------------------------------------
+# --- the immediate view of a scene's text ---------------------------------------------------------
 
 
 LINES = "\n"
@@ -272,19 +273,21 @@ cam = {{ tip = "roller", conjugate = {{}} }}
 [names]
 [notes]
 """
-"""A table of each kind: the reader tells its keys also where a text has none of the kind yet."""
+"""A scene with every kind of table, which gives the reader's keys for tables a text lacks."""
 
 
 @lru_cache(maxsize=1)
 def every_key() -> dict[str, list[str]]:
-    """The keys of a table of each kind."""
+    """The keys of every kind of table."""
     return known_keys(EVERY, "every")
 
 
 class EditingHelp(Struct, frozen=True):
-    """``keys`` are those that the reader knows, by the place of their table; ``points``, ``links``
-    and ``parameters`` are the names that the text gives, ``spots`` where each stands, that of a bar
-    AB at its key A-B: its start and end as a browser counts them.
+    """Names for completion and their places in the text.
+
+    ``keys`` are the reader's keys by the place of their table. ``points``, ``links`` and
+    ``parameters`` are the names in the text. ``spots`` are the start and end of each name, as a
+    browser counts them; a bar AB has the spot of its key A-B.
     """
 
     keys: dict[str, list[str]]
@@ -295,7 +298,7 @@ class EditingHelp(Struct, frozen=True):
 
 
 def editing_help(text: str, name: str) -> EditingHelp:
-    """The help of a text, as far as it can be read."""
+    """The names and keys of a text, as far as it can be read."""
     found = spans(text)
     points, links, parameters = dict[str, Span](), dict[str, Span](), dict[str, Span]()
     bars: dict[str, Span] = {}
@@ -318,10 +321,10 @@ def editing_help(text: str, name: str) -> EditingHelp:
 
 
 class Sight(Struct, frozen=True):
-    """What is to be looked at: a text, the values of its sliders, and how it is shown.
+    """A view of a text: the text, the values of its sliders, and the way to show it.
 
-    ``mechanism`` is the plan whose construction stands on the mechanism, ``quick`` lets labels
-    ride, ``language`` is the page's.
+    ``mechanism`` is the plan whose construction is shown on the mechanism. ``quick`` lets labels
+    keep their offsets. ``language`` is the language of the page.
     """
 
     text: str
@@ -353,7 +356,7 @@ def look(sight: Sight, memory: Memory, go_on: Callable[[], None]) -> dict[str, A
 
 
 def read(sight: Sight) -> Scene:
-    """The scene of a text; values of sliders that it has no longer are dropped."""
+    """The scene of a text; values of sliders that no longer exist are dropped."""
     found = spans(sight.text) if sight.settings else {}
     own = {name: set_ for name, set_ in sight.settings.items() if ("parameters", name) in found}
     return read_text(sight.text, sight.name, None, own)
@@ -366,7 +369,7 @@ def drawn(
     problems: list[Problem],
     go_on: Callable[[], None],
 ) -> dict[str, Any]:
-    """Drawings, results, margins and the verdict; what is doubtful is drawn and said."""
+    """Drawings, results, margins and the verdict; doubtful results are drawn with a note."""
     spoken = language_of(mechanism, sight.language)
     solution = sheet_motion(mechanism)
     verdict = mechanism.witness(solution, numbered=not sight.quick)
@@ -392,7 +395,7 @@ def drawn(
 
 
 def doubts(margin: float, verdict: Verdict) -> list[Problem]:
-    """Why no sheet would be handed out of a drawing that can be shown all the same."""
+    """The reasons why no sheet would be handed out of a drawing that can still be shown."""
     found = [lost(verdict)] if verdict.unsure else []
     if margin >= FAIR:
         return found
@@ -410,7 +413,7 @@ def told_in(problems: Iterable[Problem], text: str, language: str) -> list[dict[
 
 
 def told(mark: MarkedProblem, language: str) -> dict[str, Any]:
-    """A problem as a record, with its line and what to select; the setting it is about, if any."""
+    """A problem as a record: its words, its line, the piece to select, and its setting if any."""
     said = spoken(mark.problem, language)
     setting = next((each.name for each in mark.problem.about if isinstance(each, Setting)), "")
     return {
@@ -428,7 +431,7 @@ def told(mark: MarkedProblem, language: str) -> dict[str, Any]:
 
 
 def spoken_in(language: str) -> Words:
-    """The words of the page; English where a scene names a language that is not there."""
+    """The words of the page; English where the language is unknown."""
     try:
         return words(language)
     except KeyError:

@@ -1,4 +1,4 @@
-"""The changes of a text that would mend a mistake, as far as what is said of it names them."""
+"""The edits of a text that would correct a mistake, as far as its problem names them."""
 
 from __future__ import annotations
 
@@ -22,14 +22,14 @@ from graphkin.text.errors import (
 )
 
 MOST = 4
-"""Mends that are offered for one mistake."""
+"""Largest number of corrections offered for one mistake."""
 END_OF_LINE, END_OF_TABLE = re.compile(r"\n"), re.compile(r"\n\s*\[")
 
 
 class Edit(Struct, frozen=True):
-    """A piece of the text, counted as a browser does, and what comes in its place.
+    """A piece of the text, counted as a browser does, and its replacement.
 
-    ``name`` is the parameter, ``before`` the value that stands there now.
+    ``name`` is the parameter, ``before`` the current value.
     """
 
     start: int
@@ -45,7 +45,7 @@ def units(text: str) -> int:
 
 
 def mends_of(problem: Problem, text: str, span: Span | None) -> list[Edit]:
-    """The changes of which each would mend a problem that stands at a span, the likeliest first."""
+    """Edits, each of which would correct a problem at a span; the most likely come first."""
     if isinstance(problem.hint, Mend):
         own = None if span is None else corrected(problem.hint, text, span)
         return [] if own is None else [own]
@@ -56,8 +56,10 @@ def mends_of(problem: Problem, text: str, span: Span | None) -> list[Edit]:
 
 
 def corrected(hint: Mend, text: str, span: Span) -> Edit | None:
-    """The change that a hint proposes, in the lines of its span or of its table; None where what is
-    to be changed stands there not just once."""
+    """The edit that a hint proposes, in the lines of its span or of its table.
+
+    None where the piece to change does not occur exactly once.
+    """
     first = text.rfind("\n", 0, span.start) + 1
     before, after = (r"\b" if re.match(r"\w", sign) else "" for sign in (hint.old[0], hint.old[-1]))
     wanted = re.compile(before + re.escape(hint.old) + after)
@@ -73,19 +75,19 @@ def corrected(hint: Mend, text: str, span: Span) -> Edit | None:
 
 
 def parted(place: str) -> Path:
-    """The table and the key that a place names; the key alone is taken as it is written."""
+    """The table and the key that a place names; the key alone is kept as written."""
     *table, last = place.split(".") if place else [""]
     return (*parts(".".join(table)), last)
 
 
 class Lines:
-    """A text by its keys, whose lines are written anew, taken out or added."""
+    """A text with its keys, whose lines can be rewritten, removed or added."""
 
     def __init__(self, text: str, found: Mapping[Path, Span], values: Mapping[Path, Span]) -> None:
         self.text, self.found, self.values = text, found, values
 
     def changed_by(self, change: Change, problem: Problem) -> Iterator[Edit]:
-        """The edit that makes a change, if what it changes stands in the text."""
+        """The edit that makes a change, if its object is in the text."""
         path = parted(problem.place)
         match change:
             case Written():
@@ -105,7 +107,7 @@ class Lines:
                 yield from self.renamed(change)
 
     def written(self, change: Written, path: Path) -> Iterator[Edit]:
-        """A key with another value: in its line, in that of another, or in a line of its own."""
+        """Set the value of a key: in its own line, in the line of another key, or in a new line."""
         table, key = path[:-1], change.key or str(path[-1])
         line, other = f"{key} = {change.value}", (*table, change.instead or key)
         if other in self.found:
@@ -114,7 +116,7 @@ class Lines:
             yield self.added(table, str(table[0]), line)
 
     def without_driver(self, change: DriverTaken) -> Iterator[Edit]:
-        """The table of a driver taken out whole."""
+        """Remove the whole table of a driver."""
         for path, span in self.values.items():
             own = path[0] == "drivers" and path[-1] == change.key
             if own and self.of(span) == change.value:
@@ -124,7 +126,7 @@ class Lines:
                 yield self.edit(Span(heading.start, end), "")
 
     def renamed(self, change: PointRenamed) -> Iterator[Edit]:
-        """The first key of a link that names a point, with its other name."""
+        """Rename a point in the first key of a link that names it."""
         for path in self.found:
             names = str(path[-1]).split("-")
             if path[:2] != ("links", change.link) or len(path) != 3 or change.old not in names:
@@ -136,7 +138,7 @@ class Lines:
                 return
 
     def put_into(self, line: str, path: Path) -> Iterator[Edit]:
-        """A key with its value as the last of a table in braces."""
+        """Add a key and value at the end of an inline table."""
         span = self.values.get(path)
         if span is not None and self.of(span).endswith("}"):
             at = len(self.text[: span.end - 1].rstrip())
@@ -145,7 +147,7 @@ class Lines:
     # --- edits ---------------------------------------------------------------------------------
 
     def of(self, span: Span) -> str:
-        """What stands at a span."""
+        """The text at a span."""
         return self.text[span.start : span.end]
 
     def edit(self, span: Span, words: str, before: str = "") -> Edit:
@@ -154,18 +156,17 @@ class Lines:
         return Edit(start, end, words, before=before or self.of(span).strip())
 
     def changed(self, span: Span, words: str) -> Edit:
-        """A span with other words in it."""
         return self.edit(span, words)
 
     def without(self, span: Span) -> Edit:
-        """A line taken out whole, with its comment."""
+        """Remove a whole line with its comment."""
         start = self.text.rfind("\n", 0, span.start) + 1
         stop = self.text.find("\n", span.end)
         whole = Span(start, stop + 1 if stop >= 0 else len(self.text))
         return self.edit(whole, "", self.of(span))
 
     def added(self, path: Path, table: str, line: str) -> Edit:
-        """A line under the heading of a table; with the heading where there is none."""
+        """Add a line under the heading of a table, and the heading if it is missing."""
         heading = self.found.get(path)
         if heading is None or not self.of(heading).startswith("["):
             at = len(self.text)

@@ -1,7 +1,7 @@
-"""The drawings of the studio: the mechanism and its plans, each by itself and cut to what it holds.
+"""The drawings of the studio: the mechanism and its plans, each by itself and cut to its content.
 
-They are the fields of the sheets, by the same marks; only the words and tables around them are
-the page's own.
+They are the fields of the sheets, with the same marks; only the words and tables around them belong
+to the page.
 """
 
 from __future__ import annotations
@@ -33,13 +33,13 @@ from graphkin.writers.svg import element, rules
 from graphkin.writers.templates import marked_up
 
 Key = tuple[str, str, int | None, int]
-"""Class, name and step of a label, and which of those that share them."""
+"""Class, name and step of a label, and its number among labels that share them."""
 LETTERS = "label"
 """The class of the text of a label."""
 
 
 class LabelPlace(Struct, frozen=True):
-    """Where a label stood: from the middle of its subject to its own (mm), its height, a leader."""
+    """The place of a label: its offset from the middle of its object (mm), height, and leader."""
 
     x: float
     y: float
@@ -48,14 +48,14 @@ class LabelPlace(Struct, frozen=True):
 
 
 class FollowLabels(Struct, frozen=True):
-    """Where all labels of a field stood; those that were left out have no seat."""
+    """The places of all labels of a field; labels that were left out have none."""
 
     of: Mapping[Key, LabelPlace] = field(default_factory=dict)
     without: frozenset[Key] = frozenset()
 
 
 def seats_of(labels: Sequence[Label], marks: Sequence[Mark]) -> FollowLabels:
-    """Where the labels that a board wished for stand among its finished marks."""
+    """The places of a board's labels among its finished marks."""
     texts = [mark for mark in marks if isinstance(mark, Text) and style_class(mark) == LETTERS]
     placed = dict(zip(keys((t.cls, t.name, t.step) for t in texts), texts, strict=True))
     leaders = {m.name for m in marks if isinstance(m, LineMark) and style_class(m) == "leader"}
@@ -71,7 +71,7 @@ def seats_of(labels: Sequence[Label], marks: Sequence[Mark]) -> FollowLabels:
 
 
 def riding(board: FieldContent, seats: FollowLabels) -> list[Mark]:
-    """The marks of a board, its labels as far from their subjects as their seats are."""
+    """The marks of a board, each label at the stored offset from its object."""
     marks = [*board.marks, *board.footed(board.notes)]
     for key, label in keyed(board.labels):
         if key not in seats.without:
@@ -80,7 +80,7 @@ def riding(board: FieldContent, seats: FollowLabels) -> list[Mark]:
 
 
 def seated(label: Label, seat: LabelPlace | None, rect: Rect) -> Iterable[Mark]:
-    """One label at its seat, or beside its subject where it has none."""
+    """One label at its stored place, or next to its object without one."""
     x, y = middle_of(label)
     if seat is None:
         side = label.away or (0.7, -0.7)
@@ -122,7 +122,7 @@ def keyed(labels: Sequence[Label]) -> Iterator[tuple[Key, Label]]:
 
 
 def keys(named: Iterable[tuple[str, str, int | None]]) -> Iterator[Key]:
-    """Class, name and step, with a number that tells equal ones apart."""
+    """Class, name and step, with a number that separates equal ones."""
     seen: Counter[tuple[str, str, int | None]] = Counter()
     for each in named:
         yield (*each, seen[each])
@@ -136,18 +136,20 @@ MECHANISM = "mechanism"
 AROUND = 3.0
 """Room around the marks of a drawing, in mm."""
 PLAN = 0.25
-"""How far a plan's frame is widened at each side while values move, as a part of its size: near a
-dead point the plan would otherwise shrink to a dot."""
+"""Margin of a plan's frame at each side while values move, in parts of its size.
+
+Near a dead point the plan would otherwise shrink to a dot.
+"""
 GRID = 5.0
-"""Edges of a drawing lie on such a grid, in mm, so that it keeps still while values move."""
+"""Grid in mm for the edges of a drawing, so that the edges hardly move while values move."""
 
 
 class StaleError(Exception):
-    """Something newer is asked for, and what is being drawn is not wanted any more."""
+    """A newer request has arrived, and the drawing in progress is no longer wanted."""
 
 
 class AtRest(Struct, frozen=True):
-    """The scale factors and fields of a text's drawings when they were last laid out freely."""
+    """The scale factors and fields of a text's drawings at their last free layout."""
 
     text: str
     scales: Scales
@@ -155,10 +157,10 @@ class AtRest(Struct, frozen=True):
 
 
 class Memory(Struct):
-    """What stays from one answer to the next: scales and fields, seats of labels, edges.
+    """The state kept between answers: scales and fields, places of labels, edges.
 
-    ``frames`` are the edges of the drawings at rest, ``edges`` those of the drawings as they move;
-    ``program`` is the construction of a text, which is one for all values of its parameters.
+    ``frames`` are the edges of the drawings at rest, ``edges`` those of the moving drawings.
+    ``program`` is the construction of a text, which holds for all values of its parameters.
     """
 
     at_rest: AtRest | None = None
@@ -168,9 +170,9 @@ class Memory(Struct):
     program: tuple[str, Program] | None = None
 
     def mechanism(self, scene: Scene, text: str) -> Mechanism:
-        """The mechanism of a text, its construction written once.
+        """The mechanism of a text, whose construction is written once.
 
-        Raises StructureError where the values of its parameters let it not be put together.
+        Raises StructureError where the values of its parameters do not allow its assembly.
         """
         found = Mechanism(scene)
         if self.program and self.program[0] == text and found.groups:
@@ -180,11 +182,11 @@ class Memory(Struct):
         return found
 
     def held(self, text: str) -> Scales | None:
-        """The scale factors that are kept while values of a text move; None where none are."""
+        """The scale factors that are kept while values of a text move; None without any."""
         return self.at_rest.scales if self.at_rest and self.at_rest.text == text else None
 
     def layouts(self, drawings: Sequence[Drawing], text: str, *, quick: bool) -> dict[str, Layout]:
-        """Where each drawing stands: while values move where it stood at rest, else anew.
+        """The layout of each drawing: while values move as it was at rest, otherwise new.
 
         Raises PageError where the drawings are too large for their fields.
         """
@@ -196,7 +198,7 @@ class Memory(Struct):
 
 
 class Panel(Struct, frozen=True):
-    """One drawing: which it is, its caption in tags, and its picture."""
+    """One drawing: its name, its caption as HTML, and its picture."""
 
     name: str
     caption: str
@@ -205,7 +207,7 @@ class Panel(Struct, frozen=True):
 
 
 def moved(drawing: Drawing, layout: Layout) -> Layout:
-    """The layout of a drawing whose values have moved: its fields hold their scale and origin."""
+    """The layout of a drawing with moved values, with scale and origin of its fields kept."""
     metres = drawing.scales.metres(drawing.kind)
     fields = replace(
         layout,
@@ -216,7 +218,7 @@ def moved(drawing: Drawing, layout: Layout) -> Layout:
 
 
 def widened(field: Field, extent: Extent, metres: float) -> Field:
-    """A field with room for a drawing, whose points fall where they did before."""
+    """A field enlarged to hold a drawing, with unchanged places of points."""
     low, high = complex(extent.left, extent.bottom), complex(extent.right, extent.top)
     (left, bottom), (right, top) = field(low / metres), field(high / metres)
     drawn = left - MARGIN, top - ABOVE, right + MARGIN, bottom + ABOVE
@@ -224,7 +226,7 @@ def widened(field: Field, extent: Extent, metres: float) -> Field:
 
 
 def around(one: Rect, other: Rect) -> Rect:
-    """The rectangle around two."""
+    """The rectangle around two rectangles."""
     left, top = (min(pair) for pair in zip(one[:2], other[:2], strict=True))
     right, bottom = (max(pair) for pair in zip(one[2:], other[2:], strict=True))
     return left, top, right, bottom
@@ -233,10 +235,10 @@ def around(one: Rect, other: Rect) -> Rect:
 def panels(
     drawings: Sequence[Drawing], text: str, shown: str, memory: Memory, *, quick: bool
 ) -> Iterator[tuple[Panel, Sequence[Problem]]]:
-    """The mechanism with the construction of one plan, then the plans; with what did not fit.
+    """The mechanism with the construction of one plan, then the plans, with problems of fit.
 
-    ``shown`` is the kind whose construction stands on the mechanism. ``quick``, while values of the
-    scene's text move, holds scales and fields, and lets labels ride.
+    ``shown`` is the kind of plan whose construction is shown on the mechanism. ``quick``, while
+    values of the scene's text move, keeps scales and fields, and lets labels keep their offsets.
     """
     on_mechanism = next((d for d in drawings if d.kind == shown), drawings[0])
     places = memory.layouts(drawings, text, quick=quick)
@@ -265,7 +267,7 @@ def panels(
 
 
 def board_of(name: str, drawing: Drawing, layout: Layout) -> FieldContent:
-    """The field of the mechanism, or that of the plan, its labels not yet placed."""
+    """The field of the mechanism or of the plan, with labels not yet placed."""
     draw = left_board if name == MECHANISM else right_board
     return draw(drawing, layout, "key")
 
@@ -273,20 +275,20 @@ def board_of(name: str, drawing: Drawing, layout: Layout) -> FieldContent:
 def finished(name: str, drawing: Drawing, layout: Layout, board: FieldContent) -> list[Mark]:
     """The marks of a field with every label at a free place. Raises PageError where one has none.
 
-    Centres that lie far off the mechanism have their insets.
+    Centres far off the mechanism get insets.
     """
     marks = with_detail(board)
     return [*marks, *insets(drawing, layout.mechanism, marks)] if name == MECHANISM else marks
 
 
 def grown(before: Rect, needed: Rect, most: Rect) -> Rect:
-    """Edges that hold what is drawn now and before, as far as they lie within the widest."""
+    """Edges that hold the current and the earlier drawing, within the widest edges allowed."""
     left, top, right, bottom = around(before, needed)
     return max(left, most[0]), max(top, most[1]), min(right, most[2]), min(bottom, most[3])
 
 
 def outside(frame: Rect, part: float) -> Rect:
-    """A frame with a part of its size added at every side."""
+    """A frame extended at every side by a part of its size."""
     across, up = part * (frame[2] - frame[0]), part * (frame[3] - frame[1])
     return frame[0] - across, frame[1] - up, frame[2] + across, frame[3] + up
 
@@ -311,6 +313,6 @@ def picture(name: str, marks: Iterable[Mark], edges: Rect, drawing: Drawing) -> 
 
 
 def style(found: Iterable[Panel]) -> str:
-    """The rules for the marks of some drawings, in the colours of the page."""
+    """The style rules for the marks of some drawings, in the colours of the page."""
     marks = (mark for panel in found for mark in panel.marks)
     return in_variables("\n".join(rules(marks, "colour")))

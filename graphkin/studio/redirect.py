@@ -1,6 +1,6 @@
-"""A file for this user alone that leads a browser to the page.
+"""A file readable by this user alone that redirects a browser to the page.
 
-The command line of a browser can be read by everybody on a computer: it names this file, and not
+Every user of a computer can read the command line of a browser, so it names this file rather than
 the address with its token.
 """
 
@@ -25,20 +25,20 @@ PAGE = """<!DOCTYPE html>
 
 
 class Redirect:
-    """A redirect that is there from its writing until the page is asked for."""
+    """A redirect that exists from its writing until the page is requested."""
 
     def __init__(self) -> None:
         self.folder: Path | None = None
 
     def write(self, address: str) -> str:
-        """Write the file into a folder that only this user may open; the file's own address."""
+        """Write the file into a folder that only this user may open; return its address."""
         self.folder = Path(mkdtemp(prefix="graphkin-"))
         path = self.folder / "studio.html"
         path.write_text(PAGE.format(address=escape(address)), encoding="utf-8")
         return path.as_uri()
 
     def remove(self) -> None:
-        """Remove the file, where it is still there."""
+        """Remove the file, if it still exists."""
         folder, self.folder = self.folder, None
         if folder:
             rmtree(folder, ignore_errors=True)

@@ -1,4 +1,4 @@
-"""The numbers beside the drawings: what is read off, where lines cross flat, and the verdict."""
+"""The numbers next to the drawings: readings, flat crossings, and the verdict."""
 
 from __future__ import annotations
 
@@ -26,9 +26,9 @@ from graphkin.text.plain_table import NOISE
 from graphkin.writers.templates import from_template
 
 FLATTEST = 6
-"""Crossings that are shown."""
+"""Number of crossings shown."""
 FLAT, SLANTED = 15.0, 30.0
-"""Angles in degrees below which a crossing is too flat to be fair, and below which it is poor."""
+"""Angles in degrees below which a crossing is unfairly flat, and below which it is poor."""
 WHERE = {
     Part.POSITION: "studio.in_mechanism",
     Part.VELOCITY: "sheet.velocity",
@@ -37,12 +37,13 @@ WHERE = {
     Part.CENTRE: "studio.in_centre",
     Part.POLE: "studio.in_pole",
 }
-"""What is said of where a crossing is drawn."""
+"""The words for the place of a crossing."""
 
 
 def results(drawings: Sequence[Drawing], solution: Solution) -> str:
-    """What is asked and cannot be read off; what is read off the plans, the angular values, what
-    slides, centres and poles.
+    """The results as HTML: notes, then vectors, angular values, sliding values and centres.
+
+    The notes say what is asked for but cannot be read off.
     """
     notes = [note for drawing in drawings for note in unread(drawing, symbol)]
     parts: list[str] = [from_template("studio/web/notes.html", notes=notes)]
@@ -51,7 +52,7 @@ def results(drawings: Sequence[Drawing], solution: Solution) -> str:
 
 
 def read_off(drawing: Drawing, solution: Solution) -> Iterator[str]:
-    """The tables of one sheet; a value of which no digit is sure is left out."""
+    """The tables of one sheet, with a dash for each value without a reliable digit."""
     words = drawing.words
     lost = losses(drawing, solution)
     unit = words(f"table.{drawing.kind}")
@@ -67,10 +68,10 @@ def read_off(drawing: Drawing, solution: Solution) -> Iterator[str]:
 
 
 def losses(drawing: Drawing, solution: Solution) -> Callable[[str], bool]:
-    """Of which rows of a sheet's tables no digit is sure: NaN in the solution.
+    """A test for rows of a sheet's tables without a reliable digit, that is NaN in the solution.
 
-    Vectors that the solution does not hold, such as those of one point relative to another, are as
-    sure as all that it holds.
+    Vectors that the solution does not hold, such as relative vectors, are reliable if everything in
+    the solution is.
     """
     parts = (
         (f"{drawing.vector.letter}_", drawing.vector, solution.points),
@@ -87,7 +88,7 @@ def losses(drawing: Drawing, solution: Solution) -> Callable[[str], bool]:
 
 
 def told(rows: Iterable[Row], lost: Callable[[str], bool], heads: int) -> list[Row]:
-    """Rows with a dash for each value that is lost, after so many cells that name it."""
+    """Rows in which lost values are replaced by dashes, after the first ``heads`` cells."""
     return [
         replace(row, cells=(*row.cells[:heads], *["–"] * (len(row.cells) - heads)))
         if lost(row.name)
@@ -97,7 +98,7 @@ def told(rows: Iterable[Row], lost: Callable[[str], bool], heads: int) -> list[R
 
 
 def places(scene: Scene, solution: Solution, words: Words) -> Iterator[str]:
-    """Where the centres and poles lie that are asked, in the unit of the scene."""
+    """The places of the centres and poles that are asked for, in the unit of the scene."""
     full, breadth, unit = with_blocks(scene, solution), breadth_of(solution), scene.units["length"]
     asked: list[tuple[str, Ratio | None]] = [
         (
@@ -127,7 +128,7 @@ def places(scene: Scene, solution: Solution, words: Words) -> Iterator[str]:
 
 
 def margins(drawings: Sequence[Drawing]) -> str:
-    """The flattest crossings, with what a millimetre of pencil becomes there."""
+    """The flattest crossings, with the effect of one millimetre of pencil error."""
     words = drawings[0].words
     found = chain.from_iterable(crossings_on(drawing) for drawing in drawings)
     worst = sorted(found, key=lambda crossing: crossing.angle)[:FLATTEST]
@@ -139,7 +140,7 @@ def margins(drawings: Sequence[Drawing]) -> str:
 
 
 def margin_row(crossing: Crossing, words: Words) -> Row:
-    """One crossing: its letter, where it is drawn, its angle, and what becomes of a millimetre."""
+    """One crossing: its letter, its place, its angle, and the effect of a millimetre."""
     angle = words.fixed(degrees(crossing.angle), 1)
     factor = words.significant(crossing.factor, 2)
     flat = f" ({words('studio.flat')})" if look_of(crossing) == "flat" else ""
@@ -148,13 +149,13 @@ def margin_row(crossing: Crossing, words: Words) -> Row:
 
 
 def look_of(crossing: Crossing) -> str:
-    """How a crossing is marked: flat, slanted, or not at all."""
+    """The class of a crossing: flat, slanted, or empty."""
     angle = degrees(crossing.angle)
     return "flat" if angle < FLAT else "slanted" if angle < SLANTED else ""
 
 
 def verdict_words(verdict: Verdict, scene: Scene, words: Words) -> str:
-    """What the independent route says, and how far apart both may be."""
+    """The verdict of the independent route, and the largest difference allowed."""
     difference = words.significant(verdict.largest_difference, 2)
     limit = words.significant(verdict.limit, 2)
     if verdict.agrees:
@@ -169,7 +170,7 @@ def verdict_words(verdict: Verdict, scene: Scene, words: Words) -> str:
 
 
 def table(caption: str, head: Sequence[str], rows: Sequence[Row], looks: Iterable[str] = ()) -> str:
-    """A table in tags, its cells given as markup; nothing where it has no rows."""
+    """A table as HTML with cells given as markup; empty without rows."""
     if not rows:
         return ""
     cells = [row.cells for row in rows]

@@ -1,4 +1,4 @@
-"""The addresses of the studio and its server: on the loopback address alone, behind a new token."""
+"""The addresses of the studio and its server, on the loopback address and behind a new token."""
 
 from __future__ import annotations
 
@@ -23,12 +23,12 @@ from graphkin.text.errors import GraphkinError, PageError, Problem
 from graphkin.writers.templates import from_template
 
 SPOKEN = "studio."
-"""How the keys of the studio's sentences begin: those that stand in the page or are said later."""
+"""Prefix of the keys of the studio's sentences, in the page and in later messages."""
 PLANS = ("sheet.velocity", "sheet.acceleration")
 
 
 def page(opened: Opened, words: Words) -> str:
-    """The whole page, to begin with a text; the words of all languages go with it."""
+    """The complete page for a text, with the words of all languages."""
     spoken = {language: spoken_in(language) for language in LANGUAGES}
     said = {language: said_in(language) for language in LANGUAGES}
     start = {"language": words.language, "words": said}
@@ -74,11 +74,11 @@ WORK = (
     "begin",
     "motion",
 )
-"""What the page asks the desk to do."""
+"""The requests of the page to the session."""
 
 
 def application(session: Session) -> Any:
-    """The WSGI application of a desk."""
+    """The WSGI application of a session."""
     app = new_application(HERE)
     app.route("/", "GET", lambda: start_page(session))
     app.route("/moving/<key:re:[a-zA-Z0-9_-]+>", "GET", lambda key: moving_page(session, key))
@@ -89,13 +89,13 @@ def application(session: Session) -> Any:
 
 
 def done_by(session: Session, name: str) -> Callable[[bytes], bytes]:
-    """What the desk does for the page under a name."""
+    """The handler of a session for a request."""
     work = getattr(session, name)
     return lambda data: record(work(PageRequest(data)))
 
 
 def scenes(session: Session) -> Any:
-    """What there is to start from."""
+    """The scenes that can be opened."""
     return answer(200, JSON, record(session.listed(asked_language() or "en")))
 
 
@@ -114,7 +114,7 @@ def start_page(session: Session) -> Any:
 
 
 def asked_language() -> str:
-    """The language that an address names; nothing for one that is none."""
+    """The language that an address names; empty for an unknown one."""
     from bottle import request
 
     language = str(request.query.getunicode("lang", ""))
@@ -122,7 +122,7 @@ def asked_language() -> str:
 
 
 def moving_page(session: Session, key: str) -> Any:
-    """A page that moves by itself, to stand within the page."""
+    """A moving page, shown inside the page."""
     from bottle import HTTPResponse
 
     found = session.moving.get(key)
@@ -133,23 +133,25 @@ def moving_page(session: Session, key: str) -> Any:
 
 
 def record(found: dict[str, Any]) -> bytes:
-    """What is answered, as JSON."""
+    """An answer as JSON."""
     text = json.dumps(found, ensure_ascii=False, allow_nan=False, separators=(",", ":"))
     return text.encode()
 
 
 HOME = "127.0.0.1"
 THREADS = 16
-"""Requests answered at once: of each page that is remembered one look and one to save."""
+"""Requests answered at once: one look and one save for each remembered page."""
 CONNECTIONS = 500
 NOTHING: Mapping[str, str] = {}
 IDLE, SWEEP = 2, 1
-"""Seconds after which a connection that asks for nothing is closed, and between two searches for
-such connections: where more are open than may be, a page waits no longer than both."""
+"""Seconds before an idle connection is closed, and seconds between two searches for them.
+
+When too many connections are open, a page waits no longer than the sum of both.
+"""
 
 
 class Served(Struct, frozen=True):
-    """A server that listens; ``address`` holds the token, ``server`` runs and closes."""
+    """A listening server; ``address`` holds the token, ``server`` runs and closes."""
 
     address: str
     port: int
@@ -162,11 +164,10 @@ def serve(
     first: Mapping[str, str] = NOTHING,
     known: Callable[[], None] = lambda: None,
 ) -> Served:
-    """Listen for the page of a desk, which opens what is named ``first``; port 0 is a free one.
+    """Listen for the page of a session, which opens the scene named in ``first``.
 
-    ``known`` is called whenever a request shows the token.
-
-    Raises as ``served`` does.
+    Port 0 means a free port. ``known`` is called for every request with the token. Raises as
+    ``served`` does.
     """
     return served(lambda: application(session), port, first, known)
 
@@ -177,9 +178,9 @@ def served(
     first: Mapping[str, str] = NOTHING,
     known: Callable[[], None] = lambda: None,
 ) -> Served:
-    """Listen for the page of an application, which is ``made`` when its libraries are there.
+    """Listen for the page of an application, which is ``made`` once its libraries are found.
 
-    Raises PageError where the port is taken, or where the libraries of the studio are missing.
+    Raises PageError where the port is in use, or where the libraries of the studio are missing.
     """
     try:
         from waitress import create_server
@@ -187,7 +188,7 @@ def served(
         hint = "install them: pip install 'graphkin[studio]'"
         raise PageError(Problem("studio", "needs bottle and waitress", hint=hint)) from None
 
-    logging.getLogger("waitress.queue").setLevel(logging.ERROR)  # that one waits is no news
+    logging.getLogger("waitress.queue").setLevel(logging.ERROR)  # a waiting request is no news
     listening = listener(port)
     port = listening.getsockname()[1]
     token = new_token()

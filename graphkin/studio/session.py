@@ -1,4 +1,4 @@
-"""What the studio knows while it runs, and what it does for its page: one thing at a time."""
+"""The state of the studio while it runs, and its work for the page: one drawing at a time."""
 
 from __future__ import annotations
 
@@ -68,15 +68,15 @@ VIEWS = ("key", "task", "steps", "overlay")
 PAGE = "html"
 FORMATS = ("svg", "pdf", PAGE, "dxf", "pmks")
 MOST_LINES = 12
-"""Lines that are shown of what saving would change in a file that is in the way."""
+"""Number of lines shown of the changes to an existing file."""
 
 
 class Saved(Struct, frozen=True):
-    """What became of it: the names of the files written, or of those that are in the way.
+    """The result of saving: the names of the files written, or of existing files in the way.
 
-    ``mark`` identifies the content of the scene that was written, ``rules_mark`` that of its
-    lab.toml; ``changes`` are the lines in which texts that are in the way differ from those to be
-    saved, as `difflib` writes them.
+    ``mark`` identifies the content of the written scene, ``rules_mark`` the content of its
+    lab.toml. ``changes`` are the lines in which existing texts differ from those to be saved, as
+    `difflib` writes them.
     """
 
     files: tuple[str, ...] = ()
@@ -87,7 +87,7 @@ class Saved(Struct, frozen=True):
 
 
 class OwnRules(Struct, frozen=True):
-    """The text of a lab.toml, and what identifies the content that the page last read or saved."""
+    """The text of a lab.toml, and the mark of the content that the page last read or saved."""
 
     text: str
     mark: str = ""
@@ -102,12 +102,12 @@ def save_scene(
     replace: bool,
     rules: OwnRules | None = None,
 ) -> Saved:
-    """Write the text of a scene, and its lab.toml with it, both or neither; not over files that are
-    there, unless told to.
+    """Write the text of a scene, and its lab.toml if given: both or neither.
 
-    ``mark`` identifies the content that the page last read or saved under this name: a file that
-    still holds it is replaced without asking. Raises SceneError for a name that leads elsewhere,
-    or of a scene that can have no lab.toml, PageError where nothing can be written.
+    Existing files are kept unless ``replace`` is set. ``mark`` identifies the content that the page
+    last read or saved under this name; a file that still holds it is replaced without asking.
+    Raises SceneError for a name outside the folder, or of a scene that can have no lab.toml, and
+    PageError where nothing can be written.
     """
     texts = {folder.path(name): (text, mark)}
     if rules:
@@ -128,9 +128,9 @@ def save_scene(
 
 
 def changes(path: Path, text: str) -> tuple[str, ...]:
-    """The lines that saving a text would take from a file (-) and put into it (+), the first ones.
+    """The first lines that saving a text would remove from a file (-) and add to it (+).
 
-    None for a file that cannot be read.
+    Empty for a file that cannot be read.
     """
     try:
         before = decoded(read_bytes(path))
@@ -141,12 +141,12 @@ def changes(path: Path, text: str) -> tuple[str, ...]:
 
 
 def mark_of(data: bytes) -> str:
-    """What tells one content of a file from another."""
+    """The hash that identifies the content of a file."""
     return sha256(data).hexdigest()
 
 
 def mark_of_file(path: Path) -> str:
-    """The same of a file; nothing of one that cannot be read."""
+    """The hash of a file's content; empty for a file that cannot be read."""
     try:
         return mark_of(whole_file(path))
     except OSError:
@@ -154,7 +154,7 @@ def mark_of_file(path: Path) -> str:
 
 
 class WantedSheets(Struct, frozen=True):
-    """Which sheets are wanted: of which text under which name, in which language and form."""
+    """The sheets to draw: text, name, values, language, view and formats."""
 
     text: str
     name: str
@@ -165,10 +165,9 @@ class WantedSheets(Struct, frozen=True):
 
 
 def sheets_of(folder: Folder, wanted: WantedSheets) -> dict[str, bytes]:
-    """The files of a scene's sheets by name, as ``graphkin sheet`` writes and names them where the
-    value of every parameter is set.
+    """The files of a scene's sheets by name, as ``graphkin sheet`` writes and names them.
 
-    Raises as the reading of a scene and hand_out do.
+    Every parameter is set. Raises the errors of reading a scene and of hand_out.
     """
     name, settings, view, formats = wanted.name, wanted.settings, wanted.view, wanted.formats
     text, language = wanted.text, wanted.language
@@ -188,9 +187,9 @@ def values_of(scene: Scene) -> dict[str, str]:
 
 
 def lab_of(folder: Folder, name: str, text: str) -> str:
-    """The lab whose form belongs to a scene: that of its own folder, or a shipped one unchanged.
+    """The lab whose form belongs to a scene: its own folder, or an unchanged lab of graphkin.
 
-    The name of the scene's file, which is no lab, where there is none.
+    Without such a lab, the name of the scene's file.
     """
     if name.rpartition("/")[2] == SCENE:
         return str(folder.path(name).parent)
@@ -199,7 +198,7 @@ def lab_of(folder: Folder, name: str, text: str) -> str:
 
 
 def save_files(folder: Folder, files: Mapping[str, bytes], *, replace: bool) -> Saved:
-    """Write files into the folder, all or none; not over others, unless told to."""
+    """Write files, all or none; existing files are kept unless ``replace`` is set."""
     exist = tuple(name for name in files if os.path.lexists(folder.root / name))
     if exist and not replace:
         return Saved(exist=exist)
@@ -211,13 +210,14 @@ def save_files(folder: Folder, files: Mapping[str, bytes], *, replace: bool) -> 
 
 
 LONGEST = 100
-"""Signs of a value that is written."""
+"""Largest number of characters of a written value."""
 
 
 def edits(text: str, settings: Mapping[str, str]) -> list[Edit]:
-    """What is to be changed so that the parameters have these values; the last place first.
+    """The edits that give the parameters these values; the last place comes first.
 
-    A value that the text states already changes nothing. Raises SceneError for what is no number.
+    A value that the text already states needs no edit. Raises SceneError for a value that is no
+    number.
     """
     known = values(text)
     found = []
@@ -234,9 +234,9 @@ def edits(text: str, settings: Mapping[str, str]) -> list[Edit]:
 
 
 def literal(name: str, value: str) -> str:
-    """A value as TOML: a number where a decimal says it whole, else a fraction in quotes.
+    """A value as TOML: a number if a decimal is exact, else a fraction in quotes.
 
-    Raises SceneError for what is no rational number.
+    Raises SceneError for a value that is not a rational number.
     """
     findings = Findings()
     number = number_of(value, findings)
@@ -249,28 +249,30 @@ def literal(name: str, value: str) -> str:
 
 
 def same(before: str, after: str) -> bool:
-    """Whether two values as TOML are one number."""
+    """Whether two TOML values are the same number."""
     one, other = (number_of(value.strip("\"'"), Findings()) for value in (before, after))
     return one is not None and one == other
 
 
 def number_of(value: str, findings: Findings) -> Fraction | None:
-    """The exact number of a text; None, with a problem noted, where it is none."""
+    """The exact number of a text; None, with a problem recorded, if it is no number."""
     read = rational("", value[:LONGEST], findings)
     return None if read is None else plain(read)
 
 
-# --- what the page asks for, as it comes in: every field of the kind and size that it must have ---
+# --- the requests of the page: every field must have its kind and size ----------------------------
 
 
 MOST_BYTES = 4 * LARGEST
-"""Bytes of a request at most: a scene of the largest size, every sign of it written as an escape
-but the rarest."""
+"""Largest number of bytes of a request.
+
+It is the size of the largest scene with every character escaped, except the rarest characters.
+"""
 MOST_SETTINGS, LONGEST_SETTING = 200, 100
 MOST_PLACES, FARTHEST = 500, 1e9
-"""Points whose places are told, and how far off one may be."""
+"""Largest number of points with places, and largest distance of a point."""
 SHORT = 300
-"""Signs of names and marks."""
+"""Largest number of characters of names and marks."""
 
 
 class PageRequestError(Exception):
@@ -278,7 +280,7 @@ class PageRequestError(Exception):
 
 
 class PageRequest:
-    """The fields of a request by name; reading one that is not so raises PageRequestError."""
+    """The fields of a request by name; reading an invalid field raises PageRequestError."""
 
     def __init__(self, data: bytes) -> None:
         try:
@@ -290,7 +292,7 @@ class PageRequest:
         self.fields: dict[str, Any] = fields
 
     def text(self, key: str, most: int = SHORT) -> str:
-        """A text; nothing where it is not given."""
+        """A text; empty where it is missing."""
         found = self.fields.get(key, "")
         if not isinstance(found, str) or len(found) > most:
             raise PageRequestError(key)
@@ -301,7 +303,7 @@ class PageRequest:
         return found
 
     def scene(self) -> str:
-        """The text of a scene; one too large is for the reader of scenes to refuse."""
+        """The text of a scene; the reader of scenes refuses one that is too large."""
         return self.long_text("text")
 
     def long_text(self, key: str) -> str:
@@ -309,39 +311,39 @@ class PageRequest:
         return self.text(key, MOST_BYTES)
 
     def flag(self, key: str) -> bool:
-        """Whether something is so; not where it is not given."""
+        """A boolean; False where it is missing."""
         found = self.fields.get(key, False)
         if not isinstance(found, bool):
             raise PageRequestError(key)
         return found
 
     def number(self, key: str) -> int:
-        """A whole number; 0 where it is not given."""
+        """A whole number; 0 where it is missing."""
         found = self.fields.get(key, 0)
         if not isinstance(found, int) or isinstance(found, bool) or not 0 <= found < 2**53:
             raise PageRequestError(key)
         return found
 
     def choice(self, key: str, known: tuple[str, ...]) -> str:
-        """One of some words; the first where it is not given."""
+        """One of some words; the first where it is missing."""
         found = self.fields.get(key, known[0])
         if found not in known:
             raise PageRequestError(key)
         return str(found)
 
     def choices(self, key: str, known: tuple[str, ...]) -> tuple[str, ...]:
-        """Some of some words, in their order; at least one."""
+        """A selection of some words, in their order; at least one."""
         found = self.fields.get(key)
         if not isinstance(found, list) or not found or any(word not in known for word in found):
             raise PageRequestError(key)
         return tuple(word for word in known if word in found)
 
     def place(self, key: str) -> complex:
-        """A place in the field; its origin where it is not given."""
+        """A place in the field; the origin where it is missing."""
         return place_of(key, self.fields.get(key, [0, 0]))
 
     def places(self) -> dict[str, complex]:
-        """Where points stand, by their names."""
+        """The places of points, by their names."""
         found = self.fields.get("places", {})
         if not isinstance(found, dict) or len(found) > MOST_PLACES:
             raise PageRequestError("places")
@@ -368,7 +370,7 @@ class PageRequest:
 
 
 def place_of(key: str, found: Any) -> complex:
-    """A place as the page tells it. Raises PageRequestError for what is none."""
+    """A place as the page sends it. Raises PageRequestError for any other value."""
     if not isinstance(found, list) or len(found) != 2:
         raise PageRequestError(key)
     for value in found:
@@ -378,31 +380,30 @@ def place_of(key: str, found: Any) -> complex:
     return complex(*found)
 
 
-# --- what the studio knows while it runs, and what it does for its page: one thing at a time ------
+# --- the state of the studio while it runs --------------------------------------------------------
 
 
 OPENED = ("lab", "example", "like", "empty", "scene")
-"""What an address may ask to open, by its key."""
+"""The keys with which an address may open something."""
 PICTURED = ("scene", "lab", "example")
-"""What has a picture in the gallery."""
+"""The kinds of entries with a picture in the gallery."""
 TABS = 8
-"""Pages whose last drawing is remembered."""
+"""Number of pages whose last drawing is remembered."""
 EMPTY = """graphkin = 1
 title = "New mechanism"
 units = { length = "mm", angle = "deg", speed = "rev/min" }
 """
 """A scene in which nothing is built yet."""
 FIRST = "graphkin ="
-"""How the first line of a scene begins."""
+"""The start of the first line of a scene."""
 
 
 def language_in(order: PageRequest) -> str:
-    """The language of the page."""
     return order.choice("language", LANGUAGES)
 
 
 def with_curves(mechanism: Mechanism, stem: str, language: str, driver: int | None) -> str:
-    """The page of a cycle, of one driver or of all with the time: what moves together."""
+    """The page of a cycle, with one driver moving or all drivers moving with the time."""
     from graphkin.motion.cycle import cycle
     from graphkin.web.frames import motion
     from graphkin.web.player import player_page
@@ -412,7 +413,7 @@ def with_curves(mechanism: Mechanism, stem: str, language: str, driver: int | No
 
 
 def step_by_step(mechanism: Mechanism, stem: str, language: str, driver: int | None) -> str:
-    """The page that draws itself, whose pins are dragged, each driver's by its own handle."""
+    """The step page, in which each driver's pins can be dragged by a handle."""
     return hand_out_page(mechanism, stem, stem, language=language)
 
 
@@ -421,11 +422,11 @@ MOVING = tuple(MOVING_PAGES)
 
 
 class Opened(Struct, frozen=True):
-    """A text to begin with, and the name of the file as which it would be saved.
+    """A text to open, and the name of the file in which it would be saved.
 
     ``mark`` identifies the content of that file; it is empty for a text that is in no file here.
-    ``rules`` are the text of the lab.toml that belongs to it, ``rules_mark`` the same of that.
-    ``gone``: there is no such file here, whatever a browser may keep of it.
+    ``rules`` is the text of the lab.toml that belongs to it, ``rules_mark`` its mark. ``gone`` says
+    that the file does not exist here, whatever a browser may have stored of it.
     """
 
     name: str
@@ -437,10 +438,10 @@ class Opened(Struct, frozen=True):
 
 
 class Session:
-    """The folder, the language of the page, and what each open page last saw.
+    """The folder, the language of the page, and the last state of each open page.
 
-    Drawings are made by one thread at a time: their fonts and caches are shared, and a newer move
-    of a slider makes an older one needless. Texts are saved without waiting for a drawing.
+    Only one thread draws at a time: fonts and caches are shared, and a newer move of a slider makes
+    an older one obsolete. Texts are saved without waiting for a drawing.
     """
 
     def __init__(self, folder: Folder, language: str | None = None) -> None:
@@ -453,14 +454,14 @@ class Session:
         self.moving: OrderedDict[str, str] = OrderedDict()
 
     def words(self, text: str, chosen: str = "") -> Words:
-        """The words of the page: those chosen on it or at the start, else the scene's own."""
+        """The words of the page: as chosen, else those of the scene's language."""
         return spoken_in(chosen or self.language or language_of(text))
 
     def address_of(self, name: str) -> dict[str, str]:
-        """How the page is told what to open: a shipped lab, or a scene of the folder, by its path;
-        for what is named as a lab, its rules as well.
+        """The query that opens a lab of graphkin, or a scene of the folder by its path.
 
-        Raises SceneError for what is neither, or lies outside the folder.
+        For a lab, the query opens its rules as well. Raises SceneError for a name that is neither,
+        or outside the folder.
         """
         if not name:
             return {}
@@ -470,10 +471,10 @@ class Session:
         return {"scene": self.folder.name_of(Path(scene_files.find(name))), **lab}
 
     def open(self, name: str, kind: str) -> Opened:
-        """The text of a scene here, or like it under another name; of a lab or another scene that
-        comes with graphkin; an empty field; one to start from.
+        """The text to open, by its kind.
 
-        Raises SceneError for a name that is none.
+        It is a scene here, a copy of one under another name, a scene of graphkin, an empty scene,
+        or by default a first scene. Raises SceneError for an unknown name.
         """
         match kind:
             case "lab":
@@ -496,7 +497,7 @@ class Session:
         return Opened(f"new{ENDING}", start)
 
     def listed(self, language: str) -> dict[str, Any]:
-        """The scenes that can be opened: those here, and what comes with graphkin."""
+        """The scenes that can be opened: those in the folder, and those of graphkin."""
         scenes = self.folder.scenes()
         more = len(scenes) - MOST
         return {
@@ -507,7 +508,7 @@ class Session:
         }
 
     def look(self, order: PageRequest) -> dict[str, Any]:
-        """What is seen of a text; only that it is stale where a newer one was asked for since."""
+        """The view of a text, or only that it is stale if a newer view has been requested."""
         tab, number = order.text("tab"), order.number("number")
         sight = Sight(
             order.scene(),
@@ -534,7 +535,7 @@ class Session:
 
     @contextmanager
     def drawing(self, go_on: Callable[[], None] = lambda: None) -> Iterator[None]:
-        """Wait until nothing else is drawn; ``go_on`` is called while waiting, and may raise."""
+        """Wait for other drawings to finish; ``go_on`` is called meanwhile and may raise."""
 
         def free() -> bool:
             go_on()
@@ -551,7 +552,7 @@ class Session:
                 self.turns.notify_all()
 
     def arrived(self, tab: str, number: int) -> None:
-        """Note the newest request of a page; pages not heard of for long are forgotten."""
+        """Record the newest request of a page; pages silent for long are forgotten."""
         with self.turns:
             self.newest[tab] = max(number, self.newest.get(tab, 0))
             self.newest.move_to_end(tab)
@@ -561,12 +562,12 @@ class Session:
             self.turns.notify_all()
 
     def still_wanted(self, tab: str, number: int) -> None:
-        """Raise StaleError where a page has asked for something newer."""
+        """Raise StaleError if a page has made a newer request."""
         if self.newest.get(tab, number) > number:
             raise StaleError
 
     def memory(self, tab: str) -> Memory:
-        """What a page last saw."""
+        """The last state of a page."""
         return self.memories.setdefault(tab, Memory())
 
     def variants(self, order: PageRequest) -> dict[str, Any]:
@@ -574,7 +575,7 @@ class Session:
         return self.of_lab(order, trial_of, lambda found, _, words: lab_report(found, words))
 
     def ranges(self, order: PageRequest) -> dict[str, Any]:
-        """The ranges in which a lab is fair, and what mends its formula."""
+        """The ranges in which a lab is fair, and a correction of its formula."""
         return self.of_lab(order, proposal_of, lab_advice)
 
     def of_lab(
@@ -583,7 +584,7 @@ class Session:
         work: Callable[[LabTexts], Any],
         told_of: Callable[[Any, LabTexts, Words], Struct],
     ) -> dict[str, Any]:
-        """What comes of a lab's texts in a process beside this one, as it is told on the page."""
+        """The result of work on a lab's texts in a separate process, as a record for the page."""
         tab, number = f"{order.text('tab')} lab", order.number("number")
         texts = LabTexts(order.scene(), order.long_text("rules"), stem_of(order.text("name")))
         words = spoken_in(language_in(order))
@@ -612,7 +613,7 @@ class Session:
         return told(drawn, text, language, sheets=[])
 
     def motion(self, order: PageRequest) -> dict[str, Any]:
-        """Where the page of a mechanism that moves is found: with curves, or step by step."""
+        """The address of a moving page of a mechanism: with curves, or step by step."""
         text, stem = order.scene(), stem_of(order.text("name"))
         language, kind = language_in(order), order.choice("page", MOVING)
         settings, driver = order.settings(), order.number("driver")
@@ -633,7 +634,7 @@ class Session:
         return told(made, text, language, page="", drivers=drivers)
 
     def begin(self, order: PageRequest) -> dict[str, Any]:
-        """A lab.toml to start from, for any scene; or why there can be none."""
+        """A first lab.toml for any scene, or why there can be none."""
         text, stem = order.scene(), stem_of(order.text("name"))
 
         def made() -> dict[str, Any]:
@@ -642,7 +643,7 @@ class Session:
         return told(made, text, language_in(order), rules="")
 
     def write(self, order: PageRequest) -> dict[str, Any]:
-        """The changes of a text that put the values of the sliders into it, or why they cannot."""
+        """The edits that put the values of the sliders into a text, or why there are none."""
         text, settings = order.scene(), order.settings()
 
         def made() -> dict[str, Any]:
@@ -651,7 +652,7 @@ class Session:
         return told(made, text, language_in(order), edits=[])
 
     def picture(self, order: PageRequest) -> dict[str, Any]:
-        """The sketch of a scene in the gallery; none of one that cannot be read."""
+        """The sketch of a scene in the gallery; none for an unreadable scene."""
         kind = order.choice("kind", PICTURED)
         try:
             with self.drawing():
@@ -662,7 +663,7 @@ class Session:
         return {"sketch": seen and to_builtins(seen, enc_hook=as_text)}
 
     def build(self, order: PageRequest) -> dict[str, Any]:
-        """The text after an act of the hand, or why it is impossible."""
+        """The text after an action of building, or why the action is impossible."""
         of, places = order.names("of"), order.places()
         act = Act(
             order.choice("kind", tuple(KINDS)),
@@ -685,7 +686,7 @@ class Session:
         return told(done, text, language_in(order), text=text)
 
     def save(self, order: PageRequest) -> dict[str, Any]:
-        """Save the text of a scene, whatever is wrong with it."""
+        """Save the text of a scene, whatever its mistakes."""
         name, mark, replace = order.text("name"), order.text("mark"), order.flag("replace")
         text, whole = order.scene(), with_ending(name)
         written = order.long_text("rules")
@@ -719,7 +720,7 @@ class Session:
 
 
 def saving(work: Callable[[], Saved], text: str, language: str) -> dict[str, Any]:
-    """What was written, what is in the way, or why nothing was written."""
+    """The written files, the existing files in the way, or why nothing was written."""
     nothing = to_builtins(Saved())
     return told(lambda: to_builtins(work(), enc_hook=as_text), text, language, **nothing)
 
@@ -727,7 +728,7 @@ def saving(work: Callable[[], Saved], text: str, language: str) -> dict[str, Any
 def told(
     work: Callable[[], dict[str, Any]], scene: str, language: str, /, **instead: Any
 ) -> dict[str, Any]:
-    """What comes of a piece of work, with no problems, or what is there instead, with why."""
+    """The result of a piece of work without problems, or ``instead`` with the problems."""
     try:
         return {**work(), "problems": []}
     except GraphkinError as error:

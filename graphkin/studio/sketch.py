@@ -1,7 +1,7 @@
-"""What the field for building shows of a text, also of one that is not yet a whole mechanism.
+"""The content of the building field for a text, even if it is not yet a complete mechanism.
 
-The text says how long bars are, and not where they lie: while the mechanism does not close, points
-stand where the hand has put them, and as soon as it closes, where the construction finds them.
+The text gives the lengths of bars but not their places. While the mechanism does not close, points
+lie where the user put them; once it closes, they lie where the construction finds them.
 """
 
 from __future__ import annotations
@@ -22,17 +22,16 @@ from graphkin.scene.read_scene import read_text
 from graphkin.text.errors import GraphkinError
 
 Places = Mapping[str, complex]
-"""Where points stand, in the unit of the scene."""
+"""Places of points, in the unit of the scene."""
 GRIDS = {"mm": 5.0, "cm": 0.5, "m": 0.01, "in": 0.25}
-"""The steps of lengths that a hand draws, by the unit of the scene."""
+"""The steps of drawn lengths, by the unit of the scene."""
 NOTHING: Mapping[str, str] = {}
 GHOSTS = 8
-"""Closures that are offered beside the one that is drawn."""
+"""Number of closures offered besides the drawn one."""
 
 
 class Block(Struct, frozen=True):
-    """A block: its link, the point at which it is drawn, a direction of its guide, whether that is
-    fixed."""
+    """A block: its link, its point, a direction of its guide, and whether the guide is fixed."""
 
     link: str
     point: str
@@ -41,7 +40,7 @@ class Block(Struct, frozen=True):
 
 
 class DrawnWheel(Struct, frozen=True):
-    """A wheel: its link, its centre, its radius, whether it is a ring."""
+    """A wheel: its link, its centre, its radius, and whether it is a ring."""
 
     link: str
     centre: str
@@ -50,9 +49,9 @@ class DrawnWheel(Struct, frozen=True):
 
 
 class Ghost(Struct, frozen=True):
-    """A point where it lies in another closure, and the words that choose it.
+    """A point in another closure, and the words that choose that closure.
 
-    ``bars`` are the links that close so, by the places of their points there.
+    ``bars`` are the links that close in this way, by the places of their points there.
     """
 
     point: str
@@ -83,7 +82,7 @@ class Sketch(Struct, frozen=True):
 def sketch(
     text: str, name: str, places: Places, settings: Mapping[str, str] = NOTHING
 ) -> Sketch | None:
-    """The sketch of a text, its free points where they were put; None for what is no TOML."""
+    """The sketch of a text, its free points where the user put them; None for invalid TOML."""
     try:
         tables = tables_of(text)
     except GraphkinError:
@@ -116,7 +115,7 @@ def sketch(
 
 
 def as_set(text: str, name: str, settings: Mapping[str, str]) -> Scene:
-    """The scene with the settings of its parameters; as the text has it where they are refused."""
+    """The scene with the settings of its parameters, or without them if they are refused."""
     try:
         return read_text(text, name, None, settings)
     except GraphkinError:
@@ -124,13 +123,13 @@ def as_set(text: str, name: str, settings: Mapping[str, str]) -> Scene:
 
 
 def unit_of(tables: Mapping[str, Any]) -> str:
-    """The unit of lengths of a scene; millimetres where it names none that is known."""
+    """The unit of lengths of a scene; millimetres where it names no known unit."""
     unit = table_of(tables, "units").get("length")
     return unit if isinstance(unit, str) and unit in GRIDS else "mm"
 
 
 def table_of(tables: Mapping[str, Any], key: str) -> dict[str, Any]:
-    """A table of a text; an empty one where there is none."""
+    """A table of a text; empty where it is missing."""
     found = tables.get(key)
     return found if isinstance(found, dict) else {}
 
@@ -164,7 +163,7 @@ def is_place(value: object) -> bool:
 
 
 def is_number(value: object) -> bool:
-    """Whether a value is a number, and no expression."""
+    """Whether a value is a number rather than an expression."""
     return isinstance(value, int | float) and not isinstance(value, bool)
 
 
@@ -200,7 +199,7 @@ def wheels_of(tables: Mapping[str, Any]) -> Iterator[DrawnWheel]:
 
 
 def solved(mechanism: Mechanism) -> dict[str, complex]:
-    """Where the construction finds the points. Raises GraphkinError where it does not close."""
+    """The places of the points by construction. Raises GraphkinError where it does not close."""
     metre = METRES[mechanism.scene.units["length"]]
     found = mechanism.solve().points
     return {

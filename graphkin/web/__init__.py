@@ -1,1 +1,1 @@
-"""Pages for a browser: sheets that draw themselves and move, and animations."""
+"""Pages for a browser: sheets that are drawn step by step and move, and animations."""

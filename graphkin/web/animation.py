@@ -1,4 +1,4 @@
-"""The animations of a cycle as files: a picture that moves, and a page for a browser."""
+"""The animation of a cycle as files: a GIF picture and a page for a browser."""
 
 from __future__ import annotations
 
@@ -20,9 +20,9 @@ if TYPE_CHECKING:
 def animation_files(
     cycle: Cycle, stem: str, formats: Sequence[str], language: str | None = None
 ) -> dict[str, bytes]:
-    """The animations of a cycle by file name, in those of the formats that are gif or html.
+    """The animation files of a cycle by name, for the formats ``gif`` and ``html``.
 
-    ``language`` is the scene's own if None. Raises SceneError where nothing can be moved.
+    ``language`` None means the scene's own language. Raises SceneError where nothing can move.
     """
     if not {"gif", "html"} & set(formats):
         return {}
@@ -43,16 +43,16 @@ def animation_files(
 
 
 DOTS = 4.0
-"""Dots for each millimetre."""
+"""Dots per millimetre."""
 PAUSE = 50
-"""Milliseconds for which a picture is shown."""
+"""Milliseconds for which each picture is shown."""
 COLOURS = 64
 TASTED = 6
-"""Pictures from which the colours are chosen."""
+"""Number of pictures from which the colours are chosen."""
 
 
 def gif(motion: FrameSequence, words: Words) -> bytes:
-    """The GIF file of a motion, which begins again when it ends."""
+    """The GIF file of a motion, which repeats without end."""
     few = in_few_colours(drawn(stage(motion, words)))
     first, *rest = (few[number] for number in motion.order)
     out = io.BytesIO()
@@ -63,7 +63,7 @@ def gif(motion: FrameSequence, words: Words) -> bytes:
 
 
 def drawn(set_up: Stage) -> list[Any]:
-    """The pictures of all moments, in all their colours; what stands still is painted once."""
+    """The pictures of all moments in full colour. Marks that do not move are painted once."""
     from PIL import Image
 
     under = painted(set_up.still)
@@ -75,7 +75,7 @@ def drawn(set_up: Stage) -> list[Any]:
 
 
 def painted(marks: Sequence[Mark]) -> Any:
-    """Marks as a picture (Pillow), clear where nothing is drawn."""
+    """A Pillow picture of some marks, transparent where nothing is drawn."""
     from matplotlib.backends.backend_agg import FigureCanvasAgg
     from matplotlib.figure import Figure
     from PIL import Image
@@ -95,7 +95,7 @@ def painted(marks: Sequence[Mark]) -> Any:
 
 
 def in_few_colours(pictures: Sequence[Any]) -> list[Any]:
-    """Pictures in one set of colours, chosen from some of them."""
+    """The pictures reduced to one shared palette, which is chosen from a few of them."""
     from PIL import Image
 
     step = max(len(pictures) // TASTED, 1)

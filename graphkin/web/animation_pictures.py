@@ -1,4 +1,4 @@
-"""The pictures of an animation as marks: mechanism and plans at scales fixed for all of it."""
+"""The pictures of an animation as marks, at scales that are fixed for the whole motion."""
 
 from __future__ import annotations
 
@@ -57,26 +57,27 @@ PICTURE = (240.0, 140.0)
 HEAD = 11.0
 """Room for the title above the panes, in mm."""
 AREA: Rect = (3.0, HEAD, PICTURE[0] - 3, PICTURE[1] - 3)
-"""The part of a picture for all panes."""
+"""The part of a picture that the panes fill."""
 CAPTION = 5.0
-"""Room for the caption of a pane, in mm, more than there is around its drawing."""
+"""Extra room above the drawing of a pane for its caption, in mm."""
 ROOM = 13.0
 """Room around a mechanism within its pane, for letters and ground, in mm."""
 AIR = 8.0
 """Room around a plan, for its letters, in mm."""
 SHARES = (0.4, 0.5, 0.6, 0.7)
-"""Parts of a picture that the mechanism may take."""
+"""Shares of the picture's width or height that the mechanism may take."""
 HELD = (1.0, 0.95, 0.9, 0.85, 0.8, 0.75)
-"""Parts of a motion over which a plan stays in its pane: the largest at which it is large enough.
+"""Shares of a motion during which a plan fits its pane; the largest usable share is taken.
 
-Below three quarters it would be gone too often.
+A share is usable if it leaves the plan large enough. Below three quarters the plan would leave its
+pane too often.
 """
 ENOUGH = 0.5
-"""A plan is large enough when its middle size over the motion is this part of its room."""
+"""A plan is large enough when its median size over the motion is this part of its room."""
 
 
 def arrangements(plans: int) -> Iterator[list[Rect]]:
-    """Ways to part a picture, the mechanism first, in the order of WAYS for each of its shares."""
+    """Ways to divide a picture into panes, the mechanism first: each share in the order of WAYS."""
     if not plans:
         yield [AREA]
         return
@@ -86,7 +87,7 @@ def arrangements(plans: int) -> Iterator[list[Rect]]:
 
 
 def beside_plans(share: float, plans: int) -> list[Rect]:
-    """The mechanism beside its plans, which stand one above the other."""
+    """The mechanism on the left, its plans one above the other on the right."""
     left, top, right, bottom = AREA
     x, down = left + share * (right - left), (bottom - top) / plans
     return [
@@ -96,7 +97,7 @@ def beside_plans(share: float, plans: int) -> list[Rect]:
 
 
 def above_plans(share: float, plans: int) -> list[Rect]:
-    """The mechanism above its plans, which stand side by side."""
+    """The mechanism above, its plans side by side below."""
     left, top, right, bottom = AREA
     y, across = top + share * (bottom - top), (right - left) / plans
     return [
@@ -120,7 +121,7 @@ WAYS = (beside_plans, above_plans, in_a_row)
 
 
 def worth(rects: Sequence[Rect], box: Extent, plans: Sequence[Sequence[Extent]]) -> float:
-    """How large all drawings are together; the mechanism counts twice."""
+    """A measure of how large the drawings are together; the mechanism counts twice."""
     own, *others = rects
     found = scale_in(room_in(own, ROOM), [box]) ** 2
     for rect, boxes in zip(others, plans, strict=True):
@@ -135,7 +136,7 @@ def room_in(rect: Rect, around: float) -> Rect:
 
 
 def scale_in(room: Rect, boxes: Sequence[Extent]) -> float:
-    """Millimetres for each unit of a drawing, one for all the boxes that it takes up in turn."""
+    """Millimetres per unit of a drawing: one scale for all the boxes that it fills in turn."""
     width, height = room[2] - room[0], room[3] - room[1]
     sizes = sorted(max(box.width / width, box.height / height) for box in boxes)
     usual, size = sizes[len(sizes) // 2], sizes[-1]
@@ -147,13 +148,13 @@ def scale_in(room: Rect, boxes: Sequence[Extent]) -> float:
 
 
 def mechanism_pane(rect: Rect, box: Extent) -> Field:
-    """The field of a mechanism, in the middle of its room below the caption."""
+    """The field of a mechanism, centred in its room below the caption."""
     room = room_in(rect, ROOM)
     return Field(rect, scale_in(room, [box]), box.middle, middle_of(room))
 
 
 def posed(rect: Rect, boxes: Sequence[Extent]) -> Field:
-    """The field of a plan with its pole where the plan needs to be moved least: at its middle."""
+    """The field of a plan, with the pole placed so that the plan has to be moved least."""
     room = room_in(rect, AIR)
     sides = [sorted(each) for each in zip(*(b.sides for b in boxes), strict=True)]
     half = len(boxes) // 2
@@ -163,12 +164,11 @@ def posed(rect: Rect, boxes: Sequence[Extent]) -> Field:
 
 
 def middle_of(room: Rect) -> tuple[float, float]:
-    """The middle of a rectangle."""
     return (room[0] + room[2]) / 2, (room[1] + room[3]) / 2
 
 
 def plan_pane(field: Field, box: Extent) -> Field:
-    """The field of a plan at one moment: its pole moved aside where the plan has no room else."""
+    """The field of a plan at one moment: the pole is moved aside where the plan would not fit."""
     left, top, right, bottom = room_in(field.rect, AIR)
     (x, y), (low, high) = field(0j), field(complex(box.left, box.top))
     far, deep = field(complex(box.right, box.bottom))
@@ -177,9 +177,10 @@ def plan_pane(field: Field, box: Extent) -> Field:
 
 
 def aside(low: float, high: float, pole: float, start: float, end: float) -> float:
-    """How far a plan from low to high is moved into the room from start to end, one way.
+    """The shift, along one axis, that moves a plan from ``low``..``high`` into ``start``..``end``.
 
-    A larger one leaves the room on both sides of its pole, as much as it lies there.
+    A larger plan overhangs the room on both sides, in proportion to its parts on each side of the
+    pole.
     """
     if high - low <= end - start:
         return max(start - low, 0.0) + min(end - high, 0.0)
@@ -187,20 +188,20 @@ def aside(low: float, high: float, pole: float, start: float, end: float) -> flo
 
 
 def leaves(field: Field, box: Extent) -> bool:
-    """Whether a drawing is not all in its pane."""
+    """Whether part of a drawing lies outside its pane."""
     corners = complex(box.left, box.bottom), complex(box.right, box.top)
     return not all(field.holds(corner) for corner in corners)
 
 
-# --- what of the frame stands still in an animation -----------------------------------------------
+# --- the part of the frame that is the same in every picture --------------------------------------
 
 
 STILL = ("guide", "ground", "slot")
-"""The classes of what is drawn once for a whole motion."""
+"""The classes of marks that are drawn once for a whole motion."""
 
 
 def travelling(drawing: Drawing, field: Field) -> set[Mark]:
-    """The marks of the frame that a sheet draws about a block or a wheel."""
+    """The marks of the frame that a sheet draws around a block or a wheel."""
     board = FieldContent(field.rect)
     draw_frame_guides(board, drawing, field)
     for touch in lines_of(drawing):
@@ -209,7 +210,7 @@ def travelling(drawing: Drawing, field: Field) -> set[Mark]:
 
 
 def standing(drawings: Sequence[Drawing], field: Field) -> Iterator[Mark]:
-    """The guides, slots and tracks of the frame, as long as a whole motion needs them."""
+    """The guides, slots and tracks of the frame, as long as the whole motion needs them."""
     for rail, others in alike(drawings):
         yield from guide(rail, others, field)
     for place, touch in enumerate(lines_of(drawings[0])):
@@ -217,14 +218,14 @@ def standing(drawings: Sequence[Drawing], field: Field) -> Iterator[Mark]:
 
 
 def alike(drawings: Sequence[Drawing]) -> Iterator[tuple[Rail, list[Rail]]]:
-    """Each line of the frame on which blocks and pins slide, with itself at all moments."""
+    """Each line of the frame on which blocks and pins slide, with the same line at all moments."""
     every = [[rail for rail in rails_of(each) if rail.owner == FRAME] for each in drawings]
     for place, rail in enumerate(every[0]):
         yield rail, [found[place] for found in every if len(found) == len(every[0])]
 
 
 def guide(rail: Rail, others: Sequence[Rail], field: Field) -> Iterator[Mark]:
-    """One guide with its slots, from where its blocks and pins begin to where they end."""
+    """One guide with its slots, over the full travel of its blocks and pins."""
     at, way = field(rail.zero), field.way(rail.along)
 
     def span(places: list[complex], beyond: float) -> tuple[float, float]:
@@ -243,13 +244,13 @@ def guide(rail: Rail, others: Sequence[Rail], field: Field) -> Iterator[Mark]:
 
 
 def lines_of(drawing: Drawing) -> list[Touch]:
-    """Where wheels without teeth touch straight tracks of the frame."""
+    """The contacts of toothless wheels with straight tracks of the frame."""
     touches = drawing.standing.touches
     return [t for t in touches if t.zero is not None and t.on == FRAME and not t.disc.module]
 
 
 def line(drawings: Sequence[Drawing], place: int, touch: Touch, field: Field) -> Iterator[Mark]:
-    """One track, from where its wheel begins to where it ends."""
+    """One track, over the full travel of its wheel."""
     ends: list[float] = []
     for drawing in drawings:
         here = lines_of(drawing)[place]
@@ -265,13 +266,13 @@ def line(drawings: Sequence[Drawing], place: int, touch: Touch, field: Field) ->
 
 
 SHOWN = (*VECTORS, "relative-acceleration", "arrowhead", "point", "pole")
-"""The first class of the marks of a plan that are shown, without what constructs them."""
+"""The first classes of the marks of a plan that are shown; construction lines are not."""
 MOST = 4
-"""Points by which the letter of another may be led, at most."""
+"""Largest number of points that may guide the letter of another point."""
 
 
 def mechanism_seen(drawing: Drawing, field: Field) -> FrameView:
-    """Bars, plates, pins and ground, and the points with their letters."""
+    """The bars, plates, pins and ground, and the points with their letters."""
     board, away_with = FieldContent(field.rect), travelling(drawing, field)
     draw_plates(board, drawing, field)
     draw_ground(board, drawing, field)
@@ -284,7 +285,7 @@ def mechanism_seen(drawing: Drawing, field: Field) -> FrameView:
 
 
 def driver_marks(drawing: Drawing, field: Field) -> list[Mark]:
-    """The angle or the way of each driver and its sense, without the number of one position."""
+    """The angle or displacement of each driver and its sense, without the value at one position."""
     if drawing.kind != "velocity":
         return []
     board = FieldContent(field.rect)
@@ -293,7 +294,7 @@ def driver_marks(drawing: Drawing, field: Field) -> list[Mark]:
 
 
 def linked(drawing: Drawing, name: str) -> tuple[str, ...]:
-    """The points of the links of a point that moves, except itself."""
+    """The other points of the links that hold a moving point."""
     scene = drawing.scene
     if name in scene.fixed_points:
         return ()
@@ -303,7 +304,7 @@ def linked(drawing: Drawing, name: str) -> tuple[str, ...]:
 
 
 def plan_seen(drawing: Drawing, field: Field) -> FrameView:
-    """The vectors and points of a plan, without what constructs them, and its letters."""
+    """The vectors and points of a plan with their letters, without the construction."""
     board = FieldContent(field.rect)
     draw_plan_steps(Plot(board, field, drawing, Layout(field, field, Free())))
     marks = [mark for mark in board.marks if is_shown(drawing, mark)]
@@ -320,7 +321,7 @@ def plan_seen(drawing: Drawing, field: Field) -> FrameView:
 
 
 def joined(drawing: Drawing, name: str, letters: dict[str, PointLetter]) -> tuple[str, ...]:
-    """The points of a plan that a vector joins with one of them, the pole first."""
+    """The points of a plan that a vector joins to the named one, the pole first."""
     steps = drawing.trace.program.steps
     ends = [(steps[tail].name, steps[tip].name) for tail, tip in drawing.joins]
     found = {a if b == name else b for a, b in ends if name in (a, b)} & letters.keys()
@@ -328,14 +329,14 @@ def joined(drawing: Drawing, name: str, letters: dict[str, PointLetter]) -> tupl
 
 
 class Free(dict[int, tuple[float, float]]):
-    """Spans of construction lines that are not shown."""
+    """Spans of construction lines that are not shown: zero for each line."""
 
     def __missing__(self, number: int) -> tuple[float, float]:
         return 0.0, 0.0
 
 
 def is_point(step: Step) -> bool:
-    """Whether a step gives a point of the plan itself, not of one that is drawn aside."""
+    """Whether a step gives a point of the plan itself, not a point drawn aside."""
     return bool(step.name) and step.aside is None
 
 
@@ -347,7 +348,7 @@ def is_shown(drawing: Drawing, mark: Mark) -> bool:
 
 
 def plan_box(drawing: Drawing) -> Extent:
-    """The box of a plan in its own unit, its pole with it."""
+    """The box of a plan in its own unit, pole included."""
     points = [0j]
     for _, step, value in drawing.steps(drawing.plane):
         if isinstance(value, Vector) and step.arrow:
@@ -358,7 +359,7 @@ def plan_box(drawing: Drawing) -> Extent:
 
 
 def cut(marks: Sequence[Mark], rect: Rect) -> Iterator[Mark]:
-    """What of the marks of a plan lies in its pane: lines up to its edge, all else if within."""
+    """The marks of a plan in its pane: lines are clipped, other marks are kept or dropped."""
     left, top, right, bottom = rect
     for mark in marks:
         if isinstance(mark, LineMark):
@@ -373,29 +374,29 @@ def cut(marks: Sequence[Mark], rect: Rect) -> Iterator[Mark]:
             yield mark
 
 
-# --- the pictures of an animation as marks: mechanism and plans at scales fixed for all of it -----
+# --- the layout of the whole animation ------------------------------------------------------------
 
 
 BAR = 30.0
 """Longest bar of a scale, in mm."""
 WIDE = 85.0
-"""Width of a field, in mm, in which caption and bar stand side by side."""
+"""Width of a field from which caption and bar stand side by side, in mm."""
 STEEPEST = 2.5
-"""Ratio of two round numbers that follow one another, at most."""
+"""Largest ratio of two successive round numbers."""
 SMALL = 2.5
 """Height of captions, in mm."""
 TRIED = 16
-"""Moments over which the places of letters are chosen."""
+"""Number of moments over which the places of letters are chosen."""
 EDGE = 3.0
-"""Guides and tracks end so far within the edge of their field, in mm."""
+"""Distance from the edge of a field at which guides and tracks end, in mm."""
 MECHANISM = "mechanism"
-"""The name of the field of the mechanism, beside those of the kinds of plans."""
+"""The name of the mechanism's field, next to the names of the kinds of plans."""
 
 
 class Stage(Struct, frozen=True, dict=True):
-    """Where mechanism and plans stand in every picture, and how large.
+    """The fields of the mechanism and the plans, which hold in every picture.
 
-    ``plans`` are the fields by kind, where the pole need not move aside. ``paths`` are those of
+    ``plans`` are the fields by kind, with the pole at its usual place. ``paths`` are the paths of
     points over the motion, in metres.
     """
 
@@ -406,7 +407,7 @@ class Stage(Struct, frozen=True, dict=True):
     paths: tuple[tuple[complex, ...], ...]
 
     def moving(self, moment: Frame) -> list[Mark]:
-        """The marks of one picture that another does not have."""
+        """The marks that differ from picture to picture."""
         marks = [*self.heading(moment), *self.mechanism_marks(moment.alone)]
         for drawing in moment.drawings.values():
             field, box = self.seated(drawing), plan_box(drawing)
@@ -430,17 +431,17 @@ class Stage(Struct, frozen=True, dict=True):
         return [*seen.marks, *lettering(seen, self.rules[drawing.kind], field.rect)]
 
     def larger(self, field: Field) -> Text:
-        """The word at the foot of a plan that is larger than its pane."""
+        """The note at the foot of a plan that is larger than its pane."""
         return Text(field.rect[0] + 3, field.rect[3] - 2, self.beyond, "caption", SMALL)
 
     @property
     def beyond(self) -> str:
-        """That a plan leaves its pane, as markup."""
+        """The words that say that a plan leaves its pane, as markup."""
         return escape(self.words("animation.beyond"))
 
     @cached_property
     def rules(self) -> dict[str, dict[str, Rule]]:
-        """Where letters stand, for the mechanism and for each kind of plan."""
+        """The rules for placing letters, for the mechanism and for each kind of plan."""
         some = self.motion.moments[:: max(len(self.motion.moments) // TRIED, 1)]
         own, ground = self.mechanism, [*self.ground]
         seen = [mechanism_seen(moment.alone, own) for moment in some]
@@ -455,7 +456,7 @@ class Stage(Struct, frozen=True, dict=True):
 
     @cached_property
     def still(self) -> list[Mark]:
-        """What all pictures share: captions, scales, paths, lines between the fields."""
+        """The marks that all pictures share: captions, scales, paths, lines between the fields."""
         words = self.words
         title = title_of(self.motion.moments[0].alone)
         height = LETTER if extent(escape(title), LETTER)[0] < PICTURE[0] - 60 else SMALL
@@ -468,7 +469,7 @@ class Stage(Struct, frozen=True, dict=True):
 
     @property
     def captions(self) -> Iterator[tuple[Field, str, str, float]]:
-        """Each field with its name, the unit of its scale, and what that is in SI."""
+        """Each field with its name, the unit of its scale, and that unit in SI."""
         words, length = self.words, self.motion.cycle.scene.units["length"]
         yield self.mechanism, escape(words("animation.mechanism")), length, METRES[length]
         for kind, field in self.plans.items():
@@ -476,7 +477,7 @@ class Stage(Struct, frozen=True, dict=True):
 
     @property
     def ground(self) -> Iterator[Mark]:
-        """What stands below the mechanism in every picture: paths, and what it slides on."""
+        """The marks below the mechanism in every picture: paths, guides, slots and tracks."""
         for path in self.paths:
             yield Polyline(tuple(self.mechanism(place) for place in path), "construction")
         left, top, right, bottom = self.mechanism.rect
@@ -485,7 +486,7 @@ class Stage(Struct, frozen=True, dict=True):
         yield from standing(drawings, replace(self.mechanism, rect=inner))
 
     def heading(self, moment: Frame) -> Iterator[Mark]:
-        """Where the driver is, at the right of the title."""
+        """The position of the driver, at the right of the title."""
         sweep, words = self.motion.cycle.sweep, self.words
         if sweep.driver is None:
             text = f"*t* = {words.significant(moment.at, 3)} s"
@@ -508,10 +509,10 @@ def free_in(field: Field) -> Rect:
 
 
 def stage(motion: FrameSequence, words: Words, *, beside: bool = False) -> Stage:
-    """The stage of a motion: fields and scales that stay as they are over all of it.
+    """The stage of a motion: fields and scales that hold for the whole motion.
 
-    The picture is parted in the way in which the drawings are largest; ``beside`` has the
-    mechanism beside its plans in any case.
+    The picture is divided so that the drawings are as large as possible. ``beside`` forces the
+    mechanism to the left of its plans.
     """
     paths = tuple(paths_of(motion))
     places = [p for path in paths for p in path]
@@ -526,13 +527,13 @@ def stage(motion: FrameSequence, words: Words, *, beside: bool = False) -> Stage
 
 
 def taken(drawing: Drawing) -> Iterator[complex]:
-    """The points that a mechanism takes up, with the corners of its wheels and blocks."""
+    """The points that a mechanism occupies, including the corners of its wheels and blocks."""
     yield from drawing.positions.values()
     yield from drawing.corners()
 
 
 def paths_of(motion: FrameSequence) -> Iterator[tuple[complex, ...]]:
-    """The paths of the points whose velocities, accelerations or paths are asked."""
+    """The paths of the points whose velocity, acceleration or path is asked for."""
     cycle = motion.cycle
     ask, fixed = cycle.scene.ask, cycle.scene.fixed_points
     rows = np.isin(cycle.piece, range(1, len(cycle.path.ranges[0]) + 1))
@@ -546,9 +547,9 @@ def paths_of(motion: FrameSequence) -> Iterator[tuple[complex, ...]]:
 
 
 def scale_bar(field: Field, unit: str, size: float, words: Words) -> Iterator[Mark]:
-    """The bar of a field's scale at its upper right, the longest round one.
+    """The bar of a field's scale at its upper right, as long as a round number allows.
 
-    It stands beside the caption, or below where that leaves no room.
+    It lies next to the caption, or below the caption in a narrow field.
     """
     left, top, right, _ = field.rect
     longest = min(BAR, (right - left) / 2 - 4) / field.mm / size
@@ -563,7 +564,7 @@ def scale_bar(field: Field, unit: str, size: float, words: Words) -> Iterator[Ma
 
 
 def between(fields: Iterable[Field]) -> Iterator[Mark]:
-    """The lines that part the fields."""
+    """The lines that separate the fields."""
     for left, top, right, bottom in (field.rect for field in fields):
         yield LineMark(left, top, right, top, "panel")
         if left > HEAD:

@@ -1,4 +1,4 @@
-"""Where a body stands while it moves: a point of it and a direction, traced."""
+"""The traced pose of a moving body: one of its points and a direction."""
 
 from __future__ import annotations
 
@@ -6,21 +6,20 @@ from typing import Any, NamedTuple
 
 
 class BodyPose(NamedTuple):
-    """Where a body stands: a point of it and a unit direction that turns with it."""
+    """The pose of a body: one of its points and a unit direction that turns with it."""
 
     origin: Any
     way: Any
 
     def is_same(self, other: BodyPose) -> bool:
-        """Whether both are one pose at every place."""
+        """Whether both are the same pose at every position."""
         return is_one(self.origin, other.origin) and is_one(self.way, other.way)
 
 
 def is_one(one: Any, other: Any) -> bool:
-    """Whether two traced points or ways are one at every place."""
+    """Whether two traced points or directions are the same at every position."""
     return bool((one.node, one.imag.node) == (other.node, other.imag.node))
 
 
 def unit(way: Any) -> Any:
-    """A direction of length one."""
     return way / abs(way)

@@ -1,4 +1,4 @@
-"""What stands below the drawings: the tables of results, the data, what is asked."""
+"""The facts below the drawings: tables of results, data, and the quantities asked for."""
 
 from __future__ import annotations
 
@@ -15,11 +15,11 @@ from graphkin.scene.link_points import lettered
 from graphkin.writers.templates import marked_up
 
 SLIDES = {"velocity": "slide", "acceleration": "slide acceleration"}
-"""What is asked of a block on each sheet."""
+"""The quantity asked for of a block on each sheet."""
 
 
 class ResultTable(Struct, frozen=True):
-    """A table of results: its rows by the names of their quantities, and which are asked for."""
+    """A table of results: rows by the name of their quantity, and the names that are asked for."""
 
     kind: str
     caption: str
@@ -29,7 +29,7 @@ class ResultTable(Struct, frozen=True):
 
 
 def results(drawing: Drawing) -> Iterator[ResultTable]:
-    """The tables of a sheet: vectors of the plan, angular values, what slides."""
+    """The tables of a sheet: vectors of the plan, angular values, sliding values."""
     words = drawing.words
     unit, rate = words(f"table.{drawing.kind}"), words(f"table.{drawing.rate.target}")
     first, millimetres, sense = (
@@ -54,7 +54,7 @@ def results(drawing: Drawing) -> Iterator[ResultTable]:
 
 
 def blocks_asked(drawing: Drawing) -> dict[str, str]:
-    """The blocks that are asked for by the names of their rows, on no other sheet the same."""
+    """The blocks that are asked for, by row names that no other sheet uses."""
     return {f"{SLIDES[drawing.kind]} {block}": block for block in drawing.scene.ask.slides}
 
 
@@ -71,7 +71,7 @@ def asked_rows(drawing: Drawing) -> frozenset[str]:
 
 
 def senses(drawing: Drawing) -> dict[str, tuple[str, str]]:
-    """For the row of each block on either sheet the words of both its senses along its guide."""
+    """The words for both senses along the guide, for each block's row on either sheet."""
     return {
         f"{what} {block}": (
             marked_up(slide_sense(drawing, block, 1.0)),
@@ -83,7 +83,7 @@ def senses(drawing: Drawing) -> dict[str, tuple[str, str]]:
 
 
 def wanted(drawing: Drawing) -> tuple[str, str, list[str]]:
-    """At which scales a task is to be drawn, and what it asks for, piece by piece."""
+    """The scales of a task, the scale of its plan, and the quantities it asks for, one by one."""
     words, kL = drawing.words, f"{length_scale(drawing)} m/mm"
     scale = words("task.to_scale", scale=words.decimal(drawing.scales.words), kL=kL)
     return scale, plan_at(drawing), [*asked_words(drawing), members(drawing)]

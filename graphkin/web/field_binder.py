@@ -1,14 +1,15 @@
-"""How a mark follows: a record of a kind, of outputs by their places, and of constants.
+"""How a mark follows the driver: a record of a kind, outputs by their index, and constants.
 
-Every record begins with its mark's id, its kind and the place of what must be positive for it to
-show (or -1). The kinds, as moving.js lays them out:
+Every record begins with the id of its mark, its kind, and the index of an output. The mark shows
+while this output is positive; the index -1 means that it always shows. The kinds, as moving.js
+draws them:
 
 - ``l`` a line between two places; ``g`` a polygon between places; ``h`` an arrowhead at the second
-- ``f`` a line, ``r`` a polygon, ``m`` a circle, ``t`` a text that a pose carries;
-  ``x`` a polygon whose corners are carried by several poses; ``b`` a text beside a segment
-- ``a`` an arc, ``i`` a circle as a broken line, of which centre and size are given
+- ``f`` a line, ``r`` a polygon, ``m`` a circle, ``t`` a text that a pose carries; ``x`` a polygon
+  whose corners are carried by several poses; ``b`` a text next to a segment
+- ``a`` an arc, ``i`` a circle as a broken line, both given by centre and size
 - ``s`` a part of a construction line
-- ``o`` what holds for the drawn position alone
+- ``o`` a mark that holds for the drawn position alone
 """
 
 from __future__ import annotations
@@ -26,27 +27,27 @@ from graphkin.web.body_pose import BodyPose
 from graphkin.web.moving_sheet import MovingSheet
 
 GROWTH = 3.5
-"""Times its width or height by which a field can grow on each side for what leaves it."""
+"""Growth of a field on each side, in widths or heights of the field, for marks that leave it."""
 UNSEEN = ("centre-line", "moving-centrode", "caption")
-"""The classes of marks that go as far as they like, and of what a page tells elsewhere."""
+"""Classes of marks that may leave the field, and of marks that the page shows elsewhere."""
 SIGHT_DIGITS = 1
-"""Decimals of millimetres of what is in sight."""
+"""Decimals of millimetres for the boxes that must be in sight."""
 
 
 def room_of(rect: Rect) -> Rect:
-    """The rectangle that a field can grow to; lines are cut to it."""
+    """The rectangle that a field can grow to, at which lines are cut."""
     left, top, right, bottom = rect
     across, down = GROWTH * (right - left), GROWTH * (bottom - top)
     return left - across, top - down, right + across, bottom + down
 
 
 def must_be_seen(mark: Mark) -> bool:
-    """Whether a mark is to be in sight as a whole."""
+    """Whether all of a mark must be in sight."""
     return style_class(mark) not in UNSEEN
 
 
 def half(mark: Mark) -> tuple[float, float]:
-    """How far a mark reaches to the sides of the place, or of the places, that it is laid at."""
+    """Half the width and half the height of a mark, in mm; zero for a mark given by its points."""
     if isinstance(mark, CircleMark):
         return round(mark.r, SIGHT_DIGITS), round(mark.r, SIGHT_DIGITS)
     if isinstance(mark, Text):
@@ -56,7 +57,7 @@ def half(mark: Mark) -> tuple[float, float]:
 
 
 def box_of(marks: Iterable[Mark]) -> Rect | None:
-    """The rectangle about marks that stand still; None where there are none."""
+    """The rectangle around marks that do not move; None without any."""
     corners = [corner for mark in marks if must_be_seen(mark) for corner in corners_of(mark)]
     if not corners:
         return None
@@ -67,7 +68,7 @@ def box_of(marks: Iterable[Mark]) -> Rect | None:
 
 
 def corners_of(mark: Mark) -> Iterator[tuple[float, float]]:
-    """The points between which a mark lies."""
+    """The points that bound a mark."""
     match mark:
         case LineMark():
             yield from ((mark.x1, mark.y1), (mark.x2, mark.y2))
@@ -82,35 +83,35 @@ def corners_of(mark: Mark) -> Iterator[tuple[float, float]]:
             yield from mark.points
 
 
-# --- how a mark follows: a record of a kind, of outputs by their places, and of constants ---------
+# --- records --------------------------------------------------------------------------------------
 
 
 Record = list[Any]
 Binding = Callable[[Mark], Record | None]
-"""What makes the record of a mark, all but its number; None for what stands still."""
+"""Makes the record of a mark, all but its number; None for a mark that does not move."""
 Told = dict[Mark, Binding]
 SPACING = 2.2
-"""Distance of the strokes of a hatching in mm."""
+"""Distance between the strokes of hatching, in mm."""
 DIGITS = 6
 """Decimals of millimetres in records."""
 
 
 def still(_: Mark) -> None:
-    """A mark that stays where it is."""
+    """Bind a mark that does not move."""
 
 
 def only_at_start(_: Mark) -> Record:
-    """A mark that tells a number of the drawn position, or what is only there."""
+    """Bind a mark that holds for the drawn position alone."""
     return ["o", NOWHERE]
 
 
 def rounded(*numbers: float) -> list[float]:
-    """Millimetres as they are written."""
+    """Millimetres rounded as they are written."""
     return [int(r) if (r := round(number, DIGITS)) == int(r) else r for number in numbers]
 
 
 class FieldBinder(Struct, frozen=True):
-    """Where the marks of one field are bound: the sheet's places, the field, and the outputs."""
+    """Binds the marks of one field: traced values, the field, and the clip rectangles."""
 
     places: MovingSheet
     field: Field
@@ -118,16 +119,15 @@ class FieldBinder(Struct, frozen=True):
 
     @property
     def tape(self) -> TapeOutputs:
-        """The outputs."""
         return self.places.tape
 
     @property
     def room(self) -> Rect:
-        """What the field can grow to, where lines are cut."""
+        """The rectangle that the field can grow to, at which lines are cut."""
         return room_of(self.field.rect)
 
     def page(self, point: Any) -> Any:
-        """Where a traced point of the drawing falls on the page: x to the right, y down."""
+        """The place on the page of a traced point of the drawing: x to the right, y down."""
         place, known = self.tape.lifted(point), self.tape.pages
         key = (self.field, place.node, place.down)
         if key not in known:
@@ -138,11 +138,11 @@ class FieldBinder(Struct, frozen=True):
         return known[key]
 
     def pose(self, pose: BodyPose) -> BodyPose:
-        """A pose of the drawing on the page."""
+        """The pose on the page of a pose of the drawing."""
         return BodyPose(self.page(pose.origin), self.tape.lifted(pose.way).conjugate())
 
     def rect(self, rect: Rect | None) -> int:
-        """The number of a rectangle to which lines are cut."""
+        """The number of a rectangle at which lines are cut."""
         if rect is None:
             return NOWHERE
         if rect not in self.rects:
@@ -152,20 +152,20 @@ class FieldBinder(Struct, frozen=True):
     # --- bindings ------------------------------------------------------------------------------
 
     def carried_by(self, pose: BodyPose | None) -> Binding:
-        """A mark that moves rigidly with a pose of the drawing."""
+        """Bind a mark that moves rigidly with a pose of the drawing."""
         return still if pose is None else self.on(self.pose(pose))
 
     def with_point(self, point: Any) -> Binding:
-        """A mark that keeps its distance from a point of the drawing and does not turn."""
+        """Bind a mark that keeps its offset from a point of the drawing and does not turn."""
         return self.on(BodyPose(self.page(point), self.tape.lifted(1 + 0j)))
 
     def on(self, pose: BodyPose, rect: Rect | None = None) -> Binding:
-        """A mark that moves rigidly with a pose of the page."""
+        """Bind a mark that moves rigidly with a pose of the page."""
         fixed = all(self.is_constant(part) for part in pose)
         return still if fixed else lambda mark: [*self.rigid(mark, pose, rect)]
 
     def is_constant(self, value: Any) -> bool:
-        """True for a number or point that does not move."""
+        """Whether a number or point never changes."""
         number, graph = self.tape.lifted(value), self.tape.graph
         nodes = [number.node, number.imag.node]
         return all(graph.constant(node) is not None for node in nodes)
@@ -194,8 +194,10 @@ class FieldBinder(Struct, frozen=True):
                 return ["t", *head, *local(*middle), *rounded(*middle)]
 
     def beside(self, pose: BodyPose, shown: Any = None) -> Binding:
-        """A text beside a segment, given by its middle and direction on the page: it goes round
-        with the segment, stays upright, and keeps its clear distance."""
+        """Bind a text next to a segment, which is given by its midpoint and direction on the page.
+
+        The text follows the segment, stays upright, and keeps its clear distance.
+        """
 
         def bound(mark: Mark) -> Record:
             if not isinstance(mark, Text):
@@ -212,11 +214,11 @@ class FieldBinder(Struct, frozen=True):
         return bound
 
     def between(self, start: Any, end: Any, rect: Rect | None = None, shown: Any = None) -> Binding:
-        """A line between two traced points of the drawing."""
+        """Bind a line between two traced points of the drawing."""
         return self.joining(self.page(start), self.page(end), rect, shown)
 
     def joining(self, start: Any, end: Any, rect: Rect | None = None, shown: Any = None) -> Binding:
-        """A line between two traced places of the page."""
+        """Bind a line between two traced places of the page."""
         return lambda _: [
             "l",
             self.condition(shown),
@@ -226,32 +228,32 @@ class FieldBinder(Struct, frozen=True):
         ]
 
     def head(self, tail: Any, tip: Any, shown: Any = None) -> Binding:
-        """The head of an arrow between two traced points of the drawing."""
+        """Bind the head of an arrow between two traced points of the drawing."""
         return self.heading(self.page(tail), self.page(tip), shown)
 
     def heading(self, tail: Any, tip: Any, shown: Any = None) -> Binding:
-        """The head of an arrow between two traced places of the page."""
+        """Bind the head of an arrow between two traced places of the page."""
         return lambda _: ["h", self.condition(shown), *map(self.tape.point, (tail, tip))]
 
     def corners(self, places: Sequence[Any], shown: Any = None) -> Binding:
-        """A polygon or broken line through traced places of the page."""
+        """Bind a polygon or broken line through traced places of the page."""
         return lambda _: ["g", self.condition(shown), *map(self.tape.point, places)]
 
     def at(self, point: Any, shown: Any = None) -> Binding:
-        """A circle of constant size about a traced point of the drawing."""
+        """Bind a circle of constant size around a traced point of the drawing."""
         one = BodyPose(self.page(point), self.tape.lifted(1 + 0j))
         return lambda mark: self.conditioned(self.rigid(mark, one, None), shown)
 
     def conditioned(self, record: Record, shown: Any) -> Record:
-        """A record that shows only where something is positive."""
+        """The record, shown only while ``shown`` is positive."""
         return [record[0], self.condition(shown), *record[2:]]
 
     def condition(self, shown: Any) -> int:
-        """The place of what must be positive for a mark to show."""
+        """The index of the output that must be positive for a mark to show."""
         return NOWHERE if shown is None else self.tape.number(shown)
 
     def by_poses(self, poses: Sequence[BodyPose]) -> Binding:
-        """A polygon whose corners are carried by poses of the page, each by its own."""
+        """Bind a polygon whose corners are carried by poses of the page, one pose for each."""
 
         def bound(mark: Mark) -> Record:
             assert isinstance(mark, Polyline)
@@ -263,14 +265,14 @@ class FieldBinder(Struct, frozen=True):
         return bound
 
     def arc(self, centre: Any, radius: Any, span: tuple[Any, Any], shown: Any = None) -> Binding:
-        """An arc whose centre and angles (degrees) move; the radius is in metres."""
+        """Bind an arc whose centre and angles (degrees) move; the radius is in metres."""
         size = self.tape.lifted(radius) * self.field.mm
         return self.sweeping(self.page(centre), size, span, shown)
 
     def sweeping(
         self, centre: Any, radius: Any, span: tuple[Any, Any], shown: Any = None
     ) -> Binding:
-        """An arc about a place of the page; the radius is in mm."""
+        """Bind an arc around a place of the page; the radius is in mm."""
         return lambda _: [
             "a",
             self.condition(shown),
@@ -281,6 +283,6 @@ class FieldBinder(Struct, frozen=True):
 
 
 def middle_of(text: Text) -> XY:
-    """The middle of a text's box, which a label turns about while it stays upright."""
+    """The middle of a text's box, about which an upright label turns."""
     width, top, bottom = extent(text.markup, text.height)
     return text.x + text.left() + width / 2, text.y + (top + bottom) / 2

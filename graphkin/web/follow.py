@@ -1,4 +1,4 @@
-"""How every mark of a field follows the driver: bodies, steps, and the labels beside them."""
+"""How every mark of a field follows the driver: bodies, steps and labels."""
 
 from __future__ import annotations
 
@@ -43,14 +43,16 @@ from graphkin.web.moving_canvas import MovingCanvas, Stroke
 from graphkin.web.moving_field import Local, MovingCoordinate, MovingField
 
 ENDLESS: Rect = (-inf, -inf, inf, inf)
-"""A field that cuts nothing."""
+"""A field that clips nothing."""
 RACK = "gear-disc"
 """The class of the outline of a rack."""
 
 
 def mechanism_bindings(binder: FieldBinder, angles: Mapping[str, Any]) -> Told:
-    """The bindings of the marks of the mechanism and its drivers; ``angles`` are those in degrees
-    of the links that drivers turn."""
+    """The bindings of the marks of the mechanism and its drivers.
+
+    ``angles`` are the angles in degrees of the links that drivers turn.
+    """
     drawing, field = binder.places.drawing, replace(binder.field, rect=ENDLESS)
     drawn, moving = FieldContent(ENDLESS), FieldContent(ENDLESS)
     draw_bodies(drawn, drawing, field)
@@ -69,15 +71,14 @@ def mechanism_bindings(binder: FieldBinder, angles: Mapping[str, Any]) -> Told:
 
 
 def line_to_edge(binder: FieldBinder, mark: LineMark, room: Rect) -> Binding:
-    """A line that stays, cut at the edge of its field: all of it where the field grows, to the
-    edge of its ``room``."""
+    """Bind a fixed line that the field clips; where the field grows, it extends within ``room``."""
     ends = (mark.x1, mark.y1), (mark.x2, mark.y2)
     start, end = (binder.tape.lifted(complex(*place)) for place in ends)
     return binder.joining(start, end, room)
 
 
 def draw_bodies(board: FieldContent, drawing: Drawing, field: Field) -> None:
-    """The mechanism, and its drivers where a sheet shows them."""
+    """Draw the mechanism, and its drivers on a velocity sheet."""
     draw_links(board, drawing, field)
     if drawing.kind == "velocity":
         draw_drivers(board, drawing, field)
@@ -86,7 +87,7 @@ def draw_bodies(board: FieldContent, drawing: Drawing, field: Field) -> None:
 def following(
     binder: FieldBinder, mark: Mark, borne: Sequence[tuple[BodyPose, BodyPose]]
 ) -> Binding:
-    """How a mark follows that is drawn in traced numbers; ``borne`` are the poses of racks."""
+    """How a mark drawn in traced numbers follows; ``borne`` are the poses of racks."""
     if isinstance(mark, Arc):
         numbers = local(mark.cx).on_page, mark.r, (mark.start, mark.end)
         is_still = all(binder.is_constant(each) for each in (*numbers[:2], *numbers[2]))
@@ -108,7 +109,8 @@ def following(
         return binder.heading(tail, tip)
     if all(pose.is_same(poses[0]) for pose in poses):
         pose = poses[0]
-        if mark.cls == "ground":  # a stroke of the frame stays, or stands where another did
+        # a stroke of the frame stays, or takes the place of another stroke
+        if mark.cls == "ground":
             pose = stepped(binder, pose, dot(*pose), SPACING)
         return binder.on(pose, inside(binder.room))
     if any(place.at for place in places) and isinstance(mark, Polyline):
@@ -120,7 +122,7 @@ def following(
 
 
 def local(number: Any) -> Local:
-    """The place to which a coordinate belongs."""
+    """The place that a coordinate belongs to."""
     assert isinstance(number, MovingCoordinate)
     return number.local
 
@@ -135,7 +137,7 @@ def gears(binder: FieldBinder) -> Iterator[tuple[Mark, Binding]]:
 
 
 def racks(binder: FieldBinder) -> Iterator[tuple[BodyPose, BodyPose]]:
-    """The poses of the page that racks are drawn from, each with that of its teeth."""
+    """The page poses that racks are drawn from, each with the pose of its teeth."""
     for touch in binder.places.moving.standing.touches:
         if touch.disc.module and touch.zero is not None:
             pose = binder.pose(BodyPose(touch.at, touch.along / abs(touch.along)))
@@ -144,8 +146,10 @@ def racks(binder: FieldBinder) -> Iterator[tuple[BodyPose, BodyPose]]:
 
 
 def of_gear(binder: FieldBinder, disc: Disc) -> BodyPose:
-    """Where the outline of a gear goes, whose teeth are drawn where it meshes: as the wheel turns
-    they pass there, each taking the place of the one before it."""
+    """The pose of a gear's outline, whose teeth are drawn at its mesh.
+
+    As the wheel turns, its teeth pass the mesh, each taking the place of the one before it.
+    """
     tape, turned = binder.tape, binder.places.turn_of(disc.link)
     for touch in binder.places.moving.standing.touches:
         if is_mesh(touch, disc):
@@ -159,28 +163,28 @@ def of_gear(binder: FieldBinder, disc: Disc) -> BodyPose:
 
 
 def is_mesh(touch: Touch, disc: Disc) -> bool:
-    """Whether a wheel meshes with another one, or with a rack, where they touch."""
+    """Whether a wheel takes part in a contact of teeth, with another wheel or with a rack."""
     both = touch.disc, touch.other or touch.disc
     wheels = [(each.link, each.wheel) for each in both]
     return (disc.link, disc.wheel) in wheels and all(each.module for each in both)
 
 
 def stepped(binder: FieldBinder, pose: BodyPose, moved: Any, pitch: float) -> BodyPose:
-    """A pose of the page that has gone along its way by whole pitches against what bears it."""
+    """A page pose moved along its direction by whole pitches relative to its support."""
     since = binder.tape.lifted(moved - float(binder.tape.now(moved)))
     rest = since - (since * (1 / pitch)).do("round") * pitch
     return BodyPose(pose.origin - pose.way * rest, pose.way)
 
 
 class StepStrokes(Struct, frozen=True):
-    """The steps of one field, each drawn in traced numbers as it is drawn on paper."""
+    """The steps of one field, each drawn in traced numbers as on paper."""
 
     binder: FieldBinder
     layout: Layout
     drawn: dict[int, MovingCanvas] = field(default_factory=dict)
 
     def canvas(self, number: int) -> MovingCanvas:
-        """The strokes of a step; none where its construction is not whole."""
+        """The strokes of a step; none where its construction is not complete."""
         if number not in self.drawn:
             self.drawn[number] = canvas = MovingCanvas(self.binder, self.layout, number)
             known = self.binder.places.values
@@ -199,13 +203,13 @@ class StepStrokes(Struct, frozen=True):
         return self.drawn[number]
 
     def stroke(self, mark: Mark) -> Stroke | None:
-        """The stroke that drew a mark of a step; None of what is drawn on paper alone."""
+        """The stroke that drew a mark of a step; None for a mark that only paper has."""
         assert mark.step is not None
         strokes = self.canvas(mark.step).strokes
         return strokes[mark.part] if mark.part < len(strokes) else None
 
     def binding(self, mark: Mark) -> Binding:
-        """How a mark of a step follows; what is drawn on paper alone holds for that position."""
+        """How a mark of a step follows; a mark that only paper has holds for the drawn position."""
         stroke = self.stroke(mark)
         if stroke is None:
             return only_at_start
@@ -217,19 +221,19 @@ class StepStrokes(Struct, frozen=True):
         return only_at_start if stroke is None else stroke.label
 
 
-# --- how every mark of a field follows the driver: bodies, steps, and the labels beside them ------
+# --- the marks of a field -------------------------------------------------------------------------
 
 
 LABELS = ("label", "number", "leader")
-"""The classes of a letter and of the circle and the leader that go with it."""
+"""The classes of a letter and of the circle and leader that go with it."""
 FIXED = ("caption", "guide", "ground", "fixed-pivot", "title", "panel")
-"""The classes of marks that stay, where nothing else is known of them."""
+"""The classes of marks that do not move, unless something else is known of them."""
 ACROSS = "centre-line"
-"""The class of lines that go across a whole field, where no driver draws them."""
+"""The class of lines across a whole field, where no driver draws them."""
 
 
 class MarkBindings(Struct, frozen=True, dict=True):
-    """The marks of one field, each with how it follows."""
+    """The marks of one field, each with the way in which it follows the driver."""
 
     binder: FieldBinder
     layout: Layout
@@ -239,12 +243,10 @@ class MarkBindings(Struct, frozen=True, dict=True):
 
     @property
     def drawing(self) -> Drawing:
-        """The sheet's material."""
         return self.binder.places.drawing
 
     @cached_property
     def steps(self) -> StepStrokes:
-        """The steps of this field."""
         return StepStrokes(self.binder, self.layout)
 
     @cached_property
@@ -254,27 +256,31 @@ class MarkBindings(Struct, frozen=True, dict=True):
 
     @cached_property
     def bodies(self) -> Told:
-        """The marks of bodies and drivers."""
+        """The bindings of bodies and drivers."""
         if not self.on_mechanism:
             return {}
         return mechanism_bindings(self.binder, self.angles)
 
     @cached_property
     def curves(self) -> Mapping[str, Curve]:
-        """The curves of the whole motion by the names of their marks; not the locus of a group that
-        is tried, which is another at each place."""
+        """The curves of the whole motion by the name of their marks.
+
+        The locus of a trial group is left out, since it differs at each position.
+        """
         return {curve.name: curve for curve in self.drawing.curves if curve.kind != "locus"}
 
     def records(self) -> Iterator[tuple[int, Record]]:
-        """The record of every mark that moves, with the mark's number in the field."""
+        """The record of every mark that moves, with the number of the mark in the field."""
         for k, mark in enumerate(self.marks):
             record = self.binding(k, mark)(mark)
             if record is not None:
                 yield k, record
 
     def in_sight(self, mark: Mark, record: Record) -> bool:
-        """Whether what is at a mark's place must be in sight: all but what may be endlessly far, as
-        are centres, poles and the lines to them."""
+        """Whether the field must keep a mark in sight.
+
+        Centres, poles and the lines to them are exempt, since they may be infinitely far away.
+        """
         if record[0] in "sioa" or not must_be_seen(mark):
             return False
         value = None if mark.step is None else self.drawing.trace.values.get(mark.step)
@@ -283,16 +289,18 @@ class MarkBindings(Struct, frozen=True, dict=True):
         return not isinstance(value, Ratio)
 
     def sides(self, k: int, record: Record) -> int:
-        """Whether a label can as well stand on the other side of what it names: that of a vector or
-        a line, or a letter at a point; 2 where a leader leads to it, 0 for one in a circle."""
+        """Whether a label may move to the other side of its segment or point.
+
+        Returns 1 if it may, 2 if it has a leader as well, and 0 if not, as for a number in a
+        circle.
+        """
         led = {style_class(self.marks[j]) for j in self.led(k)}
         if "number" in led or not (record[0] == "b" or self.is_upright(record)):
             return 0
         return 2 if led else 1
 
     def going_before(self, k: int, bound: Mapping[int, int]) -> list[int]:
-        """The records of the leader and the circle that go with a label; ``bound`` has those of the
-        marks so far."""
+        """The records of the leader and the circle that go with a label, from ``bound``."""
         return [bound[before] for before in self.led(k) if before in bound]
 
     def led(self, k: int) -> list[int]:
@@ -302,23 +310,23 @@ class MarkBindings(Struct, frozen=True, dict=True):
         return [*beside[: is_led.index(False)]] if False in is_led else [*beside]
 
     def keeps_off(self, k: int, record: Record) -> bool:
-        """Whether a letter, or the leader or circle that goes with it, stands off a point."""
+        """Whether a letter, or its leader or circle, keeps a distance from a point."""
         text = self.text_of(k) if style_class(self.marks[k]) in LABELS else None
         if text is None or record[0] not in "tmf" or not self.is_upright(record):
             return False
         return text.step is not None or text.name in self.binder.places.spots
 
     def is_upright(self, record: Record) -> bool:
-        """Whether what a pose carries does not turn."""
+        """Whether a mark keeps its direction while its pose carries it."""
         graph, outputs = self.binder.tape.graph, self.binder.tape.outputs
         way = [outputs[record[3] + i] for i in (0, 1)]
         return all(graph.constant(node) is not None for node in way)
 
     def more(self) -> Iterator[tuple[int, str, str, Record]]:
-        """Marks that are not drawn where the scene stands, after those of the same step: number of
-        that one, element, class, record.
+        """Marks that the drawn position lacks: number of the mark before, element, class, record.
 
-        The head of a vector too short to have one, the far part of a line too short to be parted.
+        These are the head of a vector too short for one, and the far part of a line too short to be
+        split.
         """
         for k, mark in enumerate(self.marks):
             first = style_class(mark)
@@ -337,7 +345,7 @@ class MarkBindings(Struct, frozen=True, dict=True):
                     yield k, "line", mark.cls, found
 
     def binding(self, k: int, mark: Mark) -> Binding:
-        """How a mark follows; what nothing is known of holds for the drawn position alone."""
+        """How a mark follows; a mark without a rule holds for the drawn position alone."""
         found = self.bodies.get(mark)
         if found is not None:
             return found
@@ -351,7 +359,7 @@ class MarkBindings(Struct, frozen=True, dict=True):
         return self.body(mark, first)
 
     def body(self, mark: Mark, first: str) -> Binding:
-        """A mark of the mechanism that no step has drawn."""
+        """Bind a mark of the mechanism that no step has drawn."""
         if isinstance(mark, LineMark) and first == ACROSS:
             return self.across(mark)
         if curve := self.curves.get(mark.name):
@@ -361,7 +369,7 @@ class MarkBindings(Struct, frozen=True, dict=True):
         return still if is_fixed else only_at_start
 
     def across(self, mark: LineMark) -> Binding:
-        """A line across the field, which stays and goes on where the field grows."""
+        """Bind a line across the field, which does not move and extends when the field grows."""
         (x1, y1), (x2, y2) = stretched((mark.x1, mark.y1), (mark.x2, mark.y2))
         whole = LineMark(x1, y1, x2, y2, mark.cls, mark.name)
         return line_to_edge(self.binder, whole, above_foot(self.binder.room))
@@ -369,7 +377,7 @@ class MarkBindings(Struct, frozen=True, dict=True):
     # --- labels --------------------------------------------------------------------------------
 
     def label(self, k: int, mark: Mark) -> Binding:
-        """A letter, a number in its circle, or a leader: each goes with what it names."""
+        """Bind a letter, a number in its circle, or a leader to the object that it names."""
         text = self.text_of(k)
         if text is None:
             return only_at_start
@@ -385,7 +393,7 @@ class MarkBindings(Struct, frozen=True, dict=True):
         return still if name in self.curves else only_at_start
 
     def text_of(self, k: int) -> Text | None:
-        """The text of a label: a leader and a circle come right before it."""
+        """The text of a label; the leader and the circle come right before it."""
         for mark in self.marks[k : k + 3]:
             if isinstance(mark, Text):
                 return mark

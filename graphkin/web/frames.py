@@ -1,9 +1,9 @@
-"""The moments of a motion that an animation shows, each one constructed anew.
+"""The moments of a motion that an animation shows, each constructed anew.
 
-They begin where the scene stands and go in the sense of the driver's speed, so that every point
-moves as its velocity says: once round for a whole turn, from end to end for a range between dead
-points or a time, and then anew. Close to a dead point a driver at constant speed makes velocities
-and accelerations grow beyond all bounds; an animation ends before.
+The moments begin at the scene's position and follow the sense of the driver's speed, so that every
+point moves as its velocity says. A full turn is shown once round; a range between dead points or a
+time is shown from end to end; then the animation repeats. Near a dead point a driver at constant
+speed makes velocities and accelerations grow without bound, so the animation stops short of it.
 """
 
 from __future__ import annotations
@@ -32,20 +32,20 @@ if TYPE_CHECKING:
     from graphkin.motion.pieces import Piece
 
 FRAMES = 72
-"""Pictures of a whole turn or of a time; a range has half as many."""
+"""Pictures for a full turn or for a time; a range has half as many."""
 MOST_TURNS = 4
-"""Turns of a driver's circle that are all shown; of more turns it is one."""
+"""Largest number of turns in a cycle that are all shown; of a longer cycle one turn is shown."""
 GROWN = 3.0
-"""Before a dead point the motion is shown while its rates are so many times their middle ones."""
+"""Limit of rates near a dead point, in medians of the motion; the animation ends beyond it."""
 LEAST, LITTLE = 4, 1e-4
-"""Moments that make a motion, and the least part of a turn, or of what is looked at, that does."""
+"""Least number of moments of a motion, and the least part of the sweep that counts as a motion."""
 
 
 class Frame(Struct, frozen=True):
     """The mechanism at one place of its driver (degrees, metres) or at one time (s).
 
-    ``drawings`` are those of the plans that the scene asks for, by kind; ``alone`` the positions
-    without any plan.
+    ``drawings`` are the plans that the scene asks for, by kind; ``alone`` is the position without
+    any plan.
     """
 
     at: float
@@ -54,10 +54,10 @@ class Frame(Struct, frozen=True):
 
 
 class FrameSequence(Struct, frozen=True):
-    """The moments of an animation, in ascending order, and the order in which they are shown.
+    """The moments of an animation in ascending order, and the order in which they are shown.
 
-    The first that is shown is ``start``, where the scene stands if that lies within; ``low`` to
-    ``high`` is what is shown of the whole range ``reached``.
+    The scene's own position is shown first if it lies in the range. The animation shows ``low`` to
+    ``high``, a part of the full range ``reached``.
     """
 
     cycle: Cycle
@@ -69,15 +69,15 @@ class FrameSequence(Struct, frozen=True):
 
     @property
     def shortened(self) -> bool:
-        """Whether the animation ends before the ends of the range."""
+        """Whether the animation ends short of the ends of the range."""
         slack = 1e-6 * (self.reached[1] - self.reached[0])
         return self.low > self.reached[0] + slack or self.high < self.reached[1] - slack
 
 
 def motion(cycle: Cycle, words: Words, frames: int = FRAMES) -> FrameSequence:
-    """The moments of a cycle, constructed one by one with the closures that hold there.
+    """The moments of a cycle, constructed one by one in the assembly mode that holds there.
 
-    Raises SceneError where there is nothing to be moved, and where something jumps.
+    Raises SceneError where nothing can move, and where something jumps.
     """
     from graphkin.motion.jumps import jumps
 
@@ -113,21 +113,20 @@ def leap(jump: Jump, unit: str) -> Problem:
 
 
 def stands(cycle: Cycle) -> Problem:
-    """The problem of a motion that has no room."""
+    """The problem of a driver that has no range to move in."""
     low, high = cycle.ranges[0]
     found = f"closes from {low:.6g} to {high:.6g} {cycle.sweep.unit}, too little to be moved"
     return Problem("the animation", found, "a driver that moves", "graphkin check shows the range")
 
 
 def in_order(places: list[float]) -> tuple[list[float], list[int]]:
-    """Places and their numbers."""
     return places, list(range(len(places)))
 
 
 def round_about(cycle: Cycle, frames: int) -> list[float]:
-    """The places of the driver's whole circle, from where the scene stands, so many in each turn.
+    """The driver's places over its full cycle from the scene's position, ``frames`` for each turn.
 
-    Of a circle of many turns it is the first turn.
+    A cycle of many turns is cut to its first turn.
     """
     turns = cycle.path.turns if cycle.path.turns <= MOST_TURNS else 1
     return [cycle.sweep.start + TURN * i / frames for i in range(turns * frames)]
@@ -139,8 +138,10 @@ def goes_round(cycle: Cycle) -> bool:
 
 
 def end_to_end(cycle: Cycle, low: float, high: float, frames: int) -> tuple[list[float], list[int]]:
-    """The places of a range, a time, or a turn that does not come back: from where the scene stands
-    to its end, then from its beginning on."""
+    """The places of a range, a time, or a turn that does not close, and the order to show them in.
+
+    They run from the scene's position to the end, then from the beginning.
+    """
     start = min(max(place_in(cycle, low, high), low), high)
     once = cycle.sweep.what == "time" or goes_round(cycle)
     step = (high - low) / frames * (1 if once else 2)
@@ -153,7 +154,7 @@ def end_to_end(cycle: Cycle, low: float, high: float, frames: int) -> tuple[list
 
 
 def place_in(cycle: Cycle, low: float, high: float) -> float:
-    """Where the scene stands, circles apart, within a range; the time at which it is drawn."""
+    """The scene's position in a range, up to whole turns; for a time, the drawing's time."""
     start = cycle.sweep.start
     if cycle.sweep.what == "time":
         return float(cycle.scene.values.get(TIME, start))
@@ -161,7 +162,7 @@ def place_in(cycle: Cycle, low: float, high: float) -> float:
 
 
 def shown_range(cycle: Cycle) -> tuple[float, float]:
-    """The range of the scene, cut where rates grow beyond bounds towards a dead point."""
+    """The range of the scene, cut where rates grow without bound towards a dead point."""
     pieces = cycle.path.ranges[0]
     low, high = pieces[0].low.at, pieces[-1].high.at
     rows = (cycle.piece <= len(pieces)) & (cycle.piece > 0)
@@ -181,13 +182,13 @@ def shown_range(cycle: Cycle) -> tuple[float, float]:
         low = float(at[at > inner[0].max()].min(initial=middle))
     if pieces[-1].high.kind == "dead" and inner[1].size:
         high = float(at[at < inner[1].min()].max(initial=middle))
-    if not low < high:  # the scene stands where rates have grown
+    if not low < high:  # rates are already too large at the scene's position
         low, high = pieces[0].low.at, pieces[-1].high.at
     return clear_of_ends(cycle, low, high)
 
 
 def clear_of_ends(cycle: Cycle, low: float, high: float) -> tuple[float, float]:
-    """A range without its dead points themselves, where a construction may have no crossing."""
+    """A range without its dead points, where a construction may have no intersection."""
     pieces = cycle.path.ranges[0]
     room = 1e-3 * (pieces[-1].high.at - pieces[0].low.at)
     first, last = pieces[0].low, pieces[-1].high
@@ -197,7 +198,7 @@ def clear_of_ends(cycle: Cycle, low: float, high: float) -> tuple[float, float]:
 
 
 def moment_at(cycle: Cycle, place: float, words: Words) -> Frame | None:
-    """The construction at one place; None where there is no piece, or a step cannot be drawn."""
+    """The construction at one place; None outside the range or where a step cannot be drawn."""
     piece, within = piece_at(cycle, place)
     if piece is None:
         return None
@@ -219,13 +220,13 @@ def moment_at(cycle: Cycle, place: float, words: Words) -> Frame | None:
 def made(
     mechanism: Mechanism, kind: str, targets: Sequence[Any], scales: Scales, words: Words
 ) -> Drawing:
-    """The material of one plan."""
+    """The drawing of one plan."""
     nobody = Verdict(True, 0.0, "", 0.0, 0.0, 0.0)
     return drawing(mechanism, kind, tuple(targets), scales, nobody, words)
 
 
 def piece_at(cycle: Cycle, place: float) -> tuple[Piece | None, float]:
-    """The piece that holds a place, whole circles apart, and the place within it."""
+    """The piece that holds a place, up to whole turns, and the place within that piece."""
     for piece in cycle.path.ranges[0]:
         for turn in cycle.path.shifts(place):
             if piece.low.at <= place + turn <= piece.high.at:

@@ -1,4 +1,4 @@
-"""What a page lights beside the strokes of a step: links that turn, triangles that are similar."""
+"""What a page highlights next to the strokes of a step: turning links and similar triangles."""
 
 from __future__ import annotations
 
@@ -22,13 +22,14 @@ from graphkin.writers.templates import marked_up
 BODIES = tuple(set(BODY) - {"number", "label", "leader"})
 """The classes of bars and plates."""
 HIDDEN = {*DRAWN, "detail", "note", "caption"}
-"""The classes of what the beginning does not show: the construction."""
+"""The classes that the beginning does not show: the construction."""
 
 
 def rates(sheets: Sequence[ScreenSheet], told: PageProtocol) -> dict[int, list[dict[str, object]]]:
-    """For each sentence that reads rates off, those: the row of each, how it is told, its sense as
-    drawn, the ids of its link's marks and of that which bears its number, the ends of its bar, and
-    its vector.
+    """The rates that each sentence reads off, by the number of the sentence.
+
+    Each rate has its row, its formula, and its sense as drawn. It has the ids of its link's marks
+    and of the ring around the link's number, the ends of its bar, and its vector.
     """
     found: dict[int, list[dict[str, object]]] = {}
     for at, said in enumerate(told.said, 1):
@@ -51,14 +52,14 @@ def rates(sheets: Sequence[ScreenSheet], told: PageProtocol) -> dict[int, list[d
 
 
 def told_as(drawing: Drawing, link: str) -> str:
-    """How the rate of a link is found, in symbols, as HTML."""
+    """The formula for the rate of a link, in symbols, as HTML."""
     name = symbol(f"{drawing.rate.letter}_{link}")
     relation = next(each for each in of_turning(drawing) if each.left == name)
     return marked_up(f"{name} = {relation.symbols}" if relation.symbols else name)
 
 
 def marks_of_link(told: PageProtocol, sheet: int, link: str) -> tuple[list[str], str]:
-    """The ids of the bars and plates of a link on a sheet, and of the ring about its number."""
+    """The ids of the bars and plates of a link on a sheet, and of the ring around its number."""
     body, number = [], ""
     for k, timed in enumerate(told.timed[sheet]):
         if timed.mark.name == link:
@@ -71,7 +72,7 @@ def marks_of_link(told: PageProtocol, sheet: int, link: str) -> tuple[list[str],
 
 
 def vector_of(drawing: Drawing, kind: TurningOfLink) -> int | None:
-    """The step that draws the relative vector over the bar; None where none does."""
+    """The step that draws the relative vector over the bar; None without such a step."""
     names = {kind.vector(kind.index), kind.vector(kind.p + kind.q)}
     for number, step, _ in drawing.steps(drawing.plane):
         vector = plan_vector(step)
@@ -81,8 +82,9 @@ def vector_of(drawing: Drawing, kind: TurningOfLink) -> int | None:
 
 
 def triangles(sheets: Sequence[ScreenSheet]) -> dict[int, list[list[int]]]:
-    """For each acceleration pole that similar triangles find their corners: pole, places; pole of
-    the plan, images.
+    """The corners of the similar triangles that find each acceleration pole.
+
+    They are the pole and points of the mechanism, then the pole of the plan and images.
     """
     found = {}
     for sheet in sheets:
@@ -96,7 +98,7 @@ def triangles(sheets: Sequence[ScreenSheet]) -> dict[int, list[list[int]]]:
 
 
 def ghosts(sheet: ScreenSheet, told: PageProtocol) -> list[int]:
-    """The numbers of the marks of the mechanism on the first sheet: all but the construction."""
+    """The numbers of the marks of the mechanism on the first sheet, without the construction."""
     curves = {curve.name for curve in sheet.drawing.curves}
     found = []
     for k, timed in enumerate(told.timed[0][: len(sheet.left)]):
@@ -126,7 +128,7 @@ def rows_found(sheets: Sequence[ScreenSheet], told: PageProtocol) -> dict[str, i
 
 
 def steps_of_rows(drawing: Drawing) -> Iterator[tuple[str, int]]:
-    """The rows of the tables of a sheet, each with the step that holds or draws its quantity."""
+    """The rows of a sheet's tables, each with the step that holds or draws its quantity."""
     for number, step, _ in drawing.steps(drawing.plane):
         vector = plan_vector(step)
         if vector is not None:

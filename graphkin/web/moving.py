@@ -1,7 +1,7 @@
 """The part of a page that moves: the construction as JavaScript, and how each mark follows it.
 
-The program is traced with the driver's place as its input, by the tracer that gives numpy and
-compiled source elsewhere; the scales and the fields stay those of the drawn position.
+The program is traced with the driver's place as its input, by the same tracer that serves numpy and
+compiled source elsewhere. Scales and fields stay those of the drawn position.
 """
 
 from __future__ import annotations
@@ -41,26 +41,32 @@ if TYPE_CHECKING:
 
 NO_DRIVER, NO_RANGE, NO_LINE = "moving.no_driver", "moving.no_range", "moving.no_line"
 NO_END = "moving.no_end"
-"""The keys of the sentences why a page stands still: nothing drives it, it stands at a place from
-which it cannot move, its construction is no straight line of reckoning, or nothing says how long a
-law of time is to be shown."""
+"""The keys of the sentences that say why a page does not move.
+
+The reasons: the scene has no driver; the mechanism cannot move from its position; the construction
+cannot be traced; or the scene does not say for how long to show a law of time.
+"""
 
 
 class Moving(Struct, frozen=True):
     """JavaScript that moves the marks of a page.
 
-    ``source`` defines ``graphkinMotion`` = {name, unit, low, high, start, whole, step, sense,
-    grips, set(x, element, times, sheet, lettering), extent(x, sheet, field, times), labels(sheet,
-    field), place(id, x), values(x), margins(x)}: ``set`` writes the coordinates of all marks, or
-    those of one sheet, which ``element`` finds by their ids, and tells {ok: false} where the
-    mechanism does not close; ``lettering`` gives the record by which each label stands that leaves
-    its place, null for one that is hidden; ``labels`` are those of a field with the sides where
-    they may stand; ``place`` is where a circle stands, ``grips`` are the pins of each sheet;
-    ``extent`` is the box (x, y, width, height) that must be in sight of a field, 0 the mechanism or
-    1 the plan; ``times``, of each field of each sheet or of one, is how many times larger what
-    keeps its size on the screen is drawn, 1 if not told; ``values`` are in SI by the names of the
-    rows of the tables, ``margins`` sines of crossings by the step. ``data`` is what it knows of the
-    marks, ``tracing`` what it reckons.
+    ``source`` defines ``graphkinMotion``, an object with the driver's name, unit, low, high, start,
+    whole, step and sense, the grips, and the functions below. ``data`` is what the script knows of
+    the marks; ``tracing`` is the traced construction that it evaluates.
+
+    - ``grips``: the pins of each sheet by which it can be dragged.
+    - ``set(x, element, times, sheet, lettering)`` writes the coordinates of all marks, or of the
+      marks of one sheet, and returns {ok: false} where the mechanism does not close. ``element``
+      finds a mark by its id. ``lettering`` gives the record of each label that leaves its place,
+      null for a hidden label. ``times`` magnifies what keeps its size on the screen, for each field
+      of each sheet or for one field; it is 1 by default.
+    - ``extent(x, sheet, field, times)`` returns the box (x, y, width, height) of a field that must
+      be in sight; field 0 is the mechanism, field 1 the plan.
+    - ``labels(sheet, field)`` returns the labels of a field with the sides on which they may lie.
+    - ``place(id, x)`` returns the position of a circle.
+    - ``values(x)`` are in SI by the names of the rows of the tables.
+    - ``margins(x)`` are the sines of crossings by step.
     """
 
     source: str
@@ -73,8 +79,10 @@ class Moving(Struct, frozen=True):
 def moving(
     mechanism: Mechanism, sheets: Sequence[ScreenSheet], number: int | None = None
 ) -> Moving | None:
-    """How the marks of some sheets follow the driver, driver ``number`` of several; None where
-    ``still`` says why they cannot."""
+    """The script with which the marks of some sheets follow driver ``number`` of several.
+
+    None where ``still`` says why they cannot move.
+    """
     try:
         driven = driven_by(mechanism.scene, figures(mechanism), number)
         return None if driven is None else put_together(Tracing(mechanism, driven), sheets)
@@ -83,7 +91,7 @@ def moving(
 
 
 def still(mechanism: Mechanism) -> str | None:
-    """The key of the sentence that says why a mechanism stands still on a page, or None."""
+    """The key of the sentence that says why a mechanism cannot move; None if it moves."""
     targets = [target for target in mechanism.program.targets if target[0] == "position"]
     try:
         driven = driven_by(mechanism.scene)
@@ -103,7 +111,7 @@ def still(mechanism: Mechanism) -> str | None:
 
 
 def put_together(tracing: Tracing, sheets: Sequence[ScreenSheet]) -> Moving | None:
-    """The moving part of some sheets; None where the mechanism only has a place, not a range."""
+    """The moving part of some sheets; None where the mechanism has only a position, not a range."""
     places = [
         MovingSheet(sheet.drawing, tracing.traced(sheet.drawing.trace), tracing.tape)
         for sheet in sheets
@@ -162,15 +170,17 @@ def followed(
     led: dict[int, list[int]],
     tracing: Tracing,
 ) -> list[dict[str, Any]]:
-    """What must be in sight of both fields of a sheet.
+    """The data of both fields of a sheet: what must be in sight, and the labels.
 
-    ``records`` takes those of its marks, each with the id of its mark, ``more`` the marks that a
-    page makes itself: by id after which one, element and class, ``led`` those of the leader and the
-    circle that go with a label, by its record. A field has the place of its first record, its room,
-    the box of what stands still in it, of each mark that must be in sight the place of its record
-    and how far it reaches across and down, and the same of its labels, large ones first, then as
-    their steps are drawn, with 1 where one may stand on the other side of what it names, 2 where a
-    leader leads to it; and the places of the records of what stands off a point.
+    ``records`` collects the records of the sheet's marks, each with the id of its mark. ``more``
+    collects the marks that the page itself creates: by id, the preceding mark, element and class.
+    ``led`` collects, by a label's record, the records of the leader and the circle that go with it.
+
+    Each field has the index of its first record, its room, and the box of the marks that do not
+    move. ``seen`` lists the marks that must be in sight: index of the record, reach across and
+    reach down. ``labels`` lists the same for labels, large ones first, then in the order of their
+    steps, with a fourth number from ``MarkBindings.sides``. ``off`` lists the records of labels
+    kept off a point.
     """
     angles, first = tracing.driven.angles(tracing.x, tracing.known), 0
     fields = ((sheet.left, sheet.layout.mechanism), (sheet.right, sheet.layout.plan))
@@ -207,8 +217,10 @@ def followed(
 def grips(
     s: int, sheet: ScreenSheet, places: MovingSheet, driven: PageDriver
 ) -> Iterator[tuple[str, str, bool, int]]:
-    """The pins by which the mechanism of a sheet may be moved: id, name, whether it is driven, and
-    by which of the figures; -1 for the driver itself, or the time."""
+    """The pins that can be dragged on a sheet: id, name, whether driven, and figure.
+
+    The figure is -1 for the driver itself or the time.
+    """
     own = points_led(places, driven)
     for k, mark in enumerate(sheet.left):
         if isinstance(mark, CircleMark) and style_class(mark) in ("pin", "point"):
@@ -218,8 +230,10 @@ def grips(
 
 
 def points_led(places: MovingSheet, driven: PageDriver) -> dict[str, int]:
-    """Which of the figures leads each point of the links that are driven: the last on which it
-    hangs, so that a bar at the end of a driven one goes by its own driver."""
+    """The figure that moves each point of the driven links: the last one that the point depends on.
+
+    So a bar at the end of a driven bar follows its own driver.
+    """
     graph, found = places.tape.graph, dict[str, int]()
     for number, figure in enumerate(driven.figures):
         link = None if figure.driver is None else driven.scene.link(figure.driver.link)
@@ -231,8 +245,7 @@ def points_led(places: MovingSheet, driven: PageDriver) -> dict[str, int]:
 
 
 def figures_of(tracing: Tracing, drawing: Drawing) -> Iterator[dict[str, Any]]:
-    """What a page knows of the figures: the output that each shows, where its own input is, and
-    which of the data tells it."""
+    """The data of each figure for a page: its input, the output that it shows, and its datum."""
     scene, tape, words = tracing.driven.scene, tracing.tape, drawing.words
     given = data(drawing)
     stand_by = frozenset[str]().union(*(driver.position.uses() for driver in scene.drivers))
@@ -259,7 +272,7 @@ def figures_of(tracing: Tracing, drawing: Drawing) -> Iterator[dict[str, Any]]:
 
 
 def derived(tracing: Tracing, drawing: Drawing) -> Iterator[list[Any]]:
-    """The data that follow from figures: which, markup of the name, the output and the unit."""
+    """The data that depend on figures: index, markup of the name, output, and unit."""
     names = {figure.parameter for figure in tracing.driven.figures if figure.parameter}
     kind, words = traced_kind(), drawing.words
     for k, one in enumerate(data(drawing)):
@@ -269,7 +282,7 @@ def derived(tracing: Tracing, drawing: Drawing) -> Iterator[list[Any]]:
 
 
 def stands(tracing: Tracing) -> int:
-    """The output that tells where the driver stands by the parameters; -1 where it has none."""
+    """The output for the driver's position as a function of the parameters; -1 without one."""
     driven = tracing.driven
     if driven.driver is None or not driven.figures:
         return -1
@@ -278,15 +291,15 @@ def stands(tracing: Tracing) -> int:
 
 
 def printed_unit(unit: str, words: Words) -> str:
-    """A unit after its number."""
+    """A unit as printed after its number."""
     printed = unit_words(words, unit)
     return f" {printed}" if printed and printed != "°" else printed
 
 
 def read_outs(places: Sequence[MovingSheet]) -> Iterator[tuple[str, int, str, int]]:
-    """Name, sheet, kind and output of each number of the tables: vectors by their size in SI.
+    """Name, sheet, kind and output of each number of the tables; vectors by their length in SI.
 
-    Of what slides the speeds are called ``slide 5``, the accelerations ``slide acceleration 5``.
+    Sliding speeds are named ``slide 5``, sliding accelerations ``slide acceleration 5``.
     """
     for s, place in enumerate(places):
         drawing, tape = place.drawing, place.tape
@@ -310,7 +323,7 @@ def read_outs(places: Sequence[MovingSheet]) -> Iterator[tuple[str, int, str, in
 
 
 def crossings(tracing: Tracing, sheet: ScreenSheet) -> Iterator[tuple[int, int]]:
-    """The sines of what crosses on paper, by the step."""
+    """The sines of the intersections drawn on paper, by step."""
     steps = sheet.drawing.trace.program.steps
     for number, sine in sorted(tracing.margins.items()):
         if is_drawn(steps[number], float(tracing.tape.now(sine))):
@@ -321,7 +334,7 @@ def crossings(tracing: Tracing, sheet: ScreenSheet) -> Iterator[tuple[int, int]]
 
 
 def source(data: dict[str, Any], tracing: Tracing) -> str:
-    """The construction, the data and what lays the marks out, in one expression."""
+    """The construction, the data, and the code that places the marks, in one expression."""
     text = json.dumps(data, ensure_ascii=False, separators=(",", ":")).replace("<", "\\u003c")
     lines = [
         "const graphkinMotion = (() => {",
@@ -337,7 +350,7 @@ def source(data: dict[str, Any], tracing: Tracing) -> str:
 
 
 def misses(tracing: Tracing) -> Iterator[str]:
-    """By how much each group that is closed anew misses, as functions."""
+    """The misclosure of each group that the page closes anew, as functions."""
     names = [f"miss{i}" for i, _ in enumerate(tracing.closings)]
     for name, each in zip(names, tracing.closings, strict=True):
         yield script_source(tracing.graph, each.outputs, tracing.inputs, name)
@@ -345,7 +358,7 @@ def misses(tracing: Tracing) -> Iterator[str]:
 
 
 def turned_through(tracing: Tracing) -> Iterator[dict[str, Any]]:
-    """Near which angle (degrees) each link counts from which place of the driver on."""
+    """The angle (degrees) near which each link counts its turns, by place of the driver."""
     for name, link in tracing.counting.items():
         assert tracing.turned is not None
         near = tracing.turned.near[link].tolist()
@@ -353,8 +366,10 @@ def turned_through(tracing: Tracing) -> Iterator[dict[str, Any]]:
 
 
 def way_through(course: TrackedBranch, tracing: Tracing, reach: Reach) -> dict[str, Any]:
-    """The way of groups of higher class through the range, as a page knows it: near what it tells
-    they are closed anew, so that few digits do."""
+    """The course of groups of higher class through the range, as data for a page.
+
+    The page closes the groups anew near these values, so that few digits suffice.
+    """
     places = [tracing.inputs[each.names[0]] for each in tracing.closings]
     sizes = [each.sizes if each.count > 1 else each.size for each in tracing.closings]
     turn = TURN if reach.whole else 0

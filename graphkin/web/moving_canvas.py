@@ -1,4 +1,4 @@
-"""How the marks of constructions follow while a page moves: the same drawing, on traced numbers."""
+"""How the marks of constructions follow on a moving page: the same drawing in traced numbers."""
 
 from __future__ import annotations
 
@@ -29,15 +29,15 @@ from graphkin.web.moving_sheet import place_of
 
 Ends = tuple[Any, Any]
 FULL, NEAR, FAR, LAST = 0, 1, 2, 3
-"""The parts of a construction line: all of it, before its first point, after its last, its end."""
+"""The parts of a construction line: all, before its first point, after its last point, its end."""
 SQUARE, ROOMY = 2.0, 6.0
-"""Side of the mark of a right angle, and of a triangle that has room for one, in mm."""
+"""Side of a right-angle mark, and the least side of a triangle that has room for one, in mm."""
 ALIKE = 1e-6
-"""Millimetres within which two places of the page are one."""
+"""Distance in mm within which two places of the page count as one."""
 
 
 class Stroke(Struct, frozen=True):
-    """How what is drawn at once follows: its marks, its label, and the head of a vector."""
+    """How the marks drawn together follow: the mark, its label, and the head of a vector."""
 
     mark: Binding
     label: Binding = only_at_start
@@ -46,9 +46,9 @@ class Stroke(Struct, frozen=True):
 
 
 class MovingCanvas(Struct, frozen=True):
-    """The strokes of one step on a field that moves; what is not drawn there is not worked out.
+    """The strokes of one step on a moving field, evaluated only where they are drawn.
 
-    The ``loci`` are the strokes that draw a line beyond the points on it, the near one first.
+    ``loci`` are the strokes that draw a line beyond the points on it, the near one first.
     """
 
     binder: FieldBinder
@@ -59,39 +59,37 @@ class MovingCanvas(Struct, frozen=True):
 
     @property
     def drawing(self) -> Drawing:
-        """The sheet where the scene stands."""
+        """The sheet at the scene's position."""
         return self.binder.places.drawing
 
     @property
     def step(self) -> Step:
-        """The step."""
         return self.drawing.trace.program.steps[self.number]
 
     @property
     def mm(self) -> float:
-        """The millimetres of paper that a unit of the field takes up."""
+        """Millimetres of paper per unit of the field."""
         return self.binder.field.mm
 
     def value(self, number: int) -> Any:
-        """The value of a step while it moves."""
         return self.binder.places.values[number]
 
     def size(self, way: Any) -> Any:
-        """How long a way of the mechanism is drawn, in mm."""
+        """The drawn length of a displacement of the mechanism, in mm."""
         return abs(self.binder.tape.lifted(way)) * self.binder.field.mm
 
     def put(
         self, mark: Callable[[], Binding], label: Callable[[], Binding] = lambda: only_at_start
     ) -> Stroke:
-        """A stroke whose bindings are worked out where they are asked for."""
+        """A stroke whose bindings are evaluated at their first use."""
         self.strokes.append(Stroke(once(mark), once(label)))
         return self.strokes[-1]
 
     @property
     def seen(self) -> Any:
-        """By how much a triangle on the mechanism is larger than what is drawn at all, in mm.
+        """The excess of a triangle on the mechanism over the least size that is drawn, in mm.
 
-        None for what belongs to none.
+        None for a step that belongs to no such triangle.
         """
         kind = construction(self.step)
         if not isinstance(kind, TriangleComponent) or self.step.plane is not Plane.MECHANISM:
@@ -99,12 +97,12 @@ class MovingCanvas(Struct, frozen=True):
         return kind.room(self)
 
     def while_seen(self, shown: Any) -> Any:
-        """A condition, and that of the triangle to which a stroke belongs."""
+        """A condition combined with the condition of the triangle that the stroke belongs to."""
         seen = self.seen
         return shown if seen is None else smaller(shown, seen)
 
     def within(self, point: Any) -> Any:
-        """How far a point lies within what the field can grow to, less 2 mm, in mm."""
+        """How far inside the rectangle of the field's growth a point lies, less 2 mm, in mm."""
         left, top, right, bottom = self.binder.room
         place = self.binder.page(point)
         x, y = place.real, place.imag
@@ -114,7 +112,7 @@ class MovingCanvas(Struct, frozen=True):
     # --- on the mechanism ----------------------------------------------------------------------
 
     def vector(self, name: str, look: str, tail: Any, tip: Any) -> None:
-        """A vector between two points that move; of a centre, at the drawn position alone."""
+        """Draw a vector between two moving points; a centre's vector holds as drawn only."""
         if isinstance(self.value(self.number), Ratio):
             self.put(lambda: only_at_start)
             return
@@ -129,34 +127,34 @@ class MovingCanvas(Struct, frozen=True):
         )
 
     def beside_vector(self, tail: Any, tip: Any) -> Binding:
-        """What stands beside a vector that is not too short to be named."""
+        """Bind the label of a vector, which shows while the vector is long enough to be named."""
         tail, tip = (self.binder.page(end) for end in (tail, tip))
         pose = BodyPose((tail + tip) * 0.5, unit(tip - tail))
         return self.binder.beside(pose, self.while_seen(abs(tip - tail) - TINY))
 
     def point(self, name: str, at: Any) -> None:
-        """A small point."""
+        """Draw a small point."""
         self.put(*[lambda: self.binder.at(at, self.seen)] * 2)
 
     def segment(self, start: Any, end: Any) -> None:
-        """A thin line between two points that move."""
+        """Draw a thin line between two moving points."""
         self.put(lambda: self.binder.between(start, end, shown=self.seen))
 
     def line(self, look: str = "", name: str | None = None) -> bool:
-        """The step's own line."""
+        """Draw the step's own line."""
         self.put(lambda: self.part(FULL))
         return True
 
     def line_beyond(self) -> None:
-        """The same, while it leads farther than its own two points."""
+        """Draw the step's own line while it extends beyond its own two points."""
         self.put(lambda: self.part(FULL, is_beyond=True))
 
     def line_end(self, name: str) -> None:
-        """The end of the step's own line."""
+        """Draw the end of the step's own line."""
         self.put(lambda: self.part(LAST))
 
     def part(self, which: int, *, is_beyond: bool = False) -> Binding:
-        """A part of the step's own line, cut at the edge of what its field can grow to."""
+        """Bind a part of the step's own line, clipped where the field can grow no further."""
         binder, line, number = self.binder, self.value(self.number), self.number
         origin = binder.page(line.point)
         way = binder.places.way(number).conjugate()
@@ -173,25 +171,25 @@ class MovingCanvas(Struct, frozen=True):
         ]
 
     def arc(self, name: str) -> None:
-        """The arc, which is the step's own value."""
+        """Draw the arc that is the step's own value."""
         self.put(self.arc_on_points)
 
     def arc_on_points(self) -> Binding:
-        """As much of the step's own circle as finds the points on it."""
+        """Bind the part of the step's own circle that holds the points found on it."""
         circle = self.value(self.number)
         span = self.binder.places.arc_span(self.number, self.mm)
         return self.binder.arc(circle.centre, circle.radius, span)
 
     def swing(self, centre: Any, end: Any) -> None:
-        """The arc by which a point was carried about a centre."""
+        """Draw the arc along which a point was carried about a centre."""
         self.put(lambda: self.arc_about(centre, end, SWEEP / 2))
 
     def opening(self, name: str, centre: Any, end: Any) -> None:
-        """As much of the arc about a centre as finds a point on it."""
+        """Draw the part of the arc about a centre that finds a point on it."""
         self.put(lambda: self.arc_about(centre, end, SWEEP))
 
     def arc_about(self, centre: Any, end: Any, sweep: float) -> Binding:
-        """An arc about a centre through a point, so many mm of it on both sides of that."""
+        """Bind an arc about a centre through ``end``, extended by ``sweep`` mm to both sides."""
         way, degrees = self.binder.tape.lifted(end - centre), 180 / pi
         radius = abs(way)
         bearing = way.imag.do("atan2", way.real) * degrees
@@ -200,11 +198,11 @@ class MovingCanvas(Struct, frozen=True):
         return self.binder.arc(centre, radius, span, radius * self.mm - SHORT)
 
     def right_angle(self, toward: Any) -> None:
-        """The mark of a right angle at the beginning of the step's line."""
+        """Draw the mark of a right angle at the start of the step's line."""
         self.put(lambda: self.square(toward))
 
     def square(self, toward: Any) -> Binding:
-        """The mark of a right angle at the corner of a triangle on the mechanism."""
+        """Bind the mark of a right angle at the corner of a triangle on the mechanism."""
         binder = self.binder
         corner, pivot = binder.page(self.value(self.number).point), binder.page(toward)
         first = unit(pivot - corner)
@@ -217,12 +215,12 @@ class MovingCanvas(Struct, frozen=True):
     # --- plans -------------------------------------------------------------------------------
 
     def locus(self, name: str, text: str) -> None:
-        """The step's own line beyond the points on it, in two strokes."""
+        """Draw the step's own line beyond the points on it, in two strokes."""
         self.loci.append(self.put(lambda: self.part(NEAR), self.beside_locus))
         self.loci.append(self.put(lambda: self.part(FAR), self.beside_locus))
 
     def beside_locus(self) -> Binding:
-        """What stands beside the far end of a construction line; of equal ones the latter."""
+        """Bind the label next to the far end of a construction line; of equal ends the high one."""
         low, high = self.binder.places.span(self.number, self.mm)
         way = self.binder.places.way(self.number).conjugate()
         end = pick(abs(low) < abs(high) + ALIKE, high, low)
@@ -231,47 +229,47 @@ class MovingCanvas(Struct, frozen=True):
 
     @property
     def undrawn(self) -> Stroke | None:
-        """The far end of a line that is too short to be drawn in two where the scene stands."""
+        """The far end of a line that is too short for two strokes at the scene's position."""
         if not self.loci or self.number in self.drawing.auxiliary:
             return None
         low, high = self.layout.spans[self.number]
         return self.loci[-1] if high - low <= 2 * BEYOND + TINY else None
 
     def image(self) -> None:
-        """The step's own point."""
+        """Draw the step's own point."""
         self.point("", self.value(self.number))
 
     def pole(self) -> None:
-        """The pole, which stays."""
+        """Draw the pole, which does not move."""
         self.image()
 
     def side(self, start: Any, end: Any) -> None:
-        """A side of the image of a link."""
+        """Draw a side of the image of a link."""
         self.leg("", "", start, end)
 
     def image_aside(self) -> None:
-        """The same of an auxiliary plan."""
+        """Draw the point of an auxiliary plan."""
         self.image()
 
     def leg(self, name: str, look: str, start: Any, end: Any) -> None:
-        """A thin line between two points that move, while they stand apart."""
+        """Draw a thin line between two moving points while they are apart."""
         self.put(lambda: self.joining(start, end))
 
     def joining(self, start: Any, end: Any) -> Binding:
-        """A line between two points while they stand apart."""
+        """Bind a line between two points while they are apart."""
         start, end = map(self.binder.tape.lifted, (start, end))
         return self.binder.between(start, end, shown=self.size(end - start) - SHORTEST)
 
     def stretch(self, name: str, look: str, at: Any, along: Any, low: Any, high: Any) -> None:
-        """A thin line of a look on a line through a point, from one distance to another."""
+        """Draw a thin line along a line through a point, from one distance to another."""
         self.put(lambda: self.joining(at + along * low, at + along * high))
 
     def through(self, first: Any, second: Any, third: Any) -> None:
-        """The line through two points as far as a third, a little beyond them all."""
+        """Draw the line through two points as far as a third, slightly beyond them all."""
         self.put(lambda: self.around(*map(self.binder.tape.lifted, (first, second, third))))
 
     def around(self, first: Any, last: Any, third: Any) -> Binding:
-        """The same line, while the two points stand apart."""
+        """Bind the line of ``through`` while its first two points are apart."""
         lift = self.binder.tape.lifted
         way = unit(last - first)
         low = high = lift(0.0)
@@ -285,28 +283,28 @@ class MovingCanvas(Struct, frozen=True):
     # --- centres -----------------------------------------------------------------------------
 
     def centre(self, value: Ratio) -> bool:
-        """A centre that moves, and shows where the field has room for it."""
+        """Draw a moving centre, which shows where the field has room for it."""
         self.put(*[lambda: self.in_room(place_of(value))] * 2)
         return True
 
     def in_room(self, place: Any) -> Binding:
-        """A point, where the field has room for it."""
+        """Bind a point that shows where the field has room for it."""
         return self.binder.at(place, self.within(place))
 
     def ring(self, at: Any) -> None:
-        """The ring around a pin."""
+        """Draw the ring around a pin."""
         self.put(lambda: self.binder.at(at), lambda: self.in_room(at))
 
     def spot(self, at: Any) -> None:
-        """A small point, where the field has room for it."""
+        """Draw a small point, which shows where the field has room for it."""
         self.put(lambda: self.in_room(at), lambda: self.binder.at(at))
 
     def circle(self, circle: Circle, look: str) -> None:
-        """A circle, while it is neither a point nor straight."""
+        """Draw a circle while it is neither a point nor straight."""
         self.put(lambda: self.around_centre(circle))
 
     def around_centre(self, circle: Circle) -> Binding:
-        """As much of a circle as lies in what the field can grow to."""
+        """Bind the part of a circle that lies in the rectangle that the field can grow to."""
         binder = self.binder
         size = binder.tape.lifted(circle.radius) * self.mm
         centre = binder.page(circle.centre)
@@ -323,21 +321,21 @@ class MovingCanvas(Struct, frozen=True):
     def away(
         self, start: Any, way: Any, text: str, *, ray: bool = True, headed: bool = True
     ) -> None:
-        """The ray to what lies at infinity."""
+        """Draw the ray towards a point at infinity."""
         self.put(lambda: self.endless(start, way))
 
     def endless(self, start: Any, way: Any) -> Binding:
-        """The ray to what lies at infinity."""
+        """Bind the ray towards a point at infinity."""
         start, way = map(self.binder.tape.lifted, (start, way))
         end = start + unit(way) * (ENDLESS / self.mm)
         return self.binder.between(start, end, above_foot(self.binder.room))
 
     def through_tips(self, one: Ends, other: Ends) -> None:
-        """The line through the tips of two vectors, while these are parallel."""
+        """Draw the line through the tips of two vectors while the vectors are parallel."""
         self.put(lambda: self.tips(one, other))
 
     def tips(self, *vectors: Ends) -> Binding:
-        """The line through the tips of two vectors, while these are parallel."""
+        """Bind the line of ``through_tips``."""
         lift = self.binder.tape.lifted
         ways = [lift(way) for _, way in vectors]
         first, last = (lift(tail) + way for (tail, _), way in zip(vectors, ways, strict=True))
@@ -347,11 +345,11 @@ class MovingCanvas(Struct, frozen=True):
         return self.binder.between(first - on, last + on, room, shown)
 
     def note(self, text: str) -> None:
-        """Words of the drawn position alone."""
+        """Ignore a note, which holds for the drawn position alone."""
 
 
 def once(made: Callable[[], Binding]) -> Binding:
-    """A binding that is worked out where a mark first asks for it."""
+    """A binding that is evaluated when a mark first asks for it."""
     found = cache(made)
 
     def bound(mark: Mark) -> Record | None:

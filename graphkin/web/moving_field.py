@@ -1,7 +1,7 @@
-"""The field of a page that moves: the symbols of paper, drawn in it, are marks in traced numbers.
+"""The field of a moving page, in which paper's symbols are drawn as marks in traced numbers.
 
-A symbol is laid off from a place along a way; what is laid off by constant lengths is carried by
-this pose, so that a page holds the pose and the lengths, not each of its corners.
+A symbol starts at a place and extends along a direction. A pose carries the parts at constant
+distances, so that a page holds the pose and the distances rather than each corner.
 """
 
 from __future__ import annotations
@@ -23,7 +23,6 @@ class Local(NamedTuple):
 
     @property
     def on_page(self) -> Any:
-        """The place itself."""
         return self.pose.origin + self.pose.way * self.at if self.at else self.pose.origin
 
 
@@ -38,12 +37,12 @@ class MovingCoordinate(TracedNumber):
 
 
 class MovingPlace(Carried):
-    """A place of a page that moves."""
+    """A place on a moving page."""
 
     local: Local
 
     def __new__(cls, local: Local) -> MovingPlace:
-        """Both coordinates of a place."""
+        """The place with both its coordinates."""
         at = local.on_page
         found = super().__new__(
             cls, (MovingCoordinate(at.real, local), MovingCoordinate(at.imag, local))
@@ -52,7 +51,7 @@ class MovingPlace(Carried):
         return found
 
     def toward(self, end: XY) -> tuple[Any, XY]:
-        """How far another place of the page is, and the unit way to it."""
+        """The distance to another place of the page, and the unit direction towards it."""
         assert isinstance(end, MovingPlace)
         way = self.local.pose.way
         across = end.local.on_page - self.local.on_page
@@ -62,7 +61,7 @@ class MovingPlace(Carried):
         return (along, MovingWay(way)) if along > 0 else (-along, MovingWay(way, -1))
 
     def across(self, way: XY, along: Any, aside: Any) -> XY:
-        """The place so far along a unit way from this one and so far to its right."""
+        """The place ``along`` a unit direction from this one and ``aside`` to its right."""
         pose, here = self.local
         way = (
             way
@@ -79,29 +78,29 @@ class MovingPlace(Carried):
 
 
 class MovingWay(tuple[Any, Any]):
-    """A unit way of a page that moves: a traced one, or the opposite of it."""
+    """A unit direction of a moving page: a traced direction or its opposite."""
 
     way: TracedNumber
     sense: int
 
     def __new__(cls, way: TracedNumber, sense: int = 1) -> MovingWay:
-        """Both parts of a way."""
+        """The direction with both its components."""
         found = super().__new__(cls, (way.real * sense, way.imag * sense))
         found.way, found.sense = way, sense
         return found
 
 
 class MovingField(Field, frozen=True):
-    """A field while it moves."""
+    """A field of a moving page."""
 
     binder: FieldBinder
 
     def __call__(self, point: Any) -> XY:
-        """Where a traced point of the drawing falls on the page."""
+        """The place on the page of a traced point of the drawing."""
         upright = self.binder.tape.lifted(1 + 0j)
         return MovingPlace(Local(BodyPose(self.binder.page(point), upright), 0j))
 
     def way(self, vector: Any) -> XY:
-        """The unit way on the page of a direction of the drawing."""
+        """The unit direction on the page of a direction of the drawing."""
         way = self.binder.tape.lifted(vector)
         return MovingWay((way / abs(way)).conjugate())

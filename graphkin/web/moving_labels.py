@@ -1,8 +1,8 @@
-"""Where letters stand in an animation: each keeps its place beside its point over all of a motion.
+"""Where letters lie in an animation: each keeps its place relative to its point.
 
-A letter stands off its point in a direction of the page, or in one that turns with another point
-as seen from it. Which is best is found once, by what the letter covers over the motion; so it goes
-smoothly with its point and stands clear of bars, walls and other letters where that can be.
+A letter lies off its point in a fixed direction of the page, or in a direction that turns with
+another point. The best direction is found once, from what the letter covers over the motion. So the
+letter moves smoothly with its point and avoids bars, walls and other letters.
 """
 
 from __future__ import annotations
@@ -26,35 +26,37 @@ if TYPE_CHECKING:
 LETTER = 3.5
 """Height of letters, in mm."""
 FAR = (4.2, 6.0, 8.0, 11.0)
-"""How far a letter may stand from its point, in mm; wide ones farther to the side."""
+"""Distances of a letter from its point, in mm; wide letters lie farther to the side."""
 MOVING = 3
-"""A letter that other points may lead takes one of the first so many: farther off it would seem
-to belong to none of what moves.
+"""Number of the distances open to a letter that other points may guide.
+
+Farther off, such a letter would seem to belong to none of the moving points.
 """
 TURNS = 16
-"""Directions that are tried."""
+"""Number of directions that are tried."""
 LEFT: XY = (-0.8, -0.6)
-"""Where a letter stands when its direction is lost: to the left, above."""
+"""The direction of a letter whose own direction is undefined: up and to the left."""
 GAP = 0.6
-"""Letters keep so far from one another, in mm."""
+"""Clear distance between letters, in mm."""
 ASIDE = 2.0
-"""The same in a row, where two letters would be read as those of one segment."""
+"""Clear distance between letters in a row, which would otherwise read as one segment's name."""
 ROUND = 2.0
-"""Circles up to this radius are pins and points, in mm."""
+"""Largest radius of the circles that are pins and points, in mm."""
 FAINT = ("ground", "centre-line", "construction", "pitch", "trajectory", "drive")
-"""The classes of fine lines, which a letter may stand on rather than on others."""
+"""The classes of fine lines, which a letter covers in preference to others."""
 COVERED = {"fine": 0.3, "line": 1.0, "point": 2.0, "letter": 4.0, "outside": 6.0}
-"""What it costs a letter to cover something at one moment."""
+"""The cost of covering an object at one moment."""
 CROWDED = 3.0
-"""Lines that a letter covers cost no more than this."""
+"""The largest cost of the lines that a letter covers."""
 DISTANT = 0.2
-"""What it costs a letter to stand farther away."""
+"""The cost of each step to a larger distance."""
 
 
 class Rule(Struct, frozen=True):
-    """The place of a letter: ``far`` from its point, away from others turned by ``turn``.
+    """The place of a letter: its distance ``far`` from its point, and its direction.
 
-    Without others it is the direction of ``turn`` itself on the page (x to the right, y down).
+    The direction is away from ``others``, turned by ``turn``. Without others it is ``turn`` itself
+    on the page (x to the right, y down).
     """
 
     others: tuple[str, ...] = ()
@@ -62,7 +64,7 @@ class Rule(Struct, frozen=True):
     far: float = FAR[0]
 
     def ways(self, at: XY, others: Sequence[XY]) -> list[XY]:
-        """Its direction, and those to which it changes in turn where another letter stands."""
+        """The direction of the letter, then its alternatives where another letter lies."""
         u, v = off(at, others) if self.others else (1.0, 0.0)
         c, s = self.turn
         u, v = (u * c - v * s, u * s + v * c) if u or v else LEFT
@@ -74,7 +76,7 @@ class Rule(Struct, frozen=True):
 
 
 def off(at: XY, others: Sequence[XY]) -> XY:
-    """The way from some places to another, all of them alike; nought where none tells it."""
+    """The unit direction from some places to another, each with equal weight; zero if undefined."""
     ways = [(at[0] - x, at[1] - y) for x, y in others]
     ways = [(u / hypot(u, v), v / hypot(u, v)) for u, v in ways if hypot(u, v) > 1]
     u, v = sum(u for u, _ in ways), sum(v for _, v in ways)
@@ -83,7 +85,7 @@ def off(at: XY, others: Sequence[XY]) -> XY:
 
 
 class PointLetter(Struct, frozen=True):
-    """The letter of a point: its markup and look, its step, and the stroke that draws its point."""
+    """The letter of a point: markup, class, step, and the stroke that draws its point."""
 
     markup: str
     look: str = ""
@@ -105,9 +107,9 @@ class PointLetter(Struct, frozen=True):
 
 
 class FrameView(Struct, frozen=True):
-    """What one moment shows of a field: its points with their letters, and what lies about them.
+    """The content of a field at one moment: points with letters, and the marks around them.
 
-    ``near`` are the points by which the letter of another may be led.
+    ``near`` are the points that may guide the letter of another point.
     """
 
     letters: Mapping[str, PointLetter]
@@ -117,7 +119,7 @@ class FrameView(Struct, frozen=True):
 
 
 def lettering(seen: FrameView, rules: Mapping[str, Rule], rect: Rect) -> Iterator[Text]:
-    """The letters of one moment; one for which all sides are taken is left out."""
+    """The letters of one moment; a letter without a free side is left out."""
     taken: list[tuple[XY, float]] = []
     left, top, right, bottom = rect
     for name, letter in seen.letters.items():
@@ -133,7 +135,7 @@ def lettering(seen: FrameView, rules: Mapping[str, Rule], rect: Rect) -> Iterato
 
 
 def meet(one: XY, width: float, other: XY, breadth: float) -> bool:
-    """Whether two letters with their middles at two places lie on one another."""
+    """Whether two letters, given by their middles and widths, overlap."""
     across, down = abs(one[0] - other[0]), abs(one[1] - other[1])
     return across < (width + breadth) / 2 + ASIDE and down < LETTER + GAP
 
@@ -144,7 +146,7 @@ def meet(one: XY, width: float, other: XY, breadth: float) -> bool:
 def rules_over(moments: Sequence[FrameView], rect: Rect, fars: Sequence[float]) -> dict[str, Rule]:
     """The best rule for each letter over some moments, one letter after another.
 
-    ``rect`` is what letters should stay in; ``fars`` is how far they may stand off, in mm.
+    Letters should stay inside ``rect``; ``fars`` are their possible distances in mm.
     """
     found: dict[str, Rule] = {}
     covered = [obstacles(seen.marks) for seen in moments]
@@ -173,19 +175,19 @@ def rules_for(near: tuple[str, ...], fars: Sequence[float]) -> Iterator[Rule]:
 
 
 def frames_of(near: tuple[str, ...]) -> list[tuple[str, ...]]:
-    """The points that may lead a letter: each by itself, all together, and none."""
+    """The points that may guide a letter: each by itself, all together, and none."""
     return [*((each,) for each in near), *([near] if len(near) > 1 else []), ()]
 
 
 @lru_cache(maxsize=1)
 def turns() -> tuple[XY, ...]:
-    """Directions all round, that of nought first."""
+    """Directions all round, starting with the angle zero."""
     angles = [2 * pi * k / TURNS for k in range(TURNS)]
     return tuple((round(cos(a), 6), round(sin(a), 6)) for a in angles)
 
 
 def spots_of(seen: FrameView, name: str, near: tuple[str, ...], fars: Sequence[float]) -> Any:
-    """Where the rules put the letter of a point at one moment, in their order (n by 2, mm)."""
+    """The places that the rules give a letter at one moment, in their order (n by 2, mm)."""
     at, wide, found = seen.places[name], seen.letters[name].width / 4, []
     c, s = np.array(turns()).T
     for others in frames_of(near):
@@ -198,7 +200,7 @@ def spots_of(seen: FrameView, name: str, near: tuple[str, ...], fars: Sequence[f
 
 
 def obstacles(marks: Sequence[Mark]) -> tuple[Any, Any, Any]:
-    """The lines of some marks (n by 4, mm) with their prices, and the middles of small circles."""
+    """The lines of some marks (n by 4, mm) with their costs, and the centres of small circles."""
     lines: list[tuple[float, ...]] = []
     prices: list[float] = []
     points: list[XY] = []
@@ -215,7 +217,7 @@ def obstacles(marks: Sequence[Mark]) -> tuple[Any, Any, Any]:
 
 
 def strokes(mark: Mark) -> Iterator[tuple[float, ...]]:
-    """The straight lines of a mark, round ones as polygons."""
+    """The straight lines of a mark; round marks become polygons."""
     if isinstance(mark, LineMark):
         points: list[XY] = [(mark.x1, mark.y1), (mark.x2, mark.y2)]
     elif isinstance(mark, Polyline):
@@ -238,7 +240,7 @@ def price(
     letters: Sequence[tuple[XY, float]],
     rect: Rect,
 ) -> Any:
-    """What it costs a letter to stand at each of some places (n by 2, mm) at one moment."""
+    """The cost of a letter at each of some places (n by 2, mm) at one moment."""
     lines, prices, points = lies
     half = width / 2 + GAP / 2, LETTER / 2 + GAP / 2
     ends = lines.reshape(-1, 2, 2)
@@ -259,7 +261,7 @@ def price(
 
 
 def crossed(spots: Any, half: XY, lines: Any) -> Any:
-    """Which boxes about some places (n) each of some lines (m) crosses: n by m."""
+    """Which boxes around some places (n) each of some lines (m) crosses: n by m."""
     ends = lines.reshape(-1, 2, 2)
     middle, ways = ends.mean(axis=1), (ends[:, 1] - ends[:, 0]) / 2
     away = middle[None] - spots[:, None]

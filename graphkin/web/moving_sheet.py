@@ -1,4 +1,4 @@
-"""One sheet while it moves: its bodies, and how far its lines and arcs are drawn."""
+"""One moving sheet: its bodies, and the drawn length of its lines and arcs."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ from graphkin.web.body_pose import BodyPose, unit
 
 
 class MovingSheet(Struct, frozen=True, dict=True):
-    """One sheet while it moves: its drawing, and the traced values of its steps."""
+    """One moving sheet: its drawing, and the traced values of its steps."""
 
     drawing: Drawing
     trace: Trace
@@ -28,7 +28,6 @@ class MovingSheet(Struct, frozen=True, dict=True):
 
     @property
     def values(self) -> Mapping[int, Any]:
-        """The traced values of the steps."""
         return self.trace.values
 
     @cached_property
@@ -38,11 +37,11 @@ class MovingSheet(Struct, frozen=True, dict=True):
 
     @property
     def spots(self) -> Mapping[str, Any]:
-        """Where every point of the drawing stands, by its letters."""
+        """The place of every point of the drawing, by its letter."""
         return self.moving.standing.places
 
     def pose(self, link: str) -> BodyPose | None:
-        """Where a link stands; None where nothing tells how it is turned."""
+        """The pose of a link; None where no direction of the link is known."""
         points = self.drawing.scene.link(link).points
         places = [p for name, p in self.moving.positions.items() if name in points]
         with self.tape.choosing():
@@ -52,7 +51,7 @@ class MovingSheet(Struct, frozen=True, dict=True):
         return BodyPose(self.tape.lifted(places[0]), self.tape.lifted(way))
 
     def turn_of(self, link: str) -> Any:
-        """By how much a link has turned since the drawing, as a unit vector."""
+        """The rotation of a link since the drawn position, as a unit vector."""
         with self.tape.choosing():
             way = self.moving.standing.axis(link)
         return self.tape.lifted(
@@ -60,14 +59,14 @@ class MovingSheet(Struct, frozen=True, dict=True):
         )
 
     def points_on(self, number: int) -> list[int]:
-        """The steps whose points a line or an arc must reach, as the layout finds them."""
+        """The steps whose points a line or an arc must reach, as in the layout."""
         drawing, drawn = self.drawing, self.drawing.trace.values
         numbers = [drawing.results.get(c, c) for c in drawing.children.get(number, ())]
         numbers += joined_points(drawing, number)
         return [each for each in numbers if isinstance(drawn[each], complex | Ratio)]
 
     def reached(self, number: int, point: int, mm: float) -> Any:
-        """How far along a line a point on it lies, in mm."""
+        """The distance along a line to a point on it, in mm."""
         line, way, value = self.values[number], self.way(number), self.values[point]
         if not isinstance(value, Ratio):
             return dot(self.tape.lifted(value) - line.point, way) * mm
@@ -86,7 +85,7 @@ class MovingSheet(Struct, frozen=True, dict=True):
 
     @cached_property
     def ways(self) -> dict[int, Any]:
-        """The directions of lines that are known."""
+        """The directions of lines, filled as they are needed."""
         return {}
 
     def way(self, number: int) -> Any:
@@ -97,17 +96,17 @@ class MovingSheet(Struct, frozen=True, dict=True):
 
     @cached_property
     def spans(self) -> dict[int, tuple[Any, Any]]:
-        """The drawn parts of lines that are known."""
+        """The drawn parts of lines, filled as they are needed."""
         return {}
 
     def span(self, number: int, mm: float) -> tuple[Any, Any]:
-        """The drawn part of a line in mm from its own point, as the layout has it."""
+        """The drawn part of a line in mm from its own point, as in the layout."""
         if number not in self.spans:
             self.spans[number] = self.span_of(number, mm)
         return self.spans[number]
 
     def span_of(self, number: int, mm: float) -> tuple[Any, Any]:
-        """The same, reckoned."""
+        """Compute the drawn part of a line."""
         low = high = self.tape.lifted(0.0)
         for point in self.points_on(number):
             along = self.reached(number, point, mm)
@@ -115,7 +114,7 @@ class MovingSheet(Struct, frozen=True, dict=True):
         return low - BEYOND, high + BEYOND
 
     def arc_span(self, number: int, mm: float) -> tuple[Any, Any]:
-        """The drawn part of an arc in degrees, as the layout has it."""
+        """The drawn part of an arc in degrees, as in the layout."""
         circle: Circle = self.values[number]
         degrees = 180 / np.pi
         half = smaller(degrees * SWEEP / (self.tape.lifted(circle.radius) * mm), 60.0)

@@ -1,4 +1,4 @@
-"""An offline page: everything in one file, and a policy that lets a browser run nothing else."""
+"""An offline page: everything in one file, with a policy that lets a browser run nothing else."""
 
 from __future__ import annotations
 
@@ -28,19 +28,19 @@ if TYPE_CHECKING:
 
 WEB = Path(__file__).resolve().parent / "assets"
 ENDS = re.compile(r"</(?:script|style)|<!--", re.IGNORECASE)
-"""What would end a script or a style sheet before its end."""
+"""Text that would end a script or a style sheet too early."""
 OWN = "font-src data:; img-src data: blob:; base-uri 'none'; form-action 'none'"
-"""What a page may use besides its scripts and styles: what it holds itself."""
+"""The policy for fonts, images and forms: only what the page itself holds."""
 
 
 def offline_page(
     title: str, language: str, body: Markup, styles: Sequence[str], scripts: Sequence[str] = ()
 ) -> str:
-    """A whole page of HTML; scripts run after it in their order.
+    """A complete HTML page; its scripts run after the body, in their order.
 
-    The policy names each script and style sheet by its hash: no other runs, nothing is fetched,
-    attributes with code or styles do nothing. Raises ValueError for a script or a style sheet that
-    would end early.
+    The policy names each script and style sheet by its hash. Nothing else runs, nothing is fetched,
+    and attributes with code or styles have no effect. Raises ValueError for a script or a style
+    sheet that would end early.
     """
     for text in (*styles, *scripts):
         if ENDS.search(text):
@@ -59,18 +59,18 @@ def offline_page(
 
 
 def hashes(texts: Sequence[str]) -> str:
-    """The texts as a policy names them; 'none' where there are none."""
+    """The texts as a policy names them; 'none' without any."""
     return " ".join(map(named, texts)) or "'none'"
 
 
 @lru_cache(maxsize=64)
 def named(text: str) -> str:
-    """A text by its hash."""
+    """The hash of a text, as a policy names it."""
     return f"'sha256-{b64encode(sha256(text.encode('utf-8')).digest()).decode('ascii')}'"
 
 
 def data_block(name: str, value: Any) -> str:
-    """Data that a script reads by its id; no sign in it ends the block."""
+    """Data that a script reads by its id; no character of it can end the block."""
     text = json.dumps(value, ensure_ascii=False, allow_nan=False, separators=(",", ":"))
     text = text.replace("<", "\\u003c").replace("&", "\\u0026")
     return f'<script type="application/json" id="{escape(name)}">{text}</script>'
@@ -78,11 +78,11 @@ def data_block(name: str, value: Any) -> str:
 
 @lru_cache(maxsize=32)
 def part(name: str) -> str:
-    """A file of those that a browser reads: a script or a style sheet."""
+    """A file that a browser reads: a script or a style sheet."""
     return (WEB / name).read_text(encoding="utf-8")
 
 
-# --- the scripts of pages: short files that share their names, put together in a fixed order ------
+# --- the scripts of pages: short files that share their names, joined in a fixed order ------------
 
 
 STEP_PAGE = (
@@ -117,11 +117,11 @@ STEP_PAGE = (
     "aiming.js",
     "keys.js",
 )
-"""The script of a step page: at once, a file uses only what stands before it."""
+"""The script of a step page: while loading, a file uses only the files before it."""
 PLAYER = ("numbers.js", "curves.js", "player.js")
 """The script of a cycle's page."""
 MOVING = ("closing.js", "moving.js")
-"""What lays out the marks that follow the driver."""
+"""The script that places the marks that follow the driver."""
 FORM = ("form.js",)
 """The script of a form for answers."""
 WRITTEN_IN = {
@@ -139,31 +139,31 @@ WRITTEN_IN = {
         for key, each in PALETTE.items()
     ),
 }
-"""What files leave to the kinds of lines and to the actions of the palette."""
+"""The placeholders in the scripts, with the classes of lines and the actions of the palette."""
 REMARK = re.compile(r"(?<=[;,{}\])])\s+// [^\"'`]*$")
-"""A remark at the end of a line, in which no text can stand."""
+"""A comment at the end of a line, without any quotation mark."""
 TEXT = re.compile("[\"'`/\\\\]")
-"""What a line with a text, a pattern or a division holds."""
+"""Characters of a line with a string, a regular expression or a division."""
 SIGN = re.compile(r" *([=<>?:,;{}()\[\]&|*]+) *")
-"""Signs that need no blanks; two signs + or - must not meet."""
+"""Characters that need no blanks around them; two + or - must not meet."""
 REMARKS = ("//", "/**")
-"""How lines begin that only a reader of the files needs."""
+"""The starts of lines that are comments."""
 
 
 def together(names: tuple[str, ...]) -> str:
-    """Some files as one script, whose names nothing else on the page sees."""
+    """Some files as one script, whose names are hidden from the rest of the page."""
     return "\n".join(("(() => {", '"use strict";', tight(joined(names)), "})();"))
 
 
 def tight(script: str) -> str:
-    """A script without blanks around signs, on the lines that hold no text and no division."""
+    """A script without blanks around operators, on lines without strings and divisions."""
     lines = script.split("\n")
     return "\n".join(line if TEXT.search(line) else SIGN.sub(r"\1", line) for line in lines)
 
 
 @lru_cache(maxsize=4)
 def joined(names: tuple[str, ...]) -> str:
-    """Some files one after the other, without remarks."""
+    """Some files in sequence, without comments."""
     lines = (REMARK.sub("", line.strip()) for name in names for line in part(name).splitlines())
     script = "\n".join(line for line in lines if line and not line.startswith(REMARKS))
     for place, what in WRITTEN_IN.items():
@@ -171,20 +171,20 @@ def joined(names: tuple[str, ...]) -> str:
     return script
 
 
-# --- A field of a sheet as a picture of its own in a page, in inks that follow light and dark -----
+# --- a field of a sheet as a picture in a page, in inks that follow the light and dark themes -----
 
 
 WIDTH = re.compile(r"stroke-width:([\d.]+)")
 THINNEST = 0.24
-"""Lines no thinner than this, in mm, on a screen whose dots are coarser than paper's grain."""
+"""Least width of lines in mm, for screens coarser than paper."""
 BAR = 20
-"""Millimetres of paper that the bar of a field's scale is long, until a script finds others."""
+"""Length of the bar of a field's scale, in mm of paper, until a script sets another."""
 
 
 def field_picture(marks: Sequence[tuple[str, Timed]], rect: Rect, named_by: str) -> str:
-    """The marks of a field, each under its id, as SVG whose units are millimetres of the page.
+    """The marks of a field, each under its id, as SVG in millimetres of the page.
 
-    ``named_by`` is the id of the words that tell what the picture is.
+    ``named_by`` is the id of the words that describe the picture.
     """
     left, top, right, bottom = rect
     box = " ".join(map(number, (left, top, right - left, bottom - top)))
@@ -193,16 +193,16 @@ def field_picture(marks: Sequence[tuple[str, Timed]], rect: Rect, named_by: str)
 
 
 def bar_rules(fields: str, rects: Sequence[Rect]) -> Iterator[str]:
-    """What of each of some fields side by side its bar is to know: how wide and high it is."""
+    """The style rules for the scale bars of fields side by side: width and height of each."""
     for place, (left, top, right, bottom) in enumerate(rects, 1):
         box = f"--bar:{BAR};--wide:{number(right - left)};--high:{number(bottom - top)}"
         yield f"{fields}>:nth-child({place}){{{box}}}"
 
 
 def placed(name: str, timed: Timed) -> str:
-    """A mark with its id, the sentence that draws it, and the step that it shows, written once.
+    """A mark with its id, the sentence that draws it, and the step that it shows.
 
-    One without an id belongs to a picture within the picture.
+    A mark without an id belongs to a picture within the picture.
     """
     own = f' id="{name}"' if name else " data-aside"
     of = f' data-of="{timed.step}"' if timed.step is not None else ""
@@ -212,7 +212,7 @@ def placed(name: str, timed: Timed) -> str:
 
 
 def drawn_mark(timed: Timed) -> str:
-    """A mark; of a label that several letters share each appears with its own sentence."""
+    """A mark; in a label that several letters share, each letter appears with its own sentence."""
     if not timed.letters or not isinstance(timed.mark, Text):
         return element(timed.mark)
     parts = zip(timed.mark.letters, timed.letters, strict=True)
@@ -220,7 +220,7 @@ def drawn_mark(timed: Timed) -> str:
 
 
 def ink_sheet(marks: Iterable[Mark], ink: Ink) -> str:
-    """The style sheet of some marks, with their faces; no shaft changes while a vector moves."""
+    """The style sheet of some marks, with fonts. A shaft keeps its width while it moves."""
     marks = [replace(mark, cls=mark.cls.removesuffix(f" {BRIEF}")) for mark in marks]
     return "\n".join(
         (font_face(False), font_face(True), LETTERING, *map(themed, rules(marks, ink)))
@@ -228,7 +228,7 @@ def ink_sheet(marks: Iterable[Mark], ink: Ink) -> str:
 
 
 def themed(rule: str) -> str:
-    """A rule of the sheets in inks that follow light and dark, its lines as strong as told."""
+    """A style rule in inks that follow the light and dark themes, with scalable line widths."""
     return WIDTH.sub(
         lambda found: f"stroke-width:calc({max(float(found[1]), THINNEST):g}px*var(--w))",
         in_variables(rule),

@@ -1,4 +1,4 @@
-"""What moves a page: the scene's one driver, or the time, as the only input of a traced program."""
+"""The driver of a page: the scene's one driver, or the time, as input of a traced program."""
 
 from __future__ import annotations
 
@@ -27,11 +27,11 @@ from graphkin.text import Words
 
 
 class GivenFigure(Struct, frozen=True):
-    """A number that can be changed: its input, its key on the page, markup of its symbol, where it
-    stands and how far and in which steps it goes, in its unit.
+    """A number that can be changed: input, key on the page, markup of its symbol, start and range.
 
-    ``parameter`` is that of the scene; else ``driver`` is one of several, and the number is how far
-    that is led from where it would be at the time, ``metres`` what one unit of it is.
+    Start, range and step are in its unit. ``parameter`` is a parameter of the scene. Otherwise
+    ``driver`` is one of several drivers, and the number is its offset from its position at the
+    time; ``metres`` is the length of one unit of the offset.
     """
 
     name: str
@@ -48,21 +48,24 @@ class GivenFigure(Struct, frozen=True):
 
 
 def figures(mechanism: Mechanism) -> tuple[GivenFigure, ...]:
-    """All figures of a mechanism; where its pins tell how often links went round, which is known
-    along the time alone, no driver is led aside."""
+    """All figures of a mechanism.
+
+    Drivers have no figure where pins alone count the turns of links, since those turns are known
+    along the time only.
+    """
     counted = any(counted_link(step) is not None for step in mechanism.program.steps)
     scene = mechanism.scene
     return (*of_parameters(scene), *(() if counted else of_drivers(scene)))
 
 
 def of_parameters(scene: Scene) -> Iterator[GivenFigure]:
-    """The parameters with a range that tell how fast drivers are, or how long links."""
+    """The parameters with a range that set speeds of drivers or lengths of links."""
     free = [quantity.place for quantity in lengths_and_rates(scene)]
     places = {driver.position.place for driver in scene.drivers}
     for name, each in scene.parameters.items():
         uses = {quantity.place for quantity in quantities(scene) if name in quantity.uses()}
         if each.minimum is None or each.maximum is None or uses <= places:
-            continue  # where a driver stands its own slider or handle says
+            continue  # the slider or the handle of the driver sets its position
         if uses <= {*free, *places}:
             low, high = (float(end.number({})) for end in (each.minimum, each.maximum))
             start = float(Fraction(str(scene.values[name])))
@@ -74,7 +77,7 @@ def of_parameters(scene: Scene) -> Iterator[GivenFigure]:
 
 
 def lengths_and_rates(scene: Scene) -> Iterator[Quantity]:
-    """The numbers by which a page can draw otherwise: speeds, and lengths of links that move."""
+    """The quantities that a page can change: speeds, and lengths of moving links."""
     for driver in scene.drivers:
         yield from (driver.speed, driver.acceleration)
     for link in scene.links.values():
@@ -83,7 +86,7 @@ def lengths_and_rates(scene: Scene) -> Iterator[Quantity]:
 
 
 def of_drivers(scene: Scene) -> Iterator[GivenFigure]:
-    """Each driver of several."""
+    """The figure of each driver, if there are several."""
     for number, driver in enumerate(scene.drivers if len(scene.drivers) > 1 else (), 1):
         unit, metres, low, high, step = "deg", 1.0, -TURN, TURN, 1.0
         if driver.kind != "turn":
@@ -97,28 +100,28 @@ def of_drivers(scene: Scene) -> Iterator[GivenFigure]:
         yield GivenFigure(*of, *span, unit, driver=driver, metres=metres)
 
 
-# --- what moves a page ----------------------------------------------------------------------------
+# --- the driver of a page -------------------------------------------------------------------------
 
 
 INPUT = "driver"
 """The name of the input: the driver's position, or the time."""
 GRID = 720
-"""Positions at which it is looked whether the mechanism closes: every half degree of a turn."""
+"""Number of positions per turn at which the closure is tested: one every half degree."""
 FINER = 65
-"""Positions tried between two of them for the end of a range, again and again."""
+"""Number of positions between two of them in each round of the search for the end of a range."""
 ROUNDS = 7
-"""How often: the last places lie some 1e-13 of the first distance apart."""
+"""Number of rounds: the last positions are some 1e-13 of the first distance apart."""
 LEAST = 1e-6
-"""The least part of what is looked at that is a range and no mere place."""
+"""Least part of the window that counts as a range rather than a single position."""
 PARTS = 360
-"""How many moves of a slider lead through a range that is not one of many degrees."""
+"""Number of slider moves across a range, unless the range spans many degrees."""
 
 
 class PageDriver(Struct, frozen=True):
-    """What moves: the driver (None for the time), and where it stands, in ``unit``.
+    """The driver of a page (None for the time) and its position, in ``unit``.
 
-    ``metres`` is what one unit of a driver along a line is, ``figures`` are the numbers of the data
-    that can be changed.
+    ``metres`` is the length of one unit of a sliding driver; ``figures`` are the data that can be
+    changed.
     """
 
     scene: Scene
@@ -131,34 +134,36 @@ class PageDriver(Struct, frozen=True):
 
     @property
     def name(self) -> str:
-        """The letter of what moves, as markup."""
+        """The letter of the coordinate, as markup."""
         return f"*{COORDINATES[self.what].letter}*"
 
     @property
     def datum(self) -> str:
-        """Its symbol as among the data: with the link's name where several drive."""
+        """The symbol of the driver in the data; with several drivers it names the link."""
         return angle_symbol(self.scene, self.driver) if self.driver else self.name
 
     @property
     def sense(self) -> int:
-        """In which sense it goes, by the driver's speed; a time runs on."""
+        """The sense of the driver's speed, 1 or -1; time runs forward."""
         driver = self.driver
         return -1 if driver is not None and driver.speed.si(self.scene.values) < 0 else 1
 
     def unit_in(self, words: Words) -> str:
-        """Its unit, as it follows a number."""
+        """Its unit as printed after a number."""
         return words("unit.deg") if self.unit == "deg" else f" {self.unit}"
 
     @property
     def pins(self) -> tuple[str, ...]:
-        """The points of the link that is driven; none of a time."""
+        """The points of the driven link; none for a time."""
         return () if self.driver is None else tuple(self.scene.link(self.driver.link).points)
 
     def overrides(
         self, program: Program, x: TracedNumber, known: Mapping[str, Any]
     ) -> dict[int, Any]:
-        """The values of the drivers' own steps for a traced position or time; ``known`` are the
-        parameters and figures."""
+        """The values of the drivers' own steps at a traced position or time.
+
+        ``known`` are the parameters and figures.
+        """
         found: dict[int, Any] = {}
         for driver, drive in zip(self.scene.drivers, program.drives, strict=True):
             if self.driver is not None:
@@ -182,7 +187,7 @@ class PageDriver(Struct, frozen=True):
         return found
 
     def placed(self, drive: Any, driver: Driver, place: Any) -> dict[int, Any]:
-        """The steps that hold a driver's position, in degrees or metres."""
+        """The steps that hold a driver's position, which is in degrees or metres."""
         if driver.kind != "turn":
             return {drive.position: place}
         found = {drive.position: traced_kind().direction(place)}
@@ -213,8 +218,11 @@ class PageDriver(Struct, frozen=True):
 def driven_by(
     scene: Scene, figures: tuple[GivenFigure, ...] = (), number: int | None = None
 ) -> PageDriver | None:
-    """What moves a scene: its only driver, or driver ``number`` of several while the others stand
-    still, else the time; None without a driver."""
+    """The driver of a scene's page; None without a driver.
+
+    It is the scene's only driver, or driver ``number`` of several while the others do not move, or
+    the time.
+    """
     if not scene.drivers:
         return None
     number = None if number is None and law_of_time(scene) else chosen(scene, number)
@@ -230,12 +238,12 @@ def driven_by(
 
 
 def time_of(scene: Scene) -> float:
-    """The time at which a scene stands, in seconds."""
+    """The time of a scene's position, in seconds."""
     return 0.0 if scene.time is None else float(scene.time.number(scene.values))
 
 
 class Reach(Struct, frozen=True):
-    """How far a mechanism moves from where it stands; ``whole`` tells a turn that is free."""
+    """The range of a mechanism around its position; ``whole`` means a full free turn."""
 
     low: float
     high: float
@@ -243,12 +251,12 @@ class Reach(Struct, frozen=True):
 
     @property
     def step(self) -> float:
-        """How far one move of a slider leads."""
+        """The change of the driver for one move of a slider."""
         return 1.0 if self.high - self.low > PARTS / 4 else (self.high - self.low) / PARTS
 
 
 def window(driven: PageDriver) -> tuple[float, float]:
-    """How far it is looked: a turn, or as far as the sweeps of a cycle go."""
+    """The window that is searched: one turn to each side, or as far as the sweep of a cycle."""
     if driven.what == "turn":
         return driven.start - TURN, driven.start + TURN
     own = driven.driver
@@ -262,10 +270,10 @@ def window(driven: PageDriver) -> tuple[float, float]:
 def reach_of(
     driven: PageDriver, graph: Graph, closed: Sequence[int], near: Callable[[Any], dict[str, Any]]
 ) -> Reach | None:
-    """The range about the start in which some outputs are finite; None where it is a mere place.
+    """The range around the start where the outputs ``closed`` are finite; None for one position.
 
-    ``near`` gives the further inputs of the graph at places of the driver. A gap narrower than half
-    a degree may be passed.
+    ``near`` gives the other inputs of the graph at positions of the driver. A gap narrower than
+    half a degree may be missed.
     """
     low, high = window(driven)
     at = np.linspace(low, high, 2 * GRID + 1)
@@ -283,7 +291,7 @@ def reach_of(
 
 
 def around(driven: PageDriver, at: Any, closes: Any) -> Reach | None:
-    """The range about the start, its ends looked for ever more finely."""
+    """The range around the start, with its ends refined in rounds."""
     good = closes(at)
     here = int(np.abs(at - driven.start).argmin())
     if driven.what == "turn" and good[here - GRID // 2 : here + GRID // 2 + 1].all():

@@ -1,4 +1,4 @@
-"""The page of a cycle: mechanism and plans that move, round or from end to end, in one file."""
+"""The page of a cycle: mechanism and plans that turn round or go from end to end, in one file."""
 
 from __future__ import annotations
 
@@ -46,16 +46,16 @@ from graphkin.writers.templates import from_template
 NAMES = 2.8
 """Height of the names of vectors, in mm."""
 POINTS = ("pin", "fixed-pivot", "point", "pole")
-"""The classes of the circles that points are drawn as."""
+"""The classes of the circles that show points."""
 SPEEDS = (0.25, 0.5, 1.0, 2.0)
-"""How many times as fast as usual it can be played."""
+"""The playing speeds, relative to the usual one."""
 
 TURN, WAY = 5.0, 3.5
-"""The seconds of a whole turn or a time, and of a range."""
+"""Seconds for a full turn or a time, and for a range."""
 
 
 def player_page(motion: FrameSequence, words: Words) -> str:
-    """The page of a motion. Raises SceneError where a page cannot move the mechanism as asked."""
+    """The page of a motion. Raises SceneError where a page cannot move the mechanism that way."""
     set_up = stage(motion, words, beside=True)
     sheets = screen_sheets(set_up)
     moved = moving(motion.cycle.mechanism, sheets, motion.cycle.sweep.number)
@@ -97,7 +97,7 @@ def player_page(motion: FrameSequence, words: Words) -> str:
 
 
 def goes_back(moved: Moving) -> bool:
-    """Whether a mechanism would have to go back from the end of what is shown."""
+    """Whether the mechanism would have to return from the end of the range that is shown."""
     return moved.driven.driver is not None and not moved.reach.whole
 
 
@@ -109,7 +109,7 @@ def cannot() -> Problem:
 
 
 def screen_sheets(set_up: Stage) -> list[ScreenSheet]:
-    """The fields of a motion as they stand where the scene does, the mechanism on the first."""
+    """The fields of a motion at the scene's position, with the mechanism on the first."""
     mechanism = set_up.motion.cycle.mechanism
     scales = Scales(1.0, natural_seconds(mechanism), triangles=False)
     kinds = [kind for kind in SHEETS if targets_of(mechanism, kind)]
@@ -129,15 +129,16 @@ def screen_sheets(set_up: Stage) -> list[ScreenSheet]:
 
 
 def drawing_of(mechanism: Mechanism, kind: str, scales: Scales, words: Words) -> Drawing:
-    """The material of one plan; of a scene that asks for none, where everything stands."""
+    """The drawing of one plan; for a scene that asks for no plan, the drawing of its positions."""
     positions = [target for target in mechanism.program.targets if target[0] == "position"]
     return made(mechanism, kind, targets_of(mechanism, kind) or positions, scales, words)
 
 
 class Figure(Struct, frozen=True):
-    """A field: its caption, its window, and its marks, those that stand moved ``back`` in it.
+    """A field: its caption, its window, its fixed marks, and its moving marks.
 
-    The script moves both at each place of the driver; ``beyond`` is said where a plan leaves it.
+    The script moves the window at each position of the driver, and the fixed marks ``back`` in it.
+    ``beyond`` is shown where a plan leaves the field.
     """
 
     caption: str
@@ -149,7 +150,7 @@ class Figure(Struct, frozen=True):
 
 
 class VectorName(Struct, frozen=True):
-    """The name of a vector of a plan under its id, the id of the vector's line, if it is asked."""
+    """The name of a plan's vector: its id, the id of its line, its text, and if it is asked for."""
 
     id: str
     line: str
@@ -158,9 +159,9 @@ class VectorName(Struct, frozen=True):
 
 
 def vector_names(sheet: ScreenSheet, s: int) -> Iterator[VectorName]:
-    """The names of the vectors of a plan: of what is asked, then whole ones, then all others.
+    """The names of a plan's vectors: those asked for, then whole vectors, then components.
 
-    They stand at its pole; the script sets each beside its vector.
+    They start at the pole; the script moves each next to its vector.
     """
     steps, asked = sheet.drawing.trace.program.steps, asked_rows(sheet.drawing)
     found = []
@@ -177,7 +178,7 @@ def vector_names(sheet: ScreenSheet, s: int) -> Iterator[VectorName]:
 
 
 def placed_label(name: VectorName) -> list[object]:
-    """The ids of a name and of its vector, the middle of its ink as drawn, its size, if asked."""
+    """The ids of a name and its vector, the middle and size of its ink, if it is asked for."""
     (left, top), _, (right, bottom), _ = name.text.corners()
     middle = (left + right) / 2, (top + bottom) / 2
     return [name.id, name.line, *middle, right - left, bottom - top, name.asked]
@@ -189,7 +190,7 @@ def figures(
     fixed: Sequence[Sequence[Mark]],
     named: Sequence[Sequence[VectorName]],
 ) -> Iterator[Figure]:
-    """The fields as pictures; where a plan is moved aside, its window goes the other way."""
+    """The fields as pictures; where a plan is moved aside, its window moves the opposite way."""
     fields = [(0, 0, sheets[0].left)]
     fields += [(s, len(sheet.left), sheet.right) for s, sheet in enumerate(sheets) if sheet.right]
     for place, ((field, name, _, _), (s, first, marks), below) in enumerate(
@@ -214,7 +215,7 @@ def figures(
 
 
 def shortened(motion: FrameSequence, moved: Moving, words: Words) -> str:
-    """Where the motion ends before its dead points, and why."""
+    """The words that say where and why the motion ends before its dead points."""
     if not motion.shortened:
         return ""
     driven = moved.driven
@@ -228,7 +229,7 @@ def shortened(motion: FrameSequence, moved: Moving, words: Words) -> str:
 
 
 def row_words(row: str, drawing: Drawing) -> tuple[str, str]:
-    """The symbol and the unit of a quantity that is asked."""
+    """The symbol and the unit of a quantity that is asked for."""
     words, unit = drawing.words, drawing.words(f"table.{drawing.kind}")
     if row[0] == drawing.rate.letter:
         return symbol(row), words(f"table.{drawing.rate.target}")
@@ -244,7 +245,7 @@ def record(
     sheets: Sequence[ScreenSheet],
     named: Sequence[Sequence[VectorName]],
 ) -> dict[str, object]:
-    """What the script has to know: what is shown of the motion, and how it is told."""
+    """The data for the script: the range that is shown, and the words for it."""
     motion, words = set_up.motion, set_up.words
     driven, sweep = moved.driven, motion.cycle.sweep
     low, high = moved.reach.low, moved.reach.high
@@ -272,17 +273,17 @@ def record(
 
 
 def shift_of(motion: FrameSequence, moved: Moving) -> float:
-    """How far a place of the driver as the page tells it lies from that of the cycle."""
+    """The offset of the driver's position on the page from its position in the cycle."""
     place = place_in(motion.cycle, motion.low, motion.high)
     return moved.driven.start - place / moved.driven.metres
 
 
 def notable(motion: FrameSequence, moved: Moving, words: Words) -> Iterator[tuple[float, str]]:
-    """Where the driver stands in dead and change points, those at the ends included, and where in
-    what is shown a follower turns back.
+    """The driver's positions at dead and change points, and where a follower reverses.
 
-    A driver that turns without end comes there once in each turn; where the wheels need several
-    turns, those of the turn that the page shows are told.
+    Dead points at the ends are included; followers are limited to the range shown. A driver that
+    turns endlessly passes each point once per turn. Where the wheels need several turns, the points
+    of the turn shown on the page are listed.
     """
     from graphkin.motion.follower_limits import followers
 
@@ -301,7 +302,7 @@ def notable(motion: FrameSequence, moved: Moving, words: Words) -> Iterator[tupl
 
 
 def worded(sheets: Sequence[ScreenSheet], words: Words) -> dict[str, Sequence[str]]:
-    """For each row with a sense the words of both, the positive one first."""
+    """The words for both senses of each row that has a sense, the positive sense first."""
     turns = [escape(words(f"page.{key}")) for key in ("anticlockwise", "clockwise")]
     rows = {row for sheet in sheets for row in asked_rows(sheet.drawing) if row[0] in "ωε"}
     return {**dict.fromkeys(sorted(rows), turns), **senses(sheets[0].drawing)}
@@ -320,10 +321,10 @@ def panes(sheet: ScreenSheet, s: int) -> dict[str, object]:
 
 
 def letters(set_up: Stage, sheet: ScreenSheet, s: int) -> Iterator[list[list[object]]]:
-    """The letters of each field by their rules, as lettered.lettering sets them.
+    """The letters of each field with their rules, as moving_labels.lettering places them.
 
-    Each has the ids of its text and of its point's circle, the middle of its ink as drawn, its
-    width, how far it stands off, its turn, and the ids of the circles that lead it.
+    Each has the ids of its text and of its point's circle. It has the middle and width of its ink
+    as drawn, its distance, its turn, and the ids of the circles that guide it.
     """
     first, kind = 0, sheet.drawing.kind
     for rules, marks in (
@@ -348,7 +349,7 @@ def letters(set_up: Stage, sheet: ScreenSheet, s: int) -> Iterator[list[list[obj
 
 
 def shape(set_up: Stage) -> str:
-    """How wide the mechanism stands beside the plans."""
+    """The style rule for the widths of the mechanism and the plans side by side."""
     left, _, right, _ = set_up.mechanism.rect
     plans = list(set_up.plans.values())
     if not plans:

@@ -1,4 +1,4 @@
-"""The construction of all sheets as one run of sentences, and what each mark hangs on."""
+"""The construction of all sheets as one sequence of sentences, and what each mark depends on."""
 
 from __future__ import annotations
 
@@ -42,13 +42,13 @@ from graphkin.web.reasons import VECTORS_APART, of_sentence, reasons
 from graphkin.web.screen_sheets import ScreenSheet
 
 MOST = 3
-"""Strokes that a sentence of the page draws at most, if it can be parted."""
+"""Largest number of strokes in one sentence of the page, if the sentence can be split."""
 
 
 class SentencePart(Struct, frozen=True):
-    """A part of a sentence: the step that it ends with, and that of the point that it helps find.
+    """A part of a sentence: the step that it ends with, and the step of the point to be found.
 
-    ``name`` and ``link`` are those of its sentence, ``reason`` is one of its reasons.
+    ``name`` and ``link`` belong to its sentence; ``reason`` is one of the sentence's reasons.
     """
 
     step: int
@@ -60,20 +60,22 @@ class SentencePart(Struct, frozen=True):
 
     @property
     def sentence(self) -> Sentence:
-        """It as a sentence of its own."""
+        """The part as a sentence of its own."""
         return Sentence(self.step, self.name, self.markup, (), self.link, (self.reason,))
 
 
 class PartedSentence(Struct, frozen=True):
-    """A sentence of a sheet and its parts, one where it has no more."""
+    """A sentence of a sheet and its parts; a sentence that cannot be split has one part."""
 
     said: Sentence
     parts: tuple[SentencePart, ...]
     plan: AuxiliaryPlan | None = None
 
     def sentences(self, drawing: Drawing, strokes: Sequence[int]) -> Iterator[tuple[Sentence, int]]:
-        """The sentences of the page, each with the number of its parts, which draw so many
-        ``strokes``: the sheet's own where all parts draw no more than one sentence may.
+        """The sentences of the page, each with the number of parts that it joins.
+
+        ``strokes`` counts the strokes of each part. The sheet's own sentence is kept where all
+        parts together draw no more than one sentence may.
         """
         if sum(strokes) <= MOST and self.said.name != TURNING:
             yield self.said, len(self.parts)
@@ -91,7 +93,7 @@ class PartedSentence(Struct, frozen=True):
 
 
 def grouped(parts: Sequence[SentencePart], strokes: Sequence[int]) -> Iterator[list[SentencePart]]:
-    """The parts that one sentence says: of one point, with no more strokes than it may draw."""
+    """The parts grouped into sentences: one point each, with at most MOST strokes."""
     for _, run in groupby(zip(parts, strokes, strict=True), lambda each: each[0].point):
         some, drawn = list[SentencePart](), 0
         for part, count in run:
@@ -103,7 +105,6 @@ def grouped(parts: Sequence[SentencePart], strokes: Sequence[int]) -> Iterator[l
 
 
 def parted_sentences(drawing: Drawing) -> list[PartedSentence]:
-    """The sentences of a sheet with their parts."""
     return [parted_sentence(drawing, said) for said in unexplained(drawing)]
 
 
@@ -128,7 +129,7 @@ def parted_sentence(drawing: Drawing, said: Sentence) -> PartedSentence:
 
 
 def told_in_parts(drawing: Drawing, number: int) -> Iterator[tuple[int, str]]:
-    """What is said of a step alone, part by part, each with the step that it ends with."""
+    """The text of a step, part by part, each with the step that the part ends with."""
     program = drawing.trace.program
     component, kind = component_of(program, number), construction(program.steps[number])
     if component is not None:
@@ -140,7 +141,7 @@ def told_in_parts(drawing: Drawing, number: int) -> Iterator[tuple[int, str]]:
 
 
 def readings(drawing: Drawing) -> Iterator[SentencePart]:
-    """What is read off at the end: which vectors are set on, then the rate of each link."""
+    """The final readings: the vectors set on the mechanism, then the rate of each link."""
     if markup := set_on_mechanism(drawing, ""):
         yield SentencePart(-1, -1, markup, SET_ON)
     rate, steps = drawing.rate, dict[str, int]()
@@ -156,7 +157,7 @@ def readings(drawing: Drawing) -> Iterator[SentencePart]:
             how = ""
 
 
-# --- the construction of all sheets as one run of sentences, and what each mark hangs on ----------
+# --- the construction of all sheets as one sequence of sentences ----------------------------------
 
 
 STOPS = (
@@ -168,18 +169,18 @@ STOPS = (
     Part.POLE,
     Part.RESULT,
 )
-"""The parts of the work to whose beginnings one may go."""
+"""The parts of the work whose beginnings a reader can jump to."""
 SAME = 1e-6
-"""Millimetres between places that are one."""
+"""Distance in mm within which two places count as one."""
 
 
 class ProtocolSentence(Struct, frozen=True):
-    """A sentence of the run: its sheet, its markup, why, the crossings of its lines.
+    """A sentence of the sequence: its sheet, its markup, its reasons, the crossings of its lines.
 
-    ``of`` are the steps to which the reasons belong, ``letters`` the names of the crossings as the
-    labels have them; ``ends`` are the parts of the work that it completes on its sheet. ``aside``
-    tells of what is drawn beside the drawing for the position of the scene alone. ``rates`` are the
-    links whose rates it reads off.
+    ``of`` are the steps of the reasons; ``letters`` are the names of the crossings as their labels
+    have them. ``ends`` are the parts of the work that the sentence completes on its sheet.
+    ``aside`` says what is drawn next to the drawing for the scene's position alone. ``rates`` are
+    the links whose rates it reads off.
     """
 
     sheet: int
@@ -194,7 +195,7 @@ class ProtocolSentence(Struct, frozen=True):
 
 
 class Timed(Struct, frozen=True):
-    """A mark, the sentence (from 1) that draws it, 0 for what stands before, and its step.
+    """A mark, the sentence that draws it (from 1; 0 if given from the start), and its step.
 
     ``letters`` are the sentences of the letters that share a label.
     """
@@ -206,14 +207,14 @@ class Timed(Struct, frozen=True):
 
 
 class PageProtocol(Struct, frozen=True):
-    """The run of sentences over all sheets, and for each sheet its marks in their order.
+    """The sequence of sentences over all sheets, and the marks of each sheet in order.
 
-    ``at`` gives for each step with marks the sentence (from 1) that draws it, 0 for what is given;
-    ``sources`` the steps with marks that it is drawn from; ``sides`` the two points of the
-    mechanism to whose bar it is square or parallel; ``letters`` its name as markup. ``tints`` tells
-    apart the strokes of one sentence by their reasons; ``hangs`` gives the crossings without which
-    a step cannot be, and to which a line is drawn; ``aside`` those of centres and poles;
-    ``squares`` the pin, pole and image of a line square to a velocity.
+    ``at`` is the sentence (from 1; 0 if given) that draws each step with marks. ``sources`` are the
+    steps with marks that a step is drawn from. ``sides`` are the two points of the bar that a line
+    of a plan is perpendicular or parallel to. ``letters`` is a step's name as markup. ``tints``
+    separates the strokes of one sentence by their reasons. ``hangs`` are the crossings that a step
+    needs, or that a line is drawn to; ``aside`` are the crossings of centres and poles. ``squares``
+    are the pin, pole and image of a line perpendicular to a velocity.
     """
 
     said: tuple[ProtocolSentence, ...]
@@ -235,8 +236,8 @@ class PageProtocol(Struct, frozen=True):
     def stops(self) -> Iterator[tuple[int, int, Part]]:
         """The first and last sentence of each part of the work, in the order of their ends.
 
-        A part begins where on its sheet the one before it ends; what is said after the last one
-        belongs to that.
+        A part begins where the part before it on its sheet ends. The sentences after the last part
+        belong to that part.
         """
         ends = [(number, said) for number, said in enumerate(self.said, 1) if said.ends]
         for number, said in ends:
@@ -248,7 +249,7 @@ class PageProtocol(Struct, frozen=True):
 
 
 def telling(sheets: Sequence[ScreenSheet]) -> PageProtocol:
-    """The run of some sheets of one mechanism."""
+    """The sequence of sentences for some sheets of one mechanism."""
     said: list[ProtocolSentence] = []
     timed: list[tuple[Timed, ...]] = []
     at: dict[int, int] = {}
@@ -290,7 +291,7 @@ def telling(sheets: Sequence[ScreenSheet]) -> PageProtocol:
 
 
 def in_parts(sheet: ScreenSheet) -> tuple[list[Sentence], dict[int, int], tuple[Timed, ...]]:
-    """The sentences of the page for one sheet, the one (from 0) that draws each step, its marks."""
+    """The page's sentences for one sheet, the sentence (from 0) of each step, and the marks."""
     drawing = sheet.drawing
     found = parted_sentences(drawing)
     parts = [part.sentence for one in found for part in one.parts]
@@ -315,8 +316,10 @@ def in_parts(sheet: ScreenSheet) -> tuple[list[Sentence], dict[int, int], tuple[
 def vectors_apart(
     drawing: Drawing, said: Sequence[Sentence], own: Mapping[int, int], marks: Sequence[Timed]
 ) -> tuple[list[Sentence], dict[int, int], list[Timed]]:
-    """The same, where vectors that are too many for the sentence that finds their ends, or that
-    sets them on the mechanism, follow it in sentences of their own.
+    """The sentences, steps and marks with excess vectors moved to sentences of their own.
+
+    Vectors are moved where they are too many for the sentence that finds their ends or sets them on
+    the mechanism; they follow that sentence.
     """
     counts = strokes(marks, len(said))
     shown = {one.step for one in marks}
@@ -356,7 +359,7 @@ def vectors_apart(
 
 
 def letters_told(mark: Mark, telling: Mapping[str, int]) -> tuple[int, ...]:
-    """The sentences (from 1) that find the letters of a label that several share, 0 for given."""
+    """The sentences (from 1, 0 if given) that find the letters of a shared label."""
     if not isinstance(mark, Text) or mark.step is None or mark.rotate:
         return ()
     shared = mark.letters if len(mark.letters) > 1 else ()
@@ -364,19 +367,19 @@ def letters_told(mark: Mark, telling: Mapping[str, int]) -> tuple[int, ...]:
 
 
 def labels_of(sheet: ScreenSheet) -> dict[str, str]:
-    """The markup of each label of a sheet by the name of what it stands at."""
+    """The markup of each label of a sheet, by the name of its object."""
     marks = (*sheet.left, *sheet.right)
     return {mark.name: mark.markup for mark in marks if isinstance(mark, Text) and mark.name}
 
 
 def later(one: Timed, before: int) -> Timed:
-    """A mark after the sentences of the sheets before its own; what is given stays so."""
+    """A mark renumbered after the sentences of the previous sheets; given marks keep 0."""
     letters = tuple(at and before + at for at in one.letters)
     return replace(one, at=one.at and before + one.at, letters=letters)
 
 
 def strokes(marks: Iterable[Timed], count: int) -> list[int]:
-    """How many lines, arcs and vectors each of some sentences draws; pieces of one line are one."""
+    """The number of lines, arcs and vectors in each sentence; the pieces of one line count once."""
     found: list[set[tuple[int, str, str]]] = [set() for _ in range(count)]
     for one in marks:
         look = style_class(one.mark)
@@ -386,7 +389,7 @@ def strokes(marks: Iterable[Timed], count: int) -> list[int]:
 
 
 def hanging(sheets: Sequence[ScreenSheet], shown: Sequence[int]) -> dict[int, tuple[int, ...]]:
-    """For the steps of plans the crossings without which they cannot be; not those of positions."""
+    """The crossings that each step of a plan needs, without the crossings of positions."""
     program = sheets[0].drawing.trace.program
     lines = {found.number for found in lines_of(sheets) if found.part is not Part.POSITION}
     found = {step: lines.intersection(program.behind([step], by_hand=True)) for step in shown}
@@ -404,7 +407,7 @@ def lines_of(sheets: Sequence[ScreenSheet]) -> Iterator[Crossing]:
 
 
 def square_to(step: Step) -> tuple[int, ...]:
-    """The pin, the pole and the image of its velocity to which a line is drawn square."""
+    """The pin, the pole and the velocity image that fix a line perpendicular to the velocity."""
     kind = construction(step)
     return kind.square_to if isinstance(kind, VelocityNormal) else ()
 
@@ -445,7 +448,7 @@ def spoken(
 
 
 def shown_by(drawing: Drawing, number: int, fresh: Iterable[int], shown: AbstractSet[int]) -> int:
-    """The step whose marks show another one: itself, or the arrow that ends in it."""
+    """The step whose marks show a step: the step itself, or the arrow that ends in it."""
     if number in shown:
         return number
     steps = drawing.trace.program.steps
@@ -454,7 +457,7 @@ def shown_by(drawing: Drawing, number: int, fresh: Iterable[int], shown: Abstrac
 
 
 def rates_read(drawing: Drawing, sentence: Sentence) -> Iterator[str]:
-    """The links whose rates a sentence reads off: not what only keeps a wheel on its track."""
+    """The links whose rates a sentence reads off, without mere keepers of wheels on tracks."""
     if sentence.name == TURNING:
         told = {relation.left for relation in of_turning(drawing)}
         for (what, link), number in drawing.trace.program.targets.items():
@@ -464,14 +467,15 @@ def rates_read(drawing: Drawing, sentence: Sentence) -> Iterator[str]:
 
 
 def vectors_found(drawing: Drawing, fresh: Iterable[int], markup: str) -> Iterator[str]:
-    """Which segments are the vectors of the plan that a sentence draws without a word of them."""
+    """The names of plan vectors that a sentence draws without mentioning them."""
     said = names_in(markup)
     return (told for number in fresh if (told := vector_found(drawing, number, said)))
 
 
 def vector_found(drawing: Drawing, number: int, said: AbstractSet[str] = frozenset()) -> str:
-    """Which segment is the vector of the plan that a step draws; nothing for any other step, and
-    for one of which a sentence has ``said`` it.
+    """The equation of segment and vector for a step that draws a vector of the plan.
+
+    Empty for any other step, and for a vector that the sentence has ``said``.
     """
     step = drawing.trace.program.steps[number]
     vector = plan_vector(step)
@@ -486,7 +490,7 @@ def vector_found(drawing: Drawing, number: int, said: AbstractSet[str] = frozens
 def timed_marks(
     sheet: ScreenSheet, own: Sequence[Sentence], staged: dict[int, int]
 ) -> tuple[Timed, ...]:
-    """The marks of a sheet with those of its own sentences, from 1, that draw them."""
+    """The marks of a sheet, each with the sentence of the sheet (from 1) that draws it."""
     found, touched = [], dict(marked_beside(sheet))
     ground = ground_of(sheet.drawing, sheet.layout.mechanism)
     for mark, beside in accompanied((*sheet.left, *sheet.right)):
@@ -501,7 +505,7 @@ def timed_marks(
 
 
 def marked_beside(sheet: ScreenSheet) -> Iterator[tuple[Mark, int]]:
-    """Marks that show a point with the mechanism, and its letter, with the step that finds it."""
+    """Marks that show a contact point and its letter on the mechanism, each with its step."""
     steps, field = sheet.drawing.trace.program.steps, sheet.layout.mechanism
     for number, at in sheet.drawing.trace.values.items():
         kind = construction(steps[number])
@@ -517,7 +521,7 @@ def marked_beside(sheet: ScreenSheet) -> Iterator[tuple[Mark, int]]:
 
 
 def step_of(drawing: Drawing, mark: Mark) -> int | None:
-    """The step that a mark shows; that of its point or guide where the mark is not of a step."""
+    """The step that a mark shows; for a mark without a step, the step of its point or guide."""
     if mark.step is not None:
         return mark.step
     shown = mark.shows
@@ -528,7 +532,7 @@ def step_of(drawing: Drawing, mark: Mark) -> int | None:
 def sources(
     program: Program, number: int, shown: Collection[int], ran: Collection[int]
 ) -> tuple[int, ...]:
-    """The steps with marks that a step is drawn from, through those that have none."""
+    """The steps with marks that a step is drawn from, found through the steps without marks."""
     found: set[int] = set()
     seen = {number}
     waiting = [number]
@@ -560,5 +564,5 @@ def sides(program: Program, number: int, shown: Collection[int]) -> tuple[int, i
 
 
 def letter(step: Step) -> str:
-    """The letter of a step's point on the drawing; nothing for a line or an arrow."""
+    """The letter of a step's point on the drawing; empty for an arrow or a number."""
     return "" if step.arrow or step.plane is Plane.NUMBERS else step.name

@@ -1,4 +1,4 @@
-"""Why a step is drawn as it is: the law of rigid bodies, guides and wheels behind each line."""
+"""Why a step is drawn as it is: the law of rigid bodies, guides or wheels behind each line."""
 
 from __future__ import annotations
 
@@ -22,11 +22,11 @@ AGAIN = {
     "why.normal": "why.normal_again",
     "why.tangential": "why.tangential_again",
 }
-"""What is said of the second and each further one of a kind."""
+"""The shorter reason for the second and each further step of a kind."""
 LAST, LAST_OF_MANY = "why.meet", "why.meet_many"
-"""The reason that is given at the end, for all points at once."""
+"""The reason that comes last, once for all points."""
 VECTORS_APART = "vectors"
-"""The name of a sentence that draws vectors between images that the one before has found."""
+"""The name of a sentence that draws vectors between images found by the sentence before."""
 BY_NAME = {
     VECTORS_APART: "why.vectors",
     "again": "why.again",
@@ -35,13 +35,13 @@ BY_NAME = {
     "moving-centrode": "why.centrodes",
     "trajectory": "why.path",
 }
-"""Why what a sentence of this name says, which is of no step."""
+"""The reason of a sentence that belongs to no step, by the sentence's name."""
 NO_STEP = -1
-"""Whose reason it is that belongs to no single step."""
+"""The step number of a reason that belongs to no single step."""
 
 
 def reasons(drawing: Drawing, numbers: Iterable[int]) -> list[tuple[str, int]]:
-    """The reasons for some steps as markup, each with its step, in their order, none twice."""
+    """The reasons for some steps as markup, each with its step, in order and without repeats."""
     parts = [part for part in OWN[drawing.kind] if not (drawing.again and part is Part.POSITION)]
     found: dict[str, int] = {}
     given: set[str] = set()
@@ -71,7 +71,7 @@ def reasons(drawing: Drawing, numbers: Iterable[int]) -> list[tuple[str, int]]:
 
 
 def of_sentence(drawing: Drawing, sentence: Sentence) -> Iterator[tuple[str, int]]:
-    """Why a sentence says what is of no step, reads a rate off, or begins an auxiliary plan."""
+    """The reasons of a sentence without a step, of a reading, and of an auxiliary plan's start."""
     steps, words = drawing.trace.program.steps, drawing.words
     plan = auxiliary_plan(drawing, sentence.step)
     if sentence.name == TURNING:
@@ -86,7 +86,11 @@ def of_sentence(drawing: Drawing, sentence: Sentence) -> Iterator[tuple[str, int
 
 
 def is_nothing(drawing: Drawing, number: int) -> bool:
-    """Whether a point of such a plan falls on what it is drawn from, or a line finds only such."""
+    """Whether a step of an auxiliary plan adds nothing.
+
+    A point adds nothing if it falls on the point it is drawn from; a line, if it finds only such
+    points.
+    """
     plan, step = auxiliary_plan(drawing, number), drawing.trace.program.steps[number]
     if plan is None:
         return False
@@ -96,13 +100,13 @@ def is_nothing(drawing: Drawing, number: int) -> bool:
 
 
 def reason(drawing: Drawing, step: Step) -> str:
-    """The key of a step's reason; nothing where it needs none."""
+    """The key of a step's reason; empty where the step needs none."""
     kind = construction(step)
     return kind.reason(drawing, step.role) if kind is not None else ""
 
 
 def fields(drawing: Drawing, step: Step) -> dict[str, str]:
-    """The letters of a step as markup, each empty where the step has none."""
+    """The letters of a step as markup; a letter that the step lacks is empty."""
     known = dict.fromkeys(("p", "q", "r", "g", "k", "i", "bar"), "")
     kind = construction(step)
     if kind is not None:

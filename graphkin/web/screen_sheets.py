@@ -1,4 +1,4 @@
-"""What a page for the screen shows: the two fields of each sheet, as marks in page millimetres."""
+"""The sheets of a screen page: the two fields of each sheet, as marks in page millimetres."""
 
 from __future__ import annotations
 
@@ -20,12 +20,12 @@ if TYPE_CHECKING:
 
 
 class ScreenSheet(Struct, frozen=True):
-    """The marks of a sheet's two fields; those of mark k of sheet s have the id ``m{s}-{k}``.
+    """The marks of a sheet's two fields; mark k of sheet s has the id ``m{s}-{k}``.
 
-    ``left`` is the field of the mechanism, ``right`` that of the plan; k counts through the left
-    ones first. ``more_left`` and ``more_right`` are pictures within the picture (an enlarged
-    detail, insets), which hold for the position drawn alone; ``enlarged`` is how many times the
-    first detail of each field enlarges, once where it is as much in both.
+    ``left`` is the field of the mechanism, ``right`` the field of the plan; k counts the left marks
+    first. ``more_left`` and ``more_right`` are pictures within the picture (an enlarged detail,
+    insets), which hold for the drawn position alone. ``enlarged`` is the magnification of the first
+    detail of each field, listed once if both are equal.
     """
 
     drawing: Drawing
@@ -38,16 +38,15 @@ class ScreenSheet(Struct, frozen=True):
 
     @property
     def marks(self) -> tuple[Mark, ...]:
-        """Every mark of both fields."""
         return (*self.left, *self.right, *self.more_left, *self.more_right)
 
 
 def screen_sheets(
     mechanism: Mechanism, language: str | None = None, view: str = "key"
 ) -> list[ScreenSheet]:
-    """The sheets that a scene asks for, at the same scale, each one proved right before.
+    """The sheets that a scene asks for, at one scale, each verified first.
 
-    ``view`` is key or task. Raises WitnessError when the independent route disagrees, PageError
+    ``view`` is key or task. Raises WitnessError when the independent route disagrees, and PageError
     where a drawing does not fit.
     """
     spoken = language_of(mechanism, language)

@@ -53,13 +53,13 @@ PLANS = {
     "velocity": ("*k*_v", "*ω*", "legend.omega"),
     "acceleration": ("*k*_a", "*ε*", "legend.epsilon"),
 }
-"""The scale of each plan, and what a link's turning is called on its sheet."""
+"""The scale of each plan, and the symbol and meaning of a link's rate on its sheet."""
 FOUND = {Part.CENTRE: ("*I*", "legend.centre"), Part.POLE: ("*J*", "legend.pole")}
-"""The letters of what is found on the mechanism."""
+"""The letters of the points found on the mechanism."""
 
 
 def meanings(words: Words, sheets: Sequence[ScreenSheet]) -> Iterator[tuple[str, str]]:
-    """Each symbol and what it means, as markup."""
+    """Each symbol and its meaning, as markup."""
     yield "*k*_L", words("legend.kL")
     for sheet in sheets:
         drawing = sheet.drawing
@@ -78,7 +78,7 @@ def meanings(words: Words, sheets: Sequence[ScreenSheet]) -> Iterator[tuple[str,
 
 
 def images(words: Words, arrows: Sequence[Arrow], sheet: ScreenSheet) -> Iterator[tuple[str, str]]:
-    """The segments that are the vector of a point, and of one point relative to another."""
+    """One segment of a point's vector, and one of a relative vector, with their meanings."""
     steps = sheet.drawing.trace.program.steps
     whole = [(step, vector) for step, vector in arrows if not vector.sign]
     for key, has_pivot in (("legend.image", False), ("legend.relative", True)):
@@ -96,19 +96,20 @@ def components(words: Words, arrows: Sequence[Arrow]) -> Iterator[tuple[str, str
     )
 
 
-# --- the driver's slider of a step page, and why a page has none ----------------------------------
+# --- the driver's slider of a step page -----------------------------------------------------------
 
 
 SLACK = 0.5
-"""Degrees that a whole turn may lack about a change point."""
+"""Degrees that a full turn may lack around a change point."""
 
 
 class Slider(Struct, frozen=True):
-    """The script that moves a mechanism and its plans by ``name``, markup of the driver's symbol.
+    """The script that moves a mechanism and its plans, with the slider's data.
 
-    ``datum`` is that symbol as the data have it, ``unit`` that of its place, ``ends`` the least
-    and the greatest, ``stops`` those of them beyond which nothing closes, ``digits`` the decimals
-    that tell it. Without a script, ``why`` is the key of the sentence why they stand still.
+    ``name`` is the markup of the driver's symbol, ``datum`` the symbol as in the data, ``unit`` the
+    unit of its position. ``ends`` are the least and greatest positions, ``stops`` the ends beyond
+    which nothing closes, ``digits`` the decimals shown. Without a script, ``why`` is the key of the
+    sentence that says why nothing moves.
     """
 
     source: str = ""
@@ -121,17 +122,17 @@ class Slider(Struct, frozen=True):
     why: str = ""
 
     def place(self, words: Words, at: float | None) -> str:
-        """A place of the driver in words, or its unit alone."""
+        """A position of the driver in words, or its unit alone."""
         unit = words("unit.deg") if self.unit == "deg" else f" {self.unit}"
         return unit if at is None else words.fixed(at, self.digits) + unit
 
     def limits(self, words: Words) -> str:
-        """The places beyond which it does not go; empty where it turns freely."""
+        """The positions that the driver cannot pass; empty where it turns freely."""
         return " / ".join(self.place(words, at) for at in self.stops)
 
 
 def slider(mechanism: Mechanism, sheets: Sequence[ScreenSheet]) -> Slider:
-    """What moves a mechanism, or why nothing does."""
+    """The slider of a mechanism, or the reason why nothing moves."""
     found = moving(mechanism, sheets)
     if found is None:
         return Slider(why=still(mechanism) or "")
@@ -142,9 +143,9 @@ def slider(mechanism: Mechanism, sheets: Sequence[ScreenSheet]) -> Slider:
 
 
 def stopped(driven: PageDriver, reach: Reach) -> tuple[float, ...]:
-    """The ends of a range beyond which nothing closes, not those of what is looked at.
+    """The ends of a range beyond which nothing closes, without the ends of the search window.
 
-    A range of a whole turn ends where it begins, in a change point: beyond it goes on.
+    A range of a full turn ends where it begins, in a change point that the driver can pass.
     """
     if driven.unit == "deg" and reach.high - reach.low > TURN - SLACK:
         return ()
@@ -163,12 +164,12 @@ STOP_NAMES = {
     Part.ACCELERATION: "screen.acceleration",
     Part.POLE: "screen.pole",
 }
-"""What the buttons say that go to the parts of the work."""
+"""The labels of the buttons that jump to the parts of the work."""
 RATE_NAMES = {
     "velocity": "screen.rates_velocity",
     "acceleration": "screen.rates_acceleration",
 }
-"""What they say that go to the rates of links, by the kind of the sheet."""
+"""The labels of the buttons that jump to the rates of links, by the kind of sheet."""
 
 
 class Form(Struct, frozen=True):
@@ -180,18 +181,18 @@ class Form(Struct, frozen=True):
 
 
 Tell = Callable[[str], None]
-"""Who hears what is to be told aside of a page."""
+"""Receives notes that concern a page but are not on it."""
 
 
 def silent(note: str) -> None:
-    """Tell nobody."""
+    """Ignore a note."""
 
 
 @contextmanager
 def all_kept() -> Iterator[None]:
-    """No search for garbage: a page makes many small records at once, all of which are needed.
+    """Suspend garbage collection: a page makes many small records at once, all of which are needed.
 
-    Processor time of a first page with it and without: engine 0.14 and 0.17 s, eight-link-2 0.32
+    Processor time of a first page with and without it: engine 0.14 and 0.17 s, eight-link-2 0.32
     and 0.38 s, jumper 0.185 and 0.193 s.
     """
     was = gc.isenabled()
@@ -211,13 +212,11 @@ def step_page(
     owner: TurnOwner = NOBODY,
     tell: Tell = silent,
 ) -> str:
-    """The page of a scene that draws itself; ``language`` is the scene's own if None.
+    """The step page of a scene; ``language`` None means the scene's own language.
 
-    ``owner`` is whose the score sheet is that a turn on it ends with; ``tell`` hears what is asked
-    and cannot be read off it.
-
-    Raises WitnessError when the independent route disagrees, PageError where a drawing does not
-    fit.
+    ``owner`` is the owner of the score sheet at the end of a student's turn. ``tell`` receives
+    notes on quantities that are asked for but cannot be read off the page. Raises WitnessError when
+    the independent route disagrees, and PageError where a drawing does not fit.
     """
     mechanism = mechanism.spoken(language)
     sheets = screen_sheets(mechanism, language)
@@ -274,11 +273,11 @@ def task_page(
     form: Form | None = None,
     tell: Tell = silent,
 ) -> str:
-    """The page of a scene as a task: what is given and what is asked, and nothing of the key.
+    """The task page of a scene: what is given and what is asked for, without the key.
 
-    ``tell`` hears what is asked and cannot be read off a drawing of it.
+    ``tell`` receives notes on quantities that are asked for but cannot be read off a drawing.
     """
-    mechanism = mechanism if form else mechanism.spoken(language)  # answers go by the scene's names
+    mechanism = mechanism if form else mechanism.spoken(language)  # answers use the scene's names
     sheets = screen_sheets(mechanism, language, "task")
     tell_unread(sheets, tell)
     body = from_template(
@@ -296,7 +295,7 @@ def task_page(
 
 
 def tell_unread(sheets: Sequence[ScreenSheet], tell: Tell) -> None:
-    """Tell what is asked of sheets and cannot be read off them, as paper's are told."""
+    """Report the quantities asked for that cannot be read off the sheets, as for paper."""
     for sheet in sheets:
         for note in unread(sheet.drawing):
             tell(note)
@@ -309,7 +308,7 @@ def written(
     styles: Sequence[str],
     scripts: Sequence[str],
 ) -> str:
-    """A page with the looks of the sheets."""
+    """A page with the styles of the sheets."""
     marks = [mark for sheet in sheets for mark in sheet.marks]
     drawing = sheets[0].drawing
     looks = (ink_sheet(marks, ink), part("page.css"), shapes(sheets), *styles)
@@ -317,7 +316,7 @@ def written(
 
 
 def shapes(sheets: Sequence[ScreenSheet]) -> str:
-    """How wide the two fields of each sheet stand beside one another, and what their bars know."""
+    """The style rules for the widths of each sheet's two fields, and for their scale bars."""
     found = []
     for place, sheet in enumerate(sheets):
         rects = (sheet.layout.mechanism.rect, sheet.layout.plan.rect)
@@ -332,11 +331,11 @@ def width(rect: Rect) -> float:
     return rect[2] - rect[0]
 
 
-# --- what stands on the page ---------------------------------------------------------------------
+# --- the contents of the page --------------------------------------------------------------------
 
 
 class SheetFields(Struct, frozen=True):
-    """The fields of a sheet: its name, and the id, the markup and the picture of each."""
+    """The fields of a sheet: its name, and id, caption and picture of each field."""
 
     place: int
     kind: str
@@ -345,7 +344,7 @@ class SheetFields(Struct, frozen=True):
 
 
 def common(sheets: Sequence[ScreenSheet]) -> dict[str, object]:
-    """What every page has: its title and words, and what the independent route says of it."""
+    """The parts common to all pages: title, words, and the result of the residual check."""
     drawing = sheets[0].drawing
     words = drawing.words
     worst = words.significant(drawing.verdict.largest_difference, 2)
@@ -358,14 +357,14 @@ def common(sheets: Sequence[ScreenSheet]) -> dict[str, object]:
 
 
 def sheet_name(sheet: ScreenSheet) -> str:
-    """What a sheet is called in the words of its page."""
+    """The name of a sheet in the words of its page."""
     return sheet.drawing.words(f"sheet.{name_of_sheet(sheet.drawing)}")
 
 
 def grown(
     sheet: ScreenSheet, told: PageProtocol, place: int
 ) -> tuple[Sequence[Timed], tuple[Sequence[Timed], Sequence[Timed]]]:
-    """The marks of a sheet's fields as they grow, and those that stand when all is drawn."""
+    """The marks of a sheet's fields in drawing order, and those that appear when all is drawn."""
     last = told.bounds(place)[1]
     left, right = (
         [Timed(mark, last, None) for mark in marks] for marks in (sheet.more_left, sheet.more_right)
@@ -374,7 +373,7 @@ def grown(
 
 
 def untimed(sheet: ScreenSheet) -> Sequence[Timed]:
-    """The marks of a sheet's fields as they stand from the first."""
+    """The marks of a sheet's fields, all shown from the start."""
     return [Timed(mark, 0, None) for mark in (*sheet.left, *sheet.right)]
 
 
@@ -384,7 +383,7 @@ def fields(
     timed: Sequence[Timed],
     more: Sequence[Sequence[Timed]] = ((), ()),
 ) -> SheetFields:
-    """A sheet: the field of the mechanism and that of the plan, each under its caption."""
+    """A sheet: the field of the mechanism and the field of the plan, each under its caption."""
     count = len(sheet.left)
     named = [(f"m{place}-{k}", one) for k, one in enumerate(timed)]
     sides = (
@@ -401,7 +400,7 @@ def fields(
 
 
 def place_of(symbol: str, given_data: Sequence[Datum]) -> int | None:
-    """Which of the data is the one that is moved, by its symbol; None where none is."""
+    """The index of the datum that moves, by its symbol; None without such a datum."""
     names = [datum.name for datum in given_data]
     return names.index(symbol) if symbol and symbol in names else None
 
@@ -415,11 +414,11 @@ def construction(
         yield sheet.drawing.kind, first, told.said[first - 1 : last]
 
 
-# --- what a script makes of it -------------------------------------------------------------------
+# --- the data for the script ---------------------------------------------------------------------
 
 
 def record(sheets: Sequence[ScreenSheet], told: PageProtocol) -> dict[str, object]:
-    """What the script has to know."""
+    """The data for the script."""
     words = sheets[0].drawing.words
     return {
         "bounds": [told.bounds(place) for place in range(len(sheets))],

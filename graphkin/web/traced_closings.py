@@ -1,6 +1,6 @@
-"""Groups of class III and higher on a page that moves: what was cut is closed anew at every place.
+"""Groups of class III and higher on a moving page: the cut is closed anew at every position.
 
-Near values that are known (branch_tracking) the page's own script finds them.
+The page's script finds the values near those known from branch tracking.
 """
 
 from __future__ import annotations
@@ -24,17 +24,17 @@ from graphkin.numbers.common_roots import solved
 from graphkin.web.page_driver import LEAST, PARTS, PageDriver, Reach
 
 STEP = 1e-6
-"""How far off the second value lies, in radians or parts of the tried length."""
+"""Step of the difference quotients, in radians or parts of the tried length."""
 State = tuple[float, ...]
-"""What closes the groups: for each what it tries, in radians or metres, and its dyads' signs."""
+"""A state that closes the groups: the tried values in radians or metres, and the dyads' signs."""
 
 
 class TracedClosing(Struct, frozen=True):
-    """A step that closes a group: the inputs that hold what it tries and the signs of its dyads,
-    these where the scene stands, and by how much it misses, one misfit for each link tried.
+    """A step that closes a group: its inputs hold the tried values and the signs of its dyads.
 
-    ``facing`` must be positive; ``sine`` is that of the crossing of the two loci; ``links`` are
-    those of the group.
+    ``drawn`` are the inputs at the scene's position; ``misfits`` has one misclosure for each tried
+    link. ``facing`` must be positive; ``sine`` is the sine of the crossing angle of the two loci;
+    ``links`` are the links of the group.
     """
 
     names: tuple[str, ...]
@@ -47,41 +47,41 @@ class TracedClosing(Struct, frozen=True):
 
     @property
     def count(self) -> int:
-        """How many links are tried."""
+        """Number of links that are tried."""
         return len(self.turns)
 
     @property
     def sizes(self) -> tuple[float, ...]:
-        """What the tried values are measured by: a radian, or a length."""
+        """The unit of each tried value: one radian, or a length."""
         pairs = zip(self.turns, self.drawn, strict=False)
         return tuple(1.0 if turns else max(abs(value), 1e-3) for turns, value in pairs)
 
     @property
     def size(self) -> float:
-        """What the first of them is measured by."""
+        """The unit of the first tried value."""
         return self.sizes[0]
 
     @property
     def outputs(self) -> tuple[int, ...]:
-        """The nodes of its misfits, and of what must be positive."""
+        """The nodes of its misfits, then of the number that must be positive."""
         return (*(each.node for each in self.misfits), self.facing.node)
 
 
 def names_of(number: int, closer: Any) -> tuple[str, ...]:
-    """The inputs of a step that closes a group; no parameter is called so."""
+    """The inputs of a step that closes a group; no parameter has such a name."""
     more = (f"tried {number} within {k}" for k in range(1, len(closer.trying.unknowns)))
     signs = (f"tried {number} sign {k}" for k in range(len(closer.trying.signs)))
     return (f"tried {number}", *more, *signs)
 
 
 def drawn_state(closer: Any, drawn: Sequence[Any]) -> State:
-    """The tried values where the scene stands, in radians or metres, and the signs."""
+    """The tried values at the scene's position, in radians or metres, and the signs."""
     count = len(closer.trying.unknowns)
     return tuple(map(float, (*closer.trying.numbers(drawn), *drawn[count:-1])))
 
 
 def tried(names: Sequence[str], graph: Graph, closer: Any) -> tuple[Any, ...]:
-    """The value of such a step for traced numbers: what is tried, the signs, no sine yet."""
+    """The traced value of a closing step: tried values, signs, and a placeholder for the sine."""
     numbers = [TracedNumber(graph, graph.input(name)) for name in names]
     unknowns = closer.trying.unknowns
     pairs = zip(unknowns, numbers[: len(unknowns)], strict=True)
@@ -98,7 +98,7 @@ def closing(
     drawn: Sequence[Any],
     links: tuple[str, ...],
 ) -> TracedClosing:
-    """What closes a group, traced on what is known."""
+    """The closing of a group, traced on the known values."""
     trying, lift, state = closer.trying, tape.lifted, drawn_state(closer, drawn)
     numbers = [TracedNumber(tape.graph, tape.graph.input(name)) for name in names]
     unknowns = trying.unknowns
@@ -122,7 +122,7 @@ def crossing_sine(
     tried: Sequence[TracedNumber],
     signs: Sequence[TracedNumber],
 ) -> TracedNumber:
-    """The least sine of the angles at which a locus crosses what was cut, those within closed."""
+    """The least sine of the angles between a locus and the cut path, with the inner cuts closed."""
     trying, lift = closer.trying, tape.lifted
     unknowns, sides = trying.unknowns, range(own.count)
     misfits, loci = [], []
@@ -148,7 +148,7 @@ def crossing_sine(
 def result(
     trying: Any, known: Sequence[Any], at: Sequence[Any], signs: Sequence[Any]
 ) -> Mapping[int, Any]:
-    """The results of what is tried, for traced numbers."""
+    """The results for tried values, in traced numbers."""
     kind = traced_kind()
     overrides = dict(zip(trying.inputs, known, strict=True))
     for one, each in zip(trying.unknowns, at, strict=True):
@@ -159,17 +159,17 @@ def result(
     return run_moving(ready, trying.values, kind, overrides=overrides).values
 
 
-# --- the way of groups of class III and higher through the range of the driver --------------------
+# --- the course of groups of class III and higher through the range of the driver -----------------
 
 
 CUT, ROUNDS = 16, 6
-"""Parts into which a step is cut, again and again, at whose ends a dyad has its two signs."""
+"""Parts into which a step is divided, and the rounds of division, until a dyad changes its sign."""
 BESIDE = (256, 64, 16, 4)
-"""The parts of a step by which places lie beside a stretched dyad."""
+"""The parts of a step at which positions lie next to a stretched dyad."""
 
 
 class TrackedBranch(Struct, frozen=True):
-    """The way of groups from where the scene stands: positions of the driver, what closes there."""
+    """The course of groups from the scene's position: driver positions and closing states."""
 
     at: tuple[float, ...] = ()
     states: tuple[State, ...] = ()
@@ -178,9 +178,9 @@ class TrackedBranch(Struct, frozen=True):
 def around(
     path: Path, driven: PageDriver, start: float, closings: Sequence[TracedClosing]
 ) -> tuple[Reach, TrackedBranch] | None:
-    """The range about the driver's place, and the way through it; None where it is a mere place.
+    """The range around the driver's position, and the course through it; None for one position.
 
-    ``start`` is that place in the path, which may lie whole turns apart.
+    ``start`` is the position in the path, which may differ by whole turns.
     """
     pieces = path.ranges[0]
     course = pieces[0].course
@@ -200,7 +200,7 @@ def around(
 
 
 def sampled(piece: Piece, groups: Sequence[int]) -> Iterator[tuple[float, State]]:
-    """Places on a piece, with what closes the groups there."""
+    """Positions on a piece, with the states that close the groups there."""
     course, low, high = piece.course, piece.low.at, piece.high.at
     step, ways = course.sweep.usual / PARTS, [course.closures[k] for k in groups]
     is_sign = [k >= way.tried.shape[1] for way in ways for k in range(way.width)]
@@ -231,7 +231,7 @@ def sampled(piece: Piece, groups: Sequence[int]) -> Iterator[tuple[float, State]
 
 
 def beside(signs: Callable[[Any], Any], low: float, high: float, step: float) -> Iterator[float]:
-    """Places on both sides of where the sign of a dyad changes between two."""
+    """Positions on both sides of a sign change of a dyad between ``low`` and ``high``."""
     for _ in range(ROUNDS):
         at = np.linspace(low, high, CUT + 1)
         turned = signs(at)

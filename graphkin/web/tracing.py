@@ -35,14 +35,14 @@ from graphkin.web.traced_closings import (
 )
 
 SLACK = 1e-6
-"""Parts of the mechanism by which a bar's length may be off where it still closes."""
+"""Tolerance on a bar's length at closure, in parts of the mechanism's size."""
 
 
 class Tracing(Struct, frozen=True, dict=True):
-    """The traced steps of a mechanism: what a sheet has traced, the next ones take over.
+    """The traced steps of a mechanism; each sheet reuses the steps that earlier sheets have traced.
 
-    ``margins`` are the sines of all crossings, ``closings`` what closes groups of higher class,
-    ``counting`` by their inputs the links whose whole turns are followed.
+    ``margins`` are the sines of all crossings. ``closings`` are the closings of groups of higher
+    class. ``counting`` are the links whose whole turns are followed, by their inputs.
     """
 
     mechanism: Mechanism
@@ -60,13 +60,12 @@ class Tracing(Struct, frozen=True, dict=True):
 
     @cached_property
     def tape(self) -> TapeOutputs:
-        """The outputs."""
         starts = {figure.name: figure.start for figure in self.driven.figures}
         return TapeOutputs(self.graph, {INPUT: self.driven.start, **starts})
 
     @cached_property
     def known(self) -> dict[str, Any]:
-        """The parameters of the scene, those that can be changed traced, and what leads drivers."""
+        """The scene's parameters, traced if they can be changed, and the offsets of drivers."""
         led: dict[str, Any] = dict(self.mechanism.scene.values)
         for each in self.driven.figures:
             led[each.parameter or each.name] = TracedNumber(self.graph, self.graph.input(each.name))
@@ -74,8 +73,7 @@ class Tracing(Struct, frozen=True, dict=True):
 
     @property
     def inputs(self) -> dict[str, int]:
-        """The places of the inputs: the driver, what closes groups, the angles links count near,
-        and the figures."""
+        """The index of each input: driver, tried values, counting angles, figures."""
         names = [INPUT, *(name for each in self.closings for name in each.names)]
         return {
             name: place
@@ -105,7 +103,7 @@ class Tracing(Struct, frozen=True, dict=True):
     def tried_rates(
         self, drawn: Trace, needed: Sequence[int], overrides: Mapping[int, Any]
     ) -> dict[int, Any]:
-        """The rates that are tried, traced: their plans keep their size beside the right plan."""
+        """The trial rates, traced so that their plans keep their size next to the right plan."""
         chosen = {n: v for n, v in self.mechanism.trial_rates.items() if n in drawn.values}
         if not chosen:
             return {}
@@ -121,7 +119,7 @@ class Tracing(Struct, frozen=True, dict=True):
 
     @cached_property
     def sweep(self) -> Sweep:
-        """What the driver sweeps, as far as the page shows."""
+        """The sweep of the driver, as far as the page shows."""
         if self.driven.what != "time":
             return sweep_of(self.mechanism.scene)
         low, high = window(self.driven)
@@ -129,12 +127,12 @@ class Tracing(Struct, frozen=True, dict=True):
 
     @cached_property
     def path(self) -> Path:
-        """The ranges of the driver, with what was followed on them."""
+        """The ranges of the driver, with the branches followed on them."""
         return reachable_ranges(self.sweep)
 
     @cached_property
     def turned(self) -> Turned | None:
-        """How far such links turn as the driver moves, which is in its unit."""
+        """The angles turned by these links, with positions in the driver's unit."""
         turned = through(self.path.ranges[0])
         return None if turned is None else Turned(turned.at / self.driven.metres, turned.near)
 
@@ -155,13 +153,12 @@ class Tracing(Struct, frozen=True, dict=True):
         return found
 
     def counting_angles(self, at: Any) -> dict[str, Any]:
-        """The angles near which links count at places of the driver, by their inputs."""
+        """The angles near which links count their turns at driver positions, by input."""
         every = self.turned.values(at) if self.counting and self.turned is not None else {}
         return {name: every[name] for name in self.counting}
 
     def fixed_inputs(self, at: Any) -> dict[str, Any]:
-        """The inputs at places of the driver that nothing closes: those angles, and the figures as
-        they are drawn."""
+        """The inputs that no closing sets: counting angles and figures as drawn."""
         return {
             **self.counting_angles(at),
             **{each.name: at * 0 + each.start for each in self.driven.figures},
@@ -180,7 +177,7 @@ class Tracing(Struct, frozen=True, dict=True):
         return found
 
     def add_closings(self, drawn: Trace, trace: Trace) -> None:
-        """What closes the groups that no sheet before has, traced on what is known of them."""
+        """Add the closings of groups that no earlier sheet has, traced on the known values."""
         steps = trace.program.steps
         for number, closer in closing_steps(drawn):
             names = names_of(number, closer)
@@ -195,11 +192,14 @@ class Tracing(Struct, frozen=True, dict=True):
             parts = (later for later in trace.values if number in steps[later].args)
             self.margins.update({n: each.sine for n in parts if steps[n].extra[0] < each.count})
 
-    # --- how far it goes -----------------------------------------------------------------------
+    # --- the range -----------------------------------------------------------------------------
 
     def closed(self, trace: Trace, size: float) -> list[int]:
-        """The outputs that are finite where the mechanism closes: the places of all its points, and
-        a root of what is left of the room for each bar's length, which idle links may not keep."""
+        """The outputs that are finite where the mechanism closes.
+
+        They are the places of all points, and for each bar the square root of its remaining
+        tolerance of length, which idle links may exceed.
+        """
         places = {
             of: self.tape.lifted(trace.values[number])
             for (quantity, of), number in trace.program.targets.items()
@@ -214,7 +214,7 @@ class Tracing(Struct, frozen=True, dict=True):
         changed = {each.parameter for each in self.driven.figures}
         for link in scene.links.values():
             if any(changed & quantity.uses() for quantity in quantities_within(link.placings)):
-                continue  # its bars are as long as the figures say
+                continue  # the figures set the lengths of its bars
             kept = (name for name in link.points if name not in scene.cam_centres)
             points = [places[name] for name in kept if name in places]
             for point in points[1:]:
@@ -225,12 +225,12 @@ class Tracing(Struct, frozen=True, dict=True):
         return sorted(found)
 
     def moves(self, value: TracedNumber) -> bool:
-        """Whether a number or point is no constant."""
+        """Whether a number or point is not constant."""
         nodes = (value.node, value.imag.node)
         return any(self.graph.constant(node) is None for node in nodes)
 
     def reached(self, closed: Sequence[int]) -> tuple[Reach, TrackedBranch] | None:
-        """The range, and what closes groups on the way through it; None where nothing moves."""
+        """The range and the course of the groups through it; None where nothing moves."""
         if not self.closings:
             outputs = [self.tape.outputs[i] for i in closed]
             reach = reach_of(self.driven, self.graph, outputs, self.fixed_inputs)
@@ -239,7 +239,7 @@ class Tracing(Struct, frozen=True, dict=True):
 
 
 def closing_steps(trace: Trace) -> Iterator[tuple[int, Any]]:
-    """The steps that close groups of higher class, in order, each with what closes it."""
+    """The steps that close groups of higher class, in order, each with its closer."""
     for number in sorted(trace.values):
         closer = closer_of(trace.program.steps[number])
         if closer is not None:

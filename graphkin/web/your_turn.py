@@ -1,4 +1,4 @@
-"""Your turn: what the page knows of the moves that a student makes, and whose score sheet it is."""
+"""Your turn: the page's data for the moves of a student, and the owner of the score sheet."""
 
 from __future__ import annotations
 
@@ -40,21 +40,21 @@ from graphkin.web.screen_sheets import ScreenSheet
 from graphkin.writers.templates import marked_up
 
 PLANES = (Plane.MECHANISM, Plane.VELOCITIES, Plane.ACCELERATIONS, Plane.NUMBERS)
-"""The drawings by the numbers under which the page knows them."""
+"""The drawings, in the order of their numbers on the page."""
 LAID_OFF: tuple[Action, ...] = (lay_off, lay_back)
-"""What lays off a component of an acceleration from a point of a plan."""
+"""The actions that lay off a component of an acceleration from a point of a plan."""
 
 
 Way = tuple[str, tuple[str, ...]]
-"""An action of the palette, and what it starts from, by the names of the picks."""
+"""An action of the palette and its inputs, by the names of the picks."""
 
 
 class Pick(Struct, frozen=True):
-    """Something that a move can start from: a point, a line, a bar, a vector, a length, a rate.
+    """An object that a move can start from: a point, line, bar, vector, length or rate.
 
-    ``needs`` are the steps of the moves without which it is not there, ``on`` the two steps between
-    whose points it lies where it is pointed at, ``value`` what it is where no move gives it, ``by``
-    the point that is picked for one too near to it to be drawn.
+    ``needs`` are the moves that must come first. ``on`` are the two steps between whose points it
+    lies on the screen. ``value`` is its value where no move gives it. ``by`` is the point that is
+    picked in place of one too near to be drawn.
     """
 
     kind: str
@@ -69,9 +69,10 @@ class Pick(Struct, frozen=True):
 class PaletteMove(Struct, frozen=True):
     """An action of the palette that gives a recorded ``step`` from its ``inputs``, by their names.
 
-    ``about`` is what a wrong choice is told of, ``at`` the sentence that draws it, ``needs`` are
-    the moves before it; a ``goal`` is drawn for its own sake, other moves only for a goal.
-    ``turns`` are the rate by which a velocity is laid off square to its bar, and its sense.
+    ``about`` is the subject of the message for a wrong choice; ``at`` is the sentence that draws
+    the step; ``needs`` are the moves before it. A ``goal`` is drawn for its own sake, other moves
+    only towards a goal. ``turns`` are the rate of a velocity laid off perpendicular to its bar, and
+    its sense.
     """
 
     step: int
@@ -86,11 +87,11 @@ class PaletteMove(Struct, frozen=True):
 
 
 class YourTurn(Struct, frozen=True):
-    """All moves of some sheets, all that can be picked, and the moves behind what comes along.
+    """All moves of some sheets, all picks, and the moves behind the steps drawn along with them.
 
-    ``places`` are the steps of the points of the mechanism that have an image of a plan, ``shares``
-    the steps by which the lines of auxiliary plans are divided, with the moves that each needs;
-    ``alike`` tells whether a link has a third point, whose image is similar to it.
+    ``places`` are the points of the mechanism by the step of their image. ``shares`` are the steps
+    for the ratios that divide lines of auxiliary plans, with the moves that each needs. ``alike``
+    says whether a link has a third point, whose image is similar to the link.
     """
 
     moves: Mapping[int, PaletteMove]
@@ -128,7 +129,7 @@ class MoveFinder:
         }
 
     def found(self) -> YourTurn:
-        """Every move, and what can be picked beside what moves start from."""
+        """Every move, and every pick."""
         for number in sorted(self.values):
             self.move(number)
         self.more_picks()
@@ -147,10 +148,10 @@ class MoveFinder:
             self.moves, self.picks, along, self.places, shares, self.values, planes, alike
         )
 
-    # --- what hangs on what ----------------------------------------------------------------------
+    # --- dependencies ----------------------------------------------------------------------------
 
     def needs(self, numbers: Iterable[int]) -> tuple[int, ...]:
-        """The moves that are nearest behind some steps, themselves if they are moves."""
+        """The nearest moves behind some steps; a step that is a move counts itself."""
         found, seen, waiting = set[int](), set[int](), [*numbers]
         while waiting:
             number = waiting.pop()
@@ -168,13 +169,13 @@ class MoveFinder:
         return tuple(sorted(found))
 
     def drawing(self, number: int) -> Drawing:
-        """The sheet in whose plan a step lies, or the first that draws it."""
+        """The sheet whose plan holds a step, or else the first sheet that draws it."""
         ran = [each for each in self.drawings if number in each.trace.values]
         own = (each for each in ran if each.plane is self.steps[number].plane)
         return next(own, ran[0])
 
     def places_of_images(self) -> dict[int, tuple[int, ...]]:
-        """For each image the places of its points; those of auxiliary plans by their letter."""
+        """The points of the mechanism by image; images of auxiliary plans are matched by letter."""
         targets = self.drawings[0].trace.program.targets
         found: dict[int, list[int]] = {}
         for (quantity, of), number in targets.items():
@@ -198,13 +199,13 @@ class MoveFinder:
     # --- moves -----------------------------------------------------------------------------------
 
     def move(self, number: int) -> None:
-        """Note the move that gives a step, if one does; a step that is alike is the first one."""
+        """Record the move that gives a step, if any; like steps map to the first one."""
         step = self.steps[number]
         key = self.drawn_alike(number)
         alike = self.known.get(key, number)
         way = None if alike in self.moves else self.way(number)
         if way is None:
-            if step.args:  # what is given is like nothing else
+            if step.args:  # given steps are never alike
                 self.known[key] = alike
                 if alike != number:
                     self.same[number] = alike
@@ -225,21 +226,21 @@ class MoveFinder:
             self.point_or_line(number, name)
 
     def share(self, number: int) -> int:
-        """The step that measures in what ratio a point divides the line that leads to it."""
+        """The step that measures the ratio in which a point divides its line."""
         kind = construction(self.steps[number])
         assert isinstance(kind, DividedPoint)
         by_hand = self.steps[kind.share].by_hand
         return by_hand if by_hand in self.values and by_hand is not None else kind.share
 
     def drawn_alike(self, number: int) -> tuple[Any, ...]:
-        """What two steps have in common that are drawn alike: the same once more."""
+        """The key that steps share if they are drawn alike."""
         step = self.steps[number]
         args = tuple(self.same.get(arg, arg) for arg in step.args)
         drawn = id(step.action), args, step.extra, step.part, step.plane, step.arrow
         return *drawn, self.values[number]
 
     def way(self, number: int) -> Way | None:
-        """The action that gives a step, and its inputs; None where it comes along."""
+        """The action that gives a step, and its inputs; None for a step without a move."""
         step, kind = self.steps[number], construction(self.steps[number])
         if isinstance(kind, Component) and kind.vector == number:
             if kind.palette is None or not kind.is_drawn(self.drawing(number)):
@@ -261,7 +262,7 @@ class MoveFinder:
         return self.by_move(move, number, drawn) if move is not None else None
 
     def by_move(self, move: Move, number: int, drawn: Step) -> Way | None:
-        """A move with its inputs; None where it is none in this drawing, or leads to no place."""
+        """A move with its inputs; None if this drawing has no such move or place."""
         if move.in_plan and self.steps[number].plane not in PLANES[1:3]:
             return None
         if move.action.shape == "point" and self.place(number) is None:
@@ -274,7 +275,7 @@ class MoveFinder:
         return (action, found) if len(found) == len(inputs) else None
 
     def is_drawn(self, number: int) -> bool:
-        """Whether a step is drawn by a sentence, by itself or as the end of a vector."""
+        """Whether a sentence draws a step, by itself or as the end of a vector."""
         return bool(self.told.at.get(number) or [*self.drawn_around(number)])
 
     def sentence(self, number: int) -> int:
@@ -294,10 +295,10 @@ class MoveFinder:
             around = [user for user in users if not self.steps[user].arrow]
         yield from (at for step in around if (at := self.told.at.get(step, 0)))
 
-    # --- what can be picked ----------------------------------------------------------------------
+    # --- picks -----------------------------------------------------------------------------------
 
     def point_or_line(self, number: int, name: str = "") -> str | None:
-        """A point, line or arc by its step; None for one that nobody sees."""
+        """The pick of a point, line or arc by its step; None for an invisible one."""
         number = self.same.get(number, number)
         key = str(number)
         if key in self.picks:
@@ -333,9 +334,9 @@ class MoveFinder:
         return key
 
     def guide_alike(self, name: str, line: Any) -> str | None:
-        """A line of the same name that can be picked already, where it is the same.
+        """An existing pick for a guide of the same name on the same line.
 
-        It may have another zero or the other sense: where that matters, both are tried.
+        The two may differ in zero and sense; where that matters, both are tried.
         """
         for key, pick in self.picks.items():
             same = (pick.kind, pick.name, pick.by) == ("guide", name, "")
@@ -349,7 +350,7 @@ class MoveFinder:
         return None
 
     def kind_of_line(self, number: int) -> str:
-        """An arc, a line that is given or stands on the mechanism, or one that is drawn to find."""
+        """The kind of a line: an arc, a guide that is given or on the mechanism, or a locus."""
         step = self.steps[number]
         if isinstance(self.values[number], Circle):
             return "circle"
@@ -357,7 +358,7 @@ class MoveFinder:
         return "guide" if given else "locus"
 
     def noted(self, key: str, *pick: Any) -> str:
-        """The key under which something can be picked, from now on if it could not before."""
+        """The key of a pick, which is added if it is new."""
         self.picks.setdefault(key, Pick(*pick))
         return key
 
@@ -371,7 +372,7 @@ class MoveFinder:
         return self.noted(key, "bar", name, Plane.MECHANISM, self.needs([p, q]), None, (p, q))
 
     def arrow(self, tail: int, tip: int, name: str = "") -> str | None:
-        """The vector between two points of a plan; as its arrow leads where it is given no name."""
+        """The vector between two points of a plan; unnamed, it follows its arrow."""
         if not name and (tip, tail) in self.arrows:
             tail, tip = tip, tail
         ends = self.point_or_line(tail), self.point_or_line(tip)
@@ -389,7 +390,7 @@ class MoveFinder:
         return self.noted(key, "arrow", name, plane, self.needs(on), None, on)
 
     def length(self, number: int, length: int) -> str:
-        """A length that is laid off at a step."""
+        """The length that is laid off at a step."""
         kind, key = construction(self.steps[number]), f"l{length}"
         role = self.steps[number].role
         laid = kind.laid_length(role) if kind is not None else None
@@ -402,7 +403,7 @@ class MoveFinder:
         return self.noted(key, "length", name, Plane.NUMBERS, needs, self.values[length])
 
     def place_of(self, image: int) -> str | None:
-        """The point of the mechanism whose image a step is, the first if it is that of several."""
+        """The point of the mechanism whose image a step is; of several points the first."""
         places = self.places.get(image)
         return self.point_or_line(places[0]) if places else None
 
@@ -413,7 +414,7 @@ class MoveFinder:
         return self.arrow(tail, tip, symbol(vector.symbol) if vector else "")
 
     def vector(self, number: int) -> str | None:
-        """A vector that is known before it is laid off; None for one without length."""
+        """A vector that is known before it is laid off; None for a vector of length zero."""
         step = self.steps[number]
         start, *others = step.args
         kind, drawing = construction(step), self.drawing(number)
@@ -445,7 +446,7 @@ class MoveFinder:
         return self.noted(f"r{number}", "rate", *own)
 
     def more_picks(self) -> None:
-        """What no move starts from: other points, bars and vectors, for a choice to be one."""
+        """Add picks that no move starts from, to give the student a choice."""
         targets = self.drawings[0].trace.program.targets
         for number in self.told.at:
             step = self.steps[number]
@@ -468,14 +469,14 @@ class MoveFinder:
     # --- names -----------------------------------------------------------------------------------
 
     def place(self, number: int) -> complex | None:
-        """Where a point lies, if it is one and not at infinity."""
+        """The place of a point; None for any other value and for a point at infinity."""
         value = self.values.get(number)
         if isinstance(value, Ratio):
             return self.drawing(number).place(value)
         return value if isinstance(value, complex) else None
 
     def letter(self, number: int) -> str:
-        """The letter of a point, or what it is the end of."""
+        """The letter of a point, or the vector that it ends."""
         step = self.steps[number]
         if step.name:
             return symbol(step.name)
@@ -494,7 +495,7 @@ class MoveFinder:
         return drawing.words("turn.end_of", vector=vector) + tag
 
     def name_of_line(self, number: int) -> str:
-        """A line that no move draws: a guide, the line of a crank, a side of the mechanism."""
+        """The name of a line that no move draws, such as a guide or a side of a link."""
         kind, drawing = construction(self.steps[number]), self.drawing(number)
         if kind is not None and (name := kind.path_name(drawing)):
             return name
@@ -509,7 +510,7 @@ class MoveFinder:
         return "".join(symbol(self.steps[arg].name) for arg in args)
 
     def turns(self, number: int) -> tuple[str, ...]:
-        """The rate by which a velocity is laid off square to its bar, and the sense of it."""
+        """The rate and sense of a velocity that is laid off perpendicular to its bar."""
         kind, drawing = construction(self.steps[number]), self.drawing(number)
         if not isinstance(kind, TurnedVelocity):
             return ()
@@ -517,7 +518,7 @@ class MoveFinder:
         return (rate_symbol(drawing, kind.omega), way) if way else ()
 
     def words_of(self, number: int, action: str, inputs: Sequence[str]) -> tuple[str, str]:
-        """What a move gives, and what it is about in a line that tells why a choice is wrong."""
+        """The name of a move's result, and its subject in the message for a wrong choice."""
         names = [self.picks[name].name for name in inputs]
         kind, drawing = construction(self.steps[number]), self.drawing(number)
         if isinstance(kind, Component) and kind.vector == number:
@@ -535,7 +536,7 @@ class MoveFinder:
         return name, names[1] if action == "lay_off" else name
 
     def vector_on(self, number: int, kind: Construction | None, start: str) -> str:
-        """The vector that lies on a line which is drawn to find its end."""
+        """The vector that lies on a line drawn to find its end."""
         drawing = self.drawing(number)
         if isinstance(kind, VelocityNormal):
             return drawing.words("turn.to_centre", p=start)
@@ -553,7 +554,7 @@ def your_turn(sheets: Sequence[ScreenSheet], told: PageProtocol) -> YourTurn:
     return MoveFinder(sheets, told).found()
 
 
-# --- your turn ------------------------------------------------------------------------------------
+# --- the data of a turn ---------------------------------------------------------------------------
 
 
 SAID = (
@@ -581,12 +582,13 @@ SAID = (
     "turn.say.with_help",
     "turn.say.wrong",
 )
-"""The sentences that the script says, whatever the palette holds."""
+"""The messages of the script, whatever the palette holds."""
 
 
 class TurnOwner(Struct, frozen=True):
-    """Whose a turn is: the ``stem`` of the names of saved files; in a class the id and the opaque
-    code of the variant, by which a saved score sheet is sealed.
+    """The owner of a turn: the ``stem`` of saved files, and in a class an id and a code.
+
+    The opaque code of the variant seals a saved score sheet.
     """
 
     stem: str = "graphkin"
@@ -595,7 +597,7 @@ class TurnOwner(Struct, frozen=True):
 
 
 def palette(turn: YourTurn, words: Words) -> list[tuple[str, list[str]]]:
-    """The actions that a construction has use for, each with the words for its inputs."""
+    """The actions that a construction needs, each with the words for its inputs."""
     used = {move.action for move in turn.moves.values()}
     if turn.alike:
         used.add("similar")
@@ -612,7 +614,7 @@ NOBODY = TurnOwner()
 def record(
     sheets: Sequence[ScreenSheet], turn: YourTurn, owner: TurnOwner = NOBODY
 ) -> dict[str, object]:
-    """What the script of a student's turn has to know."""
+    """The data for the script of a student's turn."""
     words = sheets[0].drawing.words
     used = [action for action, _ in palette(turn, words)]
     return {
@@ -640,7 +642,7 @@ def record(
 
 
 def beginning(sheets: Sequence[ScreenSheet]) -> dict[str, str]:
-    """What is said first, with the plan of a scene that the page draws."""
+    """The first message, with a note on the plan of a scene that the page draws."""
     words = sheets[0].drawing.words
     begin = words("turn.say.begin")
     if more := SAID_FIRST.get(sheets[0].drawing.scene.sheet.plan):
@@ -649,30 +651,29 @@ def beginning(sheets: Sequence[ScreenSheet]) -> dict[str, str]:
 
 
 def reasons(action: str, words: Words) -> Iterator[str]:
-    """Why an input of an action is wrong, in sentences; inputs that are alike have one."""
+    """The keys of the messages for a wrong input of an action; equal inputs share one."""
     own = PALETTE[action]
     keys = (f"turn.say.{own.said_as or own.key}_{place}" for place in range(len(own.slots)))
     yield from (key for key in keys if words.has(key))
 
 
 def seconds(sheets: Sequence[ScreenSheet], turn: YourTurn) -> float:
-    """kL/kv, by which vectors are set on the mechanism."""
+    """kL/kv, the factor by which vectors are set on the mechanism."""
     step = sheets[0].drawing.trace.program.seconds
     return float(turn.values.get(step, 1.0)) if step is not None else 1.0
 
 
 def plane_of(sheet: ScreenSheet) -> int:
-    """The number of the plan of a sheet."""
     return PLANES.index(sheet.drawing.plane)
 
 
 def frame(field: Field) -> list[float]:
-    """How a field places a value: the place of its middle, the middle, millimetres to a unit."""
+    """The placement of values in a field: its place, its middle, millimetres per unit."""
     return [*field.at, field.middle.real, field.middle.imag, field.mm]
 
 
 def written_move(turn: YourTurn, move: PaletteMove) -> dict[str, object]:
-    """A move as data; the script finds by itself what its inputs say of it."""
+    """A move as data; the script derives from its inputs whatever they determine."""
     found: dict[str, object] = {
         "action": move.action,
         "inputs": move.inputs,
@@ -694,7 +695,7 @@ def written_move(turn: YourTurn, move: PaletteMove) -> dict[str, object]:
 
 
 def written_pick(turn: YourTurn, key: str, pick: Pick) -> dict[str, object]:
-    """Something to be picked as data; what a move gives, or two points do, is told by these."""
+    """A pick as data; whatever a move or two points determine is left out."""
     found: dict[str, object] = {"kind": pick.kind}
     if key.isdigit() and int(key) in turn.moves:
         return found

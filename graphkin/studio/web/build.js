@@ -1,4 +1,4 @@
-// The field in which a mechanism is built by hand: every act is asked of the studio as an edit.
+// The field in which a mechanism is built by hand: each action is sent to the studio as an edit.
 
 import { replace, written } from "./editor.js";
 import { sentence } from "./mistakes.js";
@@ -11,24 +11,24 @@ const told = find("told");
 const toggle = find("build");
 const NEAR = 10; // px within which a pin or a bar is meant
 const WIDE = 160; // steps of the grid across an empty field, and up it
-const ROOM = 0.2; // of the mechanism's size around it
+const ROOM = 0.2; // margin around the mechanism, in parts of its size
 const PIN = 6; // px
-const BAR = 120; // px of the bar that tells the size, at most
+const BAR = 120; // px of the scale bar, at most
 const LETTER = 15; // px
-const BESIDE = 17; // px from a pin to the middle of its letters
-const SIDES = [1, 3, 7, 5, 0, 2, 6, 4].map((part) => (part * Math.PI) / 4); // where they may stand, best ones first
+const BESIDE = 17; // px from a pin to the middle of its letter
+const SIDES = [1, 3, 7, 5, 0, 2, 6, 4].map((part) => (part * Math.PI) / 4); // directions for letters, best ones first
 const SMALL = [180, 110]; // px of a small picture
-const stood = new Map(); // where points stood, by the text
+const stood = new Map(); // places of points, by the text
 let sketch = null;
-let view = null; // the left and upper edge and the width of what is seen, in the scene's unit
-let press = null; // what a drag began with
+let view = null; // left and upper edge and width of the view, in the unit of the scene
+let press = null; // the start of a drag
 let busy = false;
 let changed = () => {};
 
 /** Whether a mechanism is being built. */
 export const isBuilding = () => toggle.getAttribute("aria-pressed") === "true";
 
-/** What a look is told of the field: where the points stand. */
+/** The fields of a look request for this field: the places of the points. */
 export const placesFields = () => ({ building: isBuilding(), places: places() });
 
 /** Call back when the field is opened. */
@@ -39,7 +39,7 @@ export function onBuilding(work) {
 const places = () => stood.get(written()) ?? sketch?.points ?? {};
 const tool = () => find("tools").elements.tool.value;
 
-/** Show what the text holds now; nothing changes for a text that cannot be read. */
+/** Show the content of the text; a text that cannot be read changes nothing. */
 export function showSketch(found) {
   if (!found) return;
   const first = sketch === null;
@@ -58,10 +58,10 @@ export function building(open) {
   if (open) changed();
 }
 
-/** How much of the scene a pixel is. */
+/** The size of a pixel in the scene. */
 const pixel = () => view.width / svg.clientWidth;
 
-/** Let all points be seen; a view that holds them stays, unless it is to be drawn anew. */
+/** Bring all points into view; a view that holds them stays, unless `anew` is set. */
 function fit(anew = false) {
   const ghosts = sketch.ghosts.map((ghost) => ghost.at);
   const at = [...Object.values(sketch.points), ...ghosts, ...corners()];
@@ -91,14 +91,14 @@ function element(name, look, attributes, words = "") {
 
 const line = (look, [x1, y1], [x2, y2]) => element("line", look, { x1, y1: -y1, x2, y2: -y2 });
 
-/** The place of a block that is dragged: what is beside a fixed guide is not written. */
+/** The place of a dragged block; on a fixed guide it stays on the guide. */
 function onGuide(sketch, { point, along: [u, v], fixed }, [x, y]) {
   const [a, b] = sketch.points[point];
   const part = ((x - a) * u + (y - b) * v) / (u * u + v * v || 1);
   return fixed ? [a + part * u, b + part * v] : [x, y];
 }
 
-/** The direction, of eight, that turns farthest from the bars and guides that meet at a point. */
+/** The direction, of eight, farthest from the bars and guides that meet at a point. */
 function freeSide(sketch, points, name) {
   const bars = Object.values(sketch.links).filter((held) => held.includes(name));
   const others = bars.flat().filter((point) => point !== name && points[point]);
@@ -111,8 +111,8 @@ function freeSide(sketch, points, name) {
   return SIDES.reduce((best, side) => (clear(side) > clear(best) + 1e-6 ? side : best));
 }
 
-/** The marks of a sketch whose points stand so, where a pixel is so much of the scene; `named`
- * with the letters of its points. */
+/** The marks of a sketch for given places of its points and size of a pixel; `named` adds the
+ * letters of the points. */
 function marksOf(sketch, points, one, named = true) {
   const marks = [];
   for (const block of sketch.blocks) {
@@ -175,7 +175,7 @@ export function picture(sketch) {
   return small;
 }
 
-/** A bar of a round length at the foot of the field: how large what is drawn is. */
+/** A scale bar of a round length at the foot of the field. */
 function measure(one) {
   const power = 10 ** Math.floor(Math.log10(BAR * one));
   const length = [5, 2, 1].map((m) => m * power).find((each) => each <= BAR * one);
@@ -187,7 +187,7 @@ function measure(one) {
   ];
 }
 
-/** A cross with its axes where x and y are nought. */
+/** A cross with its axes at the origin. */
 function origin(one) {
   const [reach, letter] = [26 * one, { "font-size": 0.8 * LETTER * one }];
   return [
@@ -201,12 +201,12 @@ function origin(one) {
 /** Coordinates on the grid, as they are written. */
 const coordinates = (at) => at.map((part) => +(Math.round(part / sketch.grid) * sketch.grid).toFixed(6));
 
-/** Say at the edge of the field where the pointer is, or what is drawn. */
+/** Show the pointer's coordinates at the edge of the field, or nothing. */
 function tellPlace(at) {
   find("at").textContent = at && sketch ? `(${coordinates(at).join("; ")}) ${sketch.unit}` : "";
 }
 
-/** Draw everything; `shift` are points that are being dragged, `drawn` what is being drawn. */
+/** Draw everything; `shift` are points being dragged, `drawn` marks of an action in progress. */
 function draw(shift = {}, drawn = []) {
   if (!sketch || !svg.clientWidth) return;
   fit();
@@ -217,7 +217,7 @@ function draw(shift = {}, drawn = []) {
   svg.replaceChildren(...under(), ...origin(one), ...measure(one), ...marks, ...drawn);
 }
 
-/** Where a pointer is in the scene. */
+/** The place of a pointer in the scene. */
 function spot(event) {
   const box = svg.getBoundingClientRect();
   const one = pixel();
@@ -226,7 +226,7 @@ function spot(event) {
 
 const away = ([x, y], [u, v]) => Math.hypot(x - u, y - v);
 
-/** How far a place lies from a segment. */
+/** The distance of a place from a segment. */
 function beside(at, from, to) {
   const [dx, dy] = [to[0] - from[0], to[1] - from[1]];
   const part = ((at[0] - from[0]) * dx + (at[1] - from[1]) * dy) / (dx * dx + dy * dy || 1);
@@ -234,14 +234,14 @@ function beside(at, from, to) {
   return away(at, [from[0] + held * dx, from[1] + held * dy]);
 }
 
-/** What lies nearest at a place within reach: of all `things`, by their distance. */
+/** The nearest of some `things` within reach, by their distance. */
 function nearest(things, distance) {
   const near = NEAR * pixel();
   const all = things.map((thing) => [distance(thing), thing]).filter(([far]) => far <= near);
   return all.sort(([one], [other]) => one - other)[0]?.[1];
 }
 
-/** The pin at a place, but for one. */
+/** The pin at a place, except one. */
 const pointAt = (at, but = "") => {
   const others = Object.keys(sketch.points).filter((name) => name !== but);
   return nearest(others, (name) => away(at, sketch.points[name]));
@@ -250,14 +250,14 @@ const ghostAt = (at) => nearest(sketch.ghosts, (ghost) => away(at, ghost.at));
 
 const fromRim = (at, { centre, radius }) => Math.abs(away(at, sketch.points[centre]) - radius);
 
-/** The wheel whose rim is at a place, but for those about a point. */
+/** The wheel whose rim is at a place, except wheels around a given point. */
 const rimAt = (at, but) =>
   nearest(
     sketch.wheels.filter((wheel) => wheel.centre !== but),
     (wheel) => fromRim(at, wheel),
   );
 
-/** The bar or wheel at a place, but for those of a point. */
+/** The bar or wheel at a place, except those of a given point. */
 function linkAt(at, but = "") {
   const free = Object.keys(sketch.links).filter((name) => !sketch.links[name].includes(but));
   return nearest(free, (name) => {
@@ -269,11 +269,12 @@ function linkAt(at, but = "") {
   });
 }
 
-/** What is written of a length. */
+/** A length as it is written. */
 const lengthTold = (far) =>
   `${+(Math.max(1, Math.round(far / sketch.grid)) * sketch.grid).toFixed(6)} ${sketch.unit}`;
 
-/** The distances of a new point of the pressed link from its first two; on their line, from one. */
+/** The distances of a new point of the pressed link from its first two points; on their line,
+ * from one. */
 function spokes(at) {
   const held = (sketch.links[press.link] ?? []).filter((name) => sketch.points[name]).slice(0, 2);
   const [[x, y], [u, v]] = [sketch.points[held[0]] ?? at, sketch.points[held[1]] ?? at];
@@ -285,13 +286,13 @@ function spokes(at) {
   return held.map((name) => `${name}: ${lengthTold(away(at, sketch.points[name]))}`).join(", ");
 }
 
-/** A ring around a pin that is aimed at. */
+/** A ring around the target pin. */
 function ringed(name) {
   const [x, y] = sketch.points[name];
   return element("circle", "aim", { cx: x, cy: -y, r: 2 * PIN * pixel() });
 }
 
-/** Say something beside the pointer until the next act. */
+/** Show a message next to the pointer until the next action. */
 function tellAt(event, words) {
   const box = canvas.getBoundingClientRect();
   told.hidden = !words;
@@ -300,7 +301,7 @@ function tellAt(event, words) {
   told.style.top = `${event.clientY - box.top + 14}px`;
 }
 
-/** Ask for an act; the text is changed as if it were written. */
+/** Request an action; the text changes as if it were written. */
 async function act(event, kind, of, at, more = {}) {
   if (busy) return;
   busy = true;
@@ -324,7 +325,7 @@ async function act(event, kind, of, at, more = {}) {
   }
 }
 
-/** Drive a link at the speed that is written; one that is driven, at that instead of its own. */
+/** Drive a link at the written speed, which replaces the speed of a driven link. */
 const drive = (event, link, at) =>
   act(event, "driver", [link], at, { speed: [Number(find("speed").value) || 0, 0] });
 

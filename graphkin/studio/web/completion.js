@@ -1,22 +1,22 @@
-// What may be written next in a scene: keys of the table, names of points, links and parameters.
+// Completion in a scene: keys of the table, names of points, links and parameters.
 
 import { scene } from "./editor.js";
 import { element, find } from "./talk.js";
 
-const MOST = 12; // that are offered at once
+const MOST = 12; // largest number of offers
 const list = find("offered");
 const { text } = scene;
 let help = { keys: {}, points: [], links: [], parameters: [] };
-let begun = ""; // the part of the word that is written
+let begun = ""; // the written part of the word
 let chosen = 0;
 
-/** What is known of the text as it was last read. */
+/** Keep the names known from the last text that was read. */
 export function showHelp(found) {
   if (found?.points.length) help = found;
   else if (found) help.keys = { ...found.keys, ...help.keys };
 }
 
-/** The table in which a line stands, as the reader calls it, and whether a list of tables. */
+/** The name of the table of the last line, as the reader of scenes writes it. */
 function tableOf(lines) {
   for (const line of lines.toReversed()) {
     const heading = line.match(/^\s*\[\[?([^\]]+)\]/);
@@ -25,7 +25,7 @@ function tableOf(lines) {
   return "";
 }
 
-/** The keys that a table may have: those of one of its kind where it is a new one. */
+/** The keys that a table may have; for a new table, the keys of similar tables. */
 function keysOf(place) {
   const plain = Object.entries(help.keys).map(([name, keys]) => [name.replace(/\[\d+\]/g, ""), keys]);
   const same = plain.filter(([name]) => name === place).flatMap(([, keys]) => keys);
@@ -40,7 +40,7 @@ function keysOf(place) {
   return alike.flatMap(([, keys]) => keys).filter((key) => /^[a-z]+$/.test(key));
 }
 
-/** What may stand at the writing mark: the words, and how much of one is written. */
+/** The possible words at the cursor, and the part of one that is written. */
 function offers() {
   const before = text.value.slice(0, text.selectionStart);
   const lines = before.split("\n");
@@ -59,7 +59,7 @@ function offers() {
   return quoted ? [part, [...help.points, ...help.parameters, ...help.links]] : [part, help.links];
 }
 
-/** Offer what begins as the word at the writing mark; all of it where it is asked for. */
+/** Offer words that begin like the word at the cursor; `asked` offers words without a beginning. */
 function offer(asked = false) {
   const [word, known] = offers();
   const low = word.toLowerCase();
@@ -87,7 +87,7 @@ function offer(asked = false) {
   mark();
 }
 
-/** Set the list beside the writing mark: below, or above where it would lie over the mistakes. */
+/** Put the list next to the cursor: below, or above where it would cover the mistakes. */
 function place() {
   const at = scene.caret();
   list.style.left = `${Math.min(at.left, innerWidth - list.offsetWidth - 8)}px`;
@@ -96,7 +96,7 @@ function place() {
   list.style.top = `${below + list.offsetHeight < end || above < 0 ? below : above}px`;
 }
 
-/** Where the text has moved, by writing too, the list goes along; with the mark out of sight it closes. */
+/** Move the list with the text, or close it when the cursor leaves the view. */
 function follow() {
   const at = scene.caret();
   const seen = text.getBoundingClientRect();
@@ -115,7 +115,7 @@ function close() {
   text.removeAttribute("aria-activedescendant");
 }
 
-/** Write the chosen word in place of what was begun. */
+/** Replace the begun word by the chosen one. */
 function take() {
   const end = text.selectionStart;
   const word = list.children[chosen].textContent;

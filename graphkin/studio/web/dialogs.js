@@ -9,8 +9,8 @@ for (const button of document.querySelectorAll("dialog .close")) {
   button.addEventListener("click", () => button.closest("dialog").close());
 }
 
-/** The answer to a question: "yes", "other" where there is another way, or nothing; `lines` are
- * what it is about. */
+/** The answer to a question: "yes", "other" where there is an alternative, or empty; `lines` are
+ * its details. */
 export function agreed(question, yes, other = "", lines = []) {
   const dialog = find("asking");
   find("question").textContent = question;
@@ -30,7 +30,7 @@ export function agreed(question, yes, other = "", lines = []) {
   });
 }
 
-/** Save something; where files are in the way, only after asking. Nothing where that is refused. */
+/** Save something, and ask first where files exist; null if the user refuses. */
 export async function saved(what, fields) {
   let answer = await ask(what, fields);
   if (answer.exist.length) {
@@ -42,7 +42,7 @@ export async function saved(what, fields) {
   return answer;
 }
 
-/** Draw what comes into sight, one after another. */
+/** Draw the pictures of items that come into view, one after another. */
 function pictured(items) {
   let last = Promise.resolve();
   const seen = new IntersectionObserver((entries) => {
@@ -61,7 +61,7 @@ function pictured(items) {
   find("opening").addEventListener("close", () => seen.disconnect(), { once: true });
 }
 
-/** Show only what has every word that is sought in its name or title. */
+/** Show only entries whose name or title contains every word of the search. */
 function seek() {
   const words = find("sought").value.toLowerCase().split(/\s+/);
   for (const list of find("opening").querySelectorAll("ul")) {
@@ -74,7 +74,7 @@ function seek() {
 
 find("sought").addEventListener("input", seek);
 
-/** Let a scene or a lab be chosen; `go` is called with the address that opens it. */
+/** Let the user choose a scene or a lab; `go` receives the address that opens it. */
 export async function choose(go) {
   const { scenes, more, labs, examples } = await listed();
   const opener = (key, name, words) =>
@@ -108,8 +108,8 @@ export async function choose(go) {
   pictured(find("opening").querySelectorAll("li [data-key]"));
 }
 
-/** Let the kinds of files be chosen, then draw and save them; `fields` gives the scene as it is,
- * `left` says what is not saved all the same. */
+/** Let the user choose file formats, then draw and save the sheets; `fields` gives the current
+ * scene, `left` says what remains unsaved. */
 export function saveSheets(fields, left) {
   const dialog = find("saving");
   const said = find("saving-said");

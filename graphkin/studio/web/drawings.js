@@ -1,4 +1,4 @@
-// The drawings and the numbers beside them.
+// The drawings, and the numbers next to them.
 
 import { find, onSpeaking, say } from "./talk.js";
 
@@ -6,25 +6,25 @@ const old = find("old");
 const shown = find("shown");
 const all = find("drawings");
 const names = ["mechanism", "velocity", "acceleration"];
-const SMALLEST = 1.8; // px for a millimetre of paper, beside the text
-const NARROW = 2.6; // and below it
+const SMALLEST = 1.8; // px per millimetre of paper, next to the text
+const NARROW = 2.6; // the same below the text
 const narrow = matchMedia("(max-width: 60rem)");
 const phone = matchMedia("(max-width: 40rem)"); // where a field is as high as its drawing
 const sheet = new CSSStyleSheet();
 let rules = "";
-let numbers = { results: "", margins: "" }; // of what is drawn
-let checked = ""; // what the independent check says of what is drawn
+let numbers = { results: "", margins: "" }; // of the current drawing
+let checked = ""; // words of the independent check of the current drawing
 document.adoptedStyleSheets = [...document.adoptedStyleSheets, sheet];
 
-/** The plan whose construction stands on the mechanism. */
+/** The plan whose construction is shown on the mechanism. */
 export const onMechanism = () => shown.querySelector("input:checked").value;
 
-/** Call back when another construction is to be shown. */
+/** Call back when another construction is chosen. */
 export function onChoosing(work) {
   shown.addEventListener("change", work);
 }
 
-/** Call back with the name of a mark of the mechanism that is clicked. */
+/** Call back with the name of a clicked mark of the mechanism. */
 export function onPointing(work) {
   find("mechanism").addEventListener("click", ({ target }) => {
     const mark = target.closest("#mechanism .drawing [data-name]");
@@ -32,8 +32,8 @@ export function onPointing(work) {
   });
 }
 
-/** Put everything in its place; what cannot be drawn now stays as it was, and says so. While a
- * slider moves the numbers follow when the drawings are painted. */
+/** Show an answer. A drawing that cannot be made keeps its last state, with a note. While a
+ * slider moves, the numbers follow after the drawings are painted. */
 export function showDrawings(answer, quick = false) {
   const drawn = answer.panels !== undefined;
   old.hidden = drawn || !all.querySelector(".drawing svg");
@@ -70,20 +70,20 @@ export function showDrawings(answer, quick = false) {
   else showNumbers();
 }
 
-/** Show the numbers of what is drawn. */
+/** Show the numbers of the current drawing. */
 function showNumbers() {
   set(find("results"), numbers.results);
   set(find("margins"), numbers.margins);
 }
 
-/** Put markup that the studio made into an element, where it is another. */
+/** Put markup made by the studio into an element, if it differs. */
 function set(element, markup) {
   if (element.made !== markup) element.innerHTML = element.made = markup;
 }
 
-/** A drawing is seen whole in its field. Enlarged, and on a phone, its letters are large enough to
- * be read: it can be moved in its frame, and begins with its middle; enlarged on a narrow page it
- * fills its frame both ways. */
+/** Size a drawing in its frame. Normally it is shown whole. Enlarged, and on a phone, its letters
+ * are legible: it can be scrolled and starts centred. Enlarged on a narrow page, it fills its
+ * frame both ways. */
 function legible(frame) {
   const svg = frame.querySelector("svg");
   const { width, height } = svg.viewBox.baseVal;
@@ -106,7 +106,7 @@ for (const page of [narrow, phone]) {
   });
 }
 
-/** Give one drawing the room of all, or all their own; it stays where it is seen. */
+/** Give one drawing the room of all, or each its own; it stays in view. */
 function enlarge(figure, large) {
   for (const name of names) find(name).classList.toggle("large", large && name === figure.id);
   find("seeing").classList.toggle("one", large);
@@ -123,7 +123,7 @@ for (const name of names) {
   button.addEventListener("click", () => enlarge(figure, !figure.classList.contains("large")));
 }
 
-/** A drawing as a file of its own: its rules within it, in the millimetres of the sheet. */
+/** A drawing as a file of its own: with its style rules, in the millimetres of the sheet. */
 function alone(svg) {
   const copy = svg.cloneNode(true);
   const { width, height } = svg.viewBox.baseVal;
@@ -138,7 +138,7 @@ function alone(svg) {
   return new XMLSerializer().serializeToString(copy);
 }
 
-/** Hand a drawing to the browser to be saved. */
+/** Let the browser save a drawing. */
 function take(name) {
   const file = new Blob([alone(find(name).querySelector(".drawing svg"))], { type: "image/svg+xml" });
   const link = document.createElement("a");
@@ -154,7 +154,7 @@ for (const name of names) {
     .addEventListener("click", () => take(name));
 }
 
-/** Name the buttons. */
+/** Set the labels of the buttons. */
 function nameButtons() {
   for (const each of names) {
     const what = each === "mechanism" ? "studio.in_mechanism" : `sheet.${each}`;

@@ -1,14 +1,14 @@
-// A text with its lines numbered and its mistakes marked where they stand: the scene, and its lab.
+// A text with numbered lines and marked mistakes: the scene, and its lab.
 
 import { counted, matter, whereabouts } from "./mistakes.js";
 import { button, element, find, onSpeaking, say } from "./talk.js";
 
-// What a line is made of: a comment, a text in quotes, a heading, a key, a number.
+// The tokens of a line: a comment, a quoted text, a heading, a key, a number.
 const LOOKS = ["comment", "text", "heading", "key", "number"];
 const TOKEN =
   /(#.*)|("(?:\\.|[^"\\])*"?|'[^']*'?)|(^\s*\[\[?[^\]#]*\]?\]?)|([\w-]+(?:\.[\w-]+)*(?=\s*=))|([+-]?\b\d[\w.]*|\b(?:true|false)\b)/g;
 
-/** The pieces of a line, each with its look; blanks and signs have none. */
+/** The pieces of a line, each with its class; blanks and punctuation have none. */
 function pieces(line) {
   const found = [];
   let at = 0;
@@ -41,14 +41,15 @@ export function editorOf(part) {
   const under = part.querySelector(".under");
   const count = part.querySelector(".count");
   const list = part.querySelector(".problems");
-  let shown = ""; // the problems that are shown
+  let shown = ""; // the problems now shown
 
-  /** The text as it is written. */
+  /** The current text. */
   const written = () => text.value;
 
   let wrote = () => {};
 
-  /** Call back whenever the text changes, with what goes on as one change: typing, or deleting. */
+  /** Call back when the text changes, with the kind of a change that continues: typing or
+   * deleting. */
   function onWriting(work) {
     wrote = work;
   }
@@ -58,7 +59,7 @@ export function editorOf(part) {
     wrote(inputType === "insertText" ? "typing" : inputType.startsWith("deleteContent") ? "deleting" : "");
   });
 
-  /** Number the lines, those with mistakes marked; each number is as high as its line, wrapped. */
+  /** Number the lines and mark those with mistakes; each number is as high as its wrapped line. */
   function number(wrong = new Set()) {
     gutter.replaceChildren(
       ...text.value
@@ -68,7 +69,7 @@ export function editorOf(part) {
     measure();
   }
 
-  /** Let the text beneath wrap where the written one does, and the numbers stand at its lines. */
+  /** Wrap the text beneath like the textarea, and align the numbers with its lines. */
   function measure() {
     under.style.width = `${text.clientWidth}px`;
     const heights = [...under.children].map((line) => line.getBoundingClientRect().height);
@@ -76,21 +77,21 @@ export function editorOf(part) {
     follow();
   }
 
-  /** Take the underlining away while it may stand in the wrong place. */
+  /** Remove the underlining while it may be in the wrong place. */
   function forget() {
     shown = "";
     underline([]);
     number();
   }
 
-  /** Keep numbers and underlining beside their lines. */
+  /** Keep numbers and underlining aligned with their lines. */
   function follow() {
     gutter.style.transform = `translateY(${-text.scrollTop}px)`;
     under.style.transform = `translateY(${-text.scrollTop}px)`;
   }
 
-  /** Show every problem: in the gutter, under its key, and in the list; `instead` is said in place of
-   * how many there are. */
+  /** Show every problem: in the gutter, under its key, and in the list; `instead` replaces the
+   * count. */
   function showProblems(problems, instead = "") {
     if (JSON.stringify([problems, instead]) === shown) return;
     shown = JSON.stringify([problems, instead]);
@@ -103,8 +104,8 @@ export function editorOf(part) {
     list.replaceChildren(...problems.map(item));
   }
 
-  /** The same text beneath, line by line, in its colours, with what is wrong underlined: it is this
-   * that is seen, and the text above that is written. */
+  /** Rewrite the text beneath, coloured and with mistakes underlined. The reader sees this text;
+   * the textarea above it only takes input. */
   function underline(problems) {
     let start = 0;
     const lines = text.value.split("\n").map((words) => {
@@ -126,7 +127,7 @@ export function editorOf(part) {
     under.replaceChildren(...lines);
   }
 
-  /** One problem of the list; where it has a place, a button that goes there. */
+  /** A problem of the list; a problem with a place is a button that goes there. */
   function item(problem) {
     const entry = element("li");
     const body = problem.line ? button("", () => go(problem)) : element("div");
@@ -142,7 +143,7 @@ export function editorOf(part) {
     return entry;
   }
 
-  /** Go to a piece of the text: it is selected, its line in the middle. */
+  /** Select a piece of the text and centre its line. */
   function go({ start, end }) {
     text.focus();
     text.setSelectionRange(start, end);
@@ -161,7 +162,7 @@ export function editorOf(part) {
     wrote("");
   }
 
-  /** Put another text in place of this one, as one change of what differs. */
+  /** Replace the text, as one change of the part that differs. */
   function replace(words) {
     const before = text.value;
     const least = Math.min(before.length, words.length);
@@ -178,7 +179,7 @@ export function editorOf(part) {
   onSpeaking(() => (shown = ""));
   forget();
 
-  /** Where the writing mark stands: a rectangle on the screen. */
+  /** The rectangle of the cursor on the screen. */
   function caret() {
     const before = text.value.slice(0, text.selectionStart);
     const row = before.split("\n").length - 1;

@@ -1,15 +1,16 @@
 // One history of everything that changes the scene on the page: the text and the sliders.
 
-const TOGETHER = 1000; // ms within which signs that are typed, or moves of a slider, are one change
-const MOST = 500; // states that are remembered
+const TOGETHER = 1000; // ms within which typing, or moves of a slider, count as one change
+const MOST = 500; // number of states remembered
 
-/** A history of states; `now` gives the present one and `show` goes to another. */
+/** A history of states; `now` returns the current state and `show` goes to another. */
 export function historyOf(now, show) {
   const states = [now()];
   let at = 0;
   let last = { kind: "", time: 0 };
 
-  /** Remember a change; one of the same kind as just before goes on with it, but for none. */
+  /** Record a change; a change of the same kind right after another extends it. An empty kind
+   * never does. */
   function note(kind = "") {
     const state = now();
     const time = performance.now();
@@ -21,7 +22,7 @@ export function historyOf(now, show) {
     if (states.length > MOST) states.shift(), at--;
   }
 
-  /** Go so many changes on, or back; nothing at either end. */
+  /** Go forward or back by some changes, as far as there are any. */
   function go(changes) {
     note();
     const goal = Math.max(0, Math.min(states.length - 1, at + changes));

@@ -1,10 +1,10 @@
-// A lab beside its scene: its rules as a text, the class that they make, ranges that are proposed.
+// A lab next to its scene: its rules as a text, the class that they make, and proposed ranges.
 
 import { change, editorOf, written } from "./editor.js";
 import { sentence } from "./mistakes.js";
 import { ask, button, element, find, language, onSpeaking, say, tell } from "./talk.js";
 
-const REST = 500; // ms without a sign before the lab is tried anew
+const REST = 500; // ms without typing before the lab is tried again
 const SVG = "http://www.w3.org/2000/svg";
 const rules = editorOf(find("rules-part"));
 const toggle = find("lab");
@@ -17,26 +17,26 @@ let number = 0; // of the newest request
 let timer = 0;
 let students = [];
 let chosen = ""; // the student whose sheets are shown
-let tried = ""; // the texts of which the report is shown
+let tried = ""; // the texts of the report shown
 let unread = false; // the scene has mistakes
-let refused = {}; // whether the scene, and whether the rules were refused when the lab was last tried
+let refused = {}; // whether the scene and the rules were refused when the lab was last tried
 let searching = false; // for fair ranges
 
-/** The text of lab.toml; empty where there is none. */
+/** The text of lab.toml; empty without one. */
 export const writtenRules = () => rules.written();
 export const { onWriting: onWritingRules, replace: replaceRules } = rules;
 
 /** Whether the class is shown instead of the drawings. */
 export const inClass = () => toggle.getAttribute("aria-pressed") === "true";
 
-/** Tell the lab of the scene, and what to do when a lab.toml is begun, and when the class is opened. */
+/** Set the scene of the lab, and the callbacks for a new lab.toml and for opening the class. */
 export function labOf(fields, beginning, opening) {
   scene = fields;
   begun = beginning;
   opened = opening;
 }
 
-/** Ranges are sought of a whole lab alone: where there is none, it is said what is to be mended. */
+/** Allow the search for ranges only for a complete lab, or say what must be corrected first. */
 function ready() {
   const { scene_wrong: scene, problems = [] } = refused;
   const why = unread || scene ? say("studio.scene_first") : problems.length ? say("studio.rules_first") : "";
@@ -44,13 +44,13 @@ function ready() {
   find("why-no-ranges").textContent = why;
 }
 
-/** Tell the lab whether its scene can be read. */
+/** Record whether the scene can be read. */
 export function markScene(is) {
   unread = !is;
   ready();
 }
 
-/** Show the rules beside the scene, and how fair they are. */
+/** Show the rules next to the scene, and their fairness. */
 export async function showRules() {
   if (!find("rules-part").hidden) return;
   find("rules-part").hidden = find("fairness").hidden = false;
@@ -69,7 +69,7 @@ export async function showClass(open) {
   await showRules();
 }
 
-/** Begin a lab.toml for a scene that has none. */
+/** Begin a lab.toml for a scene without one. */
 async function begin() {
   const answer = await ask("begin", scene());
   if (answer.problems.length) fairness(answer.problems.map(sentence).join(" "), true);
@@ -81,7 +81,7 @@ function fairness(words, wrong = false) {
   find("fairness").classList.toggle("wrong", wrong);
 }
 
-/** Try the lab when nothing is written for a while. */
+/** Try the lab after a pause in typing. */
 export function trySoon(pause = REST) {
   clearTimeout(timer);
   if (find("rules-part").hidden || !writtenRules()) return;
@@ -91,7 +91,7 @@ export function trySoon(pause = REST) {
 
 const texts = () => JSON.stringify([scene().text, writtenRules(), language]);
 
-/** Ask something of the lab; nothing for an answer that is not wanted any more. */
+/** Send a request about the lab; null for an answer that is out of date. */
 async function asked(what) {
   const own = ++number;
   const answer = await ask(what, { ...scene(), rules: writtenRules(), settings: {}, number: own });
@@ -124,7 +124,8 @@ async function attempt() {
   if (shown) await sheets(shown);
 }
 
-/** What each student's right values earn on each other's sheet, as a map that can be pointed at. */
+/** Show the map of what each student's right values earn on every other sheet; cells can be
+ * pointed at. */
 function map({ shares, closest, apart }) {
   const figure = find("neighbours");
   figure.hidden = !shares.length;
@@ -157,7 +158,7 @@ find("neighbours").addEventListener("click", ({ target }) => {
   if (target.dataset.own) choose(students[target.dataset.own]);
 });
 
-/** The students of the class; each opens its sheets. */
+/** List the students of the class; each entry opens the student's sheets. */
 function list() {
   find("students").hidden = !students.length;
   find("students").tBodies[0].replaceChildren(
@@ -225,7 +226,7 @@ async function propose() {
   }
 }
 
-/** A button that follows an advice. */
+/** A button that carries out a piece of advice. */
 function following(words, work) {
   const tools = element("div", "", "tools");
   tools.append(

@@ -1,14 +1,14 @@
-// Mistakes in words: where each stands, what it is, how many there are.
+// Mistakes in words: the place of each, its description, and their number.
 
 import { say } from "./talk.js";
 
-/** How many mistakes there are. */
+/** The number of mistakes, in words. */
 export function counted(many) {
   if (many === 0) return say("studio.none_wrong");
   return many === 1 ? say("studio.one_wrong") : say("studio.some_wrong", { count: many });
 }
 
-/** Where a mistake stands: its line and column, and the key that it is about. */
+/** The place of a mistake: its line and column, and its key. */
 export function whereabouts({ line, column, place }) {
   const at = line ? say("studio.line", { line }) : "";
   const within = column ? say("studio.column", { column }) : "";
@@ -16,7 +16,7 @@ export function whereabouts({ line, column, place }) {
   return [[at, within].filter(Boolean).join(", "), key].filter(Boolean).join(" · ");
 }
 
-/** What is wrong, what was expected, and what helps. */
+/** The mistake, what was expected, and a hint. */
 export function matter({ found, expected, hint }) {
   return [found, expected && say("studio.expected", { expected }), hint].filter(Boolean).join("; ");
 }

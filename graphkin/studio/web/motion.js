@@ -1,9 +1,9 @@
-// The mechanism as it moves, with its curves or step by step: a page of its own within the page.
+// The moving mechanism, with its curves or step by step: a page within the page.
 
 import { sentence } from "./mistakes.js";
 import { ask, find, onSpeaking, say } from "./talk.js";
 
-const REST = 500; // ms without a change before the page is drawn anew
+const REST = 500; // ms without a change before the page is drawn again
 const toggle = find("move");
 const frame = find("moving");
 const told = find("motion-told");
@@ -11,12 +11,12 @@ const driver = find("motion-driver");
 let scene = () => ({}); // the scene as the page sends it
 let timer = 0;
 let number = 0; // of the newest request
-let shown = ""; // of what the page is shown
+let shown = ""; // the request of the page shown
 
 /** Whether the motion is shown instead of the drawings. */
 export const inMotion = () => toggle.getAttribute("aria-pressed") === "true";
 
-/** Tell the motion of the scene, and what to do when it is opened. */
+/** Set the scene of the motion, and the callback for opening it. */
 export function motionOf(fields, opened) {
   scene = fields;
   toggle.addEventListener("click", () => {
@@ -33,7 +33,7 @@ export function showMotion(open) {
   if (open) moveSoon(0);
 }
 
-/** Draw the motion when nothing has changed for a while. */
+/** Draw the motion after a pause in changes. */
 export function moveSoon(pause = REST) {
   clearTimeout(timer);
   if (inMotion()) timer = setTimeout(moving, pause);
@@ -60,7 +60,7 @@ async function moving() {
   }
 }
 
-/** Of several drivers one may be moved while the others stand still, or all with the time. */
+/** Offer the drivers: one moves while the others do not, or all move with the time. */
 function offer(drivers, page) {
   find("motion-drivers").hidden = drivers.length < 2 || page !== "curves";
   const now = driver.value;

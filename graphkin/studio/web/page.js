@@ -1,4 +1,4 @@
-// The page: what is written or moved is asked of the studio, and what it answers is shown.
+// The page: each change is sent to the studio, and the answer is shown.
 
 import { building, isBuilding, onBuilding, placesFields, showSketch } from "./build.js";
 import { showHelp } from "./completion.js";
@@ -12,10 +12,10 @@ import { inMotion, motionOf, moveSoon, showMotion } from "./motion.js";
 import { forgetMoves, held as isHeld, markSliders, onMoving, setMoves, settings, showSliders, writing } from "./sliders.js";
 import { ask, find, language, say, speak, tell } from "./talk.js";
 
-const PAUSE = 150; // ms without a sign before the text is read
-const LONG = 400; // ms after which it is shown that something is being drawn
-const REST = 200; // ms without a move before labels find their places
-const TO_TEXT = "to-text"; // where the next page has its focus
+const PAUSE = 150; // ms without typing before the text is read
+const LONG = 400; // ms after which the page shows that it is drawing
+const REST = 200; // ms without a move before labels are placed
+const TO_TEXT = "to-text"; // the key that puts the focus of the next page into the text
 const file = find("file");
 const drawings = find("drawings");
 const { mark, rulesMark } = document.body.dataset;
@@ -23,12 +23,12 @@ let held = { name: file.value, mark, rulesMark, lab: Boolean(rulesMark) }; // as
 let safe = ""; // the texts as they were opened or last saved
 let number = 0; // of the newest request
 let shown = 0; // of the newest answer
-let moving = false; // a move is on its way
+let moving = false; // a move is being drawn
 let next = false; // another move has come since
 let timer = 0;
-let spots = {}; // where names stand in the text
-let back = false; // what is shown has been there before
-let wrong = []; // what is wrong with the scene as it was last looked at
+let spots = {}; // places of names in the text
+let back = false; // the state shown comes from the history
+let wrong = []; // mistakes of the scene at the last look
 let chosen = ""; // the language, where it was chosen here
 
 const scene = () => ({ text: written(), name: file.value.trim(), settings: settings() });
@@ -37,13 +37,13 @@ const scene = () => ({ text: written(), name: file.value.trim(), settings: setti
 const isBare = ({ sketch, problems }) =>
   sketch && ![...Object.keys(sketch.points), ...Object.keys(sketch.links)].length && problems.every(({ line }) => !line);
 
-/** Ask for a look at the scene as it is, and show the answer unless a newer one is there; whether
- * it is shown. */
+/** Request a look at the current scene and show the answer, unless a newer one is shown; returns
+ * whether it was. */
 async function look(quick) {
   unsettled();
   const own = ++number;
   const waiting = setTimeout(() => drawings.setAttribute("aria-busy", "true"), LONG);
-  const asked = held; // a file that is saved meanwhile is there, though the answer cannot know it
+  const asked = held; // the answer cannot know of a file saved in the meantime
   try {
     const fields = { ...scene(), number: own, mechanism: onMechanism(), quick, ...placesFields() };
     const answer = await ask("look", fields);
@@ -79,7 +79,7 @@ async function look(quick) {
   }
 }
 
-/** One move at a time: the newest goes as soon as the last is answered, those between are left. */
+/** Draw one move at a time: the newest follows the last answer, moves in between are skipped. */
 async function move() {
   next = moving;
   if (moving) return;
@@ -92,7 +92,7 @@ async function move() {
   if (!isHeld()) timer = setTimeout(() => look(false), REST);
 }
 
-/** What is shown is not what stands here any more; what was to be asked is asked anew. */
+/** Mark the page as out of date, and cancel a request that is still to be sent. */
 function unsettled() {
   clearTimeout(timer);
   timer = 0;
@@ -107,37 +107,37 @@ function soon() {
 const texts = () => JSON.stringify([written(), writtenRules()]);
 const isSafe = () => texts() === safe;
 
-/** The file is not there any more: what is written is not saved, and may be. */
+/** Note that the file no longer exists: the text is not saved, and can be. */
 function gone() {
   held = { ...held, mark: "", rulesMark: "" };
   safe = "";
   tell(say("studio.gone_from_disk", { name: held.name }), "poor");
 }
 
-/** Whether something that failed, or is poor, is said at the top. */
+/** Whether the status line shows a failure or a warning. */
 const isSaid = () => ["wrong", "poor"].includes(find("status").className);
 
-/** Something else is done: what had failed is said no longer. */
+/** Clear an earlier failure when the user does something else. */
 function state() {
   if (isSaid()) tell("");
   unsaved();
 }
 
-/** Under which name this tab keeps what is not saved of what its address opens. */
+/** The key under which this tab stores unsaved text of its address. */
 function draft() {
   const query = new URLSearchParams(location.search);
   query.delete("lang");
   return `draft ${query}`;
 }
 
-/** Keep what is written over a reload, with the file from which it was written. */
+/** Store the text over a reload, with the file that it came from. */
 function keep() {
   const kept = { text: written(), rules: writtenRules(), held, saved: isSafe() };
   sessionStorage.setItem(draft(), JSON.stringify(kept));
 }
 
-/** What was kept of this address and is not in its file stands in the text again, as a change that
- * can be undone; a file that has changed since is still not replaced unasked. */
+/** Restore stored text of this address that is not in its file, as a change that can be undone. A
+ * file that has changed since is still not replaced unasked. */
 function recall() {
   const kept = JSON.parse(sessionStorage.getItem(draft()) ?? "null");
   const lost = "gone" in document.body.dataset;
@@ -152,7 +152,7 @@ function recall() {
   if (lost) gone();
 }
 
-/** Say at the top whether something is not saved, but for what has just failed. */
+/** Show in the title and status line whether something is unsaved; a recent failure stays. */
 function unsaved() {
   keep();
   document.title = `${isSafe() ? "" : "• "}${file.value} – graphkin`;
@@ -161,7 +161,7 @@ function unsaved() {
   else if (find("status").textContent === say("studio.unsaved")) tell("");
 }
 
-/** Leave for another scene, after asking where something would be lost. */
+/** Leave for another scene; ask first where something would be lost. */
 async function go(address) {
   if (!isSafe() && !(await agreed(say("studio.leave"), say("studio.go_on")))) return;
   sessionStorage.removeItem(draft());
@@ -170,7 +170,7 @@ async function go(address) {
   location.assign(chosen ? `${address}${address === "?" ? "" : "&"}lang=${chosen}` : address);
 }
 
-/** What is saved where sliders were moved: asked for; nothing where it is not to be saved. */
+/** Ask which values to save where sliders were moved; null if the user cancels. */
 async function settled() {
   const { edits, problems } = await ask("write", scene());
   if (problems.length) {
@@ -218,7 +218,7 @@ async function save() {
   }
 }
 
-/** Say what was saved and with which values, then what is wrong with it, as soon as it is known. */
+/** Say which files were saved with which values, then the mistakes once they are known. */
 async function tellSaved(files, values) {
   const parts = [say("studio.saved", { list: files.join(", ") }), values].filter(Boolean);
   tell(parts.join("; "));
@@ -230,7 +230,7 @@ async function tellSaved(files, values) {
   tell(parts.join("; "), "poor");
 }
 
-/** Save the sheets; where something is wrong, it is said at once and nothing is asked. */
+/** Save the sheets; a mistake is reported at once instead. */
 async function sheets() {
   state();
   await look(false);
@@ -242,7 +242,7 @@ async function sheets() {
   }
 }
 
-/** Let the address lead to what is here, in the language that was chosen. */
+/** Set the address to the current file, in the chosen language. */
 function address(what) {
   history.replaceState(null, "", `?${what}${chosen && `&lang=${chosen}`}`);
 }
@@ -342,7 +342,7 @@ addEventListener("keydown", (event) => {
   }
 });
 
-/** Whether a key is meant for the field in which it is pressed. */
+/** Whether a key belongs to the field in which it is pressed. */
 const own = (field) => {
   if (field.closest?.("dialog") || field === file) return true;
   return Boolean(field.dataset?.value !== undefined && writing(field));
@@ -358,7 +358,7 @@ addEventListener("keydown", (event) => {
 addEventListener("beforeunload", (event) => {
   if (!isSafe()) event.preventDefault();
 });
-/** A lab is a folder with its scene and its rules. */
+/** Turn the file into a lab: a folder with a scene and its rules. */
 function asLab() {
   held = { ...held, lab: true };
   const stem = file.value.trim().replace(/^.*\//, "").replace(/\.toml$/, "");

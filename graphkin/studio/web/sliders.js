@@ -8,39 +8,39 @@ const reset = find("reset");
 const rows = new Map();
 let moved = {};
 let changed = () => {};
-let anew = false; // a value is shown also in the field that is being written in
+let anew = false; // a value is also shown in the field being edited
 let holding = false; // a slider is held by the pointer
 
 /** The values that differ from the text, by name. */
 export const settings = () => ({ ...moved });
 
-/** The name of each parameter and its value as it is shown. */
+/** The name of each parameter and its value as shown. */
 export const values = () => [...rows].map(([name, row]) => [name, row.field.value]);
 
-/** Whether a slider is held: it may move again at any time. */
+/** Whether a slider is held and may move again at any time. */
 export const held = () => holding;
 
-/** Whether something is being written into a field that is not entered yet. */
+/** Whether a field holds an edit that is not entered yet. */
 export const writing = (field) => field.value.trim() !== field.dataset.value;
 
-/** Call back when a slider is moved (quick, with its name), or let go, or a value is entered. */
+/** Call back when a slider moves (quick, with its name) or is released, or a value is entered. */
 export function onMoving(work) {
   changed = work;
 }
 
-/** Let parameters have these values, and all others those of the text. */
+/** Set parameters to these values, and all others to those of the text. */
 export function setMoves(values) {
   moved = { ...values };
   anew = true;
   enable();
 }
 
-/** Go back to what the text says. */
+/** Return to the values of the text. */
 export function forgetMoves() {
   moved = {};
 }
 
-/** Show the parameters as they are; a slider that is being held keeps its place. */
+/** Show the parameters; a slider that is held keeps its place. */
 export function showSliders(sliders) {
   const known = new Set(sliders.map((slider) => slider.name));
   moved = Object.fromEntries(Object.entries(moved).filter(([name]) => known.has(name)));
@@ -79,7 +79,7 @@ function enable() {
   write.disabled = reset.disabled = Object.keys(moved).length === 0;
 }
 
-/** The row of a parameter: its name, its slider, its value to be typed, its unit. */
+/** The row of a parameter: name, slider, value field, unit. */
 function made(name) {
   if (!rows.size) box.textContent = "";
   const whole = element("div", "", "slider");

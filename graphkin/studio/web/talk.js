@@ -1,15 +1,15 @@
-// How the page speaks with the studio, and the words that it uses.
+// The page's requests to the studio, and the words of the page.
 
 const start = JSON.parse(document.body.dataset.start);
 export let language = start.language;
 const tab = crypto.randomUUID();
 
-/** A sentence of the page, its gaps filled. */
+/** A sentence of the page with its gaps filled. */
 export function say(key, gaps = {}) {
   return start.words[language][key].replace(/\{(\w+)\}/g, (whole, name) => gaps[name] ?? whole);
 }
 
-/** What the studio answers; an error with a sentence where it does not. */
+/** The answer of the studio; throws an error with a sentence if there is none. */
 export async function ask(what, fields) {
   let answer;
   try {
@@ -25,7 +25,7 @@ export async function ask(what, fields) {
   return answer.json();
 }
 
-/** What can be opened: scenes here, labs and scenes that come with the program. */
+/** The files that can be opened: own scenes, labs, and the scenes of the program. */
 export async function listed() {
   try {
     return await (await fetch(`scenes?lang=${language}`)).json();
@@ -44,7 +44,7 @@ export function element(name, words = "", look = "") {
   return made;
 }
 
-/** A new button and what it does. */
+/** A new button with its action. */
 export function button(words, work, look = "") {
   const made = element("button", words, look);
   made.type = "button";
@@ -54,12 +54,12 @@ export function button(words, work, look = "") {
 
 const listeners = [];
 
-/** Call back when another language is spoken. */
+/** Call back when the language changes. */
 export function onSpeaking(work) {
   listeners.push(work);
 }
 
-/** Speak another language: what stands on the page is said anew. */
+/** Change the language and rewrite the words of the page. */
 export function speak(chosen) {
   language = chosen;
   document.documentElement.lang = chosen;
@@ -74,7 +74,7 @@ export function speak(chosen) {
 
 const status = find("status");
 
-/** Say something at the top of the page: `look` is "wrong" for what failed, "poor" for a warning. */
+/** Show a message at the top of the page: `look` is "wrong" for a failure, "poor" for a warning. */
 export function tell(words, look = "") {
   if (status.textContent !== words) status.textContent = words;
   status.className = look;

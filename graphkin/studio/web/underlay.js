@@ -3,11 +3,11 @@
 import { find, say } from "./talk.js";
 
 const SVG = "http://www.w3.org/2000/svg";
-const PART = 0.8; // of the field that a picture fills at first
+const PART = 0.8; // part of the field that a picture fills at first
 const file = find("picture-file");
-let picture = null; // its element, its upper left corner and its size, in the scene's unit
+let picture = null; // its element, upper left corner and size, in the unit of the scene
 
-/** Two opposite corners of the picture; none where there is no picture. */
+/** Two opposite corners of the picture; none without a picture. */
 export const corners = () =>
   picture
     ? [
@@ -16,11 +16,11 @@ export const corners = () =>
       ]
     : [];
 
-/** What lies under the marks of the field. */
+/** The marks below the others in the field. */
 export const under = () => (picture ? [picture.image] : []);
 
-/** Call back when a picture is chosen or taken away; `seen` tells the part of the field that is seen:
- * its left and upper edge, its width and height. */
+/** Call back when a picture is chosen or removed; `seen` returns the visible part of the field:
+ * left and upper edge, width and height. */
 export function onPicture(work, seen) {
   file.addEventListener("change", () => {
     if (file.files[0]) lay(file.files[0], seen()).then(work, work);
@@ -34,7 +34,7 @@ export function onPicture(work, seen) {
   });
 }
 
-/** Lay a picture into the middle of the field; throws for a file that the browser cannot show. */
+/** Place a picture in the middle of the field; throws for a file that the browser cannot show. */
 async function lay(chosen, seen) {
   const url = URL.createObjectURL(chosen);
   const size = new Image();
@@ -56,14 +56,14 @@ async function lay(chosen, seen) {
   show();
 }
 
-/** Move the picture by a way. */
+/** Move the picture by a displacement. */
 export function shift([dx, dy]) {
   picture.x += dx;
   picture.y += dy;
   show();
 }
 
-/** Let two places of the picture be so far from each other; the first stays where it is. */
+/** Scale the picture so that two of its places are `length` apart; the first stays fixed. */
 export function scale(from, to, length) {
   const factor = length / Math.hypot(to[0] - from[0], to[1] - from[1]);
   picture.x = from[0] + (picture.x - from[0]) * factor;

@@ -1,14 +1,14 @@
-// The step, and the driver's place, in the address.
+// The step and the driver's position in the address of the page.
 let address = location.hash, keeping = 0;
 
-/** Keep them there, once nothing has moved for a moment. */
+/** Write step and position to the address once nothing has moved for a moment. */
 function remember() {
   clearTimeout(keeping);
   keeping = setTimeout(keep, 120);
 }
 
 function keep() {
-  if (location.hash !== address) return; // it leads elsewhere meanwhile
+  if (location.hash !== address) return; // the address has changed in the meantime
   const set = changed_figures().map(({ key, k }) => `${key}:${Number(state.figures[k].toFixed(4))}`).join();
   const x = (moved() ? `&x=${Number(state.x.toFixed(4))}` : "") + (set && `&set=${encodeURIComponent(set)}`);
   try {
@@ -17,7 +17,7 @@ function keep() {
   address = location.hash;
 }
 
-/** Go where it says. */
+/** Go to the step and position that the address gives. */
 function follow_address() {
   address = location.hash;
   const said = new URLSearchParams(address.slice(1));

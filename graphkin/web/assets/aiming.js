@@ -1,7 +1,7 @@
-// Marks that are pointed at, by a mouse, a finger or the keys ↑ ↓: a line is half a dot wide, a finger is not.
-const REACH = 10; // dots from a mark within which it is meant
+// Pointing at marks by mouse, finger or the keys ↑ ↓: a line is half a dot wide, a finger is not.
+const REACH = 10; // distance in dots within which a mark is meant
 
-/** The step of the mark that is meant by a place on the screen; null where none is near. */
+/** The step of the mark meant by a place on the screen; null where none is near. */
 function aimed(event) {
   if (event.target.closest(".grip")) return null;
   const direct = event.target.closest("[data-of]");
@@ -18,7 +18,7 @@ function aimed(event) {
   return found;
 }
 
-/** How far a line or the middle of a circle lies from a place. */
+/** The distance of a place from a line or from the middle of a circle. */
 function away(mark, x, y) {
   const [x1, y1] = (mark.matches("line") ? ["x1", "y1"] : ["cx", "cy"]).map(name => Number(mark.getAttribute(name)));
   if (!mark.matches("line")) return Math.hypot(x - x1, y - y1);
@@ -33,20 +33,20 @@ function steps_in(svg) {
   return [...new Set(seen)].filter(step => data.at[step]).sort((p, q) => data.at[p] - data.at[q] || p - q);
 }
 
-/** Point at the next step of a field, or at the one before. */
+/** Point at the next step of a field, or at the previous one. */
 function point_on(svg, by) {
   const steps = steps_in(svg), now = steps.indexOf(String(state.over));
   if (!steps.length) return;
   const step = steps[now < 0 ? (by > 0 ? 0 : steps.length - 1) : (now + by + steps.length) % steps.length];
   point_at(step);
-  byId("pointed").innerHTML = `${data.letters[step] ?? ""} (${data.at[step]})`; // markup of a symbol, escaped where it was made
+  byId("pointed").innerHTML = `${data.letters[step] ?? ""} (${data.at[step]})`; // markup of a symbol, escaped by its maker
 }
 
-/** Let the marks of a field be reached. */
+/** Make the marks of a field reachable by pointer and keys. */
 function reachable(one) {
   const { svg } = one;
   svg.setAttribute("tabindex", "0");
-  if (svg.getAttribute("role") === "img") svg.setAttribute("role", "group"); // it takes keys
+  if (svg.getAttribute("role") === "img") svg.setAttribute("role", "group"); // the picture takes keys
   let latest = null;
   const over = () => {
     if (!latest || svg.matches(".panning") || state.going) return;
@@ -78,7 +78,7 @@ function reachable(one) {
   });
 }
 
-/** Show what a mark that is pointed at is drawn from, alone; in a turn this would tell what is to be drawn next. */
+/** Highlight the sources of the mark pointed at, except in a turn, where they would reveal the next step. */
 function point_at(step) {
   if (turn || state.over === step) return;
   state.over = step;

@@ -1,12 +1,12 @@
-// The bars beside the fields' captions: as long as a round number of millimetres of paper is there.
+// The scale bars next to the captions of the fields, each a round number of millimetres of paper long.
 const LONGEST = 0.2, SHORTEST = 0.2; // of the narrower field's width, and of that
 
-/** Set those of a sheet whose fields are shown so. */
+/** Set the bars of a sheet, given the sizes and view boxes of its fields. */
 function bars(sheet, sizes, boxes) {
   const scales = sizes.map((size, i) => dots(size, boxes[i]));
   const most = LONGEST * Math.min(...sizes.map(([across]) => across));
   if (!(most > 0)) return; // not laid out yet
-  const alike = round(most / Math.max(...scales)); // one number for both shows where more is drawn to a dot
+  const alike = round(most / Math.max(...scales)); // both bars show the same number, chosen for the field drawn larger
   sheet.fields.forEach(({ svg }, i) => {
     const figure = svg.closest("figure"), long = alike * scales[i] < SHORTEST * most ? round(most / scales[i]) : alike;
     const [across, high] = sizes[i], [, , width, height] = boxes[i];
@@ -17,7 +17,7 @@ function bars(sheet, sizes, boxes) {
   });
 }
 
-/** The longest round number not above another. */
+/** The largest round number that does not exceed a number. */
 function round(number) {
   const power = 10 ** Math.floor(Math.log10(number)), first = number / power;
   return power * (first < 2 ? 1 : first < 5 ? 2 : 5);

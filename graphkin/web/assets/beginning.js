@@ -1,12 +1,12 @@
-// The beginning: the whole mechanism is there at once, as a ghost, and moves once through its range.
+// The beginning: the whole mechanism is shown as a ghost and moves once through its range.
 const STILL = matchMedia("(prefers-reduced-motion:reduce)");
-const SWEEP = 5000; // milliseconds of it
+const SWEEP = 5000; // milliseconds of the sweep
 const ghosts = data.ghosts.map(k => byId(`m0-${k}`));
 sheets[0].fields[1].svg.parentElement.append(...byId("task").content.children);
 if (motion) make_figures();
 let ghost = 0, shown_once = false;
 
-/** Show it where the page begins, and take it off elsewhere. */
+/** Show the ghost at the first step and remove it elsewhere. */
 function begin() {
   const here = state.step === 0;
   page.classList.toggle("beginning", here);
@@ -15,7 +15,7 @@ function begin() {
   else if (motion && !shown_once && !moved() && !STILL.matches && !document.hidden) sweep();
 }
 
-/** Move it once. */
+/** Move the ghost once through the range. */
 function sweep() {
   const from = performance.now();
   shown_once = true;
@@ -28,7 +28,7 @@ function sweep() {
   ghost = requestAnimationFrame(next);
 }
 
-/** Where the driver is after a part of the way: a whole turn, or to one end, to the other and back. */
+/** The driver's position after a part of the way: a full turn, or to one end, to the other and back. */
 function along(part) {
   const { low, high, start, whole } = motion, eased = part - Math.sin(2 * Math.PI * part) / (2 * Math.PI);
   const way = 2 * (high - low) * eased, up = high - start;
@@ -36,7 +36,7 @@ function along(part) {
   return way < up ? start + way : way < up + high - low ? high - (way - up) : low + (way - up - (high - low));
 }
 
-/** Put it back where it is drawn. */
+/** Put the ghost back to the drawn position. */
 function settle() {
   if (!ghost) return;
   cancelAnimationFrame(ghost);

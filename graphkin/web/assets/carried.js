@@ -1,5 +1,5 @@
-// The velocity plan beside that of accelerations, where a step carries a segment of it over.
-const SMALLER = 2.4; // how many times larger than in proportion lines and letters of the small plan are
+// The velocity plan next to the acceleration plan, where a step takes a segment from it.
+const SMALLER = 2.4; // enlargement of the lines and letters of the small plan
 const LIFTED = [".later", ".now", ".rest"].map(look => look.slice(1));
 const aside = sheets.length > 1 ? small_plan() : null;
 
@@ -14,7 +14,7 @@ function small_plan() {
   return box;
 }
 
-/** Show the plan with what some steps take from it; nothing where they take nothing. */
+/** Show the small plan with the segments that some steps take from it; hide it where they take none. */
 function carry(steps) {
   if (!aside) return;
   const plan = sheets[0].fields[1];
@@ -43,7 +43,7 @@ function carry(steps) {
   seat(sheets[1].fields[1].svg);
 }
 
-/** Put it into the corner of its field where it covers least of what is drawn. */
+/** Put the small plan into the corner of its field where it covers least of the drawing. */
 function seat(svg) {
   const place = svg.getScreenCTM(), room = svg.getBoundingClientRect(), own = aside.getBoundingClientRect();
   const lines = [...svg.querySelectorAll("line[data-of]:not(.later,.void,[visibility])")];
@@ -59,7 +59,7 @@ function seat(svg) {
   aside.dataset.corner = `${side} ${end}`;
 }
 
-/** The two images of the first plan whose segment a step sets on the mechanism; null where it sets none. */
+/** The two images of the first plan whose segment a step sets on the mechanism; null for other steps. */
 function carried_by(step, plan) {
   const [mark] = sheets[1].of.get(String(step)) ?? [];
   if (!mark || !sheets[1].fields[0].svg.contains(mark)) return null;

@@ -1,4 +1,4 @@
-// What a reader draws is checked by its value; a wrong choice is told why.
+// What a student draws is checked by its value; for a wrong choice the page says why.
 function draw_move() {
   if (!is_complete()) return;
   const { action } = turn, given = turn.inputs.slice(0, slots().length), plane = plane_of(action, given);
@@ -17,7 +17,7 @@ function draw_move() {
 
 const all_alike = (action, found, plane) => found.every(one => same_value(action, one, found[0], plane));
 
-/** One of two has been chosen. */
+/** Go on with the result that the student has chosen out of two. */
 function settle_which(which) {
   const { given, plane } = turn.asked, found = [turn.asked[which]];
   const other = turn.asked[1 - which];
@@ -26,10 +26,10 @@ function settle_which(which) {
   check_move(turn.action, given, found, plane, other);
 }
 
-/** Whether the keys are at the lists: they are to stay there. */
+/** Whether the keyboard focus is in the lists, where it must stay. */
 const keys_within = () => byId("turn-form").contains(document.activeElement);
 
-/** The move that gives one of some values, those that are still to be made before others. */
+/** The move that gives one of some values; moves still to be made come first. */
 function giving(action, given, found, plane, among) {
   const kind = shape_of(action);
   const ends = among.filter(step => moves[step].plane === plane && shape_of(moves[step].action) === kind)
@@ -38,7 +38,7 @@ function giving(action, given, found, plane, among) {
   return ends.find(step => alike_inputs(moves[step], action, given) === given.length) ?? ends.find(step => turn.rest.has(step)) ?? ends[0];
 }
 
-/** How many inputs of a move are those that were given; of two alike in any order. */
+/** The number of inputs of a move that equal those given; commuting inputs count in either order. */
 function alike_inputs(move, action, given) {
   if (move.action !== action) return -1;
   const own = move.inputs.map(key => picks[key].by || key);
@@ -66,13 +66,13 @@ function check_move(action, given, found, plane, other) {
   return why_wrong(action, given);
 }
 
-/** A point that is still sought and lies on a line or arc. */
+/** A point that is still to be found and lies on a line or arc. */
 function leads_to(curve, plane, open) {
   return open.find(step => moves[step].goal && moves[step].plane === plane && shape_of(moves[step].action) === "point" &&
     on_line(moves[step].value, curve) < SAME * Math.max(size_of(plane), length_of(moves[step].value)));
 }
 
-/** A line that no sentence tells of, but that leads to a point: it is kept, and can be picked. */
+/** Keep a line that no sentence draws but that passes through a wanted point; it can be picked. */
 function keep_own(action, given, step) {
   add_line(action, given, here());
   turn.fresh = [];
@@ -81,13 +81,13 @@ function keep_own(action, given, step) {
   show_turn();
 }
 
-/** Let a line that is drawn from some picks on a sheet be picked. */
+/** Make a line drawn from some picks on a sheet available as a pick. */
 function add_line(action, given, sheet) {
   const name = named_from(action, given.map(one => picks[one].name), turning.words), [value] = results_of(action, given);
   picks[`own${turn.lines.push([action, given, sheet])}`] = { kind: shape_of(action) === "circle" ? "circle" : "locus", name, plane: plane_of(action, given), needs: [], value, sheet };
 }
 
-/** Tell why a choice is wrong, by the move that is most like it. */
+/** Say why a choice is wrong, by the move most similar to it. */
 function why_wrong(action, given) {
   const near = moves_left().filter(step => moves[step].action === action).map(step => {
     const own = moves[step].inputs.map(key => picks[key].by || key);
@@ -103,17 +103,17 @@ function why_wrong(action, given) {
   refuse_move(worded(reason_key(action, first), { name: moves[step].name, about: moves[step].about ?? moves[step].name, right: name(inputs[first]), chosen: name(given[first]), other: others }), step);
 }
 
-/** The sentence for an input: inputs that are alike have one, and Klein's construction those of the triangle. */
+/** The message key for an input: equal inputs share one, and Klein's construction uses the triangle's. */
 function reason_key(action, slot) {
   const own = `${action === "klein" ? "triangle" : action}_`;
   return own + Array.from({ length: slot + 1 }, (_, i) => slot - i).find(i => `${own}${i}` in turning.words);
 }
 
-/** A move is made: what comes along with it is drawn. */
+/** Record a move and draw what comes along with it. */
 function make_move(step, how, words) {
   const before = new Set(turn.done), { value, plane, action } = moves[step];
   turn.done.add(step);
-  if (["line", "circle"].includes(shape_of(action))) { // two of one place are drawn at once
+  if (["line", "circle"].includes(shape_of(action))) { // lines or circles at one place are drawn together
     for (const one of ORDER) if (shape_of(moves[one].action) === shape_of(action) && moves[one].plane === plane && all_done(moves[one].needs) && same_value(action, moves[one].value, value, plane)) turn.done.add(one);
   }
   turn.log.push({ step, how, wrong: turn.wrong });
@@ -133,7 +133,7 @@ function make_move(step, how, words) {
   if (at_keys) byId("palette").querySelector(`[data-action=${action}]`).focus({ preventScroll: true });
 }
 
-/** Nothing is drawn: why that step is drawn otherwise for which it was meant, or null; a step that stands is no wrong turn. */
+/** Refuse a move and give the reason for the intended step, if any; repeating a step is no error. */
 function refuse_move(words, meant) {
   const at_keys = keys_within();
   if (meant !== undefined) turn.wrong += 1;
@@ -147,7 +147,7 @@ function refuse_move(words, meant) {
   if (at_keys) byId("inputs").querySelector("select").focus({ preventScroll: true });
 }
 
-/** Light what a next possible step is drawn from, and name its action. */
+/** Highlight the inputs of a possible next step and name its action. */
 function give_hint() {
   const step = next_move();
   if (step === undefined) return;
@@ -159,13 +159,13 @@ function give_hint() {
   byId("turn-sentence").replaceChildren(...reasons_of(step));
 }
 
-/** The action that has been hinted at, and what it starts from. */
+/** Name the action of the hint and its inputs. */
 function tell_hint() {
   const { action, inputs } = moves[turn.hinted], words = slot_words(action), list = inputs.map((key, i) => `${words[i]} ${picks[picks[key].by || key].name}`).join(", ");
   tell_turn(worded("hint", { action: action_name(action), list }));
 }
 
-/** Draw a next possible step. */
+/** Draw a possible next step. */
 function draw_it() {
   const step = next_move();
   if (step !== undefined) make_move(step, "help", worded("helped", { name: moves[step].name, action: action_name(moves[step].action) }));

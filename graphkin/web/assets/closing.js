@@ -1,9 +1,9 @@
-// The construction at a place of the driver: `run(x, y)` is printed from its trace, x are its inputs and
-// y its results; groups of class III are closed anew from the way that leads through the range.
+// The construction at a position of the driver: `run(x, y)` is printed from the trace. x are its inputs,
+// y its results. Groups of class III are closed anew from their course through the range.
 const y = new Float64Array(data.size), x = new Float64Array(data.inputs);
 let reckoned = NaN, closes = false;
 
-// The numbers of the data that can be changed; `led` tells that one is not as drawn.
+// The figures that can be changed; `led` says whether one differs from the drawn value.
 const figures = data.figures ?? [];
 let led = false;
 for (const { place, start } of figures) x[place] = start;
@@ -25,7 +25,7 @@ const reckon = (at) => {
   return closes;
 };
 
-// How often links went round that only pins turn: near which angle each counts from a place on.
+// The turn count of links that only pins turn: the angle near which each counts, by driver position.
 const count = () => {
   for (const { place, at, near } of data.turned) {
     let k = at.length - 1;
@@ -34,7 +34,7 @@ const count = () => {
   }
 };
 
-// Groups of class III: near a state that the way through the range gives, the secant closes them.
+// Groups of class III: the secant method closes them near a state from their course.
 const TRIES = 24, TRIAL = 1e-6, CLOSED = 1e-9;
 const trial = [];
 const secant = (miss, start, step) => {
@@ -46,7 +46,7 @@ const secant = (miss, start, step) => {
   }
   return Math.abs(after) < CLOSED * data.reach && trial[1] > 0;
 };
-// Where several links are tried at once: Newton's method, by elimination in the rows of the slopes.
+// Several tried links at once: Newton's method, with Gauss-Jordan elimination in the rows of slopes.
 const newton = (miss, place, sizes) => {
   const n = sizes.length, missed = () => { miss(x, trial); return trial.slice(0, n); };
   for (let k = 0; k < TRIES; k++) {
@@ -81,7 +81,7 @@ const closedNear = (state) => {
     return secant(missed, start, step) || secant(missed, start, -step);
   });
 };
-// Where figures are changed, the way through the range holds no more: the last closure is carried on.
+// With changed figures the course is no longer valid, so the last closure is continued in stages.
 const STAGES = 12;
 let carried = null;
 const carriedOn = () => {
@@ -113,7 +113,7 @@ const closedHere = () => {
   let k = 1;
   while (k < at.length - 1 && at[k] < place) k++;
   const part = (place - at[k - 1]) / (at[k] - at[k - 1]), before = states[k - 1], after = states[k];
-  // between these two a dyad is stretched
+  // a dyad is stretched between these two states
   if (before.some((number, i) => number === -after[i])) return closedNear(before) || closedNear(after);
   return closedNear(before.map((number, i) => number + part * (after[i] - number)));
 };

@@ -1,7 +1,7 @@
-// The curves of a cycle: what is asked over the driver's place, with a cursor that goes with the mechanism.
-const WIDE = 320, HIGH = 160, LEFT = 44, RIGHT = 8, TOP = 8, FOOT = 22; // of a chart, and about its curves
-const SAMPLES = 360, MOST = 0.97, ROOM = 1.12; // places, part of them that a chart shows at least, and air above
-const drawn = []; // each chart: its picture, its rows, its scales, its cursor
+// The curves of a cycle: the quantities asked for over the driver's position, with a moving cursor.
+const WIDE = 320, HIGH = 160, LEFT = 44, RIGHT = 8, TOP = 8, FOOT = 22; // size of a chart, and the margins around its curves
+const SAMPLES = 360, MOST = 0.97, ROOM = 1.12; // number of positions, share of them that a chart must show, and headroom
+const drawn = []; // for each chart its picture, rows, scales and cursor
 
 /** Draw a chart for each unit. */
 function charts() {
@@ -16,14 +16,14 @@ function charts() {
   }
 }
 
-/** The rows by their units. */
+/** The rows grouped by unit. */
 function grouped(all) {
   const found = new Map();
   for (const row of all) found.set(row.dataset.unit, [...(found.get(row.dataset.unit) ?? []), row]);
   return found;
 }
 
-/** A chart under its names. */
+/** A chart under the names of its rows. */
 function chart(unit, some, series, places) {
   const figure = document.createElement("figure"), caption = document.createElement("figcaption");
   some.forEach((row, i) => {
@@ -55,7 +55,7 @@ function chart(unit, some, series, places) {
   return figure;
 }
 
-/** The way of a curve; broken where nothing is found, and where it leaps from one infinity to the other. */
+/** The path of a curve, broken where a value is missing or jumps from one infinity to the other. */
 function curve(values, places, u, v, size) {
   let pen = "M";
   return values.map((value, i) => {
@@ -68,7 +68,7 @@ function curve(values, places, u, v, size) {
   }).join("");
 }
 
-/** From what to what a chart goes: nought is in it, and all but the highest peaks where these stand alone. */
+/** The range of a chart: it includes zero and leaves out only a few isolated peaks. */
 function bounds(values) {
   const sizes = values.map(Math.abs).sort((a, b) => a - b), most = sizes.at(-1) || 1;
   const usual = sizes[Math.floor(MOST * (sizes.length - 1))] || most, end = most > 2 * usual ? 1.5 * usual : most;
@@ -76,7 +76,7 @@ function bounds(values) {
   return [below * ROOM, above * ROOM || (below ? 0 : 1)];
 }
 
-/** Round numbers between two; of angles such as divide a turn. */
+/** Round numbers between two values; for angles, divisors of a turn. */
 function steps(low, high, most, degrees = false) {
   const power = 10 ** Math.floor(Math.log10((high - low) / most));
   const sizes = degrees && high - low > 40 ? [15, 30, 45, 60, 90, 180, 360] : [1, 2, 5, 10].map((size) => size * power);
@@ -85,7 +85,7 @@ function steps(low, high, most, degrees = false) {
   return Array.from({ length: Math.floor(high / size + 1e-9) - first + 1 }, (_, i) => (first + i) * size);
 }
 
-/** How many decimals tell places of a range apart. */
+/** The number of decimals that distinguishes positions of a range. */
 function places_of(size) {
   return size > 10 ? 0 : size > 1 ? 1 : 2;
 }
@@ -106,7 +106,7 @@ function make(tag, attributes) {
   return element;
 }
 
-/** Go where a chart is clicked or drawn along. */
+/** Move the driver where a chart is clicked or dragged. */
 function listen(svg) {
   const lead = (event) => {
     const { left, width } = svg.getBoundingClientRect(), x = (event.clientX - left) / width * WIDE;
@@ -121,7 +121,7 @@ function listen(svg) {
   });
 }
 
-/** Set the cursors where the driver is, and a dot on each curve. */
+/** Set the cursors at the driver's position, and a dot on each curve. */
 function point(values, told) {
   for (const { svg, some, cursor, dots, u, v } of drawn) {
     const x = u(state.x);

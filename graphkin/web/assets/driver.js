@@ -1,5 +1,5 @@
-// The driver, and with it all that follows.
-const DEAD = Math.sin(Math.PI / 180), FAR = 1e-4; // sines of crossings below which no hand can tell where; those of far centres and poles
+// The driver, and all that follows it.
+const DEAD = Math.sin(Math.PI / 180), FAR = 1e-4; // least sines of crossings: for hand drawing, and for far centres and poles
 const driver = motion && byId("driver");
 const notes = motion ? [...document.querySelectorAll(".sheet h2, #given-name")].map(name => {
   const one = document.createElement("small");
@@ -9,14 +9,14 @@ const notes = motion ? [...document.querySelectorAll(".sheet h2, #given-name")].
 }) : [];
 if (motion) {
   const { low, high, start, step } = motion;
-  const min = start - Math.floor((start - low) / step) * step; // so that one stop is where it starts
+  const min = start - Math.floor((start - low) / step) * step; // so that one stop is the starting position
   for (const [name, value] of Object.entries({ min, max: high, step })) driver.setAttribute(name, value);
 }
 
-const REST = 250; // milliseconds after which what moved rests
+const REST = 250; // milliseconds without movement after which the driver rests
 let resting = 0;
 
-/** Set it. */
+/** Set the driver to a position. */
 function drive(x, glides = false) {
   place_driver(x);
   look(glides);
@@ -24,7 +24,7 @@ function drive(x, glides = false) {
   remember();
 }
 
-/** Move it on: scale and frame stay while it goes. */
+/** Move the driver; scale and frame stay as they are during the movement. */
 function move(x) {
   const first = !state.going;
   state.going = true;
@@ -35,7 +35,7 @@ function move(x) {
   follow_pins();
 }
 
-/** What moved rests: all labels that have room come back. */
+/** End a movement: all labels that have room reappear. */
 function rest() {
   state.going = false;
   put();
@@ -46,7 +46,7 @@ function rest() {
   remember();
 }
 
-/** Put all that follows where it stands. */
+/** Put everything that follows the driver in place. */
 function place_driver(x) {
   lift();
   const place = meant(x);
@@ -72,20 +72,20 @@ function place_driver(x) {
   halos();
 }
 
-/** The place of the driver that is meant by a number: an angle may be whole turns off. */
+/** The driver position meant by a number; an angle may differ by whole turns. */
 function meant(x) {
   const { low, high, unit } = motion, off = x < low || x > high;
   const turned = off && unit === "deg" ? x - 360 * Math.round((x - (low + high) / 2) / 360) : x;
   return Math.min(Math.max(turned, low), high);
 }
 
-/** A place of the driver in words. */
+/** A position of the driver in words. */
 function place_of(x) {
   const { digits, unit } = byId("driven").dataset;
   return written(x, Number(digits)) + unit;
 }
 
-/** The steps at which lines cross too flat. */
+/** The steps whose lines cross at too flat an angle. */
 function flat_crossings() {
   const sines = Object.entries(motion.margins(state.x)).map(([step, sine]) => [Number(step), sine]);
   return sines.filter(([step, sine]) => sine < (data.aside.includes(step) ? FAR : DEAD)).map(([step]) => step);
@@ -93,7 +93,7 @@ function flat_crossings() {
 
 let cleared = "";
 
-/** Take what hangs on lines that do not cross, or all, off the drawings. */
+/** Remove marks that depend on missing crossings, or all marks, from the drawings. */
 function clear_off(all, flat) {
   const now = `${all} ${flat}`;
   if (now === cleared) return;
@@ -106,11 +106,11 @@ function clear_off(all, flat) {
   }
 }
 
-/** Say beside drawings and data where the driver now is, and what they were given and checked for. */
+/** Note next to drawings and data where the driver is, and for which position they were checked. */
 function note(shown) {
   const { name, moved: words } = byId("read").dataset, changed = changed_figures();
   const own = state.x !== motion.start || !changed.length;
-  const list = (place, told) => [...(own ? [`${name} = ${place}`] : []), ...changed.map(one => `${one.name} = ${told(one)}`)].join(", "); // markup of symbols, escaped where it was made
+  const list = (place, told) => [...(own ? [`${name} = ${place}`] : []), ...changed.map(one => `${one.name} = ${told(one)}`)].join(", "); // markup of symbols, escaped by its maker
   const here = list(shown, ({ k }) => knob(k).told());
   const start = list(place_of(motion.start), one => plain(motion.drawn[one.k]) + one.unit);
   for (const one of notes) {

@@ -1,8 +1,8 @@
-// The figures: numbers of the data that are dragged, or led by keys; all that hangs on them follows.
-const PULL = 5; // dots by which one is led by a step
-const led_by = []; // the elements that show each
+// The figures: numbers of the data that can be dragged or changed by keys, with all that depends on them.
+const PULL = 5; // dots of dragging per step
+const led_by = []; // the elements that show each figure
 
-/** What leads: the driver itself, or the time, as number -1, or a figure. */
+/** The control of a figure; number -1 is the driver itself, or the time. */
 function knob(k) {
   const one = motion?.figures[k];
   if (!one) return { k, low: motion.low, high: motion.high, step: motion.step, whole: motion.whole, now: () => state.x, put: move, told: () => place_of(state.x), at: (id, x) => motion.place(id, x) };
@@ -10,35 +10,35 @@ function knob(k) {
   return { k, ...one, whole: false, now: () => state.figures[k], put: value => set_figure(k, value), told: shown, at: (id, value) => motion.place(id, state.x, k, value) };
 }
 
-/** The places after the mark that a step has. */
+/** The number of decimals of a step. */
 function places_of(step) {
   return Math.min(String(Number(step.toFixed(2))).split(".")[1]?.length ?? 0, 2);
 }
 
-/** Write one down, within its range; nothing follows yet. */
+/** Store a figure within its range, without moving anything yet. */
 function keep_figure(k, value) {
   const { low, high, start, step } = motion.figures[k], next = Math.min(Math.max(value, low), high);
   state.figures[k] = Math.abs(next - start) < 1e-6 * step ? start : next;
   motion.figure(k, state.figures[k]);
 }
 
-/** Change one; where it tells the place of the driver, that goes along. */
+/** Change a figure, and move the driver if the figure sets its position. */
 function set_figure(k, value) {
   keep_figure(k, value);
   move(led_to([motion.figures[k]], state.x));
 }
 
-/** The place to which some figures lead the driver: where they tell one, else the place where it is. */
+/** The driver position that some figures set; the current position if they set none. */
 function led_to(some, x) {
   return motion.stands >= 0 && some.some(({ moves }) => moves > 0) ? motion.read(motion.stands, x) : x;
 }
 
-/** All as they are drawn. */
+/** Reset all figures to their drawn values. */
 function reset_figures() {
   motion?.figures.forEach(({ start }, k) => keep_figure(k, start));
 }
 
-/** A number that is dragged, to be put beside its name. */
+/** A draggable number, to be put next to its name. */
 function dragged_number(k) {
   const one = knob(k), number = document.createElement("span");
   const words = { class: "figure", role: "slider", tabindex: 0, "aria-valuemin": one.low, "aria-valuemax": one.high };
@@ -49,7 +49,7 @@ function dragged_number(k) {
   return number;
 }
 
-/** Drag one: to the right, or up, it grows. */
+/** Drag a number; it grows to the right and upwards. */
 function pull(event, one, number) {
   if (event.button) return;
   event.preventDefault();
@@ -63,25 +63,25 @@ function pull(event, one, number) {
   while_down(number, went);
 }
 
-/** The places where one of the data is said: in the task, and below the drawings. */
+/** The elements that show a datum: in the task, and below the drawings. */
 function said_of(datum) {
   return ["#brief ul:last-of-type li", "#given li"].map(list => document.querySelectorAll(list)[datum]).filter(Boolean);
 }
 
 /** Put the figure of a name into an element. */
 function write_figure(element, name, k) {
-  element.innerHTML = `${name} = `; // markup of a symbol, escaped where it was made
+  element.innerHTML = `${name} = `; // markup of a symbol, escaped by its maker
   const number = dragged_number(k);
   number.setAttribute("aria-label", element.textContent.slice(0, -3));
   element.append(number);
   return element;
 }
 
-const one_told = []; // what each shows
-let rewritten = 0; // how many were changed when the others were last written
-let derived = []; // elements that tell what follows from figures, as drawn, and how they are written elsewhere
+const one_told = []; // the text that each figure shows
+let rewritten = 0; // number of changed figures when the derived data were last written
+let derived = []; // elements of data derived from figures, as drawn and as rewritten
 
-/** Make every number that can be changed one that is dragged. */
+/** Make every number that can be changed draggable. */
 function make_figures() {
   const own = byId("datum");
   if (own) for (const element of said_of([...own.parentElement.children].indexOf(own))) write_figure(element, byId("read").dataset.name, -1);
@@ -94,7 +94,7 @@ function make_figures() {
   tell_figures();
 }
 
-/** Write them as they are. */
+/** Write all figures with their current values. */
 function tell_figures() {
   led_by.forEach((numbers, i) => {
     const one = knob(i - 1), told = one.told();
@@ -115,13 +115,13 @@ function tell_figures() {
   }
 }
 
-/** A number with no more places than it needs. */
+/** A number without more decimals than it needs. */
 function plain(number) {
   const short = Number(number.toPrecision(5));
   return Number.isFinite(short) ? written(short, String(short).split(".")[1]?.length ?? 0) : "?";
 }
 
-/** Those that are not as drawn. */
+/** The figures that differ from their drawn values. */
 function changed_figures() {
   return (motion?.figures ?? []).map((one, k) => ({ ...one, k })).filter(({ k, start }) => state.figures[k] !== start);
 }

@@ -1,14 +1,14 @@
-// The form of a lab: reads what is written as `graphkin grade` does, keeps it in this browser,
-// saves it as a file and opens such a file again. Nothing is sent anywhere.
+// The form of a lab: it reads answers as `graphkin grade` does, keeps them in this browser,
+// saves them as a file and opens such a file again. Nothing is sent anywhere.
 const form = document.querySelector("form.answers");
 if (!form) return;
 const told = JSON.parse(form.dataset.form);
 const NUMBER = new RegExp("^(?:" + told.number + ")");
 const MISTYPED = new RegExp(told.mistyped);
-const RUNS = /(^|;[\s"]*)(?=[=+\-@])/g; // before what a spreadsheet takes for a formula
+const RUNS = /(^|;[\s"]*)(?=[=+\-@])/g; // before text that a spreadsheet takes for a formula
 const HEADS = ["field", "value"];
 const SHOWN = 30;
-const NAMED = 8; // fields that are named in one sentence
+const NAMED = 8; // largest number of fields named in one sentence
 const memory = `${told.memory} ${location.origin}${location.pathname}`; // a copy elsewhere has its own
 const fields = [...form.querySelectorAll("[name]")];
 const own = form.querySelector("#answers-id");
@@ -21,7 +21,7 @@ const shown = (text) => (text.length <= SHOWN ? text : text.slice(0, SHOWN - 1) 
 const clean = (text) => text.replace(/[\p{Cc}\p{Cf}\p{Cs}]/gu, "").trim().normalize("NFC");
 const id = () => told.id || clean(own.value);
 
-// What is wrong with an answer, as graphkin.classroom.grading.answer_numbers says it; empty where it is read.
+// The error of an answer, as in graphkin.classroom.grading.answer_numbers; empty if it can be read.
 function wrong(text, unit) {
   const stripped = clean(text);
   if (!stripped || told.blanks.includes(stripped.toLowerCase())) return "";
@@ -45,7 +45,7 @@ function plainUnit(text) {
   return bare.replaceAll("²", "2").replaceAll("⁻¹", "-1").replaceAll("−", "-");
 }
 
-// Show beside a field what is wrong with it, and tell whether anything is.
+// Show the error of a field next to it, and return whether there is one.
 function judge(field) {
   const problem = field.dataset.unit === undefined ? "" : wrong(field.value, field.dataset.unit);
   return mark(field, problem);
@@ -81,7 +81,7 @@ function keep() {
     localStorage.setItem(memory, JSON.stringify({ id: own?.value ?? "", ...answers() }));
     return true;
   } catch {
-    return false; // a browser that keeps nothing, as told when the page opens
+    return false; // a browser that stores nothing, as the page says when it opens
   }
 }
 
@@ -91,11 +91,11 @@ function recall() {
     if (own && typeof kept.id === "string") own.value = kept.id;
     fill(Object.fromEntries(Object.entries(kept).filter(([, text]) => typeof text === "string")));
   } catch {
-    // what is not ours, or nothing: the form stays empty
+    // data of another program, or none: the form stays empty
   }
 }
 
-// A cell that no spreadsheet runs, in quotes where it must be.
+// A cell that no spreadsheet executes, quoted where necessary.
 function cell(text, read) {
   const safe = read ? text : text.replace(RUNS, "$1'");
   return /[",;\t\r\n]/.test(safe) ? `"${safe.replaceAll('"', '""')}"` : safe;
@@ -132,7 +132,7 @@ function save() {
   if (bad.length) list("unread", bad, false);
 }
 
-// Add a sentence with a list of fields, each by its symbol and its unit as its label has them.
+// Add a sentence with a list of fields, each by its symbol and unit as in its label.
 function list(key, some, more) {
   const [before, after] = told.words[key].split("{list}");
   const named = some.flatMap((field, i) => {
@@ -142,7 +142,7 @@ function list(key, some, more) {
   status.append(` ${before}`, ...named, more ? ", …" : "", after);
 }
 
-// The rows of a CSV text, whatever stands between its cells.
+// The rows of a CSV text, with any of the usual separators.
 function rowsOf(text) {
   const first = text.split(/\r?\n/, 1)[0];
   const separator = [";", ",", "\t"].find((sign) => first.includes(sign)) ?? ",";
@@ -186,7 +186,7 @@ async function open() {
   }
 }
 
-// Whether something that is written would be replaced by something else.
+// Whether opening a file would replace answers by different ones.
 function differs(values) {
   return fields.some((f) => clean(f.value) && f.name in values && values[f.name] !== clean(f.value));
 }

@@ -1,12 +1,12 @@
-// The mechanism by hand: a pin is dragged, or moved by keys, along the way that it can go.
-const SAMPLES = 360, LEAST_WAY = 2; // places of the driver at which ways are known; mm of a way that can be grabbed
-const SHARPER = 24, GOLDEN = (Math.sqrt(5) - 1) / 2; // how often the nearest place is looked for more finely
-const LEAPS = 10; // steps of the driver that a key goes with Shift
-let way_on = 1; // the sense in which the driver went last
+// Moving the mechanism by hand: a pin is dragged, or moved by keys, along its path.
+const SAMPLES = 360, LEAST_WAY = 2; // driver positions at which paths are known; least size in mm of a path that can be grabbed
+const SHARPER = 24, GOLDEN = (Math.sqrt(5) - 1) / 2; // steps of the search for the nearest position
+const LEAPS = 10; // steps of the driver for a key with Shift
+let way_on = 1; // the sense of the last movement of the driver
 
 const grips = motion ? motion.grips.map(grips_of) : [];
 
-/** The pins of a sheet that move, each with a handle. */
+/** The moving pins of a sheet, each with a handle. */
 function grips_of(pins, sheet) {
   const [{ svg }] = sheets[sheet].fields, group = svg.appendChild(document.createElementNS(SVG, "g")), found = [];
   group.setAttribute("class", "grips");
@@ -14,16 +14,16 @@ function grips_of(pins, sheet) {
     const by = knob(k), way = way_of(id, by), pin = byId(id);
     if (way && !found.some(other => same(other.pin, pin))) found.push(grip(svg, group, { id, name, driven, by, pin, way }));
   }
-  if (found.length) svg.setAttribute("role", "group"); // no mere picture
+  if (found.length) svg.setAttribute("role", "group"); // the picture takes input
   return found;
 }
 
-/** Whether two circles stand at one place. */
+/** Whether two circles are at the same place. */
 function same(one, other) {
   return ["cx", "cy"].every(axis => Math.abs(one.getAttribute(axis) - other.getAttribute(axis)) < 0.01);
 }
 
-/** Where a pin is at places all over the range; nothing of one that hardly moves. */
+/** The positions of a pin over the whole range; null for a pin that hardly moves. */
 function way_of(id, { low, high, at }) {
   const way = Array.from({ length: SAMPLES + 1 }, (_, i) => at(id, low + (high - low) * i / SAMPLES));
   const known = way.filter(Boolean), reach = axis => Math.max(...known.map(at => at[axis])) - Math.min(...known.map(at => at[axis]));
@@ -41,7 +41,7 @@ function grip(svg, group, one) {
   return { ...one, handle };
 }
 
-/** Put the handles of the sheet in sight where their pins are. */
+/** Put the handles of the current sheet at their pins. */
 function follow_pins() {
   for (const { pin, handle, by } of grips[here()] ?? []) {
     for (const axis of ["cx", "cy"]) handle.setAttribute(axis, pin.getAttribute(axis));
@@ -51,7 +51,7 @@ function follow_pins() {
   }
 }
 
-/** Drag a pin until it is let go. */
+/** Drag a pin until it is released. */
 function take(event, svg, one) {
   if (event.button) return;
   event.preventDefault();
@@ -79,7 +79,7 @@ function take(event, svg, one) {
   while_down(one.handle, went, () => page.classList.remove("grabbing"));
 }
 
-/** Move by keys. */
+/** Move a pin or figure by keys. */
 function nudge(event, one) {
   const steps = { ArrowRight: 1, ArrowUp: 1, ArrowLeft: -1, ArrowDown: -1 }[event.key];
   const x = { Home: one.low, End: one.high }[event.key] ?? (steps && one.now() + steps * one.step * (event.shiftKey ? LEAPS : 1));
@@ -90,7 +90,7 @@ function nudge(event, one) {
   one.put(x);
 }
 
-/** The place of the driver at which a pin is nearest a place of its field, found downhill from where it is. */
+/** The driver position that brings a pin nearest to a place of its field, found by descent. */
 function nearest({ id, way, by }, u, v) {
   const { low, high, whole, at: place, now } = by, part = (high - low) / SAMPLES;
   const turned = i => (whole ? (i % SAMPLES + SAMPLES) % SAMPLES : i);

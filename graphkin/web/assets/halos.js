@@ -1,8 +1,8 @@
-// The marker pen's strokes beneath the marks of some steps and of what those are drawn from, and above
-// all the heads of the vectors that are drawn, so large that one sees where they point.
-const TINTS = 4; // colours that tell apart what one sentence draws for several points
-const ARROW = 12, CORNER = 2.2, NONE = 0.5; // mm of a velocity at its pin, of a right angle, of no velocity
-const TIP = 12, SHARE = 0.55; // dots of a head, as far as this part of its vector; with its size in steps.css
+// Marker-pen strokes beneath the marks of some steps and their sources, and above them the heads of
+// all drawn vectors, large enough to show where the vectors point.
+const TINTS = 4; // number of colours that separate the points of one sentence
+const ARROW = 12, CORNER = 2.2, NONE = 0.5; // mm: velocity at its pin, right angle, least velocity shown
+const TIP = 12, SHARE = 0.55; // dots of a head, and its largest share of the vector; its size is in steps.css
 const UNMARKED = ".later,.void,.hushed,[visibility],.arrowhead,.leader,.square-mark,.caption,.detail,[data-aside]";
 
 /** The class of the colour of a step. */
@@ -10,7 +10,7 @@ function tint(step) {
   return `t${(data.tints[step] ?? 0) % TINTS}`;
 }
 
-/** Draw them in each field in sight; in a turn of one's own nothing is lit but what is picked there. */
+/** Draw the strokes in each visible field; in a student's turn only the picks are highlighted. */
 function halos() {
   if (page.classList.contains("turning")) return;
   const sheet = sheets[here()], steps = looked_at(), from = sources(steps);
@@ -31,7 +31,7 @@ function halos() {
   }
 }
 
-/** A stroke of the shape of a mark. */
+/** A stroke in the shape of a mark. */
 function stroke(mark, look) {
   const copy = mark.cloneNode(true), shell = mark.closest(".lettering")?.cloneNode();
   for (const name of ["id", "data-at", "data-of"]) copy.removeAttribute(name);
@@ -40,7 +40,7 @@ function stroke(mark, look) {
   return shell ?? copy;
 }
 
-/** The side of the mechanism to which a line of the plan is square. */
+/** The side of the mechanism to which a line of the plan is perpendicular. */
 function side(sheet, svg, points) {
   const [p, q] = points.map(point => pin(sheet, point));
   return p && q && svg.contains(p) ? [between(p, q)] : [];
@@ -56,7 +56,7 @@ function between(p, q) {
   return line;
 }
 
-/** A velocity at its pin, with the right angle in which a line stands to it; in its plan a stroke. */
+/** A velocity at its pin with the right angle to its line; in its plan a stroke. */
 function squares(sheet, svg, points) {
   const [at, pole, image] = points.map(point => pin(sheet, point));
   if (!image || !pole || !at) return [];
@@ -79,7 +79,7 @@ function squares(sheet, svg, points) {
   ];
 }
 
-/** The head of a vector once more, as large as the style sheet tells; none of what has no place or no line. */
+/** The head of a vector again, at the size in the style sheet; none without a place or a line. */
 function head(mark) {
   const line = mark.previousElementSibling;
   if (!mark.matches(".arrowhead:not(.later,.void,[visibility],[data-aside])") || line?.tagName !== "line") return [];

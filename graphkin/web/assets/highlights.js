@@ -1,18 +1,18 @@
-// What is lit beside the strokes of a step: links whose rates are read off, triangles that are similar.
+// Highlights next to the strokes of a step: links whose rates are read off, and similar triangles.
 const ROUND = 6.5, SWING = 1.9, BARB = 2.6; // mm of an arrow round a link's number, half its arc in radians, mm of its head
 const CORNERS = [5, 7]; // mm of the arcs that mark equal angles, in both figures
 
-/** The rates that the step in sight reads off. */
+/** The rates that the current step reads off. */
 function rates_read() {
   return data.rates[state.step] ?? [];
 }
 
-/** The steps that those are read off. */
+/** The steps that the rates are read off. */
 function read_from() {
   return state.over ? [] : rates_read().flatMap(({ bar, vector }) => [...(bar ?? []), vector ?? []].flat()).map(String);
 }
 
-/** The links that turn, the bars and the vectors of their rates. */
+/** The turning links, and the bars and vectors of their rates. */
 function rates_in(sheet, svg) {
   return rates_read().flatMap(({ body, bar, vector }) => {
     const [p, q] = (bar ?? []).map(point => pin(sheet, point));
@@ -23,14 +23,14 @@ function rates_in(sheet, svg) {
   });
 }
 
-/** Round the number of each link that turns an arrow in its sense. */
+/** An arrow around the number of each turning link, in its sense. */
 function turning_in(svg) {
   if (state.over) return [];
   return rates_read().flatMap(({ row, sense, number }) => {
     const ring = byId(number), way = Math.sign(moved() && !state.dead ? motion.values(state.x)[row] : sense);
     if (!ring || !svg.contains(ring) || !way) return [];
     const [x, y] = ["cx", "cy"].map(name => Number(ring.getAttribute(name)));
-    const at = turn => [x + ROUND * Math.sin(turn), y - ROUND * Math.cos(turn)]; // from above, clockwise
+    const at = turn => [x + ROUND * Math.sin(turn), y - ROUND * Math.cos(turn)]; // from the top, clockwise
     const [from, to] = [at(way * SWING), at(-way * SWING)];
     const arc = shape("path", "turn", `M${from}A${ROUND} ${ROUND} 0 1 ${way > 0 ? 0 : 1} ${to}`);
     const [u, v] = [-way * Math.cos(SWING), -Math.sin(SWING)].map((part, i) => i ? -part : part);
@@ -40,7 +40,7 @@ function turning_in(svg) {
   });
 }
 
-/** A path of a look. */
+/** A path with a class. */
 function shape(name, look, way) {
   const element = document.createElementNS(SVG, name);
   element.setAttribute("class", look);
@@ -48,7 +48,7 @@ function shape(name, look, way) {
   return element;
 }
 
-/** The triangles by which the pole of the step in sight is found, with their equal angles. */
+/** The similar triangles that find the pole of the current step, with their equal angles. */
 function similar_in(sheet, svg) {
   return looked_at().flatMap(step => data.similar[step] ?? []).flatMap(corners => {
     const circles = corners.map(point => pin(sheet, point));
@@ -62,7 +62,7 @@ function similar_in(sheet, svg) {
   });
 }
 
-/** One arc or two between the ways from a corner to two others. */
+/** One or two arcs between the directions from a corner to two other points. */
 function angle(at, ...ends) {
   const count = ends.pop(), ways = ends.map(([x, y]) => Math.atan2(y - at[1], x - at[0]));
   const turn = Math.atan2(Math.sin(ways[1] - ways[0]), Math.cos(ways[1] - ways[0])) > 0 ? 1 : 0;

@@ -1,4 +1,4 @@
-// Keys, buttons, sliders, marks and the window; last of all, where the page begins.
+// Keys, buttons, sliders, marks and the window; at the end, the start of the page.
 
 function key(event) {
   if (event.ctrlKey || event.metaKey || event.altKey) return;
@@ -48,7 +48,7 @@ if (motion) {
 }
 for (const sign of ["pointerover", "focusin"]) byId("reason").addEventListener(sign, light);
 byId("reason").addEventListener("pointerleave", () => point_at(null));
-for (const part of ["reason", "from"]) { // what a reason hangs on stays named while the keys are there
+for (const part of ["reason", "from"]) { // the sources of a reason stay named while the focus is there
   byId(part).addEventListener("focusout", ({ relatedTarget: to }) => to?.closest("#reason,#from") || point_at(null));
 }
 addEventListener("hashchange", follow_address);

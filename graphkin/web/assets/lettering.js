@@ -1,13 +1,13 @@
-// The labels of the sheet in sight while all moves: each keeps its side of what it names as long as it
-// stands free there, fades where it does not, and comes back where there is room for it.
-const APART = 0.3, CLEAR = 1.5; // mm that one is off others, and one that comes back in motion
-const HANGS = 0.4, AIRY = 0.9; // mm that letters reach beyond their box above and below, and in motion
-const HUSH = 160; // milliseconds that one stays away
-const LEAP = 11; // dots that one may go while the driver goes by one step
-const standing = new Map(); // of each label the side where it is, whether it is seen, since when, and where it was
-let lettered = motion?.start; // where the driver was then
+// The labels of the current sheet during motion: each keeps its side while that side is free,
+// fades where it is not, and reappears where there is room.
+const APART = 0.3, CLEAR = 1.5; // mm from other labels, and for a label that reappears in motion
+const HANGS = 0.4, AIRY = 0.9; // mm by which letters exceed their box above and below, and in motion
+const HUSH = 160; // milliseconds for which a hidden label stays away
+const LEAP = 11; // dots that a label may move while the driver goes one step
+const standing = new Map(); // for each label its side, visibility, last change, and place
+let lettered = motion?.start; // the driver position at that time
 
-/** The records by which labels stand that are not where they were drawn. */
+/** The records of the labels that have left their drawn places. */
 function lettering() {
   const found = new Map(), gone = Math.abs(state.x - lettered) / motion.step;
   if (!moved() && gone) standing.clear();
@@ -16,17 +16,17 @@ function lettering() {
   return found;
 }
 
-/** Place those of a field, the first ones first. */
+/** Place the labels of a field in their order. */
 function letter(one, labels, gone, found) {
   const placed = [], free = ([u, v], box, air) => !placed.some(([x, z, w, h]) => Math.abs(u - x) < w + box[0] + air && Math.abs(v - z) < h + box[1] + air);
-  for (const { text, at, half } of letters_at_rest(one, labels)) { // what stands off is read elsewhere, too
+  for (const { text, at, half } of letters_at_rest(one, labels)) { // letters kept off a point are read elsewhere too
     const box = half.map(size => size * one.lettering), seen = one.lettering < 1.02 || free(at, box, 0);
     for (const part of text.parentElement.children) part.classList.toggle("hushed", !seen);
     if (seen) placed.push([...at, ...box]);
   }
   const far = LEAP * Math.max(1, gone) * (Number(one.svg.style.getPropertyValue("--dot")) || 0.3);
   const now = performance.now();
-  const fresh = ({ id }) => byId(id).matches(".now"); // what the step in sight draws is named before all else
+  const fresh = ({ id }) => byId(id).matches(".now"); // labels of the current step come first
   for (const { i, id, half, records, spots, led } of [...labels].sort((p, q) => fresh(q) - fresh(p))) {
     const mark = byId(id), was = standing.get(id) ?? { side: 0, seen: false, since: -Infinity, spot: null };
     standing.set(id, was);
@@ -47,11 +47,11 @@ function letter(one, labels, gone, found) {
     if (was.seen) placed.push([...was.spot, ...box]);
     if (was.side) found.set(i, records[was.side]);
     mark.classList.toggle("hushed", !was.seen);
-    for (const part of led.map(motion.named).map(byId)) part?.classList.toggle("hushed", !was.seen || was.side > 0); // a leader leads to the place that is drawn
+    for (const part of led.map(motion.named).map(byId)) part?.classList.toggle("hushed", !was.seen || was.side > 0); // a leader points to the drawn place
   }
 }
 
-/** The side on which a label stands free: as it is drawn, or where it covers the fewest lines; in motion the first. */
+/** The free side of a label that covers fewest lines, or its drawn side; in motion the first free side. */
 function clearest({ svg }, middles, box, is_free) {
   const open = middles.map((_, i) => i).filter(i => is_free(middles[i]));
   if (!open[0] || open.length < 2 || state.going) return open[0] ?? -1;
@@ -60,7 +60,7 @@ function clearest({ svg }, middles, box, is_free) {
   return open[cost.indexOf(Math.min(...cost))];
 }
 
-/** The radius of the circle about the number of a link; none about other letters. */
+/** The radius of the circle around a link number; zero for other letters. */
 function ring_of(text) {
   const ring = text.parentElement.previousElementSibling;
   return ring?.matches("circle.number") ? ring.r.baseVal.value : 0;
@@ -68,7 +68,7 @@ function ring_of(text) {
 
 const off_middles = new WeakMap();
 
-/** How far the middle about which a label is drawn larger lies from that of its ink, by its record. */
+/** The offset from the middle about which a label is enlarged to the middle of its ink. */
 function off_middle(mark, record) {
   if (!off_middles.has(mark)) {
     const { x, y, width, height } = mark.getBBox();
@@ -77,7 +77,7 @@ function off_middle(mark, record) {
   return off_middles.get(mark);
 }
 
-/** The letters of a field that stay where they are, with their middles and half their sizes; points first. */
+/** The letters of a field that do not move, with middles and half sizes; letters of points come first. */
 function letters_at_rest(one, labels) {
   if (!one.resting) {
     const moving = new Set(labels.map(({ id }) => id));
@@ -89,4 +89,4 @@ function letters_at_rest(one, labels) {
   }
   return one.resting.filter(({ text }) => !text.matches(moved() ? ".later,.void,[visibility],[data-aside]" : ".later,.void,[visibility]"));
 }
-const INK = 0.7; // part of the height of a line that letters fill
+const INK = 0.7; // part of the line height that letters fill

@@ -1,5 +1,5 @@
-// Marks that follow the driver: `data` says of each from which of the results in y its coordinates are
-// laid off (see field_binder.py).
+// Marks that follow the driver: for each mark, `data` gives the results in y that its coordinates
+// come from (see field_binder.py).
 const BEYOND = 7, HEAD = 3.2, SHORT = 2 - 1e-6, TINY = 0.5, RING = 240, DIGITS = 4, NOTHING = 1e-6, OVER = 0.5;
 const written = (number) => String(Number(number.toFixed(DIGITS)));
 const point = (i) => [y[i], y[i + 1]];
@@ -50,7 +50,7 @@ const shapes = {
     const p = point(tail), q = point(tip), long = Math.hypot(q[0] - p[0], q[1] - p[1]);
     if (!(long >= SHORT * times)) return null;
     const size = Math.min(HEAD * times, 0.4 * long), u = (q[0] - p[0]) / long, v = (q[1] - p[1]) / long;
-    const half = Math.max(0.25 * size, Math.min(0.5 * size, 0.6 * times)); // as symbols.py has it
+    const half = Math.max(0.25 * size, Math.min(0.5 * size, 0.6 * times)); // as in symbols.py
     const back = [q[0] - size * u, q[1] - size * v];
     return { points: listed([q, [back[0] - half * v, back[1] + half * u], [back[0] + half * v, back[1] - half * u]]) };
   },
@@ -82,14 +82,14 @@ const asDrawn = () => !led && Math.abs(reckoned - data.start) < 1e-9;
 const middles = {
   t: (o, d, a, b) => laid(o, d, a, b),
   b: (o, d, a, b, u, v, width, height, room) => {
-    // beside a segment: as far off it as the box of the text, which stays upright, now reaches
+    // distance from the segment that clears the box of the upright text
     const reach = Math.abs(y[d + 1]) * width + Math.abs(y[d]) * height;
     return laid(o, d, a, Math.sign(b) * (room + reach));
   },
 };
 const shifted = ([u, v], fromU, fromV) => ({ transform: `translate(${written(u - fromU)} ${written(v - fromV)})` });
 
-// The places at which a mark lies.
+// The places that bound a mark.
 const corners = {
   l: (p, q) => [point(p), point(q)],
   f: (o, d, a, b, e, f) => [laid(o, d, a, b), laid(o, d, e, f)],
@@ -102,8 +102,8 @@ const corners = {
   b: (o, d, a, b) => [laid(o, d, a, b)],
 };
 
-// What keeps its size on the screen is drawn larger in a field that is shown smaller: the heads of
-// arrows, and how far labels stand off, with their leaders.
+// What keeps its size on the screen is drawn larger in a field shown smaller: the heads of
+// arrows, and the distances of labels with their leaders.
 const growth = new Float64Array(data.marks.length).fill(1);
 const standing = new Set(data.fields.flat().flatMap(({ off }) => off));
 const grow = (times) => {
@@ -138,8 +138,8 @@ const extent = (at, sheet, side, times = 1) => {
   return right >= left ? [left, top, right - left, bottom - top] : null;
 };
 
-// A label that would lie on one drawn before it stands on the other side of what it names; where
-// that is no better, the letter of a point stays and what names a vector is hidden.
+// A label that would overlap an earlier one moves to the other side. If that is no better,
+// the letter of a point stays and the label of a vector is hidden.
 const overturned = ([kind, shown, o, d, a, b, ...rest]) => [kind, shown, o, d, kind === "b" ? a : -a, -b, ...rest];
 const free = (record, [across, down], placed) => {
   const [u, v] = middles[record[0]](...record.slice(2));
@@ -166,7 +166,7 @@ const arranged = () => {
 };
 
 const made = (id, element) => {
-  // what is not drawn where the scene stands, such as the head of a vector that is too short there
+  // a mark that the drawn position lacks, such as the head of a vector that is too short there
   const [before, tag, cls] = data.more[id] || [], line = before && element(before);
   if (!line || !line.ownerDocument) return null;
   const mark = line.ownerDocument.createElementNS(line.namespaceURI, tag);
@@ -177,7 +177,7 @@ const made = (id, element) => {
   return mark;
 };
 
-// What each mark was last given: what stays is not written again.
+// The attributes last given to each mark; unchanged ones are not written again.
 const given = new WeakMap();
 const give = (mark, name, text) => {
   const had = given.get(mark) || given.set(mark, {}).get(mark);
@@ -209,9 +209,9 @@ const draw = (at, element, times, sheet, lettering) => {
   return { ok: true };
 };
 
-// The labels of a field that have something to name here: record, half its size, and the records of the
-// sides on which it may stand, its own first; with it go its leader and the circle about it.
-const ASIDE = 7, NEARER = 0.7; // without its leader a letter stands nearer
+// The visible labels of a field: record, half size, and the records for the sides on which the
+// label may lie, its own side first; and the records of its leader and circle.
+const ASIDE = 7, NEARER = 0.7; // without its leader a letter lies nearer
 const sides = ([kind, shown, o, d, a, b, ...rest], turns) => {
   const own = [[a, b]];
   if (kind === "b") own.push([a, -b], ...[ASIDE, -ASIDE].flatMap((by) => [[a + by, b], [a + by, -b]]));
@@ -224,7 +224,7 @@ const labels = (sheet, side) => data.fields[sheet][side].labels.map(([i, across,
   return { i, id, half: [across, down], records, spots: records.map(([kind, , ...rest]) => middles[kind](...rest)), led: data.led[i] ?? [] };
 });
 
-// Where the circle of a record stands at a place of the driver; null where nothing closes.
+// The place of a circle at a driver position; null where nothing closes.
 const circles = new Map(data.marks.flatMap(([id, kind, , ...rest]) => (kind === "m" ? [[id, rest]] : [])));
 const place = (id, at, k = -1, value = 0) => {
   if (k < 0) return circles.has(id) && reckon(at) ? laid(...circles.get(id)) : null;
@@ -236,7 +236,7 @@ const place = (id, at, k = -1, value = 0) => {
 };
 
 const settled = (found) => {
-  // what is only rounding beside the largest of its kind is nought
+  // rounding errors relative to the largest value of the kind become zero
   const most = {};
   for (const [, , kind, i] of data.values) most[kind] = Math.max(most[kind] || 0, Math.abs(y[i]));
   for (const [name, , kind, i] of data.values) found[name] = Math.abs(y[i]) < 1e-9 * most[kind] ? 0 : y[i];

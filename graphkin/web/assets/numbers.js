@@ -1,12 +1,12 @@
 // Numbers as the language of the page writes them.
 
-/** A number with so many places after the mark; what rounds to zero is 0. */
+/** A number with so many decimals; a number that rounds to zero is 0. */
 function written(number, places) {
   const text = number.toFixed(places);
   return Number(text) === 0 ? "0" : text.replace("-", "−").replace(".", data.mark);
 }
 
-/** A number rounded to so many significant digits, by powers of ten when far from one. */
+/** A number with so many significant digits, with a power of ten when far from one. */
 function significant(number, digits = 4) {
   if (number === 0) return "0";
   const [mantissa, power] = number.toExponential(digits - 1).split("e");

@@ -1,4 +1,4 @@
-// What the page holds and where it stands; small helps that every part uses.
+// The elements and the state of the page, and small helpers for every part.
 const page = document.documentElement;
 const byId = id => document.getElementById(id);
 const data = JSON.parse(byId("run").textContent);
@@ -8,7 +8,7 @@ const SMALL = matchMedia("(max-width:40rem),(max-height:34rem)"); // as in page.
 const state = { step: 0, x: motion ? motion.start : 0, over: null, dead: false, going: false, figures: (motion?.figures ?? []).map(({ start }) => start) };
 
 page.classList.add("js");
-motion?.set(motion.start, byId); // what moves may add marks
+motion?.set(motion.start, byId); // the moving part may add marks
 byId("desk").append(byId("controls").content.cloneNode(true));
 const slider = byId("step"), play = byId("play"), follow = byId("follow");
 const own = Array.from({ length: last + 1 }, () => []); // the steps that each sentence draws
@@ -19,12 +19,12 @@ function moved() {
   return motion !== null && (state.x !== motion.start || state.figures.some((value, k) => value !== motion.figures[k].start));
 }
 
-/** Copies of what an element holds. */
+/** Copies of the contents of an element. */
 function copies(element) {
   return [...element.cloneNode(true).childNodes];
 }
 
-/** Set a property of style where it is not so yet: all that it touches is laid out anew. */
+/** Set a style property only if it changes, since each change causes a new layout. */
 function style(element, name, value) {
   if (element.style.getPropertyValue(name) !== value) element.style.setProperty(name, value);
 }

@@ -1,6 +1,6 @@
-// What the actions of the palette give: complex numbers as [x, y], lines as [point, way], circles as { c, r }.
+// The results of palette actions: complex numbers as [x, y], lines as [point, direction], circles as { c, r }.
 
-/** What an action gives is called by the names of what it is drawn from; nothing where it has one of its own. */
+/** The name of a result, from the names of its inputs; used where the result has no name of its own. */
 function named_from(action, names, words) {
   if (action === "compass") return words.arc.replace("{p}", names[0]).replace("{bar}", names[1]);
   if (action === "join") return names.join("");
@@ -8,7 +8,7 @@ function named_from(action, names, words) {
   return `${{ perpendicular: "⊥", parallel: "∥" }[action]} ${names[1]} (${names[0]})`;
 }
 
-/** A record with what follows in it: a move's own pick, bars and vectors by their ends, names and needs by inputs. */
+/** A record completed by what follows from it: picks of moves, bars and vectors, names and needs. */
 function followed({ moves, picks, words }) {
   const of_ends = key => {
     const pick = picks[key];
@@ -27,12 +27,12 @@ function followed({ moves, picks, words }) {
   for (const key of Object.keys(picks)) of_ends(key);
 }
 
-/** The actions of a construction by its record; `all_done` tells whether some moves are made. */
+/** The actions of a construction by its record; `all_done` says whether some moves are made. */
 function palette_of(record, all_done) {
   followed(record);
   const { moves, picks, places, shares, seconds } = record;
-  const SAME = 1e-7; // parts of a drawing within which two values are one
-  const ACTIONS = $ACTIONS; // the shape of what each gives and its plane: mechanism, velocities, accelerations, numbers
+  const SAME = 1e-7; // parts of a drawing within which two values are equal
+  const ACTIONS = $ACTIONS; // shape and plane of each result: mechanism, velocities, accelerations, numbers
   const steps = Object.keys(moves).map(Number);
 
   const plus = (a, b) => [a[0] + b[0], a[1] + b[1]], minus = (a, b) => [a[0] - b[0], a[1] - b[1]];
@@ -41,7 +41,7 @@ function palette_of(record, all_done) {
   const times = (a, b) => [a[0] * b[0] - a[1] * b[1], a[0] * b[1] + a[1] * b[0]];
   const over = (a, b) => scaled(times(a, [b[0], -b[1]]), 1 / dot(b, b));
 
-  /** Where two lines meet, stepped off from the one whose point is nearer; none where they are parallel. */
+  /** The intersection of two lines, measured from the nearer point; none for parallel lines. */
   function lines_meet(m, n) {
     const gap = minus(n[0], m[0]), turn = cross(m[1], n[1]);
     const [s, t] = [cross(gap, n[1]) / turn, cross(gap, m[1]) / turn];
@@ -49,14 +49,14 @@ function palette_of(record, all_done) {
     return found.every(Number.isFinite) ? [found] : [];
   }
 
-  /** Where a line cuts a circle. */
+  /** The intersections of a line and a circle. */
   function line_cuts([point, way], { c, r }) {
     const unit = scaled(way, 1 / long(way)), gap = minus(c, point);
     const along = dot(gap, unit), aside = cross(unit, gap), half = Math.sqrt((r - aside) * (r + aside));
     return Number.isNaN(half) ? [] : [half, -half].map(step => plus(point, scaled(unit, along + step)));
   }
 
-  /** Where two circles meet. */
+  /** The intersections of two circles. */
   function circles_meet(m, n) {
     const gap = minus(n.c, m.c), size = long(gap), along = ((m.r - n.r) * (m.r + n.r) / size + size) / 2;
     const half = Math.sqrt((m.r - along) * (m.r + along));
@@ -64,13 +64,13 @@ function palette_of(record, all_done) {
     return [half, -half].map(side => plus(m.c, times([along, side], scaled(gap, 1 / size))));
   }
 
-  /** Where two curves cut. */
+  /** The intersections of two curves. */
   function cuts(m, n) {
     if (m.r === undefined) return n.r === undefined ? lines_meet(m, n) : line_cuts(m, n);
     return n.r === undefined ? line_cuts(n, m) : circles_meet(m, n);
   }
 
-  /** The value of something that can be picked. */
+  /** The value of a pick. */
   function value_of(key) {
     const pick = picks[key];
     if (pick.value !== undefined) return pick.value;
@@ -81,35 +81,35 @@ function palette_of(record, all_done) {
     return moves[key].value;
   }
 
-  /** The way of a bar, a vector or a line. */
+  /** The direction of a bar, a vector or a line. */
   const way = key => picks[key].on ? value_of(key) : value_of(key)[1];
   const places_of = key => (places[key] ?? []).map(value_of);
 
-  /** The bar as it leads from its other end to a point at one end of it. */
+  /** The vector along a bar from its other end to a point at one end. */
   function arm(point, bar) {
     const [p, q] = picks[bar].on;
     const other = String(p) === point ? q : String(q) === point ? p : null;
     return other === null ? null : minus(value_of(point), value_of(other));
   }
 
-  /** v²/l of a point at the end of a bar, towards its other end, from its velocity about that, perpendicular to the bar. */
+  /** v²/l of a point at the end of a bar, towards the other end; the relative velocity is perpendicular. */
   function normal(point, bar, velocity) {
     const reach = arm(point, bar), speed = value_of(velocity);
     if (!reach || Math.abs(dot(reach, speed)) > SAME * long(reach) * long(speed)) return [];
     return [scaled(reach, -dot(speed, speed) / dot(reach, reach))];
   }
 
-  /** What each action gives, of which all but one may be meant. */
+  /** The results of each action; of several, one is meant. */
   const DRAW = {
     ...$DRAW,
   };
-  /** In which drawing the result of an action lies. */
+  /** The drawing that holds the result of an action. */
   function plane_of(action, inputs) {
     const [, plane, lies_with] = ACTIONS[action] ?? [, null, 0];
     return plane ?? picks[inputs[lies_with]].plane;
   }
 
-  /** The results of an action, each also from points that are picked for others too near to them to be drawn. */
+  /** The results of an action, also from undrawn points that share the pick of a nearby point. */
   function results(action, inputs) {
     const alike = inputs.map(key => [key, ...Object.keys(picks).filter(other => picks[other].by === key && all_done(picks[other].needs))]);
     const ways = alike.reduce((found, keys) => found.flatMap(one => keys.map(key => [...one, key])), [[]]);
@@ -118,14 +118,14 @@ function palette_of(record, all_done) {
 
   const flat = value => value.r === undefined ? value.flat() : [...value.c, value.r];
 
-  /** What kind of thing an action gives: a line, a circle, a vector set on the mechanism, or a point. */
+  /** The shape of an action's result: a line, a circle, a vector set on the mechanism, or a point. */
   const shape_of = action => ACTIONS[action]?.[0] ?? "point";
 
-  /** How large each drawing is. */
+  /** The size of each drawing. */
   const sizes = [0, 1, 2, 3].map(plane => Math.max(1e-12, ...steps.filter(step => moves[step].plane === plane)
     .flatMap(step => shape_of(moves[step].action) === "line" ? long(moves[step].value[0]) : flat(moves[step].value).map(Math.abs))));
 
-  /** Whether two values of an action's kind are the same in a drawing. */
+  /** Whether two values of an action's kind are equal in a drawing. */
   function same(action, a, b, plane) {
     const near = SAME * sizes[plane];
     if (shape_of(action) === "line") {
@@ -136,7 +136,7 @@ function palette_of(record, all_done) {
     return flat(a).length === flat(b).length && flat(a).every((number, i) => Math.abs(number - flat(b)[i]) < own);
   }
 
-  /** How far a point is from a line or a circle. */
+  /** The distance of a point from a line or a circle. */
   function on_line(point, curve) {
     if (curve.r !== undefined) return Math.abs(long(minus(point, curve.c)) - curve.r);
     return Math.abs(cross(minus(point, curve[0]), curve[1])) / long(curve[1]);

@@ -1,4 +1,4 @@
-// What a move starts from, picked on the drawing or in lists, and what is lit there.
+// The inputs of a move, picked on the drawing or in lists, and their highlights.
 const slots = () => turn.action ? turning.palette[turn.action] : [];
 const is_complete = () => turn.action && slots().every((_, i) => turn.inputs[i]);
 const fits = (key, slot) => slots()[slot].includes(picks[key].kind) && is_there(key);
@@ -15,10 +15,10 @@ function choose_action(action) {
 /** The words for the inputs of the action. */
 const slot_words = (action = turn.action) => byId("palette").querySelector(`[data-action="${action}"]`)?.dataset.slots.split("|") ?? [];
 
-/** Say what the action still needs, or what has been hinted at. */
+/** Name the inputs that the action still needs, or repeat the hint. */
 function ask_inputs() {
   if (turn.hinted && moves[turn.hinted].action === turn.action) return tell_hint();
-  if (turn.wrong) byId("turn-sentence").replaceChildren(); // the reason of a choice that is past
+  if (turn.wrong) byId("turn-sentence").replaceChildren(); // the reason of an earlier choice
   const list = slot_words().map((word, i) => `${word} ${turn.inputs[i] ? picks[turn.inputs[i]].name : "…"}`).join(", ");
   tell_turn(worded("hint", { action: action_name(turn.action), list }));
 }
@@ -34,7 +34,7 @@ function show_picks() {
   show_inputs();
 }
 
-/** The lists of what can be picked for the action, and which of two is meant. */
+/** Show the lists of possible inputs of the action, and the choice between two results. */
 function show_inputs() {
   for (const button of byId("palette").children) button.setAttribute("aria-pressed", button.dataset.action === turn.action);
   const words = slot_words();
@@ -65,14 +65,14 @@ function show_ready() {
   byId("turn-draw").disabled = !is_complete();
 }
 
-/** Markup as plain words. */
+/** Markup as plain text. */
 function plain_words(markup) {
   const words = document.createElement("span");
   words.innerHTML = markup;
   return words.textContent;
 }
 
-/** Where a value of a drawing lies in a sheet's field: which field, and the place in mm. */
+/** The field of a sheet that shows a value of a drawing, and the place in it in mm. */
 function placed(plane, value) {
   const [plan, ...fields] = turning.fields[here()], side = plane === 0 ? 0 : 1;
   if (plane !== 0 && plane !== plan) return null;
@@ -80,7 +80,7 @@ function placed(plane, value) {
   return { side, at: [x + (value[0] - re) * mm, y - (value[1] - im) * mm], mm };
 }
 
-/** What is drawn where something can be pointed at: a point, a segment, a line or a circle in a field. */
+/** The shape at which a pick can be pointed at: a point, segment, line or circle of a field. */
 function shown_at(key) {
   const pick = picks[key];
   if (pick.on?.length) {
@@ -101,13 +101,13 @@ function shown_at(key) {
   return point && { side: point.side, at: point.at };
 }
 
-/** Where the circle of a point is drawn that is no input of its own, such as a corner of a triangle. */
+/** The drawn circle of a point that is no input itself, such as a corner of a triangle. */
 function circle_of(step) {
   const sheet = sheets[here()], circle = pin(sheet, step);
   return circle && { side: sheet.fields.findIndex(({ svg }) => svg.contains(circle)), at: ["cx", "cy"].map(name => Number(circle.getAttribute(name))) };
 }
 
-/** As far as a line is drawn, or through the whole field where nothing else shows it. */
+/** The drawn extent of a line, or the whole field where no mark shows the line. */
 function stretch(side, key, at, unit) {
   const sheet = sheets[here()], svg = sheet.fields[side].svg;
   const mark = !turn.open.has(Number(key)) && (sheet.of.get(key) ?? []).find(one => one.tagName === "line" && svg.contains(one));
@@ -118,7 +118,7 @@ function stretch(side, key, at, unit) {
   return { from: plus(at, scaled(unit, -1000)), to: plus(at, scaled(unit, 1000)) };
 }
 
-/** How far, in mm, a place of a field is from where something is drawn. */
+/** The distance, in mm, of a place of a field from a shape. */
 function far_from(place, { at, r, from, to }) {
   if (at) return Math.abs(length_of(minus(place, at)) - (r ?? 0));
   const along = minus(to, from), size = dot(along, along) || 1;
@@ -126,7 +126,7 @@ function far_from(place, { at, r, from, to }) {
   return length_of(minus(place, plus(from, scaled(along, share))));
 }
 
-/** Take what is pointed at for the first input that is not yet there and can be such a thing. */
+/** Take the shape pointed at as the first open input that accepts it. */
 function take_at(event) {
   const sheet = sheets[here()], side = sheet.fields.findIndex(({ svg }) => svg.contains(event.target));
   if (side < 0) return;
@@ -161,7 +161,7 @@ function take_at(event) {
   else ask_inputs();
 }
 
-/** Mark what is picked, what a hint names and of which two one is meant; draw own lines. */
+/** Mark the picks, the inputs of a hint and the choice between results; draw own lines. */
 function light_up() {
   const sheet = sheets[here()];
   const lit = [...turn.inputs.filter(Boolean).map(key => [key, "old"]), ...(turn.hinted ? moves[turn.hinted].inputs.map(key => [picks[key].by || key, "new"]) : [])];
@@ -189,7 +189,7 @@ function light_up() {
   });
 }
 
-/** A line or arc from which a point is still to be found: all of it, for its drawn part would show where. */
+/** A line or arc that still holds an unknown point, drawn in full, since its drawn part would reveal it. */
 function whole_line(key, look) {
   const drawn = shown_at(key);
   put_in("front", drawn, look);
@@ -213,7 +213,7 @@ function whole_line(key, look) {
   mark.setAttribute("y", (start[1] + v).toFixed(2));
 }
 
-/** What is drawn in a field, but perhaps one label: the boxes of letters and points, lines and arrows from end to end. */
+/** The obstacles in a field except one label: boxes of letters and points, and lines end to end. */
 function taken_in(svg, label = null) {
   const marks = [...svg.querySelectorAll(":is(text,circle,line):not(.later,.void,[visibility],.hushed,.grip,.leader,.halo:first-of-type *)")];
   return marks.filter(mark => mark !== label).map(mark => {
@@ -224,7 +224,7 @@ function taken_in(svg, label = null) {
   }).filter(({ half }) => !half || half[0] < 20);
 }
 
-/** How much a label at a place, half so large, would cover of what is drawn. */
+/** The cost of the objects that a label of half size [a, b] would cover at a place. */
 function covers(at, [a, b], { from, to, at: middle, half, letters }) {
   const [u, v] = minus(at, from ? scaled(plus(from, to), 0.5) : middle).map(Math.abs);
   if (!from) return u < a + half[0] && v < b + half[1] ? letters ? 20 : 4 : 0;
@@ -232,17 +232,17 @@ function covers(at, [a, b], { from, to, at: middle, half, letters }) {
   return u < a + Math.abs(way[0]) && v < b + Math.abs(way[1]) && turned < a * Math.abs(way[1]) + b * Math.abs(way[0]) ? 3 : 0;
 }
 
-/** The place nearest to one that has room for a digit in a field. */
+/** The nearest place that has room for a digit in a field. */
 function inside(side, [u, v]) {
   const { x, y, width, height } = sheets[here()].fields[side].svg.viewBox.baseVal;
   return [Math.min(Math.max(u, x + 2), x + width - 5), Math.min(Math.max(v, y + 6), y + height - 2)];
 }
 
-/** Write a symbol into a text of a drawing, its indices lower and smaller. */
+/** Write a symbol into a text of a drawing, with lowered, smaller indices. */
 function write_symbol(text, markup) {
   const words = document.createElement("span");
-  words.innerHTML = markup; // escaped where it was made
-  let [lowered, shift] = [0, 0]; // parts of the height of the letters
+  words.innerHTML = markup; // escaped by its maker
+  let [lowered, shift] = [0, 0]; // parts of the letter height
   for (const node of words.childNodes) {
     const part = document.createElementNS(SVG, "tspan"), look = node.nodeName.toLowerCase();
     shift = { sub: 0.26, sup: -0.37 }[look] ?? 0;

@@ -1,10 +1,10 @@
-// The page of a cycle: plays the motion when told, moves it by hand, and tells what is asked at
-// each place.
+// The page of a cycle: it plays the motion, lets it be moved by hand, and shows the quantities
+// asked for at each position.
 const motion = graphkinMotion;
 const data = JSON.parse(document.getElementById("run").textContent);
 const span = data.high - data.low;
 const found = new Map();
-// What is not there yet is looked for again: a mark may be made when it is first needed.
+// A missing element is looked up again, since a mark may be created when first needed.
 const byId = (id) => {
   if (!found.has(id)) {
     const element = document.getElementById(id);
@@ -15,20 +15,20 @@ const byId = (id) => {
 };
 const play = byId("play"), slider = byId("at"), speed = byId("speed"), back = byId("back");
 const rows = [...document.querySelectorAll("[data-row]")];
-const NEAR = 0.8, ALONG = [0.5, 0.35, 0.65]; // mm of a name from its vector, parts of it beside which it may stand
+const NEAR = 0.8, ALONG = [0.5, 0.35, 0.65]; // mm of a name from its vector, parts of the vector next to which it may lie
 const STILL = matchMedia("(prefers-reduced-motion:reduce)");
 const state = { x: data.start, playing: false, last: 0 };
 
 const numbers = (mark, names) => names.map((name) => Number(mark.getAttribute(name)));
 const hides = (mark) => mark.getAttribute("visibility") === "hidden";
 
-// How far a plan from low to high is moved into its room; one that is larger leaves on both sides.
+// The shift of a plan from low to high into its room; a larger plan overhangs on both sides.
 function aside(low, high, pole, start, end) {
   if (high - low <= end - start) return Math.max(start - low, 0) + Math.min(end - high, 0);
   return start + ((pole - low) / (high - low)) * (end - start) - pole;
 }
 
-// Move the window over a plan so that the plan has room; say when it has none.
+// Move the window over a plan so that the plan fits, and show a note where it does not fit.
 function seat({ figure, rect, room, pole }) {
   const svg = byId(figure).querySelector("svg"), xs = [], ys = [];
   for (const mark of svg.querySelectorAll(":scope > line, :scope > circle")) {
@@ -50,7 +50,7 @@ function seat({ figure, rect, room, pole }) {
   byId(figure).querySelector(".beyond").hidden = inside;
 }
 
-// The way from some places to another, all of them alike; null where none tells it.
+// The unit direction from some places to another, with equal weights; null if undefined.
 function off(here, others) {
   let [u, v] = [0, 0];
   for (const [x, y] of others) {
@@ -61,8 +61,8 @@ function off(here, others) {
   return size > 0.1 ? [u / size, v / size] : null;
 }
 
-// How many times larger letters are drawn in each field, so that the smallest can be read on this screen.
-const LEGIBLE = 9.1, LARGEST = 2.5; // dots of their height; times
+// The magnification of letters in each field, so that the smallest are legible on this screen.
+const LEGIBLE = 9.1, LARGEST = 2.5; // dots of their height; largest magnification
 const enlarged = new Map();
 function enlarge() {
   for (const svg of document.querySelectorAll("#stage svg")) {
@@ -75,7 +75,7 @@ function enlarge() {
 }
 const times_of = (text) => enlarged.get(text.ownerSVGElement) ?? 1;
 
-// Set each letter by its rule beside its point, on another side where a letter stands.
+// Place each letter by its rule next to its point, or on another side if a letter is in the way.
 function letter(letters) {
   const [drawn, gap, beside, leftward, upward] = data.letter, taken = [], times = letters.length ? times_of(byId(letters[0][0])) : 1, height = drawn * times;
   const place = (id) => numbers(byId(id), ["cx", "cy"]);
@@ -99,8 +99,8 @@ function letter(letters) {
   return taken.map(([x, y, width]) => [x, y, width, height]);
 }
 
-// Set the name of each vector beside it, clear of letters and of other vectors; that of one that is asked for
-// clear of letters at least. A vector too short for its name has none.
+// Place the name of each vector next to it, clear of letters and other vectors. The name of a
+// vector asked for must be clear of letters only. A vector too short for its name gets none.
 function name(vectors, taken) {
   const lines = vectors.map(([, line]) => byId(line)).map((mark) => (hides(mark) ? null : numbers(mark, ["x1", "y1", "x2", "y2"])));
   vectors.forEach(([id, , x, y, across, down, asked], i) => {
@@ -121,14 +121,14 @@ function name(vectors, taken) {
   });
 }
 
-// Whether a line cuts a box about a spot.
+// Whether a line crosses a box around a spot.
 function cuts([x1, y1, x2, y2], [x, y, width, height]) {
   const [a, b] = [width / 2, height / 2], [u, v] = [(x2 - x1) / 2, (y2 - y1) / 2], [p, q] = [x - x1 - u, y - y1 - v];
   const within = Math.abs(p) < a + Math.abs(u) && Math.abs(q) < b + Math.abs(v);
   return within && Math.abs(p * v - q * u) < a * Math.abs(v) + b * Math.abs(u);
 }
 
-// Put the mechanism and its plans where the driver stands.
+// Put the mechanism and its plans at a position of the driver.
 function show(x) {
   state.x = Math.min(Math.max(x, data.low), data.high);
   const { ok } = motion.set(state.x, byId);
@@ -150,14 +150,14 @@ function show(x) {
   point(values, told);
 }
 
-// Size and sense of what is asked.
+// Write size and sense of a quantity.
 function tell(row, value) {
   const senses = data.senses[row.dataset.row];
   row.querySelector(".size").textContent = significant(Math.abs(value));
   row.querySelector(".sense").innerHTML = value && senses ? `, ${senses[value > 0 ? 0 : 1]}` : "";
 }
 
-// Go on by some seconds in the sense of the driver's speed, and beyond the end from the beginning.
+// Advance by some seconds in the sense of the driver's speed, and past the end from the beginning.
 function go(seconds) {
   const way = data.sense * (seconds / data.seconds) * span * Number(speed.value);
   const beyond = state.x + way < data.low || state.x + way > data.high;
@@ -184,7 +184,7 @@ function pause() {
   named("play");
 }
 
-// Say what the button does.
+// Set the label of the play button.
 function named(what) {
   play.toggleAttribute("data-on", what === "pause");
   play.setAttribute("aria-label", play.dataset[what]);
@@ -211,7 +211,7 @@ document.addEventListener("keydown", (event) => {
   event.preventDefault();
   act();
 });
-// The dead points and turning points beneath the slider: each leads to its place, or as near as is shown.
+// The dead points and turning points below the slider; each jumps to its place, or as near as shown.
 for (const [at, words] of data.notable) {
   const turned = data.degrees && !data.back ? data.low + ((((at - data.low) % 360) + 360) % 360) : at;
   const place = Math.min(Math.max(turned, data.low), data.high);

@@ -1,4 +1,4 @@
-// What plays the steps.
+// Playing the steps.
 let timer = 0;
 
 function start() {
@@ -21,7 +21,7 @@ function toggle() {
   else start();
 }
 
-/** Stay at a step as long as its sentence and why take to read, and its strokes to draw. */
+/** Wait at a step for as long as its sentence and reason take to read and its strokes to draw. */
 function wait() {
   const why = byId("because").open ? byId("reason").textContent.length : 0;
   const letters = byId("sentence").textContent.length + (state.step ? why : 0);
@@ -32,7 +32,7 @@ function wait() {
   }, Math.max(Math.min(1500 + 45 * letters, 25000), state.step ? 0 : SWEEP));
 }
 
-/** Say what a button does. */
+/** Set the label of a button. */
 function called(button, words) {
   button.title = words;
   button.setAttribute("aria-label", words);

@@ -1,22 +1,22 @@
-// As much room for words and values as the longest of them need, so that nothing jumps.
-const NARROWEST = 0.36; // part of the width that a field has at least
-const ROOM = 14, FOLD = 3; // dots between the drawing, the keys and the end of the window; the same where what the keys do comes below
-const LOW = 1000; // dots of a window in which what the keys do comes below all else
-const BESIDE = matchMedia("(min-width:60.01rem) and (min-height:34.01rem)"); // as in steps.css: words stand beside the drawing
+// Room for words and values, as much as the longest of them need, so that nothing jumps.
+const NARROWEST = 0.36; // least part of the width for a field
+const ROOM = 14, FOLD = 3; // dots between the drawing, the keys and the window edge; the same where the help is below
+const LOW = 1000; // dots of a window in which the help comes below all else
+const BESIDE = matchMedia("(min-width:60.01rem) and (min-height:34.01rem)"); // as in steps.css: words next to the drawing
 
-/** Put the words beside the drawing, or between it and the keys. */
+/** Put the words next to the drawing, or between the drawing and the keys. */
 function seat_words() {
   const told = byId("told"), place = BESIDE.matches ? byId("page") : byId("dock");
   if (told.parentElement !== place) place.prepend(told);
 }
 
-/** What is told can be scrolled by keys where it has less room than it needs. */
+/** Let keys scroll the words where they do not fit. */
 function told_by_keys() {
   const told = byId("told");
   told.tabIndex = told.scrollHeight > told.clientHeight + 1 ? 0 : -1;
 }
 
-/** Keep it. */
+/** Reserve the room. */
 function fit() {
   seat_words();
   const told = byId("told").cloneNode(true), values = byId("read")?.cloneNode(true);
@@ -30,7 +30,7 @@ function fit() {
       values.querySelector("#values").replaceChildren(...all_asked(kind, true));
     });
   }
-  const below = innerHeight < LOW ? byId("help").offsetHeight : 0; // there the drawing needs the room more
+  const below = innerHeight < LOW ? byId("help").offsetHeight : 0; // in a low window the drawing needs the room more
   style(page, "--dock", `${byId("dock").offsetHeight - below}px`);
   const seen = sheets[here()].element.querySelector(".view");
   style(page, "--above", `${Math.ceil(seen.getBoundingClientRect().top + scrollY + (below ? FOLD : ROOM))}px`);
@@ -40,14 +40,14 @@ function fit() {
   list_in_sight();
 }
 
-/** Give both fields of a sheet so much of its width that both are drawn as large. */
+/** Divide a sheet's width so that both fields are drawn at the same size. */
 function share({ element, fields }) {
   const sides = fields.map(({ drawn, whole }) => (drawn ? Math.max(drawn[2] + 2 * EDGE, LEAST) : whole[2]));
   const [left, right] = sides.map(side => Math.max(side, NARROWEST * (sides[0] + sides[1])));
   for (const [name, wide] of [["--left", left], ["--right", right]]) style(element.querySelector(".fields"), name, `${wide.toFixed(1)}fr`);
 }
 
-/** Tell the style sheet how tall a copy of a part is in the worst of some cases. */
+/** Give the style sheet the largest height of a part over some cases, measured on a copy. */
 function tallest(copy, name, cases, write) {
   copy.classList.add("measured");
   byId(name).after(copy);

@@ -1,4 +1,4 @@
-// The sentences: each a link in the list, and that of the step in sight above the keys.
+// The sentences: each is a link in the list, and the current one is shown above the keys.
 const places = [...document.querySelectorAll("#steps li")].map((item, i) => {
   const link = document.createElement("a");
   link.href = `#step=${i + 1}`;
@@ -8,7 +8,7 @@ const places = [...document.querySelectorAll("#steps li")].map((item, i) => {
   return { link, say: link.querySelector(".say"), why: link.querySelector(".why"), aside: link.querySelector(".aside"), crossings: [...link.querySelectorAll(".crossing")] };
 });
 
-/** Say the sentence of the step, and mark it in the list; at the beginning the task. */
+/** Show the sentence of the step and mark it in the list; at the beginning, show the task. */
 function say() {
   const count = state.step ? data.count.replace("{number}", state.step).replace("{all}", last) : data.task[0];
   byId("count").textContent = count;
@@ -26,19 +26,19 @@ function say() {
   });
 }
 
-const stops = [...byId("stops").children], stop_list = byId("stops").appendChild(document.createElement("select")); // buttons, and where there is no room for them a list
+const stops = [...byId("stops").children], stop_list = byId("stops").appendChild(document.createElement("select")); // buttons, or a list where there is no room for them
 stop_list.append(...stops.map(({ lastChild, dataset }) => new Option(lastChild.textContent.trim(), dataset.stop)));
 stop_list.setAttribute("aria-label", byId("stops").getAttribute("aria-label"));
 
-/** Move the sentence of the step in the list to where it is seen. */
+/** Scroll the list to the sentence of the step. */
 function list_in_sight() {
   const list = byId("steps"), { offsetTop, offsetHeight } = places[Math.max(state.step - 1, 0)].link;
   if (list.scrollHeight > list.clientHeight + 4) list.scrollTop = offsetTop - list.offsetTop - (list.clientHeight - offsetHeight) / 2;
 }
 
-let by_hand = false; // whether it was the reader who opened or closed why
+let by_hand = false; // whether the reader opened or closed the reason
 
-/** Once why has been opened or closed: where a reader asked for it, it is moved into sight. */
+/** Scroll the reason into view after the reader has opened it. */
 function reason_in_sight() {
   fit();
   const told = byId("told"), reason = byId("reason");
@@ -47,13 +47,13 @@ function reason_in_sight() {
   by_hand = false;
 }
 
-/** Say of an element whether it is the one in sight. */
+/** Mark an element as the current one, or unmark it. */
 function current(element, is, word) {
   if (is) element.setAttribute("aria-current", word);
   else element.removeAttribute("aria-current");
 }
 
-/** Write the sentence of a step, why, what stands aside of its drawing, and its flattest crossing. */
+/** Write the sentence of a step, its reasons, its note, and its flattest crossing. */
 function tell(told, step) {
   const { say: words, why, aside, crossings } = places[step - 1] ?? { crossings: [] };
   told.querySelector("#sentence").replaceChildren(...(words ? copies(words) : [data.task[1]]));
@@ -64,25 +64,25 @@ function tell(told, step) {
   warn(told, crossings);
 }
 
-/** Where the driver has moved, tell the rates that are read off as they are there: of the step in sight, and once all rests in the list. */
+/** Write the rates at the driver's position: for the current step, and after a movement in the list. */
 function tell_rates() {
   for (const step of state.going ? [state.step] : Object.keys(data.rates)) tell_rates_of(step);
   if (rates_read().length) byId("sentence").replaceChildren(...copies(places[state.step - 1].say));
 }
 
-/** The same in the sentence of a step. */
+/** Write the rates into the sentence of a step. */
 function tell_rates_of(step) {
   const place = places[step - 1], read = data.rates[step];
   if (!read) return;
   place.drawn ??= copies(place.say);
   place.say.replaceChildren(...moved() ? read.flatMap(({ row, told: name }, i) => {
     const { cells } = document.querySelector(`#results [data-row="${CSS.escape(row)}"]`), start = document.createElement("span");
-    start.innerHTML = `${i ? "; " : ""}${name} = `; // markup of symbols, escaped where it was made
+    start.innerHTML = `${i ? "; " : ""}${name} = `; // markup of symbols, escaped by its maker
     return [start, ...(state.dead ? ["?"] : size_read([...cells]))];
   }) : place.drawn);
 }
 
-/** The reasons, each a line of its own in the colour of its stroke; a button where that can be lit. */
+/** The reasons as lines in the colours of their strokes; buttons where a stroke can be highlighted. */
 function lines(why) {
   return [...(why?.children ?? [])].map(reason => {
     const step = reason.dataset.for, drawn = sheets.some(({ of }) => of.has(step));
@@ -94,7 +94,7 @@ function lines(why) {
   });
 }
 
-/** Light the stroke of the reason that is pointed at, alone. */
+/** Highlight only the stroke of the reason pointed at. */
 function light(event) {
   point_at(event.target.closest("[data-for]")?.dataset.for ?? null);
 }

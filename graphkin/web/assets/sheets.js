@@ -1,4 +1,4 @@
-// The sheets with their marks and fields, and how far marks reach.
+// The sheets with their marks and fields, and the extent of marks.
 const SVG = "http://www.w3.org/2000/svg";
 const marksBut = gone => `.lettering:not(:has(${gone})),*:not(g,text,tspan,.centre-line,${gone})`; // a group holds its shift
 const SEEN = marksBut(".later,.void,[visibility]"), PLACED = marksBut(".void,[visibility]");
@@ -14,9 +14,9 @@ const sheets = [...document.querySelectorAll(".sheet")].map(element => {
   return { element, marks, parts, of, fields: [...element.querySelectorAll(".view svg")].map(field) };
 });
 
-/** A field: its picture, the groups beneath and above what is marked, its box, those of all that is drawn, and its labels. */
+/** A field: its picture, groups below and above the marks, its box, the box of all marks, and its labels. */
 function field(svg) {
-  const above = [...svg.children].find(mark => !mark.matches(".plate,.disc,.gear-disc")) ?? null; // not beneath what is filled
+  const above = [...svg.children].find(mark => !mark.matches(".plate,.disc,.gear-disc")) ?? null; // not beneath filled areas
   const halo = svg.insertBefore(document.createElementNS(SVG, "g"), above);
   const front = svg.appendChild(document.createElementNS(SVG, "g"));
   for (const group of [halo, front]) group.setAttribute("class", "halo");
@@ -26,12 +26,12 @@ function field(svg) {
   return { svg, halo, front, whole: [x, y, width, height], drawn: extent(svg, PLACED), labels: labels_in(svg, ".void,[visibility]"), least: Math.min(...sizes, 3), view: null, edges: null };
 }
 
-/** The labels of a picture or a part of it, but for some, with their boxes; whether they are notes, which grow to the right and upwards. */
+/** The labels of a picture or part with their boxes; notes are flagged, since they grow right and upwards. */
 function labels_in(part, gone) {
   return [...part.querySelectorAll(`:is(.lettering>text,.number):not(${gone})`)].map(mark => ({ mark, box: mark.getBBox(), note: mark.matches("[data-name=note]") }));
 }
 
-/** The box of labels that are so many times larger about their middles. */
+/** The box of labels enlarged about their middles. */
 function labels_reach(labels, times) {
   const ends = labels.map(({ box: { x, y, width, height } }) => {
     const [across, down] = [width, height].map(size => (times - 1) * size / 2);
@@ -41,7 +41,7 @@ function labels_reach(labels, times) {
   return [left, top, right - left, bottom - top];
 }
 
-/** The box of what is drawn in a picture or a part of it. */
+/** The box of the marks in a picture or a part of it. */
 function extent(part, marks) {
   const boxes = [...part.querySelectorAll(marks)].map(mark => mark.getBBox());
   const [left, top] = ["x", "y"].map(axis => Math.min(...boxes.map(box => box[axis])));
@@ -50,12 +50,12 @@ function extent(part, marks) {
   return boxes.length ? [left, top, right - left, bottom - top] : null;
 }
 
-/** The number of the sheet in sight. */
+/** The number of the current sheet. */
 function here() {
   return data.bounds.findIndex(([, end]) => state.step <= end);
 }
 
-/** The circle that a point is drawn as. */
+/** The circle that shows a point. */
 function pin(sheet, point) {
   return (sheet.of.get(String(point)) ?? []).find(mark => mark.matches("circle:not(.void)"));
 }

@@ -1,6 +1,6 @@
-// A step: the drawing as it stands there.
+// A step: the drawing up to its sentence.
 
-/** Show it. */
+/** Show a step. */
 function show(step) {
   const before = state.step;
   state.step = Math.min(Math.max(Math.round(step) || 0, 0), last);
@@ -30,7 +30,7 @@ function show(step) {
   remember();
 }
 
-/** Show what one has chosen: from then on nothing goes by itself. */
+/** Show a step that the reader has chosen, and stop playing. */
 function go(step) {
   pause();
   show(step);

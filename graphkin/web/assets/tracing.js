@@ -1,6 +1,6 @@
-// What a step hangs on: marked in the drawing, and named.
+// The sources of a step: marked in the drawing, and named.
 
-/** Mark what the step in sight draws, or that which is pointed at, and what it is drawn from. */
+/** Mark what the current step, or the mark pointed at, draws, and the sources of both. */
 function trace() {
   const sheet = sheets[here()], from = new Set([...sources(looked_at()), ...read_from()]);
   const done = state.step === data.bounds[here()][1] && !state.over;
@@ -14,19 +14,19 @@ function trace() {
   look();
 }
 
-/** The steps of the sentence in sight, or that which is pointed at. */
+/** The steps of the current sentence, or the step pointed at. */
 function looked_at() {
   return state.over ? [state.over] : state.step ? own[state.step] : [];
 }
 
-/** What some steps are drawn from. */
+/** The steps that some steps are drawn from. */
 function sources(steps) {
   const from = new Set(steps.flatMap(step => data.from[step] ?? []).map(String));
   steps.forEach(step => from.delete(step));
   return from;
 }
 
-/** Name in a list what is drawn from, with the steps that drew it. */
+/** List the names of the sources with the steps that drew them. */
 function names(list, from) {
   const told = new Map();
   for (const step of from) {
@@ -37,7 +37,7 @@ function names(list, from) {
   for (const [name, at] of [...told].sort((a, b) => a[1] - b[1])) {
     if (list.childNodes.length) list.append(", ");
     const part = document.createElement(at ? "a" : "span");
-    part.innerHTML = name; // markup of a symbol, escaped where it was made
+    part.innerHTML = name; // markup of a symbol, escaped by its maker
     if (at) {
       part.href = `#step=${at}`;
       part.append(` (${at})`);

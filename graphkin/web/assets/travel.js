@@ -1,9 +1,9 @@
-// What plays the motion: the driver goes in its sense, round and round or from one end to the other.
-const TURN = 9000, PASS = 6000, STAY = 600; // milliseconds of a turn and of a range, and those at its end
+// Playing the motion: the driver runs in its sense, round and round or from end to end.
+const TURN = 9000, PASS = 6000, STAY = 600; // milliseconds of a turn, of a range, and of the stay at its end
 const traveller = motion && byId("travel");
 let travelling = 0, lately = 0;
 
-/** Play it, or stop. */
+/** Play the motion, or stop it. */
 function travel() {
   if (travelling) return rest_from_travel();
   pause();
@@ -20,7 +20,7 @@ function rest_from_travel() {
   called(traveller, traveller.dataset.play);
 }
 
-/** Go on by the time since; from the end of a range it begins again. */
+/** Advance by the elapsed time; a range starts again after its end. */
 function go_on(now) {
   const { low, high, whole, sense } = motion, time = Math.min(now - lately, 100);
   const end = sense > 0 ? high : low, next = state.x + sense * (high - low) * time / (whole ? TURN : PASS);

@@ -1,18 +1,18 @@
-// Where a reader's turn stands: what is done, what is left, and how it is shown.
+// The state of a student's turn: what is done, what is left, and how it is shown.
 const turning = JSON.parse(byId("turning").textContent), { moves, picks } = turning;
-const NEAR = { mouse: 14, touch: 26 }; // dots about a point that is meant
+const NEAR = { mouse: 14, touch: 26 }; // dots around a point that is meant
 const ORDER = Object.keys(moves).map(Number).sort((a, b) => moves[a].at - moves[b].at || a - b);
 
 const { plus, minus, scaled, dot, cross, length_of, value_of, plane_of, results_of, same_value, on_line, shape_of, size_of, SAME } = palette_of(turning, steps => all_done(steps));
 for (const move of Object.values(moves)) move.sheet = data.bounds.findIndex(([, end]) => move.at <= end);
-const CHOICE = ["cut", "lay_off"]; // where the reader says which of two is meant
+const CHOICE = ["cut", "lay_off"]; // actions for which the student chooses between two results
 
-let turn = null, left_turn = null; // the turn: what is done, how, and what is picked; one that was left
+let turn = null, left_turn = null; // the current turn with its moves and picks; a turn that was left
 const all_done = steps => steps.every(step => turn.done.has(step));
 const is_there = key => all_done(picks[key].needs) && !picks[key].by && here() === (picks[key].sheet ?? here());
 const open_goals = () => ORDER.filter(step => moves[step].goal && !turn.done.has(step));
 
-/** The moves that are still to be made: for the goals, and for whatever these need. */
+/** The moves still to be made: the goals, and the moves that goals need. */
 function moves_left() {
   const found = new Set(), waiting = open_goals();
   while (waiting.length) {
@@ -26,7 +26,7 @@ function moves_left() {
 
 const next_move = () => moves_left().find(step => all_done(moves[step].needs));
 
-/** A sentence of the page with names, which are markup, escaped where they were made. */
+/** A message of the page with names filled in; the names are markup, escaped by their maker. */
 const worded = (key, fields = null) => turning.words[key].replace(/\{(\w+)\}/g, (gap, name) => fields?.[name] ?? gap);
 const tell_turn = text => {
   turn.sure = false;
@@ -34,7 +34,7 @@ const tell_turn = text => {
 };
 const action_name = action => byId("palette").querySelector(`[data-action=${action}]`).textContent;
 
-/** Go on with the turn that was left, or begin one at the step in sight. */
+/** Resume the turn that was left, or begin one at the current step. */
 function begin_turn() {
   pause();
   state.over = null;
@@ -49,14 +49,14 @@ function begin_turn() {
   page.classList.add("turning");
   byId("turn-panel").hidden = false;
   turn.near = follow.getAttribute("aria-pressed") === "true";
-  if (turn.near) follow.click(); // all that may yet be drawn is to be in sight
+  if (turn.near) follow.click(); // everything still to be drawn must be in sight
   tell_turn(worded("begin"));
   show_turn();
   fit();
   byId("palette").firstElementChild.focus({ preventScroll: true });
 }
 
-/** Nothing is drawn yet from a step on. */
+/** Begin a turn at a step, with nothing drawn from there on. */
 function new_turn(came) {
   for (const key of Object.keys(picks)) if (key.startsWith("own")) delete picks[key];
   turn = { done: new Set(ORDER.filter(step => moves[step].at < came)), from: came, came, near: turn?.near, log: [], action: null, inputs: [], lines: [], wrong: 0, hinted: null, asked: null, fresh: [], open: new Set(), sheet: null };
@@ -64,7 +64,7 @@ function new_turn(came) {
   byId("turn-sentence").replaceChildren();
 }
 
-/** Asked twice, throw away what is drawn, and begin at the step that was in sight before the turn. */
+/** On the second request, discard the turn and begin at the step shown before it. */
 function turn_again() {
   const { sure } = turn;
   if (sure) new_turn(turn.came);
@@ -73,12 +73,12 @@ function turn_again() {
   if (sure) show_turn();
 }
 
-/** Whether anything was tried that would be lost. */
+/** Whether the turn holds anything that would be lost. */
 const is_begun = one => one.log.length + one.lines.length + one.wrong > 0;
 
-const MEMORY = `graphkin turn ${[...byId("turning").textContent].reduce((sum, letter) => Math.imul(31, sum) + letter.codePointAt(0) | 0, 7)}`; // pages that are alike share it
+const MEMORY = `graphkin turn ${[...byId("turning").textContent].reduce((sum, letter) => Math.imul(31, sum) + letter.codePointAt(0) | 0, 7)}`; // equal pages share it
 
-/** Keep the turn in this browser, where that allows it, for when the page is opened again. */
+/** Store the turn in this browser, if allowed, for when the page is opened again. */
 function keep_turn() {
   const one = turn ?? left_turn;
   try {
@@ -88,7 +88,7 @@ function keep_turn() {
   } catch { /* it is lost with the page */ }
 }
 
-/** Find the turn that is kept of this page, and go on where the page was left in it. */
+/** Restore the stored turn of this page, and resume it if the page was left during the turn. */
 function recall_turn() {
   try {
     const { done, lines, open, ...kept } = JSON.parse(localStorage.getItem(MEMORY));
@@ -100,14 +100,14 @@ function recall_turn() {
     call_turn();
     if (open) begin_turn();
   } catch {
-    turn = left_turn = null; // there is none, or it is not ours
+    turn = left_turn = null; // there is none, or it belongs to another page
   }
 }
 
-/** Say whether a turn begins or goes on. */
+/** Set the label of the turn button: begin or resume. */
 const call_turn = () => called(byId("turn"), byId("turn").dataset[left_turn ? "resume" : "begin"]);
 
-/** Leave the turn: what is drawn is kept. */
+/** Leave the turn; what is drawn is kept. */
 function end_turn() {
   const { came, near } = turn;
   forget_inputs();
@@ -148,7 +148,7 @@ function show_turn() {
   tell_count(next, [...rest]);
   byId("turn-sheet").hidden = sheets.length < 2;
   for (const name of ["hint", "draw-it"]) byId(name).disabled = next === undefined;
-  if (motion) put(); // labels make room for those that are new
+  if (motion) put(); // labels make room for new ones
   look();
   light_up();
   show_inputs();
@@ -156,24 +156,24 @@ function show_turn() {
   if (next === undefined || !byId("score").hidden) show_score();
 }
 
-/** Keep what was tried, and offer to begin again. */
+/** Store the turn, and offer to begin again. */
 function show_again() {
   byId("turn-again").hidden = !is_begun(turn);
   byId("turn-again").textContent = worded("again", { number: Math.max(turn.came, 1) });
   keep_turn();
 }
 
-/** Whether what a sentence finds is found: all that it draws stands, and what its rates are read off. */
+/** Whether a sentence is done: all that it draws, and the vectors of its rates, are drawn. */
 function is_found(at) {
   const drawn = ORDER.filter(step => moves[step].at === at), read = (data.rates[at] ?? []).flatMap(({ vector }) => vector ?? []);
   const steps = [...drawn, ...own[at], ...read].map(String).filter(step => !["line", "circle"].includes(shape_of(moves[step]?.action))); // there may be other ways
   return steps.length ? steps.every(is_drawn) : moves_left().every(step => moves[step].at > at);
 }
 
-/** Whether a step stands: as a move, or along with moves. */
+/** Whether a step is drawn, as a move or along with moves. */
 const is_drawn = step => moves[step] ? turn.done.has(Number(step)) : all_done(turning.along[step] ?? []);
 
-/** What has been found by a move, as it is told of what is asked, with its length in the plan. */
+/** The results that a move has found, with their length in the plan. */
 function told_found(rows) {
   return rows.filter(row => !row.matches(".unknown")).map(row => {
     const line = document.createElement("p"), cells = [...row.cells], table = row.closest("table"), vector = table.matches(".vectors");
@@ -184,23 +184,23 @@ function told_found(rows) {
   });
 }
 
-/** The part of the work to which a step belongs, as its button is called. */
+/** The part of the work of a step, by its button. */
 const part_of = step => stops.find(({ dataset }) => moves[step].at <= Number(dataset.end));
 const part_name = step => part_of(step).lastChild.textContent.trim();
 
-/** What is sought next, and how many steps are left, in this part of the work and in all. */
+/** Show the next goal and the number of steps left, in this part of the work and in all. */
 function tell_count(next, rest) {
   const [goal] = open_goals(), left = rest.filter(step => part_of(step) === part_of(next)).length;
   byId("turn-count").innerHTML = next === undefined ? "" : worded("count", { part: part_name(next), left, number: rest.length, name: called_goal(goal) });
 }
 
-/** A point that is sought, and the vector that leads to it from the pole of its plan. */
+/** The name of a goal, with the vector from the pole of its plan. */
 function called_goal(goal) {
   const { name } = moves[goal], arrow = Object.values(picks).find(({ kind, on }) => kind === "arrow" && on[1] === goal && !picks[on[0]]?.needs.length);
   return arrow ? `${name} (${picks[arrow.on[0]].name}${name} = ${arrow.name})` : name;
 }
 
-/** Why a step is drawn as it is: its own reasons, or where it has none those of its sentence. */
+/** The reasons of a step, or those of its sentence if it has none. */
 function reasons_of(step) {
   const all = [...(places[moves[step].at - 1].why?.children ?? [])], own = all.filter(({ dataset }) => Number(dataset.for) === step);
   return (own.length ? own : all).map(reason => {
@@ -210,7 +210,7 @@ function reasons_of(step) {
   });
 }
 
-/** Whether a mark is drawn: with its step, or once nothing is left to do up to its sentence. */
+/** Whether a mark is drawn: with its step, or once everything up to its sentence is done. */
 function is_seen(mark, open) {
   const step = mark.dataset.of, at = Number(mark.dataset.at);
   if (!at) return true;

@@ -1,9 +1,9 @@
-// Values and margins of a position: in the tables, in the sentences, and in the line of what is asked.
+// Values and margins of a position: in the tables, in the sentences, and in the line of results.
 
-/** The column of a size in each kind of table. */
+/** The column of the size in each kind of table. */
 const PLACE = { vectors: 3, turns: 1, slides: 1 };
 
-/** How each kind of table tells a value. */
+/** Write a value into a row, by kind of table. */
 const TOLD = {
   vectors(row, [, length, size], value) {
     const kind = row.closest("[data-kind]").dataset.kind;
@@ -25,7 +25,7 @@ const tables = [...document.querySelectorAll("#results table")].map(table => {
   return { kind: table.className, rows: rows.map(row => ({ row, cells: [...row.querySelectorAll("td")], asked: "asked" in row.dataset })) };
 });
 
-/** Write those of this position; while it moves, what is asked and what the step in sight reads off. */
+/** Write the values of this position; during motion only those asked for or read off by the step. */
 function read() {
   const values = motion.values(state.x), going = state.going, told = new Set(rates_read().map(({ row }) => row));
   for (const { kind, rows } of tables) {
@@ -40,7 +40,7 @@ function read() {
   read_out();
 }
 
-/** Write how lines cross here. */
+/** Write the crossing angles and error factors at this position. */
 function read_margins(lines) {
   const margins = motion.margins(state.x);
   for (const line of lines) {
@@ -52,27 +52,27 @@ function read_margins(lines) {
   }
 }
 
-/** Tell in the line below the slider what the sheet in sight asks for. */
+/** Show below the slider the quantities that the current sheet asks for. */
 function read_out() {
   byId("values").replaceChildren(...all_asked(sheets[here()].element.dataset.kind));
 }
 
 const found = [...document.querySelectorAll("#results [data-found]")];
 
-/** All that is asked on a sheet, each in one line; told or not, as it is known there or as is said. */
+/** The quantities asked for on a sheet, one line each, with their values where they are known. */
 function all_asked(kind, told) {
   const rows = document.querySelectorAll(`[data-kind=${kind}] [data-asked]`);
   return [...rows].map(row => asked([...row.cells], told ?? !row.matches(".unknown")));
 }
 
-/** A value that is asked, in one line: its name, its size and unit, or that it is not yet told. */
+/** A quantity in one line: its name, then size and unit, or a question mark. */
 function asked(cells, told) {
   const value = document.createElement("span");
   value.append(...copies(cells[0]), " = ", ...told ? size_read(cells) : ["?"]);
   return value;
 }
 
-/** The size of a row, its unit and its sense. */
+/** The size, unit and sense of a row. */
 function size_read(cells) {
   const table = cells[0].closest("table"), place = PLACE[table.className];
   const found = [...copies(cells[place]), " ", ...copies(table.tHead.rows[0].cells[place])];

@@ -1,22 +1,22 @@
-// How a reader looks at a field: closer and farther by the wheel, by two fingers and by keys, aside by
-// dragging what is no pin; clicked twice it is as before.
-const NEAREST = 10, FARTHEST = 0.6; // times as large as the page shows it
-const NOTCH = 1.25, LINES = 18, WHEEL = 320; // times by a key, dots of a line, dots of a wheel that double
-const SLACK = 4; // dots that a finger or a mouse may slip in a click
+// The reader's view of a field: zoom by the wheel, by two fingers or by keys, and pan by
+// dragging anything but a pin; a double click restores the page's own view.
+const NEAREST = 10, FARTHEST = 0.6; // limits of the zoom, relative to the page
+const NOTCH = 1.25, LINES = 18, WHEEL = 320; // zoom per key, dots per line, dots of the wheel for a factor of two
+const SLACK = 4; // dots by which a pointer may slip in a click
 
-/** The place of a field's paper, in mm, that is shown at a place of the window. */
+/** The place on a field's paper, in mm, at a place of the window. */
 function paper_at({ svg }, across, down) {
   const { x, y } = new DOMPoint(across, down).matrixTransform(svg.getScreenCTM().inverse());
   return [x, y];
 }
 
-/** The box of a field that a view of it shows in a picture. */
+/** The box that a view shows of a field in a picture of a given size. */
 function viewed({ middle, scale }, [across, high]) {
   const [width, height] = [across / scale, high / scale];
   return [middle[0] - width / 2, middle[1] - height / 2, width, height];
 }
 
-/** What is looked at now. */
+/** The current view. */
 function view_of(one) {
   const size = [one.svg.clientWidth, one.svg.clientHeight], [x, y, width, height] = one.box, scale = dots(size, one.box);
   one.least_scale ??= scale * FARTHEST;
@@ -24,14 +24,14 @@ function view_of(one) {
   return { middle: [x + width / 2, y + height / 2], scale };
 }
 
-/** Look closer by so many times, a place of the paper staying where it is. */
+/** Zoom by a factor about a fixed place of the paper. */
 function closer_by(one, times, [u, v]) {
   const { middle, scale } = view_of(one);
   const next = Math.min(Math.max(scale * times, one.least_scale), one.most_scale), part = scale / next;
   see(one, { scale: next, middle: [u + (middle[0] - u) * part, v + (middle[1] - v) * part] });
 }
 
-/** Look at a place so; as the page shows it where there is none. */
+/** Set the view of a field; null restores the page's own view. */
 function see(one, view) {
   one.view = view;
   one.svg.classList.toggle("held", view !== null);
@@ -41,7 +41,7 @@ function see(one, view) {
 
 let glides_back = false;
 
-/** Look as the page shows it. */
+/** Restore the page's own view. */
 function see_all(one) {
   glides_back = true;
   see(one, null);
@@ -55,7 +55,7 @@ function look_again() {
 const waiting = new Set();
 let dragged = false;
 
-/** Do something once before the window is painted next. */
+/** Run a function once before the next repaint. */
 function next_frame(work) {
   if (waiting.has(work)) return;
   waiting.add(work);
@@ -65,23 +65,23 @@ function next_frame(work) {
   });
 }
 
-/** Follow the pointer that is down on an element until it is let go. */
+/** Follow a pressed pointer on an element until its release. */
 function while_down(element, went, gone) {
   const held = new AbortController(), { signal } = held;
   element.addEventListener("pointermove", went, { signal });
   for (const name of ["pointerup", "pointercancel"]) element.addEventListener(name, () => (held.abort(), gone?.()), { signal });
 }
 
-/** The middle of some pointers in the window, and how far apart they are. */
+/** The middle of some pointers in the window, and their distance. */
 function span(pointers) {
   const [p, q = p] = [...pointers.values()];
   return [(p[0] + q[0]) / 2, (p[1] + q[1]) / 2, Math.hypot(p[0] - q[0], p[1] - q[1])];
 }
 
-/** Let a field be looked at so. */
+/** Let a field be zoomed and panned. */
 function lookable(one) {
   const { svg } = one, pointers = new Map();
-  let held = null; // where the pointers were last, once they have moved
+  let held = null; // the last place of the pointers, once they have moved
   let begun = null;
   const stop = event => {
     pointers.delete(event.pointerId);
@@ -90,7 +90,7 @@ function lookable(one) {
   };
   svg.addEventListener("wheel", event => {
     const times = 2 ** (-event.deltaY * (event.deltaMode ? LINES : 1) / WHEEL);
-    if (times < 1 && !one.view && !event.ctrlKey) return; // the page goes on
+    if (times < 1 && !one.view && !event.ctrlKey) return; // the page scrolls on
     event.preventDefault();
     closer_by(one, times, paper_at(one, event.clientX, event.clientY));
   }, { passive: false });
@@ -143,7 +143,7 @@ function lookable(one) {
   });
 }
 
-/** What ends a drag is no click. */
+/** The end of a drag is not a click. */
 addEventListener("click", event => {
   if (dragged) event.stopPropagation();
   dragged = false;

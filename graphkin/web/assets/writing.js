@@ -1,10 +1,10 @@
-// The strokes of a step as a pen draws them, one after the other; arcs with the radius that swings.
-const PACE = 5, QUICK = 350, SLOW = 900, MOST_OF_ALL = 2600; // ms to a mm of a stroke, least and most of one, and of all
-const WIDE = Math.PI / 3, FADES = 900; // radians to each side of a tick that an arc is drawn, ms in which it fades
+// The strokes of a step as a pen draws them, one by one; arcs with their swinging radius.
+const PACE = 5, QUICK = 350, SLOW = 900, MOST_OF_ALL = 2600; // ms per mm of a stroke, least and most for one stroke, most for all
+const WIDE = Math.PI / 3, FADES = 900; // radians drawn to each side of a tick, ms in which the arc fades
 const STROKES = $STROKES;
 let written_at = 0, strokes_left = [];
 
-/** Draw those of the step in sight. */
+/** Draw the strokes of the current step. */
 function write() {
   lift();
   if (STILL.matches || document.hidden) return;
@@ -36,7 +36,7 @@ function write() {
   written_at = requestAnimationFrame(next);
 }
 
-/** Where the pen is after some milliseconds; whether anything is left to be drawn. */
+/** Move the pen to its place after some milliseconds; returns whether anything is left to draw. */
 function move_pen(time, fresh) {
   for (const one of strokes_left) {
     const part = Math.min(Math.max((time - one.start) / (one.end - one.start), 0), 1);
@@ -57,14 +57,14 @@ function move_pen(time, fresh) {
   return time < last + FADES;
 }
 
-/** Show a mark that is drawn, and what belongs to it once all of its step is. */
+/** Show a drawn mark, and its companions once all of its step is drawn. */
 function reveal(fresh, mark) {
   mark.classList.remove("unwritten");
   const step = mark.dataset.of, open = strokes_left.some(one => one.mark.matches(".unwritten") && one.mark.dataset.of === step);
   if (step && !open) for (const one of fresh) if (one.dataset.of === step) one.classList.remove("unwritten");
 }
 
-/** Take the pen off: all of the step stands. */
+/** Remove the pen and show the whole step. */
 function lift() {
   if (!written_at) return;
   cancelAnimationFrame(written_at);
@@ -82,7 +82,7 @@ function bare(mark) {
   return copy;
 }
 
-/** The arc of which a tick is left, wide to both sides, and the radius that swings about its centre. */
+/** The arc around a tick, wide to both sides, and the radius that swings about its centre. */
 function whole_arc(mark) {
   const long = mark.getTotalLength(), [p, q, r] = [0, long / 2, long].map(at => mark.getPointAtLength(at));
   const [a, b, c, d] = [q.x - p.x, q.y - p.y, r.x - q.x, r.y - q.y], twice = 2 * (a * d - b * c);

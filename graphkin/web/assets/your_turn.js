@@ -1,5 +1,5 @@
-// Your turn: hints, help, the score sheet, and what the keys and the drawing do meanwhile.
-/** All is drawn, or the reader has had enough: what was done alone, with a hint or not at all. */
+// Your turn: hints, help, the score sheet, and the keys and clicks during a turn.
+/** Show the score: the steps done alone, with a hint, or with help. */
 function show_score() {
   const count = how => turn.log.filter(one => one.how === how).length;
   const wrong = turn.wrong + turn.log.reduce((sum, one) => sum + one.wrong, 0);
@@ -16,7 +16,7 @@ function show_score() {
   if (!moves_left().length) tell_turn(worded("complete"));
 }
 
-/** Save it as a file, sealed by the code of the variant where there is one: that tells changes, and proves nothing. */
+/** Save the score sheet as a file. The seal by the variant's code reveals changes but proves nothing. */
 async function save_score() {
   const [stem, id, code] = turning.owner;
   const steps = turn.log.map(({ step, how, wrong }) => [plain_words(moves[step].name), how, wrong]);
@@ -30,18 +30,18 @@ async function save_score() {
   byId("turn-say").textContent = worded("saved", { file });
 }
 
-/** The SHA-256 of a text in hexadecimal digits; nothing in a browser that makes none here. */
+/** The SHA-256 of a text in hexadecimal digits; empty where the browser offers none. */
 async function seal_of(text) {
   const bytes = await crypto.subtle?.digest("SHA-256", new TextEncoder().encode(text));
   return bytes ? [...new Uint8Array(bytes)].map(byte => byte.toString(16).padStart(2, "0")).join("") : "";
 }
 
-/** What happens on the drawing and on the keys is the turn's own while it lasts. */
+/** During a turn, keep keys and clicks on the drawing from other handlers. */
 function in_turn(event) {
   if (!turn) return;
   const drawing = event.target.closest?.(".sheet"), typed = event.type === "keydown";
   if (typed ? event.key === "F5" : !drawing) return;
-  if (event.type === "pointerdown" && !event.target.closest("[data-of]")) return; // the field itself may be shifted
+  if (event.type === "pointerdown" && !event.target.closest("[data-of]")) return; // the field itself may be panned
   event.stopPropagation();
   if (event.type === "click") take_at(event);
   if (typed && event.key === "Escape") {
@@ -50,7 +50,7 @@ function in_turn(event) {
   }
 }
 
-/** Begin to listen, where there is something to draw. */
+/** Start listening where there is something to draw. */
 if (byId("turn")) {
   for (const type of ["keydown", "click", "pointerover", "pointerdown"]) document.addEventListener(type, in_turn, true);
   byId("turn").addEventListener("click", begin_turn);

@@ -1,16 +1,16 @@
-// What is looked at: all that is drawn in each field, or what is marked so large that it can be read.
-const READABLE = 3.2; // dots to the millimetre at which lettering of 2.5 mm can be read
-const EDGE = 7, LEAST = 60; // mm about what is looked at, and its least width
-const AIR = 3, MOST = 0.12, PIN = 6; // mm about what a field is shifted or grows for; the part of a field beyond its edges that is shown; mm about a pin
-const HEM = 0.5, GROWS = 0.15, ROUNDS = 4; // mm about letters at the edge of a field; the part of it by which it grows for them at most, to each side; rounds in which they grow with it
-const PLACES = 72, NEARLY = 0.75; // of a motion that are looked at, and the part of them whose drawing is in the frame
-const LEGIBLE = 9.1, LARGEST = 6, GLIDE = 250; // dots of the height of the smallest lettering, times that it grows at most; milliseconds from one frame to another
-const KEPT = [2, Infinity]; // how many times smaller than as drawn a field can be and lettering keep its size
-let wanted = null; // whether what is marked is to be shown large; as the screen is, until one says
-const DRAWN = sheets.map(() => [1, 1]); // as where the scene stands
-let grown = DRAWN; // how many times larger what keeps its size is drawn in each field
+// The frame of each field: all that is drawn, or the marked parts, enlarged until legible.
+const READABLE = 3.2; // dots per millimetre at which lettering of 2.5 mm is legible
+const EDGE = 7, LEAST = 60; // mm around the content, and least width of the frame
+const AIR = 3, MOST = 0.12, PIN = 6; // mm around content that moves or grows the frame; part of a field shown beyond its edges; mm around a pin
+const HEM = 0.5, GROWS = 0.15, ROUNDS = 4; // mm around letters at the edge; largest growth per side for letters, in parts of the field; rounds of growth
+const PLACES = 72, NEARLY = 0.75; // positions of a motion that are examined; part of them whose drawing is in the frame
+const LEGIBLE = 9.1, LARGEST = 6, GLIDE = 250; // dots of the smallest lettering, largest magnification; milliseconds from frame to frame
+const KEPT = [2, Infinity]; // largest reduction of each field at which lettering keeps its size
+let wanted = null; // whether the marked parts are enlarged; null follows the screen
+const DRAWN = sheets.map(() => [1, 1]); // factors at the position of the scene
+let grown = DRAWN; // magnification of what keeps its size, for each field
 
-/** Show the fields in sight so; what is in sight glides there when told. */
+/** Set the frames of the current fields; `glides` animates the change. */
 function look(glides = false) {
   const sheet = sheets[here()];
   const sizes = sheet.fields.map(({ svg }) => [svg.clientWidth, svg.clientHeight]); // read, then written
@@ -31,10 +31,10 @@ function look(glides = false) {
   keep_size(sheets.map(one => one === sheet ? times : [1, 1]));
   sheet.fields.forEach((one, i) => {
     style(one.svg, "--dot", (1 / dots(sizes[i], boxes[i])).toFixed(3));
-    one.edges = one.view || near ? null : in_sight(boxes[i], sizes[i]); // of a part that is looked at, labels go on beyond
+    one.edges = one.view || near ? null : in_sight(boxes[i], sizes[i]); // in a partial view, labels extend beyond the edge
     frame(one, boxes[i], times[i], grows(one, i, boxes[i]), glides);
   });
-  if (motion && !state.going && sheet.fields.some((one, i) => one.lettering !== before[i])) { // letters of another size stand elsewhere
+  if (motion && !state.going && sheet.fields.some((one, i) => one.lettering !== before[i])) { // letters of another size have other places
     put();
     halos();
   }
@@ -42,7 +42,7 @@ function look(glides = false) {
   bars(sheet, sizes, boxes);
 }
 
-/** Mark where lines go on beyond what is seen of a field, once all rests. */
+/** Mark where lines continue beyond the visible part of a field, once nothing moves. */
 function mark_beyond({ svg, front, view }, [x, y, width, height]) {
   for (const mark of front.querySelectorAll(".beyond")) mark.remove();
   if (!moved() || state.going || view) return;
@@ -58,12 +58,12 @@ function mark_beyond({ svg, front, view }, [x, y, width, height]) {
   }));
 }
 
-/** How many times larger lettering is drawn at so many dots to the millimetre, `most` times where it could be read; at most `largest` times. */
+/** The magnification of lettering at a scale: up to `most` for easy reading, up to `largest` for legibility. */
 function legible({ least }, scale, most, largest) {
   return Math.max(Math.min(READABLE / scale, most), Math.min(LEGIBLE / (scale * least), largest));
 }
 
-/** A box with room for all labels, as large as they are drawn in it. */
+/** A box with room for all labels at the size that they have in it. */
 function around(labels, base, grows) {
   let box = base;
   const within = ([low, size], k) => [Math.max(low, base[k] - GROWS * base[k + 2]), Math.min(low + size, base[k] + (1 + GROWS) * base[k + 2])];
@@ -75,7 +75,7 @@ function around(labels, base, grows) {
   return box;
 }
 
-/** Let a label for which there is no room as large as the others grow as far as there is. */
+/** Limit the growth of a label to the room that it has. */
 function crowd({ labels, edges }, lettering) {
   for (const { mark, box, note } of labels) {
     const shell = mark.closest(".lettering");
@@ -86,7 +86,7 @@ function crowd({ labels, edges }, lettering) {
   }
 }
 
-/** Show every field as it is on paper. */
+/** Show every field as on paper, for printing. */
 function whole() {
   const paper = sheets.map(({ fields }, sheet) => fields.map((one, side) => {
     const box = roomy(one, one.whole.slice(2), sheet, side);
@@ -100,7 +100,7 @@ function whole() {
   sheets.forEach((sheet, i) => bars(sheet, sheet.fields.map(({ whole }) => whole.slice(2)), paper[i].map(([, box]) => box)));
 }
 
-/** Show a box of a field, what keeps its size and the lettering so many times larger. */
+/** Show a box of a field, with the magnifications of fixed-size parts and of lettering. */
 function frame(one, box, times, lettering, glides = false) {
   one.lettering = Math.max(lettering, 1);
   one.svg.classList.toggle("larger", lettering > 1.02);
@@ -118,7 +118,7 @@ function framed(one, box) {
   one.svg.setAttribute("viewBox", box.map(number => number.toFixed(2)).join(" "));
 }
 
-/** Go from one box of a field to another, slowly at both ends. */
+/** Move from one box of a field to another, slowly at both ends. */
 function glide(one, from, to, since) {
   one.gliding = requestAnimationFrame(now => {
     const part = Math.min(Math.max((now - since) / GLIDE, 0), 1), share = part * part * (3 - 2 * part);
@@ -127,53 +127,53 @@ function glide(one, from, to, since) {
   });
 }
 
-/** How many times smaller than as drawn a field is shown in a box, as far as lettering then keeps its size. */
+/** The reduction of a field in a box, as far as lettering keeps its size. */
 function kept({ whole, drawn }, picture, box, side) {
   const smaller = dots(picture, closer(picture, whole, drawn)) / dots(picture, box);
   return Math.min(KEPT[side], Math.max(1, Math.round(10 * smaller) / 10));
 }
 
-/** Draw what keeps its size on the screen so many times larger in each field. */
+/** Set the magnification of what keeps its size on the screen, for each field. */
 function keep_size(times) {
   if (!moved() || String(times) === String(grown)) return;
   put(times);
   halos();
 }
 
-/** Put the marks of the sheet in sight where the driver stands; tells whether the mechanism closes there. */
+/** Put the marks of the current sheet at the driver's position; returns whether the mechanism closes. */
 function put(times = moved() ? grown : DRAWN) {
   grown = times;
   return motion.set(state.x, byId, times, here(), lettering).ok;
 }
 
-/** Show what is marked large, or all that is drawn. */
+/** Switch between the marked parts, enlarged, and all that is drawn. */
 function zoom() {
   wanted = follow.getAttribute("aria-pressed") !== "true";
   look();
 }
 
-/** Dots of the screen to a millimetre of a box in a picture of a size. */
+/** Dots of the screen per millimetre of a box in a picture of a given size. */
 function dots([across, high], [, , width, height]) {
   return Math.min(across / width, high / height) || READABLE;
 }
 
-/** What a picture shows of a field where it is to show a box of it. */
+/** The part of a field that a picture shows when it must show a box. */
 function in_sight(box, picture) {
   const [x, y, width, height] = box, size = picture.map(each => each / dots(picture, box));
   return [x - (size[0] - width) / 2, y - (size[1] - height) / 2, ...size];
 }
 
-/** The part of a field in which all is drawn; of one that moves it is that of the whole motion. */
+/** The frame of all that is drawn in a field; for a moving field, the frame of the whole motion. */
 function roomy(one, picture, sheet, side) {
   const { whole, drawn } = one, base = closer(picture, whole, drawn);
   const begins = state.step === 0 && sheet + side === 0;
   const found = motion && (moved() || begins) && all_the_way(sheet, side);
   const frame = found ? about(found, base) : base;
   const rests = moved() && !state.going && !state.dead && motion.extent(state.x, sheet, side);
-  return rests ? about(rests, frame) : frame; // what has left the frame is in sight once all rests
+  return rests ? about(rests, frame) : frame; // after the motion the frame includes what has left it
 }
 
-/** The box of what is drawn in a field on most of the way, with all the way of its pins; it stays while all moves. */
+/** The box of a field over most of the motion and all paths of its pins; constant during the motion. */
 function all_the_way(sheet, side) {
   const one = sheets[sheet].fields[side];
   if (one.motion === undefined) {
@@ -190,7 +190,7 @@ function all_the_way(sheet, side) {
   return one.motion;
 }
 
-/** A box so shifted, and if need be so much larger, that another lies in it with some air about it. */
+/** A box moved, and enlarged if necessary, to hold another box with some air around it. */
 function about(found, base, air = AIR) {
   const [starts, sizes] = [[], []];
   for (const axis of [0, 1]) {
@@ -202,7 +202,7 @@ function about(found, base, air = AIR) {
   return [...starts, ...sizes];
 }
 
-/** The part of a field about a box, in the shape of its picture and not beyond the field. */
+/** The part of a field around a box, in the shape of its picture and within the field. */
 function closer([across, high], whole, found) {
   if (!found) return whole;
   const shape = across / high;
