@@ -23,6 +23,7 @@ from graphkin.web.page_driver import INPUT, driven_by
 from graphkin.web.tracing import Tracing
 from tests.chosen import CHOSEN, EVERY
 from tests.examples.scenes import FILES
+from tests.scene_files import scene_text
 
 OWN = {path.stem: path for path in sorted((Path(__file__).parent / "scenes").glob("*.toml"))}
 ROLLING = OWN | {name: path for name, path in FILES.items() if "rolls" in path.read_text("utf-8")}
@@ -289,3 +290,10 @@ def test_a_geared_five_bar_moves_until_its_bars_are_in_line_though_that_be_turns
     degrees = np.arange(np.ceil(low), high)
     assert np.isin(degrees, np.round(found.at, 9)).all()
     assert found.witnessed.agrees.all()
+
+
+def test_a_locus_too_short_to_draw_gives_no_curve():
+    mechanism = Mechanism(read_text(scene_text("motion/locus-too-short-to-sample"), "x", None, {}))
+    assert mechanism.witness(mechanism.solve()).agrees
+    assert {curve.kind for curve in curves_of(mechanism)} == {"locus"}
+    assert any(not curve.runs for curve in curves_of(mechanism))
