@@ -133,7 +133,7 @@ def driven_cams(scene: Scene, groups: Sequence[Group]) -> Iterator[Problem]:
             continue
         mover, way = (cam.carrier if cam.on == FRAME else cam.on), "slide" if cam.slides else "turn"
         direct = [index for index, each in enumerate(scene.drivers) if each.link == follower]
-        place, changes = f"links.{follower}.cam.on", ()
+        place, changes = f"links.{follower}.cam.on", tuple[Change, ...]()
         if direct:
             kind = scene.drivers[direct[0]].kind
             place, changes = f"drivers[{direct[0]}].{kind}", (Written(quoted(mover), way, kind),)
