@@ -81,8 +81,11 @@ def piece(
 ) -> tuple[tuple[complex, ...], ...]:
     """The run of points through the place of the fit, so far along it to both sides.
 
-    It ends where a point is NaN; a round that is ``closed`` goes on at its beginning.
+    It ends where a point is NaN; a round that is ``closed`` goes on at its beginning. A locus so
+    short that no place of it can be drawn gives none.
     """
+    if np.isnan(points).all():
+        return ()
     here = int(np.nanargmin(abs(points - fit)))
     if closed:
         places = np.arange(len(points) - 1) + here - len(points) // 2

@@ -13,8 +13,7 @@ from __future__ import annotations
 import math
 from typing import Any
 
-from graphkin.numbers.arithmetic import Kind
-from graphkin.numbers.arrays import np
+from graphkin.numbers.arithmetic import Kind, np
 
 Array = Any
 ROUNDED = 8 * 2.0**-52

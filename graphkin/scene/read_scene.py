@@ -146,7 +146,7 @@ def assembled(
     title = top.text("title", name)
     frame = read_link(FRAME, top.table(FRAME_WORD), measures, module)
     frame, links = read_links(top, frame, measures, module)
-    drivers = read_drivers(top, measures)
+    drivers = read_drivers(top, links, measures)
     if any(link.has_wheels for link in (frame, *links.values())):
         from graphkin.scene.keepers import with_keepers
 
@@ -264,7 +264,7 @@ DERIVED = "speed and acceleration are the derivatives of a law, which must be fi
 KINDS: tuple[DriverKind, ...] = get_args(DriverKind)
 
 
-def read_drivers(top: Table, measures: Measures) -> tuple[Driver, ...]:
+def read_drivers(top: Table, links: Mapping[str, Link], measures: Measures) -> tuple[Driver, ...]:
     """The drivers of a scene, from ``[[drivers]]``."""
     raw = top.take("drivers")
     if raw is None or raw == []:
@@ -279,14 +279,14 @@ def read_drivers(top: Table, measures: Measures) -> tuple[Driver, ...]:
     for index, each in enumerate(raw):
         place = f"drivers[{index}]"
         if isinstance(each, dict):
-            driver = read_driver(Table(place, each, measures.findings), measures)
+            driver = read_driver(Table(place, each, measures.findings), links, measures)
             drivers += [driver] if driver else []
         else:
             measures.findings.add(place, shown(each), "a table with turn, angle and speed")
     return tuple(drivers)
 
 
-def read_driver(table: Table, measures: Measures) -> Driver | None:
+def read_driver(table: Table, links: Mapping[str, Link], measures: Measures) -> Driver | None:
     """One driver; None, with a problem noted, when what it drives is not clear."""
     kinds = [kind for kind in KINDS if kind in table]
     if len(kinds) != 1:
@@ -297,7 +297,7 @@ def read_driver(table: Table, measures: Measures) -> Driver | None:
         return None
     kind = kinds[0]
     link = link_name(table.at(kind), table.take(kind), measures.findings)
-    against = read_against(table, measures)
+    against = read_against(table, kind, links.get(link or ""), measures)
     raw = table.take("of") if kind == "turn" else None
     of = None if raw is None else line_words(table.at("of"), raw, measures.findings)
     position, speed, acceleration = read_motion(table, kind, measures)
@@ -305,11 +305,15 @@ def read_driver(table: Table, measures: Measures) -> Driver | None:
     return Driver(kind, link, against, position, speed, acceleration, of) if link else None
 
 
-def read_against(table: Table, measures: Measures) -> str:
-    """The link that a motion is measured against, the frame where none is written."""
+def read_against(table: Table, kind: str, link: Link | None, measures: Measures) -> str:
+    """The link against which a motion is measured.
+
+    Where none is written it is the one link on which a driven block slides, else the frame.
+    """
     raw = table.take("against")
     if raw is None:
-        return FRAME
+        guides = {slide.on for slide in link.slides} if kind == "slide" and link else set()
+        return guides.pop() if len(guides) == 1 else FRAME
     return link_name(table.at("against"), raw, measures.findings) or FRAME
 
 

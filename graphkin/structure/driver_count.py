@@ -14,6 +14,7 @@ from graphkin.scene.known_names import quoted
 from graphkin.scene.model import FRAME, Driver, Link, Scene, Slide, link_words
 from graphkin.structure.decomposition import decompose
 from graphkin.structure.groups import (
+    CamFollower,
     CoupledTrain,
     Crank,
     Driven,
@@ -218,6 +219,32 @@ def refuse_drivers(scene: Scene, groups: Sequence[Group]) -> None:
     idle = [each for each in unused(scene, groups) if {each.link, each.against} <= known]
     if idle and loose:
         raise StructureError([driven_twice(scene, driver, loose) for driver in idle])
+    backwards = [] if loose else [*driven_cams(scene, groups)]
+    if backwards:
+        raise StructureError(backwards)
+
+
+def driven_cams(scene: Scene, groups: Sequence[Group]) -> Iterator[Problem]:
+    """The cams whose followers are placed before them: a law gives the follower from its cam."""
+    parts = [
+        each for one in groups for each in (one.members if isinstance(one, Higher) else (one,))
+    ]
+    for follower, cam in scene.cams.items():
+        if any(isinstance(each, CamFollower) and follower in each.links for each in parts):
+            continue
+        mover, way = (cam.carrier if cam.on == FRAME else cam.on), "slide" if cam.slides else "turn"
+        direct = [index for index, each in enumerate(scene.drivers) if each.link == follower]
+        place, changes = f"links.{follower}.cam.on", tuple[Change, ...]()
+        if direct:
+            kind = scene.drivers[direct[0]].kind
+            place, changes = f"drivers[{direct[0]}].{kind}", (Written(quoted(mover), way, kind),)
+        yield Problem(
+            place,
+            f"link {follower} is known before the law of its cam sets it",
+            f"drivers that move the cam, which then moves link {follower}",
+            f"write {way} = {quoted(mover)}",
+            changes,
+        )
 
 
 def refuse_wrong_drivers(scene: Scene, true: int | None = None, by: str = RANK) -> None:

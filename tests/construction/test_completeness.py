@@ -4,7 +4,6 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from graphkin.loops.branch_closures import closures
 from msgspec.structs import replace
 
 from graphkin.cli.report.check_report import closure_lines
@@ -12,7 +11,7 @@ from graphkin.construction.higher_class import completeness, trial
 from graphkin.construction.higher_class.closure_solver import sign_table
 from graphkin.construction.higher_class.completeness import Proof, is_complete
 from graphkin.diagnosis.closures import choices
-from graphkin.loops.assemble import assembled
+from graphkin.loops.assemble import assembled, closures
 from graphkin.loops.cam_laws import by_law
 from graphkin.loops.closing_groups import counted_in_order, stages
 from graphkin.loops.equations import equations, part_of

@@ -7,10 +7,16 @@ import pytest
 
 from graphkin.construction.core.plan_vector import plan_vector
 from graphkin.documents.sentences import unexplained
+from graphkin.documents.sheet import sheet
+from graphkin.documents.sheet_documents import drawings_of, proved
+from graphkin.drawing.marks import Text
 from graphkin.drawing.symbol_markup import symbol
+from graphkin.mechanism import Mechanism
+from graphkin.scene.read_scene import read_text
 from graphkin.text import LANGUAGES, words
 from graphkin.text.markup import AND, Markup, names_in
 from tests.documents.sheet_tools import drawings
+from tests.scene_files import scene_text
 
 SCENES = ("pump", "rapid-return", "cylinders-two", "klein-engine", "stephenson-3", "belts-equal")
 
@@ -45,3 +51,16 @@ def test_a_sentence_says_those_of_its_fields_that_it_has():
 def test_a_corner_written_without_its_index_keeps_its_name():
     assert symbol("B″_BA", "B″") == symbol("B″")
     assert names_in(symbol("B″_BA", "B″")) == {"B″_BA"}
+
+
+@pytest.mark.parametrize("scene", ["tipping-body-by-cylinder", "lift-with-cylinder"])
+def test_no_sign_of_a_point_under_another_is_printed(scene):
+    mechanism = Mechanism(read_text(scene_text(f"construction/{scene}"), scene, None, {}))
+    verdict = proved(mechanism, mechanism.solve())
+    for drawing in drawings_of(mechanism, verdict, words("en")):
+        printed = [
+            mark.markup for mark in sheet(drawing, "key", "1/2").marks if isinstance(mark, Text)
+        ]
+        assert printed
+        assert not [text for text in printed if "@" in text]
+        assert not [said.markup for said in unexplained(drawing) if "@" in said.markup]

@@ -339,3 +339,10 @@ def test_what_never_comes_back_has_one_turn_and_no_extreme_at_its_edges():
     (block,) = (each for each in followers(found, 0) if each.name == "6")
     for end in (block.low, block.high):
         assert end.edge == (end.at in (0.0, 360.0))
+
+
+def test_a_locus_too_short_to_draw_gives_no_curve():
+    mechanism = Mechanism(read_text(scene_text("motion/locus-too-short-to-sample"), "x", None, {}))
+    assert mechanism.witness(mechanism.solve()).agrees
+    assert {curve.kind for curve in curves_of(mechanism)} == {"locus"}
+    assert any(not curve.runs for curve in curves_of(mechanism))

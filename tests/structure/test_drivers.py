@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+import re
+from pathlib import Path
+
 import pytest
 
 from graphkin.construction.core.solution import Solution
@@ -22,6 +25,7 @@ from tests.mechanisms import scene_of
 from tests.scene_files import scene_text
 from tests.structure.test_groups import DRIVEN, FIVE_BAR, FOUR_BAR, PARALLEL, SLIDER_CRANK
 
+EXAMPLES = Path(__file__).parents[2] / "examples" / "scenes"
 OTHER = DRIVEN.replace("turn = 1", "turn = 4")
 
 
@@ -150,3 +154,38 @@ def mobility(found: Mechanism, solution: Solution) -> int:
     """The rank of the constraints where a mechanism stands."""
     places = {name: point.position for name, point in solution.points.items()}
     return true_mobility(found.scene, places)
+
+
+@pytest.mark.parametrize(
+    ("scene", "follower", "place", "driven"),
+    [
+        ("cam-lever", "turn = 2", "drivers[0].turn", "turn = 1"),
+        ("cam-rocker", "turn = 2", "drivers[0].turn", "turn = 1"),
+        ("cam-conjugate", "turn = 2", "drivers[0].turn", "turn = 1"),
+        ("cam-fixed-lever", "turn = 2", "drivers[0].turn", "turn = 1"),
+        ("cam-roller", "slide = 2", "drivers[0].slide", "turn = 1"),
+        ("cam-flat", "slide = 2", "drivers[0].slide", "turn = 1"),
+        ("cam-knife", "slide = 2", "drivers[0].slide", "turn = 1"),
+        ("cam-table", "slide = 2", "drivers[0].slide", "turn = 1"),
+        ("cam-plate", "slide = 2", "drivers[0].slide", "slide = 1"),
+        ("cam-plate-lever", "turn = 4", "drivers[0].turn", "slide = 3"),
+    ],
+)
+def test_a_follower_does_not_drive_its_cam(scene, follower, place, driven):
+    text = (EXAMPLES / f"{scene}.toml").read_text(encoding="utf-8")
+    given = "position = 5" if follower.startswith("slide") else "angle = 5"
+    driver = f"[[drivers]]\n{follower}\n{given}\nspeed = 1\n"
+    text = re.sub(r"\[\[drivers\]\].*?(?=\n\[|\Z)", driver, text, count=1, flags=re.DOTALL)
+    with pytest.raises(StructureError) as caught:
+        Mechanism(read_text(text, scene, None, {})).solve()
+    (problem,) = caught.value.problems
+    assert problem.place == place
+    assert problem.hint == f"write {driven}"
+    assert problem.changes
+
+
+def test_a_block_on_one_link_is_driven_against_that():
+    text = (EXAMPLES / "cylinders-two.toml").read_text(encoding="utf-8")
+    without = re.sub(r"^against = .*\n", "", text, flags=re.MULTILINE)
+    assert without.count("against = ") < text.count("against = ")
+    assert read_text(without, "x", None, {}).drivers == read_text(text, "x", None, {}).drivers

@@ -86,13 +86,14 @@ class VelocityNormal(LineToCentre, frozen=True, kw_only=True):
 
     def clause(self, drawing: Drawing, role: str) -> str:
         """The clause for the perpendicular to the velocity at the point."""
-        fields = {"p": symbol(self.point), "v": symbol(f"v_{self.point}")}
+        name = lettered(self.point)
+        fields = {"p": symbol(name), "v": symbol(f"v_{name}")}
         return drawing.words("step.velocity-normal", **fields)
 
     def places(self, drawing: Drawing) -> Places:
         """The point."""
         own = drawing.trace.program.steps[self.place].name
-        return {own or self.point: drawing.trace.values[self.place]}
+        return {lettered(own or self.point): drawing.trace.values[self.place]}
 
 
 # --- the constructions ---------------------------------------------------------------------------
@@ -122,7 +123,11 @@ class Centre(Construction, frozen=True, kw_only=True):
 
     def symbols(self) -> Mapping[str, str]:
         """The centre, the point from which it is found, and its link."""
-        return {"name": symbol(self.name), "p": symbol(self.point), "k": escape(self.link)}
+        return {
+            "name": symbol(self.name),
+            "p": symbol(lettered(self.point)),
+            "k": escape(self.link),
+        }
 
     def is_by_hand(self, drawing: Drawing) -> bool:
         """Whether the lines that lead to it meet on a sheet."""
@@ -210,7 +215,7 @@ class TwoPointCentre(Centre, frozen=True, kw_only=True):
     def lines_to(self, drawing: Drawing) -> list[Places]:
         """One line from each of its two points."""
         points = (self.point, self.other) if self.other else ()
-        return [{point: drawing.standing.spot(lettered(point))} for point in points]
+        return [{name: drawing.standing.spot(name)} for name in map(lettered, points)]
 
     def oddity(self, drawing: Drawing) -> str:
         """The special case, also "still": it is a point of the bar that no lines lead to."""
@@ -225,8 +230,8 @@ class TwoPointCentre(Centre, frozen=True, kw_only=True):
 
     def fields(self, drawing: Drawing) -> dict[str, str]:
         """The fields of a sentence, with both points."""
-        bars = {"q": symbol(self.other), "bar": bar(self.point, self.other)} if self.other else {}
-        return super().fields(drawing) | bars
+        p, q = lettered(self.point), lettered(self.other)
+        return super().fields(drawing) | ({"q": symbol(q), "bar": bar(p, q)} if q else {})
 
     @classmethod
     @abstractmethod
@@ -285,7 +290,7 @@ def far_words(drawing: Drawing, value: Ratio, name: str, point: str) -> str:
     """The words for a centre that lies off the sheet or at infinity."""
     words, way = drawing.words, way_to(value)
     angle = words.fixed(degrees(phase(way)) % 360, 1)
-    fields = {"name": symbol(name), "p": symbol(point), "angle": angle}
+    fields = {"name": symbol(name), "p": symbol(lettered(point)), "angle": angle}
     if drawing.place(value) is None:
         return words("page.centre_at_infinity", **fields)
     fields["unit"] = drawing.scene.units["length"]

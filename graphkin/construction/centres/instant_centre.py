@@ -28,6 +28,7 @@ from graphkin.construction.core.vocabulary import Action, action
 from graphkin.drawing.symbol_markup import symbol
 from graphkin.numbers.arithmetic import Point
 from graphkin.numbers.plane import Ratio, cross, dot
+from graphkin.scene.link_points import lettered
 from graphkin.scene.model import FRAME
 
 PARALLEL = 1e-6
@@ -125,13 +126,13 @@ class InstantCentre(TwoPointCentre, SaidInParts, frozen=True, kw_only=True):
             yield way.line, way.clause(drawing, "line")
         keys = "step.instant-centre-tips-first", "step.instant-centre-tips-second"
         for key, (name, ends) in zip(keys, parallel.items(), strict=False):
-            yield arrows[ends], drawing.words(key, **known, v=symbol(f"v_{name}"))
+            yield arrows[ends], drawing.words(key, **known, v=symbol(f"v_{lettered(name)}"))
         if parallel:
             yield self.found, drawing.words("step.instant-centre-tips-apart", **known)
 
     def fields(self, drawing: Drawing) -> dict[str, str]:
         """The fields of a sentence, with the point at rest."""
-        return super().fields(drawing) | {"rest": symbol(self.resting(drawing))}
+        return super().fields(drawing) | {"rest": symbol(lettered(self.resting(drawing)))}
 
 
 def set_before(drawing: Drawing) -> Mapping[int, int]:

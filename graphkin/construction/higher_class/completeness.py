@@ -12,10 +12,10 @@ from collections.abc import Sequence
 from math import pi
 from typing import Any, NamedTuple
 
-from graphkin.construction.core.batch import run_moving
+from graphkin.construction.core.run import run_moving
 from graphkin.construction.core.vocabulary import meet
 from graphkin.construction.higher_class.closure_solver import Closures, Trying, sign_table
-from graphkin.numbers.arrays import np
+from graphkin.numbers.arithmetic import np
 from graphkin.numbers.discs import ROUNDED, Enclosure, disc_kind
 from graphkin.numbers.plane import cross
 
