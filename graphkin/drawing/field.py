@@ -36,7 +36,7 @@ WIDTH, HEIGHT = AREA[2] - AREA[0] - 4 * MARGIN, AREA[3] - AREA[1] - 2 * ABOVE
 BELOW: Rect = (AREA[0], FOOT + 2, AREA[2], A3_AREA[3] - 2)
 """The part of the sheet for steps, tables and the check bar."""
 SCHEME: Rect = (150.0, 210.0, 226.0, 281.0)
-"""The kinematic scheme of a task, right of the questions and above the centring mark."""
+"""The kinematic scheme of a task, right of the requested results and above the centring mark."""
 MARKED = (207.0, 276.0)
 """Text left of this x, or above this y, is clear of the centring mark at the lower edge (mm)."""
 TABLES: Rect = (A3_TITLE_BLOCK[0], FOOT + 2, AREA[2], A3_TITLE_BLOCK[1] - 2)

@@ -23,7 +23,7 @@ FAR = np.array([4.0, 7.0, 11.0, 17.0, 24.0, 33.0])  # mm beyond the gap, with a 
 
 
 class Level(NamedTuple):
-    """How many candidates of a label are examined, nearest first, and how many are offered."""
+    """How many candidates of a label are examined, cheapest first, and how many are offered."""
 
     seen: int
     offered: int  # the cheapest ones, at once
@@ -156,7 +156,7 @@ class Assignment:
             self._put(i, next(left, -1))
 
     def shift(self, labels: Iterable[int]) -> None:
-        """Give labels a place that a chain of other labels can free, each moving to another place."""
+        """Give labels a place that a chain of other labels can free, each moving elsewhere."""
         rows = self.offers.rows()
         for i in labels:
             moves = self._moves(i, rows)

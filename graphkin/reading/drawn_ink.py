@@ -177,7 +177,7 @@ class DrawnInk(Struct, frozen=True):
     def spot(self, places: Any, way: complex | None) -> complex | None:
         """The place, among those given, where a dot, ring or small cross marks a point.
 
-        ``way`` is the direction of a line through the places, which is ignored. None where there is
+        A line through the places in direction ``way`` is not taken for a mark. None where there is
         no mark.
         """
         turns = np.exp(1j * np.radians(np.arange(0.0, 360.0, 15.0)))
@@ -286,7 +286,7 @@ class DrawnInk(Struct, frozen=True):
 
         ``hidden`` is returned for a line most of which is under printed ink. With ``arrives``, the
         share cannot exceed that of the last piece by more than ARRIVES, so that a line that stops
-        short shows.
+        short counts less.
         """
         long = abs(end - start)
         if not long >= 2.5 * ENDS:  # also NaN, where an end is unknown

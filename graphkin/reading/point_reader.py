@@ -47,14 +47,12 @@ RIVAL = 0.3
 OFF = 16.0
 """Squared distance from the key, in deviations, from which a place is clearly not at the key."""
 VAGUE, MEET, BESIDE = 4.0, 3, 2.5
-"""When a point that fits is still checked by a person.
+"""When a person still checks a point that fits: if the pencil explains more than VAGUE mm.
 
-- VAGUE: the pencil explains more than this many mm.
-- MEET: unless this many lines meet there and nothing before it on the sheet is wrong or missing.
-- BESIDE: and unless it is within this many mm of the expected place.
-
-Where fewer lines meet, a point farther off is checked, and so is all that follows from it, because
-the lines of another point may cross there.
+A vague point is not checked if at least MEET lines meet there, it is within BESIDE mm of the
+expected place, and nothing before it on the sheet is wrong or missing. Where fewer lines meet, a
+point farther than BESIDE is checked, and so is all that follows from it: another point's lines may
+cross there.
 """
 AT_KEY = 2.0
 """Squared distance from the key, in deviations, within which a point is at the key."""
@@ -190,8 +188,8 @@ class PointReader(PointSearch):
     def read_point(self, number: int, key: ExpectedPlace, own: ExpectedPlace) -> PointReading:
         """Read a point: first where it is expected, then where a mistake may have put it.
 
-        A far place need not be more likely than an expected one if all lines to the far place are
-        drawn and those to the expected one are not.
+        A far place must be likelier by a margin, unless all lines to it are drawn and those to the
+        expected place are not.
         """
         if not np.isfinite(own.middle):
             return self.told(number, key, own, None)

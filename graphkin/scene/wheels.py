@@ -175,7 +175,7 @@ def check_tracks(scene: Scene, link: Link, place: str, findings: Findings) -> No
 def check_rolling(
     scene: Scene, link: Link, rolling: Rolling, place: str, findings: Findings
 ) -> None:
-    """Note a wheel that rolls on no line and no wheel, and unknown links in its ``start``."""
+    """Note a track without a wheel or line, unknown links in it, and turns that are not whole."""
     check_guide(scene, link, rolling, place, findings)
     if not link.wheels:
         expected = 'wheel = { centre = "P", radius = … }'
