@@ -1,1 +1,1 @@
-"""What any picture is made of: marks, symbols, lettering, and places for labels."""
+"""The parts of any picture: marks, symbols, lettering, and places for labels."""

@@ -1,4 +1,4 @@
-"""The places that are open to labels, and which of them rule each other out (mm)."""
+"""The candidate places of labels, and which of them exclude each other; lengths in mm."""
 
 from __future__ import annotations
 
@@ -20,17 +20,17 @@ from graphkin.drawing.shapes import (
     where,
 )
 
-PAD = 0.6  # mm between a label and a taken box, a point, a leader or a label above or below it
-BESIDE = 1.2  # mm between labels side by side, so that they do not read as one
+PAD = 0.6  # mm between a label and a box, point, leader or label above or below it
+BESIDE = 1.2  # mm between adjacent labels in one line, so that they do not read as one
 APART = HAIR[:, :, 0] + np.array([-BESIDE, -PAD, BESIDE, PAD], dtype=np.float32)[:, None]
 WIDER = HAIR[:, :, 0] + np.array([-PAD, -PAD, PAD, PAD], dtype=np.float32)[:, None]
 
 
-AT_ONCE = 512  # places compared with all at one go, so that memory grows with them no faster
+AT_ONCE = 512  # places compared with all others at once, to bound the memory used
 
 
 class OpenPlaces(NamedTuple):
-    """The places that are open, a row for each; a leader NOWHERE is none; mm."""
+    """The candidate places, one row each, in mm; a leader NOWHERE means no leader."""
 
     label: Index
     x: Array  # centre
@@ -41,14 +41,14 @@ class OpenPlaces(NamedTuple):
     leader: Array  # x0, y0 at the label, x1, y1 at the subject
 
     def take(self, which: Index) -> OpenPlaces:
-        """Return some of the places."""
+        """Return a selection of the places."""
         x, y, hx, hy, cost = np.array(self[1:6]).take(which, axis=1)
         return OpenPlaces(
             self.label.take(which), x, y, hx, hy, cost, self.leader.take(which, axis=0)
         )
 
     def joined(self, more: OpenPlaces) -> OpenPlaces:
-        """Return these places and then more."""
+        """Return these places followed by more."""
         both = (np.concatenate(pair) for pair in zip(self[1:], more[1:], strict=True))
         return OpenPlaces(np.concatenate([self.label, more.label]), *both)
 
@@ -58,7 +58,7 @@ NO_PLACES = OpenPlaces(np.empty(0, dtype=np.intp), NONE, NONE, NONE, NONE, NONE,
 
 
 class Clashes:
-    """Which places rule each other out."""
+    """Which places exclude each other."""
 
     def __init__(self) -> None:
         self.places = NO_PLACES
@@ -66,14 +66,14 @@ class Clashes:
         self.kept: list[int] = []
 
     def add(self, more: OpenPlaces) -> None:
-        """Add places; those there were keep their numbers."""
+        """Add places; the earlier ones keep their numbers."""
         self.places = self.places.joined(more)
 
     def rows(self) -> list[int]:
-        """Return for each place which others it rules out if a label sits there: bits of a number.
+        """Return for each place the others that it excludes if a label is put there, as a bit mask.
 
-        Places that were added since this was done last are now compared with all others. What is
-        noted between places of the same label means nothing.
+        Places added since the last call are compared with all others here. Bits between places of
+        the same label have no meaning.
         """
         count, old = len(self.places.label), len(self.kept)
         if old < count:
@@ -88,9 +88,9 @@ class Clashes:
         return self.kept
 
     def _compare(self, new: int, old: int, end: int) -> None:
-        """Compare the places from one number to another with all before the latter.
+        """Compare the places from ``old`` to ``end`` with all places before ``end``.
 
-        Those from ``new`` on are compared both ways round, as if all were at one go.
+        Those from ``new`` on are compared in both directions, as if all were compared at once.
         """
         places = self.places.take(np.arange(end)) if end < len(self.places.label) else self.places
         _, x, y, hx, hy, _, leader = places
@@ -107,9 +107,9 @@ class Clashes:
         self.table[:old, old:end] = self.table[old:end, :old].T
 
     def _compare_leaders(self, box: NDArray[np.float32], led: Index, old: int) -> None:
-        """Find the leaders that run into labels or cross: those of places from a number on to all.
+        """Find leaders that run into labels or cross other leaders, for places from ``old`` on.
 
-        ``led`` are the places with a leader.
+        ``led`` are the numbers of the places with a leader.
         """
         path, leader = segments(self.places.leader.take(led, axis=0)), self.places.leader
         way, new = path.boxes().astype(np.float32), int(np.searchsorted(led, old))
@@ -132,7 +132,7 @@ class Clashes:
         self.table[one, other] |= crossed
 
     def _undecided(self, one: Index, led: Index, nth: Index) -> tuple[Index, Index]:
-        """Return those pairs of places with ones with leaders that are not known to clash."""
+        """Return the pairs, of a place and one with a leader, that are not yet known to clash."""
         other, label = led.take(nth), self.places.label
         known = self.table[np.maximum(one, other), np.minimum(one, other)]
         rest = where(~known & (label.take(one) != label.take(other)))

@@ -1,4 +1,4 @@
-"""What every sheet has: ISO 5457 frame and fields, ISO 7200 title block, print check, A4 page."""
+"""The parts that all sheets share: ISO 5457 frame, ISO 7200 title block, check bar, A4 page."""
 
 from __future__ import annotations
 
@@ -17,19 +17,19 @@ from graphkin.text.errors import PageError, Problem
 
 A3 = (420.0, 297.0)
 FILING, EDGE, BAND, FIELD = 20.0, 10.0, 5.0, 50.0  # margins, grid border's width, field length
-LETTERS = "ABCDEFGHJKLM"  # I and O are left out
-LEADING = 1.7  # distance of lines in heights of capitals
+LETTERS = "ABCDEFGHJKLM"  # without I and O
+LEADING = 1.7  # line spacing in heights of capitals
 CLOSE = 3.0  # distance of two lines at the head of an A4 page, in mm
-LABEL, UNDER = 2.9, 2.0  # baseline of a cell's label below its top, of its value above its bottom
+LABEL, UNDER = 2.9, 2.0  # a cell's baselines: label below the top, value above the bottom
 HEIGHTS = (7.0, 5.0, 3.5, 2.5, 1.8)  # ISO 3098
 
 
 class TitleBlock(Struct, frozen=True):
-    """The data fields of ISO 7200 in plain text; ``scale`` is markup, ``labels`` name the fields.
+    """The data fields of ISO 7200 in plain text; only ``scale`` is markup.
 
-    ``labels`` is keyed by the names of the fields; a field without a label shows its value alone,
-    an empty value leaves its cell free for handwriting. A block with a label for the ``student``
-    has that cell where the creator's is in others.
+    ``labels`` maps names of fields to labels; a field without a label shows only its value, and an
+    empty value leaves its cell free for handwriting. A block with a label for ``student`` has that
+    cell where other blocks have the creator's.
     """
 
     legal_owner: str = ""
@@ -47,7 +47,7 @@ class TitleBlock(Struct, frozen=True):
     labels: Mapping[str, str] = field(default_factory=dict)
 
 
-# name of the field, its cell (left, top, right, bottom) in the block, the value's largest height
+# field name, cell (left, top, right, bottom) in the block, largest height of the value
 CELLS: tuple[tuple[str, Rect, float], ...] = (
     ("title", (0, 0, 120, 15.3), 5.0),
     ("creator", (120, 0, 180, 15.3), 3.5),
@@ -62,7 +62,7 @@ CELLS: tuple[tuple[str, Rect, float], ...] = (
     ("sheet", (150, 26, 180, 36), 3.5),
 )
 STUDENT = "student"
-"""The name of the field that says whose a sheet is."""
+"""The name of the field for the student's name."""
 STUDENTS: tuple[tuple[str, Rect, float], ...] = (
     CELLS[0],
     (STUDENT, *CELLS[1][1:]),
@@ -72,11 +72,11 @@ STUDENTS: tuple[tuple[str, Rect, float], ...] = (
     ("approved_by", (144, 15.3, 180, 26), 3.5),
     *CELLS[5:],
 )
-"""The same of a sheet that is a student's, who writes or is named where others name the creator."""
+"""The cells of a student's sheet, where the student's cell takes the place of the creator's."""
 
 
 def cells_of(block: TitleBlock) -> tuple[tuple[str, Rect, float], ...]:
-    """The cells of a block; a student's has one for the creator where the scene names an author."""
+    """The cells of a block; a student's block has a creator's cell only if there is an author."""
     if STUDENT not in block.labels:
         return CELLS
     return STUDENTS if block.creator else (CELLS[0], STUDENTS[1], *CELLS[2:])
@@ -116,7 +116,7 @@ def centring_marks(width: float, height: float) -> tuple[Mark, ...]:
 
 
 def bounds(length: float, low: float, high: float) -> list[float]:
-    """Give the bounds of the fields along one side, counted in 50 mm from its middle."""
+    """Return the bounds of the fields along one side, spaced by 50 mm from its middle."""
     half = floor(length / 2 / FIELD)
     inner = [length / 2 + i * FIELD for i in range(-half, half + 1)]
     return [low, *(at for at in inner if low + FIELD / 4 < at < high - FIELD / 4), high]
@@ -159,7 +159,10 @@ def wrapped(text: str, room: float, height: float) -> list[str]:
 def fitting(
     name: str, text: str, room: float, depth: float, most: float
 ) -> tuple[list[str], float]:
-    """Give lines of markup and the greatest ISO 3098 height at which they fit a cell (mm)."""
+    """Return lines of markup and the greatest ISO 3098 height at which they fit a cell (mm).
+
+    Raises PageError where the text does not fit.
+    """
     for height in (height for height in HEIGHTS if height <= most):
         lines = [text] if name == "scale" else wrapped(text, room, height)
         wide = max(extent(line, height)[0] for line in lines)
@@ -176,13 +179,13 @@ def fitting(
 
 
 def room_in(rect: Rect) -> tuple[float, float]:
-    """Width and height, in mm, of what a cell of the title block has room for below its label."""
+    """The width and height, in mm, of the space below the label in a title block cell."""
     left, top, right, bottom = rect
     return right - left - 3, bottom - top - LABEL - UNDER - 0.9
 
 
 def cell(name: str, rect: Rect, most: float, label: str, value: str) -> list[Mark]:
-    """Write the label of one cell at its top and the value's lines at its bottom."""
+    """Draw one cell: its label at the top and the lines of its value at the bottom."""
     left, top, right, bottom = rect
     x, room = left + 1.5, right - left - 3
     marks: list[Mark] = []
@@ -213,8 +216,9 @@ def title_block_marks(block: TitleBlock, x: float, y: float) -> tuple[Mark, ...]
 
 @lru_cache(maxsize=8)
 def check_bar(x: float, y: float) -> tuple[Mark, ...]:
-    """Draw a ruler of 100 mm from (x, y) to the right to check the print: 1 mm ticks, numbers each
-    10 mm. It takes 4 mm above y, 4 mm below it.
+    """Draw a 100 mm ruler from (x, y) to the right for checking the print.
+
+    It has ticks every 1 mm and numbers every 10 mm, and takes 4 mm above and 4 mm below y.
     """
     marks: list[Mark] = [LineMark(x, y, x + 100, y, "check-bar", "check-bar")]
     for i in range(101):
@@ -228,7 +232,7 @@ def check_bar(x: float, y: float) -> tuple[Mark, ...]:
 def page_frame(
     header: tuple[str, str] = ("", ""), footer: tuple[str, str] = ("", "")
 ) -> tuple[Mark, ...]:
-    """Draw an A4 portrait page's frame with one line (left, right; markup) at its head and foot."""
+    """Draw an A4 portrait page's frame, with a line (left, right; markup) at its head and foot."""
     left, _, right, bottom = A4_FRAME
     head, foot = A4_AREA[1], A4_AREA[3]
     marks: list[Mark] = [edged(A4_FRAME, "frame")]
@@ -239,8 +243,10 @@ def page_frame(
 
 
 def ends(y: float, words: tuple[str, str], name: str) -> list[Mark]:
-    """Write markup at the left and at the right end of an A4 page's line, the left one in two
-    small lines where it is long."""
+    """Write markup at the left and right ends of a line of an A4 page.
+
+    A long left text is split into two small lines. Raises PageError where these are too short.
+    """
     left, right = A4_FRAME[0] + 3, A4_FRAME[2] - 3
     first, last = words
     wide = sum(extent(markup, 2.5)[0] for markup in words)

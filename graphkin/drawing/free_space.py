@@ -1,4 +1,4 @@
-"""Where on a field there is room for a disc, as near as possible to what it belongs to (mm)."""
+"""Free space for discs and boxes in a field, as near as possible to their subjects; mm."""
 
 from __future__ import annotations
 
@@ -25,22 +25,27 @@ from graphkin.drawing.shapes import (
 )
 
 GRID = 5.0
-"""Distance of the places tried, in mm."""
+"""Spacing of the places tried, in mm."""
 ABREAST = 64
-"""Places of boxes that are compared with what is drawn about them at one go."""
+"""Box places compared with the nearby drawing at once."""
 TOGETHER = 16
-"""Places that are compared with all that is drawn at one go."""
+"""Disc places compared with the whole drawing at once."""
 INNER = ((0.7, 0.7), (0.95, 0.3), (0.3, 0.95))
-"""Half the sides of rectangles in a disc of radius 1."""
+"""Half sides of rectangles inside a disc of radius 1."""
 BLOT = 2.0
-"""Size of the cells in which marks are counted to rule places out at a glance, in mm."""
+"""Cell size in mm of the grid that quickly excludes places."""
 CLEAR = 0.5
-"""How far the line to a disc stays from lettering, links' numbers and centres, in mm."""
+"""Distance in mm of the line to a disc from lettering, link numbers and centres."""
 APART = ("number", "centre", "centre-line")
-"""The classes of circles about a link's number or name, and about a centre or a pole, and of axes
-and lines of guides: what the line to a disc stays clear of."""
+"""Classes that the line to a disc keeps clear of.
+
+They are the circles around link numbers and names, centres and poles, and axes and guide lines.
+"""
 MOST = 240
-"""Places, nearest first, among which one is sought to which a line crosses no text or centre."""
+"""The nearest places among which one with a clear line is searched.
+
+A line is clear if it crosses no text and no centre.
+"""
 
 
 class FreeDisc(NamedTuple):
@@ -51,7 +56,7 @@ class FreeDisc(NamedTuple):
 
 
 class Space:
-    """What stands in a field, made ready for looking for free discs."""
+    """The contents of a field, prepared for the search for free discs."""
 
     def __init__(self, marks: Sequence[Mark], rect: Rect) -> None:
         self.rect = rect
@@ -63,13 +68,13 @@ class Space:
 
     @cached_property
     def blots(self) -> Blots:
-        """Marks along what is drawn, which rule most places of discs out at a glance."""
+        """Samples along the drawing, which quickly exclude most places of discs."""
         return Blots(self.drawn, self.rect, 0.0, BLOT)
 
     def first(self, places: Iterable[XY], half: XY, air: float) -> XY | None:
-        """The first place in the field where a box has so much air around it; None where none has.
+        """The first place in the field where a box has ``air`` mm of space around it, else None.
 
-        ``half`` are half the sides of the box. No more places are made than are looked at.
+        ``half`` are half the sides of the box. Places are generated only as far as needed.
         """
         drawn, coming = joined(self.lines, self.texts), iter(places)
         grown = drawn.boxes(air)
@@ -92,9 +97,9 @@ class Space:
         self.texts = joined(self.texts, rectangles([box]))
 
     def disc(self, near: XY, room: float) -> FreeDisc | None:
-        """The free disc of radius ``room`` as near as possible to a place; None if there is none.
+        """The free disc of radius ``room`` nearest to a place; None if there is none.
 
-        One in sight of the place goes before others.
+        Discs with a clear line to the place are preferred.
         """
         x, y = self._likely(near, room)
         texts, zero = self.texts.upright(), np.zeros(1)
@@ -117,7 +122,7 @@ class Space:
         return hidden
 
     def _likely(self, near: XY, room: float) -> tuple[Array, Array]:
-        """The places of a grid where the middle of a free disc may be, nearest first."""
+        """The grid places where the middle of a free disc may be, nearest first."""
         xs, ys = (
             np.arange(self.rect[i] + room, self.rect[i + 2] - room, GRID, dtype=np.float64)
             for i in (0, 1)

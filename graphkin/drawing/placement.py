@@ -1,4 +1,4 @@
-"""Places for labels on a page: near their subjects, clear of lines, boxes and each other (mm)."""
+"""Places for labels on a page: near their subjects, clear of lines, boxes and each other; mm."""
 
 from __future__ import annotations
 
@@ -17,26 +17,26 @@ from graphkin.drawing.clearance import Clearance, Subjects, tries
 from graphkin.drawing.shapes import NOWHERE, Box, Index, where
 
 NEAR = np.array([0.0, 0.6, 1.4, 2.8])  # mm beyond the gap, without a leader
-MOST = 12_000  # places that are offered on a page in all: memory grows with their square
-AT_ONCE = 64  # labels that look further at one go
+MOST = 12_000  # most places offered on a page: the memory needed grows with their square
+AT_ONCE = 64  # labels whose wider search is done at once
 FAR = np.array([4.0, 7.0, 11.0, 17.0, 24.0, 33.0])  # mm beyond the gap, with a leader
 
 
 class Level(NamedTuple):
-    """How many candidates of a label are looked at, by distance, and how many are offered."""
+    """How many candidates of a label are examined, cheapest first, and how many are offered."""
 
     seen: int
-    offered: int  # the cheapest ones, at one go
+    offered: int  # the cheapest ones, at once
 
 
 NONE, FEW, CLOSE = Level(0, 0), Level(24, 4), Level(24, 10)
 
 
 class CandidateSet:
-    """The places offered to each label, cheapest first, and which of them rule each other out.
+    """The places offered to each label, cheapest first, and which of them exclude each other.
 
-    ``menus`` holds the numbers of each label's places; ``cost`` and ``label`` belong to places,
-    ``best`` is what the cheapest place of each label costs.
+    ``menus`` holds the numbers of each label's places. ``cost`` and ``label`` are indexed by place,
+    and ``best`` is the cost of each label's cheapest place.
     """
 
     def __init__(self, page: Clearance, first: Level = CLOSE) -> None:
@@ -51,7 +51,7 @@ class CandidateSet:
         self._offer(page.near(page.open(every, near, 0 * every, seen)), offered)
 
     def widen(self, levels: Mapping[int, Level]) -> bool:
-        """Offer labels that were at lower levels more places, with a leader; true if any were."""
+        """Offer places with a leader to labels at lower levels; True if there were any."""
         behind = {i: level for i, level in sorted(levels.items()) if self.level[i] < level}
         if not behind:
             return False
@@ -66,7 +66,7 @@ class CandidateSet:
         return True
 
     def _led(self, levels: Mapping[int, Level]) -> OpenPlaces:
-        """Return the places with a leader that some labels did not look at before."""
+        """Return the places with a leader that some labels have not examined yet."""
         seeking = [i for i, level in levels.items() if self.level[i].seen < level.seen]
         found = NO_PLACES
         for start in range(0, len(seeking), AT_ONCE):
@@ -77,9 +77,9 @@ class CandidateSet:
         return found
 
     def _offer(self, more: OpenPlaces, most: Index) -> None:
-        """Offer the cheapest of some places, at most so many for each label; the rest is kept.
+        """Offer the cheapest of some places, at most ``most`` for each label, and keep the rest.
 
-        Those of a label that cost the same keep their order.
+        Places of a label with equal costs keep their order.
         """
         order = np.lexsort((more.cost, more.label))
         label = more.label.take(order)
@@ -99,25 +99,25 @@ class CandidateSet:
         self.best = [self.cost[menu[0]] if menu else inf for menu in self.menus]
 
     def rows(self) -> list[int]:
-        """Return for each place which others it rules out: bits of a number."""
+        """Return for each place the others that it excludes, as a bit mask."""
         return self.clashes.rows()
 
 
-PUSH = 4.0  # what it is reckoned to cost, in mm, to push a label aside
-GAIN = 0.01  # mm that a chase must save in all to be kept
-WEAR = 4.0  # mm that a place costs more each time that it is taken in a chase
+PUSH = 4.0  # estimated cost, in mm, of pushing a label aside
+GAIN = 0.01  # mm that a chain of pushes must save in total to be kept
+WEAR = 4.0  # extra cost of a place, in mm, each time that a chain of pushes takes it
 
-LEAST = 500.0  # the least fine of labels that must have a place
-URGENT = 2500.0  # the least fine, in mm, of labels that choose first
+LEAST = 500.0  # least fine of labels that must have a place
+URGENT = 2500.0  # least fine, in mm, of labels that choose first
 
 Moves = tuple[tuple[int, int], ...]
 
 
 class Assignment:
-    """Which label has which place, what each pays, and the taken places as bits of a number."""
+    """The place of each label, what each label pays, and the taken places as a bit mask."""
 
     def __init__(self, offers: CandidateSet, fine: Sequence[float]) -> None:
-        """Begin with no label on the page; each pays a fine as long as it has no place."""
+        """Start with no label on the page; each label pays a fine as long as it has no place."""
         self.offers, self.fine = offers, fine
         self.pick = [-1] * len(fine)
         self.paid = [*fine]
@@ -130,7 +130,7 @@ class Assignment:
         return [i for *_, i in sorted(first)]
 
     def regretted(self, limit: float) -> list[int]:
-        """Return the labels that pay this much above their cheapest place, worst first."""
+        """Return the labels that pay over ``limit`` more than their cheapest place, worst first."""
         regret = [paid - best for paid, best in zip(self.paid, self.offers.best, strict=True)]
         worst = sorted(range(len(regret)), key=lambda i: -regret[i])
         return [i for i in worst if regret[i] > limit]
@@ -144,11 +144,11 @@ class Assignment:
         return [i for i in self.unplaced() if not self.is_given_up(i)]
 
     def is_given_up(self, i: int) -> bool:
-        """Tell whether a label has no place and may stay so."""
+        """Whether a label has no place and may stay without one."""
         return self.pick[i] < 0 and self.fine[i] < LEAST
 
     def settle(self, which: Iterable[int]) -> None:
-        """Give each of the labels the cheapest place that is left, if there is one."""
+        """Give each of the labels the cheapest free place, if there is one."""
         rows = self.offers.rows()
         for i in which:
             self._lift(i)
@@ -156,7 +156,7 @@ class Assignment:
             self._put(i, next(left, -1))
 
     def shift(self, labels: Iterable[int]) -> None:
-        """Give labels a place for which others, each in turn for the next one, can make room."""
+        """Give labels a place that a chain of other labels can free, each moving elsewhere."""
         rows = self.offers.rows()
         for i in labels:
             moves = self._moves(i, rows)
@@ -166,9 +166,9 @@ class Assignment:
                 self._put(label, place)
 
     def _moves(self, i: int, rows: Sequence[int]) -> Moves:
-        """Return the fewest labels that must move for one to have a place, and where each goes.
+        """Return the shortest chain of moves that gives a label a place, as (label, place) pairs.
 
-        Each makes room for one other only; nothing where no such chain leads to a free place.
+        Each label in the chain displaces one other at most; () where no chain ends at a free place.
         """
         moved = {i}
         queue: deque[tuple[int, int, Moves]] = deque([(i, self.taken, ())])
@@ -185,14 +185,14 @@ class Assignment:
         return ()
 
     def improve(self, labels: Iterable[int], steps: int) -> None:
-        """Let each of the labels push others aside and those others in turn, if it pays in all."""
+        """Let each label push others aside, and those others in turn, if the total cost falls."""
         rows = self.offers.rows()
         for i in labels:
             if not self.offers.menus[i]:
                 continue
             saved = [*self.pick], [*self.paid], self.taken
             before = sum(self.paid)
-            least = before - self.paid[i] + self.offers.best[i]  # others paying their best
+            least = before - self.paid[i] + self.offers.best[i]  # as if the others paid their best
             worn, queue = {self.pick[i]: WEAR}, deque([i])
             self._lift(i)
             for _ in range(steps):
@@ -205,14 +205,15 @@ class Assignment:
     def _push(self, queue: deque[int], rows: Sequence[int], worn: dict[int, float]) -> float:
         """Put the first label of a queue on the place with the best price.
 
-        Those that it pushes aside queue up. Return how much more all pay above their best.
+        The labels that it pushes aside join the queue. Return how much the total above the best
+        costs grows.
         """
         i = queue.popleft()
         offers, taken, best, chosen, pushed = self.offers, self.taken, inf, -1, 0
         cost = offers.cost
         for k in offers.menus[i]:
             price = cost[k]
-            if price >= best:  # and so are those after it
+            if price >= best:  # the places after it cost at least as much
                 break
             if clash := rows[k] & taken:
                 price += PUSH * clash.bit_count()
@@ -231,7 +232,7 @@ class Assignment:
         return more
 
     def _on(self, places: int) -> list[int]:
-        """Return the labels of some places, which are the bits of a number, in order."""
+        """Return the labels of the places in a bit mask, sorted."""
         found = []
         while places:
             k = places.bit_length() - 1
@@ -240,63 +241,61 @@ class Assignment:
         return sorted(found)
 
     def _put(self, i: int, k: int) -> None:
-        """Put a label on a place, if there is one."""
         if k >= 0:
             self.pick[i], self.paid[i] = k, self.offers.cost[k]
             self.taken |= 1 << k
 
     def _lift(self, i: int) -> None:
-        """Take a label off the page."""
         if self.pick[i] >= 0:
             self.taken ^= 1 << self.pick[i]
         self.pick[i], self.paid[i] = -1, self.fine[i]
 
 
-# --- places for labels on a page ------------------------------------------------------------------
+# --- placing the labels of a page -----------------------------------------------------------------
 
 
 Point = tuple[float, float]
 Segment = tuple[Point, Point]
 
 CLEAR = 0.6  # mm between a label and a drawn line
-SIDE = 1.5  # cost of a place square to the preferred side; all costs are in mm of distance
-UNPLACED, OPTIONAL = 1000.0, 100.0  # a label without a place, and one that may stay so
-DEAR = 7.4  # what a label may pay before places with a leader are looked for
-STRUCK = 20.0  # what a place costs at least whose leader crosses a strong line
-WIDE = Level(108, 12)  # how far a label looks that has such a place
-BAD = 2.0  # what a label may pay above its best before places are traded
-CROWD, AROUND = 8, 20.0  # how many labels are a crowd around one without a place, within how far
-HOPELESS = 60  # so many labels without a place that none are sought for them but the nearest
-MANY = 300  # labels of which each is offered fewer places
-SHORT, LONG, LONGEST = 8, 16, 150  # how many labels are pushed about in a chase
+SIDE = 1.5  # cost of a place perpendicular to the preferred side; all costs are in mm of distance
+UNPLACED, OPTIONAL = 1000.0, 100.0  # fine of a label without a place, and of one that may stay so
+DEAR = 7.4  # what a label may pay before places with a leader are searched
+STRUCK = 20.0  # least cost of a place whose leader crosses a strong line
+WIDE = Level(108, 12)  # how widely a label with such a place searches
+BAD = 2.0  # what a label may pay above its best before places are exchanged
+CROWD, AROUND = 8, 20.0  # most labels around one without a place, within how many mm
+HOPELESS = 60  # number of labels without a place above which only near places are searched
+MANY = 300  # above this many labels, each is offered fewer places
+SHORT, LONG, LONGEST = 8, 16, 150  # steps of a chain of pushes
 LAST_RESORT = (
     (Level(48, 16), Level(128, 32)),
     (Level(128, 32), Level(999, 64)),
     (Level(999, 999), Level(999, 999)),
 )
-"""What is offered at last to the labels around one without a place, and to that one itself."""
+"""The last offers to the labels around one without a place, and to that label itself."""
 
 
 class Wish(Struct, frozen=True):
-    """One label that wants a place; lengths in mm, y down."""
+    """A label that needs a place; lengths in mm, y down."""
 
     width: float  # of the ink
     height: float
-    subject: Point | Segment  # the point or the segment that it names
+    subject: Point | Segment  # the point or the segment that it labels
     away: Point | None = None  # unit vector from the subject to the preferred side
-    priority: int = 0  # the higher goes first
-    gap: float = 1.0  # clear distance to the subject
-    radius: float = 0.0  # of the circle that a point subject is drawn as
-    optional: bool = False  # it may stay without a place
+    priority: int = 0  # higher goes first
+    gap: float = 1.0  # free distance to the subject
+    radius: float = 0.0  # of the circle that marks a point subject
+    optional: bool = False  # may stay without a place
 
 
 class Spot(Struct, frozen=True):
-    """The place of a label, mm: its centre, its leader if it has one, and whether it is free."""
+    """The place of a label, in mm: its centre, its leader if any, and whether the place is free."""
 
     x: float
     y: float
     leader: Segment | None  # from the label's edge to the subject
-    free: bool  # False: nothing in reach was free; use a key number and a legend
+    free: bool  # False: no free place within reach; use a key number and a legend
 
 
 def place(
@@ -308,10 +307,10 @@ def place(
 ) -> list[Spot]:
     """Return a place for every wish, in the order of the wishes; lengths in mm.
 
-    ``lines`` are drawn segments x0, y0, x1, y1, ``strong`` those that leaders should not cross;
-    ``boxes`` are taken rectangles xmin, ymin, xmax, ymax; no label leaves the rectangle ``field``,
-    or its own one if there is one for each. A label that is ``free`` touches nothing; one that is
-    not is returned where it would like to be.
+    ``lines`` are drawn segments x0, y0, x1, y1; ``strong`` are those that leaders should not cross.
+    ``boxes`` are taken rectangles xmin, ymin, xmax, ymax. No label leaves the rectangle ``field``,
+    or its own rectangle if ``field`` has one for each label. A label that is ``free`` touches
+    nothing; one that is not is returned at its preferred place.
     """
     if not wishes:
         return []
@@ -343,7 +342,7 @@ def _subjects(wishes: Sequence[Wish]) -> Subjects:
 
 
 def _widen(seats: Assignment) -> None:
-    """Let labels without a place, or with a dear one, look further, and those around them too."""
+    """Widen the search for labels with no place or a dear one, and for the labels around them."""
     offers = seats.offers
     dear = [i for i, paid in enumerate(seats.paid) if paid > DEAR and not seats.is_given_up(i)]
     more = dict.fromkeys(dear, CLOSE) | _round_about(seats, CLOSE, Level(32, 12))
@@ -366,12 +365,12 @@ def _widen(seats: Assignment) -> None:
 
 
 def _round_about(seats: Assignment, crowded: Level, seeking: Level) -> dict[int, Level]:
-    """Return what is to be offered to labels without a place, and to those around them."""
+    """Return the levels for labels without a place, and for those around them."""
     return dict.fromkeys(_crowds(seats), crowded) | dict.fromkeys(seats.seeking(), seeking)
 
 
 def _crowds(seats: Assignment) -> list[int]:
-    """Return the labels around each one without a place that has a place in sight."""
+    """Return the labels around each one without a place that has places to choose from."""
     offers, seeking = seats.offers, seats.seeking()
     found: list[int] = []
     ends = offers.page.subjects.ends
@@ -385,7 +384,7 @@ def _crowds(seats: Assignment) -> list[int]:
 
 
 def _spot(offers: CandidateSet, label: int, place: int) -> Spot:
-    """Return where a label is, or where it would like to be if it has no place."""
+    """Return the place of a label, or its preferred place if it has none."""
     if place < 0:
         x, y = offers.hope[label].tolist()
         return Spot(x, y, None, False)

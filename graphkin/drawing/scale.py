@@ -1,9 +1,9 @@
-"""Scale factors: kL from the preferred scales, and how much larger the plans are drawn.
+"""Scale factors: kL from the preferred scales, and the enlargement of the plans.
 
-On the mechanism a velocity is set as its way in some time, an acceleration as twice its way in it,
-so that each velocity is the mean proportional of its bar and its component; with one turning
-driver that time is 1/omega and the velocity of the crank's pin is as long as the crank. The plans
-are drawn m and m′ times as large.
+On the mechanism, a velocity is drawn as its distance in some time, and an acceleration as twice its
+distance in that time. Each velocity is then the mean proportional of its bar and its component.
+With one turning driver that time is 1/omega, and the velocity of the crank's pin is as long as the
+crank. The plans are drawn m and m′ times as large.
 """
 
 from __future__ import annotations
@@ -29,11 +29,13 @@ TWICE = 0.5
 class Scales(Struct, frozen=True):
     """kL (real over drawn), kv (m/s per metre of paper), ka (m/s² per metre of paper).
 
-    ``seconds`` is the time in which velocities are set on the mechanism as ways. The velocity plan
-    is drawn ``larger`` times as large, the acceleration plan ``larger_still`` times: m and m′.
-    ``of_crank``: how many times as long as the crank the velocity of its pin is set there, 0 where
-    no crank says it. ``triangles``: those that may give way to a larger mechanism are drawn, else
-    computed.
+    - ``seconds``: the time whose distances represent velocities on the mechanism.
+    - ``larger``, ``larger_still``: the enlargements m of the velocity plan and m′ of the
+      acceleration plan.
+    - ``of_crank``: the length of the crank pin's velocity on the mechanism, in lengths of the
+      crank; 0 where no crank gives it.
+    - ``triangles``: optional triangles are drawn; they are computed instead where the space is
+      needed for a larger mechanism.
     """
 
     kL: float
@@ -45,31 +47,31 @@ class Scales(Struct, frozen=True):
 
     @property
     def kv(self) -> float:
-        """Velocity that one metre of paper stands for."""
+        """The velocity in m/s that one metre of paper represents."""
         return self.kL / (self.seconds * self.larger)
 
     @property
     def ka(self) -> float:
-        """Acceleration that one metre of paper stands for."""
+        """The acceleration in m/s² that one metre of paper represents."""
         return self.kL / (self.seconds**2 * self.larger_still)
 
     def times(self, kind: str) -> float:
-        """How many times as large as on the mechanism a sheet's plan draws its vectors."""
+        """The enlargement of a sheet's plan, relative to vectors on the mechanism."""
         return self.larger_still if kind == "acceleration" else self.larger
 
     def of_bar(self, kind: str) -> float:
-        """How many times as long as the crank a sheet's plan draws the vector of its pin.
+        """The length of the crank pin's vector in a sheet's plan, in lengths of the crank.
 
-        0 where no crank says it.
+        0 where no crank gives it.
         """
         return self.times(kind) * self.of_crank ** (2 if kind == "acceleration" else 1)
 
     def pace(self, kind: str) -> float:
-        """Metres of the mechanism that one unit of a sheet's vectors is set on it as."""
+        """The metres of the mechanism that represent one unit of a sheet's vectors on it."""
         return self.seconds ** (2 if kind == "acceleration" else 1)
 
     def metres(self, kind: str) -> float:
-        """Metres of the mechanism that are drawn as long as one unit of a sheet's plan."""
+        """The metres of the mechanism drawn as long as one unit of a sheet's plan."""
         return self.pace(kind) * self.times(kind)
 
     @property
@@ -96,9 +98,9 @@ def digits(number: float) -> str:
 
 
 class Extent(Struct, frozen=True):
-    """The upright box that a set of points takes up, in metres of the mechanism.
+    """The upright bounding box of a set of points, in metres of the mechanism.
 
-    Of many variants the boxes, each side an array.
+    For many variants, each side is an array.
     """
 
     left: Real
@@ -113,26 +115,22 @@ class Extent(Struct, frozen=True):
 
     @property
     def width(self) -> Real:
-        """From left to right."""
         return self.right - self.left
 
     @property
     def height(self) -> Real:
-        """From bottom to top."""
         return self.top - self.bottom
 
     @property
     def diagonal(self) -> float:
-        """From corner to corner."""
         return float(hypot(self.width, self.height))
 
     @property
     def middle(self) -> complex:
-        """Its middle."""
         return complex(self.left + self.right, self.bottom + self.top) / 2
 
     def joined(self, other: Extent) -> Extent:
-        """The box that holds this one and another."""
+        """The box that contains this one and another."""
         return Extent(
             smaller(self.left, other.left),
             smaller(self.bottom, other.bottom),
@@ -141,7 +139,7 @@ class Extent(Struct, frozen=True):
         )
 
     def about(self, point: Point) -> Extent:
-        """The box that also holds a point; the same where that is NaN."""
+        """The box that also contains a point; unchanged where the point is NaN."""
         return Extent(
             smaller(point.real, self.left),
             smaller(point.imag, self.bottom),
@@ -150,7 +148,7 @@ class Extent(Struct, frozen=True):
         )
 
     def grown(self, points: Iterable[complex]) -> Extent:
-        """The box that also holds some more points."""
+        """The box that also contains some more points."""
         return extent_of([*points, complex(self.left, self.bottom), complex(self.right, self.top)])
 
 
@@ -161,13 +159,13 @@ def extent_of(points: Sequence[complex]) -> Extent:
 
 
 def preferred_scales(smallest: float) -> Iterator[float]:
-    """The kL of preferred scales, upwards from one not less than given."""
+    """The kL of preferred scales in increasing order, from the first not below ``smallest``."""
     yield from takewhile(lambda kL: kL < TWICE, preferred(smallest, ENLARGED))
     yield from preferred(max(smallest, TWICE), REDUCED)
 
 
 def preferred(smallest: float, digits: Sequence[float] = STEPS) -> Iterator[float]:
-    """The preferred numbers 1, 2, 5 times a power of ten, upwards from one not less than given."""
+    """The numbers 1, 2, 5 times powers of ten in increasing order, from ``smallest`` on."""
     power = floor(log10(smallest)) if smallest > 0 else 0
     while True:
         for step in digits:

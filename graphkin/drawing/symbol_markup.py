@@ -12,36 +12,38 @@ NAME = (
     r"(?:_(?P<sub>[^\W¹²](?:[\w,]*[^\W¹²])?))?(?P<tag>[¹²]*)(?:\^(?P<sup>\w))?$"
 )
 SPECIAL = "\\*_^{}"
-"""The signs of the markup itself."""
+"""The special characters of the markup."""
 FOURTH = "⁗"
 TAGS = {"¹": "I", "²": "II"}
-"""The tags of two auxiliary plans as they are written: below, so that none reads as a power."""
+"""The tags of two auxiliary plans as written: as a subscript, so that none reads as a power."""
 WITHIN = ({"¹": "a", "²": "b"}, TAGS)
-"""The same of plans within one of these, then within one of those: Ia, IbII."""
+"""The tags of plans within these plans, then within those: Ia, IbII."""
 
 
 def escape(text: str) -> str:
-    """Make plain text safe to stand in markup."""
+    """Plain text with the special characters of markup escaped."""
     return "".join("\\" + sign if sign in SPECIAL else sign for sign in text)
 
 
 def tag_words(tag: str) -> str:
-    """The tag of an auxiliary plan as it is written, after those of the plans around it."""
+    """The tag of an auxiliary plan as written, after the tags of the plans around it."""
     written = (WITHIN[k % 2][sign] for k, sign in enumerate(tag[1:]))
     return "".join((TAGS.get(tag[:1], ""), *written))
 
 
 @lru_cache(maxsize=1024)
 def symbol(name: str, short: str = "") -> Markup:
-    """The symbol of a name, or of how it is written ``short`` where no other is written so."""
+    """The symbol of a name, written as ``short`` if that is given because it is unambiguous."""
     said = Markup(written(short or name))
     said.names = frozenset((name,)) if name else frozenset()
     return said
 
 
 def written(name: str) -> str:
-    """Markup of a name: O1 gets its index, b⁗ its numeral, a_BA^ν its two scripts, b¹ the
-    numeral of its plan; nothing where there is no name."""
+    """The markup of a name, "" where there is none.
+
+    O1 gets its index, b⁗ its numeral, a_BA^ν its two scripts, b¹ the numeral of its plan.
+    """
     found = re.match(NAME, name)
     if not name or name.isdigit():
         return name
@@ -58,15 +60,15 @@ def written(name: str) -> str:
 
 
 def without_index(name: str) -> str:
-    """A name as far as what NAME sets below it: B‴ of B‴_BA."""
+    """The part of a name before its subscript: B‴ of B‴_BA."""
     return name.partition("_")[0]
 
 
 def of_wheel(letter: str, sign: str) -> Markup:
-    """Markup of the radius or the number of teeth of a wheel by its sign: r₂′."""
+    """The markup of a wheel's radius or number of teeth, by the wheel's label: r₂′."""
     return Markup(f"*{letter}*_{{{escape(sign)}}}")
 
 
 def bar(p: str, q: str) -> Markup:
-    """Markup of the bar between two points: O₁A."""
+    """The markup of the bar between two points: O₁A."""
     return symbol(p) + symbol(q)

@@ -1,1 +1,1 @@
-"""Photographs of drawn sheets: whose each is, where its points lie, and what is right of them."""
+"""Photographs of drawn sheets: whose sheet each is, where its points are, which ones are right."""

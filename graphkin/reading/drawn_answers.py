@@ -1,7 +1,7 @@
-"""The fields of the form that a drawing tells: lengths of vectors, and places, in mm of paper.
+"""The form fields that a drawing answers: lengths of vectors and places, in mm of paper.
 
-A point that a person has yet to look at leaves its fields open: they are written as ?, which
-``grade`` neither counts as wrong nor as right.
+Fields that depend on a point which a person has yet to decide are written as ?. ``grade`` counts
+them neither as wrong nor as right.
 """
 
 from __future__ import annotations
@@ -26,11 +26,15 @@ from graphkin.text.errors import GraphkinError, Refusals
 
 ANSWERS = "answers.csv"
 Places = Mapping[int, complex | None]
-"""Where steps lie on paper; None for what is not drawn. What is not there at all is open."""
+"""Where steps are on paper: None for a step that is not drawn; undecided steps are absent."""
 
 
 class DrawnRow(Struct, frozen=True):
-    """What the drawings of a student tell: a cell for each field, and which of them follow."""
+    """The answers read from a student's drawings: one cell per field, and the fields that follow.
+
+    ``followed`` names the fields whose value follows correctly from an earlier mistake of the
+    student.
+    """
 
     who: str
     cells: tuple[str, ...]
@@ -38,16 +42,17 @@ class DrawnRow(Struct, frozen=True):
 
 
 def answers_table(opened: Edition, out: Path, refusals: Refusals) -> bytes:
-    """The answers of all whose sheets were read, in the order of the roster."""
+    """The answers of all students whose sheets were read, as CSV in the order of the roster."""
     head = ["id", *(item.field for item in drawn_items(opened))]
     rows: list[list[object]] = [[row.who, *row.cells] for row in drawn_rows(opened, out, refusals)]
     return csv_text([head, *rows]).encode("utf-8")
 
 
 def drawn_rows(opened: Edition, out: Path, refusals: Refusals) -> Iterator[DrawnRow]:
-    """What was read and decided by now, of each student whose sheets were read.
+    """The current answers of each student whose sheets were read.
 
-    All is open of a student for whom that cannot be worked out, and why is noted.
+    A student whose answers cannot be computed gets ? in every field, and the reason goes to
+    ``refusals``.
     """
     standing = SettledPoints(out).standing
     try:
@@ -71,7 +76,7 @@ def drawn_row(
     standing: Standing,
     form: tuple[Item, ...],
 ) -> DrawnRow:
-    """What was read and decided by now of a student's own sheets, by their kinds."""
+    """The current answers from one student's sheets, given by their kinds."""
     language = opened.words().language
     order = PrintOrder(opened.lab, opened.scene, language, "colour")
     sheets = sheets_of(order, taker, language)
@@ -92,18 +97,18 @@ def drawn_row(
 
 
 def is_followed(probe: Probe, verdicts: Mapping[int, str]) -> bool:
-    """Whether the tip of a length or place follows from own points, and its tail is not wrong."""
+    """Whether the tip follows from the student's own points and the tail is not wrong."""
     tail, tip = (verdicts.get(step, "right") for step in (probe.steps[0], probe.steps[-1]))
     return tip == "follows" and tail in ("right", "follows")
 
 
 def drawn_items(opened: Edition) -> tuple[Item, ...]:
-    """The fields of the form that a drawing tells."""
+    """The form fields that a drawing answers."""
     return tuple(item for item in opened.book.form if item.what in ("segment", "place"))
 
 
 def places_of(sheet: LetteredSheet, record: SheetRecord, standing: Standing) -> Places:
-    """Where the steps of a sheet lie, as far as that is decided; printed ones where they are."""
+    """Where the steps of a sheet are on paper: printed ones and those that are read and decided."""
     found: dict[int, complex | None] = {}
     steps = sheet.exact.program.steps
     for number, value in sheet.exact.trace.values.items():
@@ -119,7 +124,7 @@ def places_of(sheet: LetteredSheet, record: SheetRecord, standing: Standing) -> 
 
 
 def cell(probe: Probe, places: Mapping[int, tuple[str, complex | None]]) -> str:
-    """The answer to a field: nothing where it is not drawn, ? where it is not decided."""
+    """The answer to a field: "" where it is not drawn, ? where it is not decided."""
     if any(step not in places for step in probe.steps):
         return OPEN
     (_, first), (_, last) = places[probe.steps[0]], places[probe.steps[-1]]

@@ -11,11 +11,11 @@ from graphkin.scene.file_limits import whole_file
 from graphkin.text.errors import PageError, Problem
 
 READING, PICTURE = ".reading.json", ".jpg"
-"""How the names of a record and of its picture end."""
+"""The file name endings of a record and of its picture."""
 
 
 def kept(out: Path, name: str) -> SheetRecord | None:
-    """The record of a photograph in a folder; None where there is none that is whole."""
+    """The record of a photograph in a folder; None where it is absent or incomplete."""
     try:
         data = whole_file(out / f"{name}{READING}")
         return msgspec.json.decode(data, type=SheetRecord)
@@ -24,7 +24,7 @@ def kept(out: Path, name: str) -> SheetRecord | None:
 
 
 def records_in(out: Path) -> list[SheetRecord]:
-    """All records of a folder, by name. Raises PageError where it holds none."""
+    """All records of a folder, by name. Raises PageError where the folder holds none."""
     names = sorted(path.name.removesuffix(READING) for path in out.glob(f"*{READING}"))
     found = [record for name in names if (record := kept(out, name)) is not None]
     if not found:

@@ -1,5 +1,6 @@
-"""The lettered points of a student's sheet, in the order of the construction, and what leads to
-each: the lines, bars and arrows that meet there.
+"""The lettered points of a student's sheet, and the lines, bars and arrows that meet at each.
+
+The points are in the order of the construction.
 """
 
 from __future__ import annotations
@@ -25,24 +26,28 @@ from graphkin.drawing.marks import Page
 from graphkin.numbers.plane import Circle, Line, Ratio, Vector
 
 LETTERED = (Part.POSITION, Part.VELOCITY, Part.ACCELERATION, Part.CENTRE, Part.POLE)
-"""The parts of the work whose points are read."""
+"""The parts of the construction whose points are read."""
 SHORT = 3.0
-"""Millimetres from a point within which the beginning of a line tells nothing of it."""
+"""A line's first millimetres from a point give no evidence about it."""
 EXACT = 1e-6
-"""Millimetres within which a line passes exactly through a point."""
+"""A line passes exactly through a point if it is this close, in mm."""
 LONGEST = 420.0
-"""Lines longer than the paper, in mm, lead to what lies off it."""
+"""Lines longer than the paper, in mm, end off the paper."""
 AHEAD = 40.0
-"""How far along a line that begins at the point itself it is looked for, in mm."""
+"""How far, in mm, a line that begins at the point itself is searched."""
 
 
 class Leading(Struct, frozen=True):
-    """What leads to a point: the step of its other end, a point, or a line that begins there.
+    """A line that helps to locate a point, by the step at its far end.
 
-    ``given`` tells that the line is printed, ``bow`` that it is the arc of a compass, ``after``
-    that it is drawn through the point or from it when that is there, ``arrow`` that it is a vector
-    that begins or ends at the point and does not go on, ``back`` that the other end is the tail of
-    a vector, ``light`` that it is a side of a similar triangle that dividers do without.
+    That step is a point, or a line that begins there.
+
+    - ``given``: the line is printed.
+    - ``bow``: it is a compass arc.
+    - ``after``: it is drawn through or from the point once the point exists.
+    - ``arrow``: it is a vector that begins or ends at the point and does not go on.
+    - ``back``: the far end is the tail of a vector.
+    - ``light``: it is a side of a similar triangle, which need not be drawn when dividers are used.
     """
 
     far: int
@@ -62,17 +67,16 @@ class LetteredSheet(Struct, frozen=True, dict=True):
 
     @property
     def kind(self) -> str:
-        """Velocity or acceleration."""
+        """``velocity`` or ``acceleration``."""
         return self.drawing.kind
 
     @cached_property
     def layout(self) -> Layout:
-        """Where its fields are."""
         return lay_out(self.drawing)
 
     @cached_property
     def exact(self) -> Original:
-        """The construction without errors."""
+        """The construction without drawing errors."""
         scales = self.drawing.scales
         paper = Paper(scales.kL, scales.kv, scales.ka)
         return Original(self.drawing.trace, paper, (), scales.triangles)
@@ -83,7 +87,7 @@ class LetteredSheet(Struct, frozen=True, dict=True):
         return self.layout.mechanism if step.plane is Plane.MECHANISM else self.layout.plan
 
     def place(self, number: int, value: Any) -> Any:
-        """Where a value of a step lies on paper: complex mm, y down. Of a line, where it begins."""
+        """Where a step's value is on paper (complex mm, y down); for a line, where it begins."""
         if isinstance(value, Ratio):
             value = value.start + value.shift / value.size
         elif isinstance(value, Line):
@@ -97,7 +101,7 @@ class LetteredSheet(Struct, frozen=True, dict=True):
         return complex(*field.at) + shift.conjugate()
 
     def value(self, number: int, place: complex) -> Any:
-        """The value of a step that lies at a place of the paper."""
+        """The value of a step that is at a place of the paper."""
         field = self.field(number)
         found = (place - complex(*field.at)).conjugate() / field.mm + field.middle
         exact = self.exact.trace.values[number]
@@ -110,14 +114,15 @@ class LetteredSheet(Struct, frozen=True, dict=True):
 
     @cached_property
     def found_by(self) -> Mapping[int, int]:
-        """The points that are read, by the steps that give them by hand."""
+        """The points that are read, by the steps that construct them by hand."""
         hands = {self.exact.by_hand(number): number for number in self.points}
         return {hand: number for hand, number in hands.items() if hand is not None}
 
     @cached_property
     def order(self) -> tuple[int, ...]:
-        """The steps that a pencil changes, each point directly after what gives it by hand; the
-        rates of trial plans are printed, and do not follow from what was read.
+        """The steps that drawing errors affect, each point directly after its construction by hand.
+
+        Rates of trial plans are left out: they are printed and do not follow from what was read.
         """
         apart = set(self.found_by.values())
         for trials in constructions(self.exact.program, TwoTrials):
@@ -132,8 +137,9 @@ class LetteredSheet(Struct, frozen=True, dict=True):
 
     @cached_property
     def corners(self) -> tuple[int, ...]:
-        """The steps of the corners of the plan that bear no letter of their own: ends of components
-        from which lines are drawn, and the points of auxiliary plans.
+        """The steps of the plan's corners without a letter of their own.
+
+        They are ends of components from which lines are drawn, and points of auxiliary plans.
         """
         steps, values = self.exact.program.steps, self.exact.trace.values
         lettered = set(self.points)
@@ -149,7 +155,7 @@ class LetteredSheet(Struct, frozen=True, dict=True):
         )
 
     def is_read(self, number: int) -> bool:
-        """Whether a step is a lettered point of this sheet that a hand finds."""
+        """Whether a step is a lettered point of this sheet that is constructed by hand."""
         step, value = self.exact.program.steps[number], self.exact.trace.values[number]
         own = step.plane is self.drawing.plane or number in self.on_mechanism
         lettered = bool(step.name) and step.aside is None and step.part in LETTERED
@@ -167,7 +173,7 @@ class LetteredSheet(Struct, frozen=True, dict=True):
 
     @cached_property
     def leading(self) -> Mapping[int, tuple[Leading, ...]]:
-        """What leads to each point that is read."""
+        """The lines that help to locate each point that is read."""
         return {
             number: tuple(dict.fromkeys(self.led(number)))
             for number in (*self.points, *self.corners)
@@ -175,7 +181,7 @@ class LetteredSheet(Struct, frozen=True, dict=True):
 
     @cached_property
     def key_lines(self) -> tuple[tuple[float, float, float, float], ...]:
-        """The ways that lead to the points of the key, in mm: what a person holds drawings to."""
+        """The lines to the points in the key, as x1, y1, x2, y2 in mm, to compare drawings with."""
         values, found = self.exact.trace.values, dict[tuple[float, float, float, float], None]()
         for number, every in self.leading.items():
             end = complex(self.place(number, values[number]))
@@ -188,7 +194,7 @@ class LetteredSheet(Struct, frozen=True, dict=True):
         return tuple(found)
 
     def led(self, number: int) -> Iterator[Leading]:
-        """What leads to a point: its own lines, then arrows, then bars."""
+        """The lines that help to locate a point: its own lines first, then arrows, then bars."""
         steps, values = self.exact.program.steps, self.exact.trace.values
         hand = steps[number].by_hand
         for way in (number, hand) if hand is not None and hand in values else (number,):
@@ -211,7 +217,7 @@ class LetteredSheet(Struct, frozen=True, dict=True):
         yield from self.after(number)
 
     def printed_through(self, number: int) -> Iterator[int]:
-        """The printed guides on which a point of a moving link lies, however a hand finds it."""
+        """The printed guides through a point of a moving link, however the point is constructed."""
         steps, values = self.exact.program.steps, self.exact.trace.values
         own = values[number]
         if steps[number].plane is Plane.MECHANISM and isinstance(own, complex):
@@ -223,13 +229,13 @@ class LetteredSheet(Struct, frozen=True, dict=True):
 
     @cached_property
     def vectors(self) -> tuple[tuple[int, int], ...]:
-        """The points at the tail and at the tip of each vector that joins two."""
+        """The tail and tip points of each vector that joins two points."""
         steps = self.exact.program.steps
         joined = (steps[n] for n in self.exact.trace.values if steps[n].action is join)
         return tuple((step.args[0], step.args[1]) for step in joined if step.arrow)
 
     def after(self, number: int) -> Iterator[Leading]:
-        """The lines that are drawn through a point when it is there, and the arrows set at it."""
+        """The lines drawn through a point once it exists, and the vectors laid off from it."""
         steps, values = self.exact.program.steps, self.exact.trace.values
         own = values[number]
         if not isinstance(own, complex):
@@ -250,7 +256,7 @@ class LetteredSheet(Struct, frozen=True, dict=True):
                         yield Leading(other, after=True, back=back)
 
     def is_given(self, number: int) -> bool:
-        """Whether a line is that of a printed guide: nothing of it was drawn."""
+        """Whether a line is a printed guide, so that nothing of it was drawn."""
         steps, pending = self.exact.program.steps, [number]
         while pending:
             step = steps[pending.pop()]
@@ -263,7 +269,7 @@ class LetteredSheet(Struct, frozen=True, dict=True):
 
     @cached_property
     def guides(self) -> frozenset[int]:
-        """The lines of the mechanism that are nothing but guides of the frame."""
+        """The lines of the mechanism that are guides of the frame."""
         steps = self.exact.program.steps
         return frozenset(
             number
@@ -281,7 +287,7 @@ class LetteredSheet(Struct, frozen=True, dict=True):
 
     @cached_property
     def bars(self) -> Mapping[int, tuple[int, ...]]:
-        """For each point of the mechanism the others of its links."""
+        """For each point of the mechanism, the other points of its links."""
         targets, found = self.exact.program.targets, dict[int, list[int]]()
         for link in self.drawing.scene.links.values():
             numbers = [targets.get(("position", point)) for point in link.points]

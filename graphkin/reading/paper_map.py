@@ -1,7 +1,7 @@
-"""From millimetres of paper to pixels: a camera's perspective, its lens, and the bow of the paper.
+"""The map from millimetres of paper to pixels: perspective, lens distortion and bent paper.
 
-The paper's own unevenness is a smooth shift of its places before the camera sees them: products of
-Legendre's polynomials, held small, and the smaller the more they bend.
+The bending of the paper is a smooth shift of its places before the camera sees them. It is a sum of
+products of Legendre polynomials, with priors that keep higher degrees smaller.
 """
 
 from __future__ import annotations
@@ -16,19 +16,20 @@ from msgspec import Struct
 from graphkin.reading.paper_ripple import Ripple
 
 MIDDLE, HALF = (210.0, 148.5), 210.0
-"""The middle of an A3 sheet and half its width, in mm: the unit of the paper's own places."""
+"""The middle of an A3 sheet and half its width, in mm; half the width is the unit of paper places.
+"""
 FLAT = 148.5 / 210.0
 DEGREE = 5
-"""Highest degree of the paper's bending."""
+"""Highest degree of the bending polynomials."""
 BENDS = tuple((i, j) for i, j in product(range(DEGREE + 1), repeat=2) if 2 <= i + j <= DEGREE)
-"""The degrees across and down of each bending."""
+"""The degrees across and down of each bending polynomial."""
 TILTS, LENS, PLAIN = slice(6, 8), 8, 9
-"""Where the parameters stand: eight of the perspective, one of the lens, then those of bending."""
+"""Positions in the parameters: eight for perspective, one for the lens, then those of bending."""
 COUNT = PLAIN + 2 * len(BENDS)
 
 
 class PaperMap(Struct, frozen=True, dict=True):
-    """A map from paper to a picture of so many pixels: its parameters, and the paper's ripples."""
+    """The map from paper to a picture of a given size: its parameters and the paper's ripples."""
 
     width: int
     height: int
@@ -37,22 +38,21 @@ class PaperMap(Struct, frozen=True, dict=True):
 
     @cached_property
     def array(self) -> Any:
-        """The parameters."""
         return np.array(self.parameters)
 
     def __call__(self, places: Any) -> Any:
-        """The pixels of places in mm, both along the last axis; pixel (0, 0) is a centre."""
+        """The pixels of places in mm, coordinates in the last axis; (0, 0) is a pixel's centre."""
         if self.ripple is not None:
             places = places + self.ripple(places)
         return pixels_of(self.array, places, self.width, self.height)
 
     def scale(self, place: Any) -> float:
-        """Pixels for each mm about a place, geometric mean of both ways."""
+        """Pixels per mm near a place: the geometric mean of both directions."""
         across, along = self.ways(np.asarray(place, dtype=float))
         return float(np.sqrt(abs(across[0] * along[1] - across[1] * along[0])))
 
     def ways(self, places: Any) -> tuple[Any, Any]:
-        """By how many pixels a mm to the right goes, and a mm down, about some places."""
+        """The pixel shifts for one mm to the right and one mm down, near some places."""
         right, down = np.array([0.5, 0.0]), np.array([0.0, 0.5])
         return self(places + right) - self(places - right), self(places + down) - self(
             places - down
@@ -60,7 +60,7 @@ class PaperMap(Struct, frozen=True, dict=True):
 
 
 def pixels_of(parameters: Any, places: Any, width: int, height: int) -> Any:
-    """The pixels of places, for some parameters."""
+    """The pixels of places, for given parameters."""
     u = (places[..., 0] - MIDDLE[0]) / HALF
     v = (places[..., 1] - MIDDLE[1]) / HALF
     if np.any(parameters[PLAIN:]):
@@ -70,7 +70,7 @@ def pixels_of(parameters: Any, places: Any, width: int, height: int) -> Any:
 
 
 def seen_at(parameters: Any, u: Any, v: Any, width: int, height: int) -> Any:
-    """The pixels of places of the bent paper, in its own unit: perspective and lens."""
+    """The pixels of places of the bent paper, in units of HALF: perspective and lens."""
     a, b, c, d, e, f, g, h = parameters[:8]
     depth = g * u + h * v + 1
     with np.errstate(all="ignore"):
@@ -82,13 +82,13 @@ def seen_at(parameters: Any, u: Any, v: Any, width: int, height: int) -> Any:
 
 
 def bendings(u: Any, v: Any) -> Any:
-    """Each bending at some places."""
+    """The value of each bending polynomial at some places."""
     across, down = legendre(u), legendre(v / FLAT)
     return np.stack([across[i] * down[j] for i, j in BENDS], axis=-1)
 
 
 def legendre(x: Any) -> list[Any]:
-    """Legendre's polynomials at some places; beyond the sheet they go on flat."""
+    """The Legendre polynomials at some places; x is clipped just outside the sheet."""
     x = np.clip(x, -1.05, 1.05)
     found = [np.ones_like(x), x]
     for n in range(1, DEGREE):
@@ -97,7 +97,7 @@ def legendre(x: Any) -> list[Any]:
 
 
 def prior(bent: float) -> Any:
-    """How large each parameter is expected to be; ``bent``: the simplest bending, in mm."""
+    """The expected size of each parameter; ``bent`` is the size of the simplest bending, in mm."""
     found = np.full(COUNT, 10.0)
     found[TILTS] = 0.25
     found[LENS] = 0.1

@@ -1,8 +1,8 @@
-"""What a smooth map leaves of the paper's ripples: how far off lines and crosses of it lie.
+"""The paper's ripples: the offsets of printed lines and crosses that a smooth map leaves.
 
-Between them it is what a random field with the same length and height would most likely have
-(Rasmussen and Williams, Gaussian Processes for Machine Learning, 2006, eqs. 2.23, 2.24, 5.12); its
-deviation there is the map's.
+Between the measured places the ripple is the most likely value of a Gaussian random field with the
+same length scale and height (Rasmussen and Williams, Gaussian Processes for Machine Learning, 2006,
+eqs. 2.23, 2.24, 5.12). The field's standard deviation is that of the map.
 """
 
 from __future__ import annotations
@@ -15,29 +15,29 @@ from msgspec import Struct
 from graphkin.drawing.field import AREA
 
 LENGTH = 17.0
-"""Over so many mm ripples are alike: their waves are 45 mm long and longer."""
+"""Length scale of the ripples, in mm: their waves are 45 mm long and longer."""
 EVERY = 3
-"""Of the places of lines, 3 mm apart, so many are one."""
+"""Only one in so many places of lines is used; the places are 3 mm apart."""
 ACROSS, CROSSED = 0.05, 0.04
-"""Standard deviations of a line across and of a cross that were measured, in mm."""
+"""Standard deviations of a measured line, across it, and of a measured cross, in mm."""
 LEAST = 0.01
-"""Height of a field of ripples at least, in mm."""
+"""Least height of a field of ripples, in mm."""
 STRAY, TRIED = 4.0, 3
-"""What lies so many deviations off what all others tell is left out, as often at most."""
+"""A measurement this many deviations from its prediction is dropped; the most rounds of this."""
 PITCH, BEGIN, COUNT = 4.0, (0.0, 0.0), (106, 76)
-"""Where the field is kept: places so many mm apart from the sheet's corner on, across and down."""
+"""The grid of the field: spacing in mm, its corner on the sheet, counts across and down."""
 TOLD = 12.0
-"""How far apart the places in the fields are at which its deviation is told, in mm."""
+"""Spacing in mm of the places in the fields at which the deviation is averaged."""
 
 
 class Ripple(Struct, frozen=True):
-    """How far (mm) places of the paper lie off a smooth map, and the deviation in the fields."""
+    """Offsets (mm) of places of paper from a smooth map, and the deviation in the fields."""
 
     field: Any
     deviation: float
 
     def __call__(self, places: Any) -> Any:
-        """How far some places (mm) lie off, from the four about each."""
+        """Offsets of some places (mm), interpolated between the four nearest grid places."""
         steps = (places - np.array(BEGIN)) / PITCH
         most = np.array(COUNT) - 1.001
         steps = np.clip(steps, 0, most)
@@ -49,7 +49,7 @@ class Ripple(Struct, frozen=True):
 
 
 class Offsets(Struct, frozen=True):
-    """How far (mm) places of paper lie off a map along directions, and how well each is known."""
+    """Offsets (mm) of places of paper from a map along directions, and the error of each."""
 
     places: Any
     ways: Any
@@ -57,12 +57,11 @@ class Offsets(Struct, frozen=True):
     errors: Any
 
     def some(self, which: Any) -> Offsets:
-        """Those that are picked."""
         return Offsets(self.places[which], self.ways[which], self.off[which], self.errors[which])
 
 
 def ripple_of(lines: Offsets, crosses: Offsets) -> Ripple:
-    """The ripples that lines and crosses tell, without those that stray from all others."""
+    """The ripples measured by lines and crosses, without outliers."""
     lines = lines.some(slice(None, None, EVERY))
     parts = zip(*((o.places, o.ways, o.off, o.errors) for o in (lines, crosses)), strict=True)
     known = Offsets(*(np.concatenate(part) for part in parts))
@@ -86,24 +85,24 @@ def ripple_of(lines: Offsets, crosses: Offsets) -> Ripple:
 
 
 def spread(off: Any) -> float:
-    """The standard deviation of offsets, whatever some of them are."""
+    """The standard deviation of offsets, from their median, so that outliers do not matter."""
     return 1.4826 * float(np.median(abs(off))) if len(off) else 0.0
 
 
 def likeness(apart: Any) -> Any:
-    """How alike ripples are so many mm apart along one axis."""
+    """The correlation of ripples a given distance in mm apart along one axis."""
     return np.exp(-((apart / LENGTH) ** 2) / 2)
 
 
 def covariance(known: Offsets, height: float) -> Any:
-    """The covariance of what was measured."""
+    """The covariance of the measurements."""
     (x, y), (u, v) = known.places.T, known.ways.T
     alike = likeness(x[:, None] - x) * likeness(y[:, None] - y)
     return height**2 * alike * (np.outer(u, u) + np.outer(v, v)) + np.diag(known.errors**2)
 
 
 def deviation(known: Offsets, inverse: Any, height: float) -> float:
-    """The standard deviation along each axis that is left of a field, on average of the fields."""
+    """The field's remaining standard deviation along each axis, averaged over the fields."""
     left, top, right, bottom = AREA
     xs, ys = np.arange(left, right, TOLD), np.arange(top, bottom, TOLD)
     places = np.stack(np.meshgrid(xs, ys), axis=-1).reshape(-1, 2)

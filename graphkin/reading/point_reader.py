@@ -1,8 +1,8 @@
-"""Points read as a marker reads them: one after the other, each expected from those before it.
+"""Points read as a marker reads them: in order, each expected from the points before it.
 
-What is expected of a point is a cloud: drawings of the construction with this pencil from the
-student's own earlier points. What lies there is right, or follows from an own mistake; the rest,
-and all doubts, are asked.
+The expectation for a point is a cloud: many drawings of the construction, with pencil errors, from
+the student's own earlier points. A place in that cloud is right, or follows from the student's own
+mistake. All other places, and all doubtful ones, are left for a person to check.
 """
 
 from __future__ import annotations
@@ -37,36 +37,39 @@ from graphkin.reading.point_search import (
 )
 
 OUTSIDE, APART = 6.5, 3.0
-"""The squared distance from the key, in deviations, beyond which a place is none that the pencil
-explains (95 of 100 lie within 6.0); and that in mm, from which it may follow from a mistake that
-nobody saw.
+"""Squared distance from the key, in deviations, beyond which the pencil does not explain a place.
+
+95 of 100 places are within 6.0. APART is the distance in mm beyond which a place may follow from an
+unseen mistake.
 """
 RIVAL = 0.3
-"""By how much less likely another place may be, for somebody to be asked which it is."""
+"""A person is asked if another place is likelier, or less likely by no more than this."""
 OFF = 16.0
-"""The squared distance from what is not expected, in deviations, from which a place is off it."""
+"""Squared distance from the key, in deviations, from which a place is clearly not at the key."""
 VAGUE, MEET, BESIDE = 4.0, 3, 2.5
-"""Where the pencil explains so many mm, a point that fits is looked at all the same, unless so many
-lines meet there, nothing on the sheet is wrong or missing before it, and it lies no farther off
-than so many mm. Where fewer meet, one that lies farther off is looked at, and what follows from it:
-another's lines may cross there.
+"""When a person still checks a point that fits: if the pencil explains more than VAGUE mm.
+
+A vague point is not checked if at least MEET lines meet there, it is within BESIDE mm of the
+expected place, and nothing before it on the sheet is wrong or missing. Where fewer lines meet, a
+point farther than BESIDE is checked, and so is all that follows from it: another point's lines may
+cross there.
 """
 AT_KEY = 2.0
-"""The squared distance from the key, in deviations, up to which a point is there."""
+"""Squared distance from the key, in deviations, within which a point is at the key."""
 ELSEWHERE = 0.6
-"""By how much another place must be likelier than one that fits, for its vectors to go there."""
+"""How much likelier another place must be than one that fits, for the vectors to go there."""
 NEARLY = 0.85
-"""The share of the ways to a point that must be there for the same."""
+"""The drawn share of the lines to a point below which a person is asked."""
 WHOLE = 0.9
-"""The share of its lines that must be there for nobody to be asked of a point."""
+"""The drawn share of a point's lines that is needed for it to count without a question."""
 SHORTEST = 1e-3
-"""A place that lies nearer to another, in mm, lies there."""
+"""Places closer than this, in mm, coincide."""
 LEVER = 15.0
-"""Two points so many mm apart tell the direction of the line that is drawn through them."""
+"""Two points must be this many mm apart to give the direction of the line through them."""
 
 
 class PointReader(PointSearch):
-    """Reads one sheet: what is drawn against what the construction expects."""
+    """Reads one sheet by comparing what is drawn with what the construction expects."""
 
     def __init__(self, sheet: LetteredSheet, ink: DrawnInk, pencil: Pencil) -> None:
         super().__init__(sheet, ink, pencil)
@@ -79,7 +82,7 @@ class PointReader(PointSearch):
         self.crossings: dict[int, LinesCrossing] = {}
 
     def read(self) -> tuple[PointReading, ...]:
-        """All points of the sheet."""
+        """The readings of all points of the sheet."""
         exact = self.sheet.exact
         keys = self.clouds()
         found = dict(exact.trace.values)
@@ -118,14 +121,14 @@ class PointReader(PointSearch):
         return tuple(self.readings[number] for number in self.sheet.points)
 
     def places(self, number: int, cloud: Any, own: ExpectedPlace, best: LinesCrossing) -> Any:
-        """Where a point that was read may lie: what follows from it is known no better."""
+        """Where a point that was read may be: the cloud for the steps that follow from it."""
         errors = self.stream(number, 1).standard_normal((DRAWINGS, 2))
         if own.away(best.place, best.error) <= FITS:
             return own.narrowed(cloud, best, errors)
         return self.own[number] + (errors @ np.linalg.cholesky(best.error).T) @ [1, 1j]
 
     def is_joined(self, number: int) -> bool:
-        """Whether the vectors are drawn that join a point with those read after it."""
+        """Whether the vectors that join a point with those read after it are drawn."""
         order = self.sheet.order
         later = (
             each
@@ -136,9 +139,10 @@ class PointReader(PointSearch):
         return all(cover is None or cover >= AGREED for cover in covers)
 
     def lines_through(self, number: int, found: Mapping[int, Any]) -> dict[int, Line]:
-        """The drawn lines of the mechanism that lead to a point that was read, as they were drawn:
-        from where they begin to the point. What is drawn along them takes this direction, and not
-        that which a shorter bar before gave them.
+        """The mechanism's drawn lines that lead to a point, with the directions as drawn.
+
+        Each runs from its beginning to the point. Steps drawn along it use this direction, not the
+        one from a shorter earlier bar.
         """
         drawn = dict[int, Line]()
         for each in self.sheet.leading[number]:
@@ -156,7 +160,7 @@ class PointReader(PointSearch):
         return drawn
 
     def read_corner(self, number: int, where: ExpectedPlace) -> LinesCrossing | None:
-        """A corner without a letter: taken where lines cross there; what is off is a mistake."""
+        """Read a corner without a letter where lines cross; a corner off its place is a mistake."""
         best = self.best_near(number, where) if np.isfinite(where.middle) else None
         away = np.inf if best is None else where.away(best.place, best.error)
         off = away > FITS and (
@@ -178,12 +182,14 @@ class PointReader(PointSearch):
         return best
 
     def corners(self) -> dict[int, tuple[float, float]]:
-        """Where the corners without letters were read, by their steps."""
+        """The places of the corners without letters that were read, by step."""
         return {n: pair(self.own[n]) for n in self.sheet.corners if n in self.own}
 
     def read_point(self, number: int, key: ExpectedPlace, own: ExpectedPlace) -> PointReading:
-        """A point, looked for where it is expected, then where it may be after a mistake; there it
-        needs to be no likelier where all ways are drawn to it, and here they are not.
+        """Read a point: first where it is expected, then where a mistake may have put it.
+
+        A far place must be likelier by a margin, unless all lines to it are drawn and those to the
+        expected place are not.
         """
         if not np.isfinite(own.middle):
             return self.told(number, key, own, None)
@@ -217,15 +223,18 @@ class PointReader(PointSearch):
         return self.told(number, key, own, best, doubtful=not (fits and led))
 
     def is_at_ends(self, number: int, own: ExpectedPlace) -> bool:
-        """Whether a point is expected so near all known ends of what leads to it that no line can
-        be seen between: what leaves these ends is that of others, and somebody is asked.
+        """Whether all known ends of a point's lines are too near it to see a line between.
+
+        Lines that leave those ends are then those of other points, and a person is asked.
         """
         ends = self.known_ends(number)
         return bool(ends) and all(abs(end - own.middle) < SHORT for end in ends)
 
     def elsewhere(self, number: int, place: complex, own: ExpectedPlace) -> LinesCrossing | None:
-        """Where the vectors go that run on beyond a place that fits: its lines cross there, and yet
-        somebody may have taken another place for the point.
+        """The place to which vectors run on beyond a place that fits; None without one.
+
+        The lines of the point cross at the place that fits, but the student may have used the other
+        place.
         """
         if max(self.beyond(number, place), default=0.0) < DRAWN:
             return None
@@ -236,8 +245,9 @@ class PointReader(PointSearch):
         return far if there > here + ELSEWHERE else None
 
     def rival(self, number: int, place: complex, own: ExpectedPlace) -> LinesCrossing | None:
-        """Where all ways of a plan meet and end about as well as at another place that fits:
-        vectors that nothing explains may be those of this point.
+        """A place that suits the plan's lines about as well as one that fits; None without one.
+
+        Vectors that nothing else explains may be those of this point.
         """
         if self.sheet.field(number) is self.sheet.layout.mechanism:
             return None
@@ -246,29 +256,28 @@ class PointReader(PointSearch):
             return None
         there, here = (self.likely(number, each, own) for each in (far.place, place))
         if self.is_one_with_another(number, place):
-            # the other's lines join its own there
+            # the other point's lines join its own there
             return far if there > here - RIVAL - JOINS else None
         beyond = self.beyond(number, far.place)
         whole = far.count >= MEET or self.agreement(number, far.place) >= WHOLE
         if far.cover < WHOLE or not whole or len(beyond) < 2 or max(beyond) >= DRAWN:
             return None
-        # two cross by chance as well
+        # two lines may cross by chance as well
         return far if there > here - (RIVAL if far.count >= MEET else 0.0) else None
 
     def is_likelier(
         self, number: int, rival: LinesCrossing, best: LinesCrossing, own: ExpectedPlace
     ) -> bool:
-        """Whether a point rather lies at a rival of its place: all of its vectors end there, or
-        those at its place are another point's.
+        """Whether a point is more likely at a rival place.
+
+        All its vectors end there, or its first place belongs to another point.
         """
         if self.is_one_with_another(number, best.place):
             return True
         return self.likely(number, rival.place, own) > self.likely(number, best.place, own)
 
     def is_one_with_another(self, number: int, place: complex) -> bool:
-        """Whether a point that was read before lies at a place as well: what leads there is
-        explained by it.
-        """
+        """Whether an earlier point was read at the same place; it explains the lines there."""
         steps = self.sheet.exact.program.steps
         return any(
             abs(self.own[other] - place) < SAME and steps[other].plane is steps[number].plane
@@ -308,7 +317,7 @@ class PointReader(PointSearch):
             ended = best.ends and close and own.radius <= VAGUE
             ended = ended and self.is_single(number, best.place)
             stray = away <= FITS and not near and best.count < MEET
-            # untried: by an auxiliary plan nobody saw
+            # untried: depends on an auxiliary plan that was not read
             vague = not there and ((own.radius > VAGUE and not met) or untried)
             odd = any(e.far in self.bad - behind for e in self.sheet.leading[number] if not e.after)
             ask = (
@@ -338,7 +347,7 @@ class PointReader(PointSearch):
                     or min(apart, from_key) < OFF
                     or not self.bad & behind & self.readings.keys()
                 )
-                ask = ask or bool(self.vaguely & behind)  # the mistake itself may not be there
+                ask = ask or bool(self.vaguely & behind)  # the mistake itself may be misread
                 hangs = bool(self.bad & self.doubted & behind)
                 ask = ask or (hangs and not self.is_met(number, best.place))
             else:
@@ -364,13 +373,11 @@ class PointReader(PointSearch):
         )
 
     def swayed(self, away: float, off: float) -> float:
-        """The squared distance of a place that lies so far off, were it farther by what the paper's
-        ripples leave open.
-        """
+        """The squared distance of a place ``off`` mm away, enlarged by the paper's sway."""
         return away * (1 + self.ink.sway / max(off, SHORTEST)) ** 2
 
     def is_met(self, number: int, place: complex) -> bool:
-        """Whether ways to a place that are drawn cross there, and its vectors do not run on."""
+        """Whether the drawn lines to a place cross there and its vectors end there."""
         ways = [
             self.far_place(each, self.next)
             for each in self.sheet.leading[number]
@@ -380,8 +387,9 @@ class PointReader(PointSearch):
         return are_crossing(ways, place) and beyond < DRAWN
 
     def is_checked(self, behind: frozenset[int]) -> bool:
-        """Whether all points behind one are read, and nobody is asked of any of them: then no
-        mistake is unseen, however far the pencil takes it from the key.
+        """Whether all points before one are read without a question to a person.
+
+        No mistake is then unseen, however far the pencil errors take the point from the key.
         """
         points = behind.intersection(self.sheet.points)
         corners = behind.intersection(self.sheet.corners)
@@ -392,8 +400,9 @@ class PointReader(PointSearch):
         )
 
     def is_there(self, number: int, best: LinesCrossing, key: ExpectedPlace) -> bool:
-        """Whether lines that are all drawn cross where the key has a point, on a sheet where
-        nothing is wrong so far: then it is right, whatever was not seen of the way to it.
+        """Whether fully drawn lines cross at the key's place, on a sheet without mistakes so far.
+
+        The point is then right, whatever was not seen of the construction before it.
         """
         near = abs(best.place - key.middle) <= BESIDE and key.away(best.place, best.error) <= AT_KEY
         whole = best.count > 1 and self.agreement(number, best.place) >= WHOLE
@@ -410,7 +419,7 @@ class PointReader(PointSearch):
         return None, ""
 
     def behind(self, number: int) -> frozenset[int]:
-        """The steps from which a hand draws a point."""
+        """The steps from which a point is constructed by hand."""
         steps, values = self.sheet.exact.program.steps, self.sheet.exact.trace.values
         found, pending = set[int](), [number]
         while pending:
@@ -425,7 +434,7 @@ class PointReader(PointSearch):
 
 
 def forecast_points(sheet: LetteredSheet, pencil: Pencil) -> tuple[PointReading, ...]:
-    """The points of a sheet of which nothing is read, with what the pencil explains."""
+    """The points of a sheet of which nothing is read, with the errors that the pencil explains."""
     empty = np.zeros((2, 2), np.float32)
     keys = PointReader(sheet, DrawnInk(empty, empty), pencil).clouds()
     found = []

@@ -1,4 +1,4 @@
-"""What was read of one lettered point, and what is right of it."""
+"""The reading of one lettered point and its verdict."""
 
 from __future__ import annotations
 
@@ -11,10 +11,14 @@ VERDICTS: tuple[ReadVerdict, ...] = ("right", "follows", "wrong", "missing", "un
 
 
 class PointReading(Struct, frozen=True):
-    """A lettered point: where it was read (mm of paper, y down), what is right of it, and whether a
-    person is to look at it. ``key`` is where it should be, ``own`` where it follows from the own
-    earlier points; ``off`` is how far it lies from that, ``error`` what the pencil explains (mm).
-    ``tail`` is a known point from which it is drawn, with its letter.
+    """The reading of a lettered point.
+
+    - ``at``: where it was read (mm of paper, y down).
+    - ``verdict``: what is right of it; ``ask``: whether a person should check it.
+    - ``key``: where it should be; ``own``: where it follows from the student's own earlier points.
+    - ``off``: its distance from ``own``; ``error``: the distance that the pencil explains (both
+      mm).
+    - ``tail``: a known point from which it is drawn; ``tail_name``: the letter of that point.
     """
 
     name: str
@@ -31,5 +35,5 @@ class PointReading(Struct, frozen=True):
 
 
 def pair(place: complex) -> tuple[float, float]:
-    """A place as it is written, to the thousandth of a mm."""
+    """A place rounded to a thousandth of a mm, as it is written to files."""
     return round(place.real, 3), round(place.imag, 3)

@@ -1,4 +1,4 @@
-"""One photograph read: whose it is, its map, its points; or why not."""
+"""The reading of one photograph: the student, the map and the points, or the reason for refusal."""
 
 from __future__ import annotations
 
@@ -27,20 +27,20 @@ from graphkin.text.errors import problems_of
 WHOLE = (0.0, 0.0, 420.0, 297.0)
 """An A3 sheet, in mm."""
 SHOWN, QUALITY = 6.0, 82
-"""Pixels for each mm of the flattened picture that is kept, and its quality as JPEG."""
+"""Pixels per mm and JPEG quality of the flattened picture that is kept."""
 SURE_OF_SHEET = 0.9
-"""The share of a sheet's own lines from which no other language of its is tried."""
+"""The share found of a sheet's own lines from which no other language is tried."""
 
 
 class Grid(Struct, frozen=True):
-    """Places of the paper in mm whose pixels are asked for: row after row, x running fastest."""
+    """A grid of places in mm of paper whose pixels are wanted, by row, x changing fastest."""
 
     x: tuple[float, ...] = ()
     y: tuple[float, ...] = ()
 
 
 class SheetRecord(Struct, frozen=True):
-    """What was read of a photograph; ``refused`` says why it was not."""
+    """The record of a photograph; ``refused`` is the reason why it was not read, else None."""
 
     name: str
     file: str
@@ -57,25 +57,26 @@ class SheetRecord(Struct, frozen=True):
 
 
 class ReadOrder(Struct, frozen=True):
-    """What the reading of a class shares: its lab and scene, its students by code."""
+    """The data that the readings of a class share: its lab, its scene, and its students by code."""
 
     order: PrintOrder
     takers: Mapping[str, Taker]
     grid: Grid = Grid()
     by_hand: bool = False
     marked: tuple[Item, ...] = ()
-    """The lengths and places that are marked: by hand only their points are asked."""
+    """The marked lengths and places: when reading by hand, a person is asked only for their points.
+    """
 
 
 class SheetRead(Struct, frozen=True):
-    """A record, and the flattened picture as JPEG; none where the photograph was refused."""
+    """A record, and the flattened picture as JPEG; b"" where the photograph was refused."""
 
     record: SheetRecord
     picture: bytes = b""
 
 
 class FoundSheet(Struct, frozen=True):
-    """A sheet that lies in a picture: whose, which, and where."""
+    """The sheet found in a picture, with its map, its residual in mm, and the student's sheets."""
 
     sheet: LetteredSheet
     map: PaperMap
@@ -84,7 +85,7 @@ class FoundSheet(Struct, frozen=True):
 
 
 def read_some(order: ReadOrder, wanted: Sequence[tuple[Photograph, str]]) -> list[SheetRead]:
-    """What is read of some photographs, each with the key under which it is kept."""
+    """The readings of some photographs, each given with the key under which it is kept."""
     import cv2
 
     cv2.setNumThreads(1)
@@ -92,7 +93,7 @@ def read_some(order: ReadOrder, wanted: Sequence[tuple[Photograph, str]]) -> lis
 
 
 def read_one(order: ReadOrder, photograph: Photograph, key: str) -> SheetRead:
-    """What is read of one photograph; whatever is wrong with it is told of it alone."""
+    """The reading of one photograph; any error becomes the refusal of that photograph alone."""
     record = SheetRecord(photograph.name, photograph.path.name, key)
     code = ""
     try:
@@ -125,13 +126,13 @@ def read_one(order: ReadOrder, photograph: Photograph, key: str) -> SheetRead:
 
 
 def student_label(order: ReadOrder, code: str) -> str:
-    """Whose sheet has a code: id and name of the student; nothing for a code that is not read."""
+    """The id and name of the student with a code; "" for an unknown code."""
     taker = order.takers.get(code)
     return f"{taker.student.id} {taker.student.name}".strip() if taker is not None else ""
 
 
 def known_code(grey: Any, takers: Mapping[str, Taker]) -> tuple[str, Any]:
-    """The one code of the class in a picture, with its corners. Raises Unreadable."""
+    """The only code of the class in a picture, and its corners. Raises Unreadable."""
     from graphkin.reading.codes import codes_in
 
     found = codes_in(grey)
@@ -151,8 +152,9 @@ def known_code(grey: Any, takers: Mapping[str, Taker]) -> tuple[str, Any]:
 
 
 def code_of_halves(sheet: Any, takers: Mapping[str, Taker]) -> tuple[str, Any]:
-    """The code on a sheet that was put together of its halves, with its corners: it stands where
-    they meet, and scans may lack some of it. Raises Unreadable.
+    """The code on a sheet joined from its halves, and its corners. Raises Unreadable.
+
+    The code is where the halves meet, and scans may lack part of it.
     """
     from graphkin.reading.codes import code_among
     from graphkin.reading.halves import DENSITY
@@ -167,10 +169,10 @@ def code_of_halves(sheet: Any, takers: Mapping[str, Taker]) -> tuple[str, Any]:
 
 
 def found_sheet(grey: Any, order: ReadOrder, code: str, corners: Any) -> FoundSheet:
-    """The sheet of a student that lies in a picture: the one whose own lines are found, and those
-    of the others are not, since one sheet may have all lines of another and some more.
+    """The sheet of a student that is in a picture. Raises Unreadable where none can be flattened.
 
-    Raises Unreadable where none can be flattened.
+    It is the sheet whose own lines are found while those of the others are not, because one sheet
+    may have all lines of another and some more.
     """
     from graphkin.reading.registration import SheetSearch
 
@@ -200,7 +202,7 @@ def found_sheet(grey: Any, order: ReadOrder, code: str, corners: Any) -> FoundSh
 
 
 def of_halves(left: Any, right: Any, order: ReadOrder) -> Any:
-    """The sheet of two pictures of its halves. Raises Unreadable where one of them is not found."""
+    """The sheet joined from pictures of its halves. Raises Unreadable where a half is not found."""
     from graphkin.reading.halves import put_together
 
     taker = next(iter(order.takers.values()))
@@ -209,13 +211,13 @@ def of_halves(left: Any, right: Any, order: ReadOrder) -> Any:
 
 
 def task_pages(sheets: Sheets) -> list[tuple[str, Page]]:
-    """The drawing sheets of a student's task."""
+    """The drawing sheets of a student's task, as (kind, page)."""
     return [(sheet.kind, sheet.pages[0]) for sheet in sheets.of("task") if sheet.kind != FORM]
 
 
 @lru_cache(maxsize=8)
 def drawn_for(code: str, settings: Any, language: str, scene: str) -> dict[str, Sheets]:
-    """Where the sheets of a student are kept while several pictures of them are read."""
+    """A cache for the sheets of a student while several pictures of them are read."""
     return {}
 
 
@@ -230,11 +232,11 @@ def sheets_of(order: PrintOrder, taker: Taker, language: str) -> Sheets:
 
 
 Points = tuple[tuple[PointReading, ...], dict[int, tuple[float, float]]]
-"""The lettered points of a sheet, and where its corners without letters lie, by their steps."""
+"""The lettered points of a sheet, and the places of its corners without letters, by step."""
 
 
 def read_points(grey: Any, found: FoundSheet) -> Points:
-    """The points of a sheet that was found."""
+    """The points read from a sheet that was found."""
     from graphkin.reading.drawn_ink import drawn_ink
     from graphkin.reading.point_reader import PointReader
 
@@ -246,8 +248,9 @@ def read_points(grey: Any, found: FoundSheet) -> Points:
 
 
 def points_to_click(found: FoundSheet, order: ReadOrder) -> Points:
-    """The points of a sheet that a person is to click, nothing of them read: those that a mark
-    needs are asked; where no length and no place is marked, all are.
+    """The points of a sheet that a person is to click; none of them is read.
+
+    Only the points that a mark depends on are asked for; if no length or place is marked, all are.
     """
     from graphkin.reading.point_reader import forecast_points
 
@@ -268,7 +271,7 @@ def mapped(over: PaperMap, grid: Grid) -> tuple[tuple[float, float], ...]:
 
 
 def flat_picture(grey: Any, over: PaperMap) -> bytes:
-    """The flattened sheet as a JPEG that holds nothing but its pixels."""
+    """The flattened sheet as a JPEG without metadata."""
     import cv2
 
     from graphkin.reading.drawn_ink import flattened

@@ -1,5 +1,7 @@
-"""What the parts of a scene say of each other: names that are written, drivers that can move a
-link, blocks on a guide, and coordinates that hold the lengths.
+"""Checks between the parts of a scene.
+
+They cover names, drivers that can move their link, blocks on guides, and coordinates that are
+precise enough for the lengths.
 """
 
 from __future__ import annotations
@@ -36,7 +38,7 @@ from graphkin.text.errors import SceneError, Written
 
 
 def check_scene(scene: Scene, findings: Findings) -> None:
-    """Note every name that is unknown or used for two things, and every link left alone."""
+    """Note every name that is unknown or used twice, and every link that touches no other."""
     check_namespace(scene, findings)
     check_capitals(scene, findings)
     for link in scene.every_link:
@@ -50,7 +52,7 @@ def check_scene(scene: Scene, findings: Findings) -> None:
 
 
 def check_namespace(scene: Scene, findings: Findings) -> None:
-    """One name, one thing: a point and a link do not share it."""
+    """Note names that a point and a link share."""
     points = scene.points
     for name in scene.links:
         if name in points:
@@ -58,9 +60,9 @@ def check_namespace(scene: Scene, findings: Findings) -> None:
 
 
 def check_capitals(scene: Scene, findings: Findings) -> None:
-    """A point that one link alone has is not another link's point in other capitals.
+    """Note a point of a single link whose name differs only in capitals from another link's point.
 
-    The plans write the image of B as b, so that two such names could not be told apart there.
+    The plans write the image of B as b, so that two such names would look the same there.
     """
     links = scene.every_link
     owners: dict[str, list[str]] = {}
@@ -84,7 +86,7 @@ def check_capitals(scene: Scene, findings: Findings) -> None:
 
 
 def check_link(scene: Scene, link: Link, findings: Findings) -> None:
-    """Guides, tracks, wheels and profiles of a link name points and links that are there."""
+    """Note names in guides, tracks, wheels and profiles of a link that do not exist."""
     place = place_of(link.name)
     check_centres(link, place, findings)
     for index, slide in enumerate(link.slides):
@@ -96,7 +98,7 @@ def check_link(scene: Scene, link: Link, findings: Findings) -> None:
 
 
 def check_guides(scene: Scene, link: Link, findings: Findings) -> None:
-    """No two links are guides of one another."""
+    """Note two links that are guides of each other."""
     order = list(scene.links)
     for on in dict.fromkeys(slide.on for slide in link.slides):
         other = scene.links.get(on)
@@ -109,7 +111,10 @@ def check_guides(scene: Scene, link: Link, findings: Findings) -> None:
 
 
 def check_alone(scene: Scene, findings: Findings) -> None:
-    """Every moving link has points and touches another: by a pin, a guide, a track or a wheel."""
+    """Note a moving link without points, or one that touches no other link.
+
+    Links touch at a pin, a guide, a track or a wheel.
+    """
     links = scene.every_link
     carriers = {path.on for link in links for path in link.paths}
     shared = Counter(point for link in links for point in link.points)
@@ -126,9 +131,10 @@ def check_alone(scene: Scene, findings: Findings) -> None:
 
 
 def check_branches(scene: Scene, findings: Findings) -> None:
-    """A side is chosen for a point, a way or a closure for a link.
+    """Note branches of unknown names, and branches of the wrong kind.
 
-    A way also for a pin, where a link is led in several ways.
+    A point takes a side; a link takes a way or a closure. A pin may also take a way if its link, or
+    the link that guides it, has several guides or tracks.
     """
     points = scene.points
     for name, branch in scene.branches.items():
@@ -153,14 +159,14 @@ def check_branches(scene: Scene, findings: Findings) -> None:
 
 
 def is_of_several_ways(scene: Scene, point: str) -> bool:
-    """Whether a point is of a link that is led in several ways, or of what leads one."""
+    """Whether a point is on a link with several guides or tracks, or on one that carries them."""
     several = [link for link in scene.links.values() if len(link.paths) > 1]
     near = {name for link in several for name in (link.name, *(path.on for path in link.paths))}
     return any(point in scene.link(name).points for name in near if name != FRAME)
 
 
 def ways_hint(scene: Scene, name: str, side: Side) -> str:
-    """Where a side belongs that is written under a link: a block takes a way, a pin a side."""
+    """A hint on where a side written under a link belongs: a block takes a way, a pin a side."""
     pin = side_of_pin(scene, name, side)
     if scene.links[name].paths:
         ways = f'{name} = "forward" or "backward"'
@@ -169,7 +175,7 @@ def ways_hint(scene: Scene, name: str, side: Side) -> str:
 
 
 def side_of_pin(scene: Scene, name: str, side: Side) -> str:
-    """A side as it is written under a pin that a link shares with another."""
+    """The side as it would be written under a pin that the link shares with another."""
     shared = Counter(point for link in scene.links.values() for point in link.points)
     points = [p for p in scene.links[name].points if shared[p] > 1]
     pins = [p for p in points if p not in (side.first, side.second)]
@@ -177,7 +183,7 @@ def side_of_pin(scene: Scene, name: str, side: Side) -> str:
 
 
 def check_blocks(scene: Scene, findings: Findings) -> None:
-    """Every link with one point is held by more than its pin, and no block by its guide's link."""
+    """Check the links with one point, and the blocks pinned to their own guide's link."""
     for link in scene.links.values():
         if not findings.inside(place_of(link.name)):
             check_bare(scene, link, findings)
@@ -185,7 +191,7 @@ def check_blocks(scene: Scene, findings: Findings) -> None:
 
 
 def check_bare(scene: Scene, link: Link, findings: Findings) -> None:
-    """A link on one pin and nothing else would spin about it unless a driver turns it."""
+    """Note a link with one pin and nothing else: it would spin unless a driver turns it."""
     if len(link.points) != 1 or link.paths or link.wheels:
         return
     point = link.points[0]
@@ -201,7 +207,7 @@ def check_bare(scene: Scene, link: Link, findings: Findings) -> None:
 
 
 def lent_slides(scene: Scene, link: Link) -> str:
-    """A hint where another link at the same pin has the slides that seem to be this one's."""
+    """A hint where another link at the same pin has the slides that seem to belong to this one."""
     others = [
         other.name
         for other in scene.links.values()
@@ -211,7 +217,7 @@ def lent_slides(scene: Scene, link: Link) -> str:
 
 
 def check_locked(scene: Scene, link: Link, findings: Findings) -> None:
-    """A block does not slide on a link that it is pinned to: it could not move against it."""
+    """Note a block that slides on a link to which it is also pinned: it could not move."""
     place = f"{place_of(link.name)}.slides"
     for index, slide in enumerate(link.slides):
         if slide.on == link.name or slide.on not in (FRAME, *scene.links):
@@ -229,7 +235,10 @@ def check_locked(scene: Scene, link: Link, findings: Findings) -> None:
 
 
 def meant(scene: Scene, block: Link) -> str:
-    """The one link that hangs by a single pin, and so may lack this guide, as a text writes it."""
+    """The only link with a single pin, which may be the one meant to guide the block; else "".
+
+    The name is quoted as a scene writes it.
+    """
     shut = {slide.on for slide in block.slides}
     loose = [
         name
@@ -240,7 +249,7 @@ def meant(scene: Scene, block: Link) -> str:
 
 
 def hangs(scene: Scene, link: Link) -> bool:
-    """Whether a link has one pin and no guide, no track, no wheel and no driver."""
+    """Whether a link has one pin and no guide, track, wheel or driver."""
     others = (scene.frame, *(each for each in scene.links.values() if each is not link))
     pins = [point for point in link.points if any(point in other.points for other in others)]
     free = not (link.paths or link.wheels or carries(scene, link.name))
@@ -248,25 +257,25 @@ def hangs(scene: Scene, link: Link) -> bool:
 
 
 def carries(scene: Scene, name: str) -> bool:
-    """Whether a guide or a track lies on a link."""
+    """Whether a link carries a guide or a track."""
     links = scene.links.values()
     return any(path.on == name for link in links for path in link.paths)
 
 
 def is_driven(scene: Scene, name: str) -> bool:
-    """Whether a driver moves a link, or another link against it."""
+    """Whether a driver moves a link, or moves another link against it."""
     return any(name in (driver.link, driver.against) for driver in scene.drivers)
 
 
 def check_drivers(scene: Scene, findings: Findings) -> None:
-    """Every driver moves a known link that can move so, and no motion is given twice."""
+    """Note drivers whose link is unknown or cannot move so, and motions that are given twice."""
     for driver in scene.drivers:
         check_driver(scene, driver, driver.position.place.rpartition(".")[0], findings)
     check_repeated(scene, findings)
 
 
 def check_driver(scene: Scene, driver: Driver, place: str, findings: Findings) -> None:
-    """A driver moves a known link against another, along a guide or a track that is there."""
+    """Note a driver of an unknown link, of a link against itself, or without a guide."""
     link = known_link(scene, driver.link, f"{place}.{driver.kind}", findings)
     against = known_link(scene, driver.against, f"{place}.against", findings)
     if link is None or against is None:
@@ -288,7 +297,7 @@ def check_driver(scene: Scene, driver: Driver, place: str, findings: Findings) -
 
 
 def other_ends(scene: Scene, link: Link) -> list[Written]:
-    """Of a driver along a link's guide: the blocks on that, or what the link itself slides on."""
+    """For a driver along a link's guide: the blocks on that link, or the links it slides on."""
     pairs = [(each.name, slide.on) for each in scene.links.values() for slide in each.slides]
     blocks = [("slide", block) for block, on in pairs if on == link.name]
     guides = [("against", on) for block, on in pairs if block == link.name]
@@ -296,7 +305,7 @@ def other_ends(scene: Scene, link: Link) -> list[Written]:
 
 
 def check_slid(scene: Scene, driver: Driver, link: Link, place: str, findings: Findings) -> None:
-    """A driver that slides a link has a guide to move it along."""
+    """Note a driver that slides a link without a guide on the driver's other link."""
     guides = [slide.on for slide in link.slides]
     if driver.against in guides:
         return
@@ -315,7 +324,7 @@ def check_slid(scene: Scene, driver: Driver, link: Link, place: str, findings: F
 
 
 def check_repeated(scene: Scene, findings: Findings) -> None:
-    """No motion is given twice."""
+    """Note motions that are given twice."""
     seen = Counter((driver.kind, driver.link, driver.against) for driver in scene.drivers)
     for (kind, link, against), times in seen.items():
         if times > 1:
@@ -324,13 +333,16 @@ def check_repeated(scene: Scene, findings: Findings) -> None:
 
 
 FARTHEST = 1e9
-"""Lengths of the shortest bar beyond which coordinates of 16 digits are too coarse for it."""
+"""The largest distance from the origin, in lengths of the shortest bar.
+
+Farther away, coordinates of 16 digits are too coarse for that bar.
+"""
 BESIDE = 1e3
-"""Lengths of the whole mechanism beyond which it lies far from the origin."""
+"""A mechanism this many times its total length from the origin is far away."""
 
 
 def check_far(scene: Scene, findings: Findings) -> None:
-    """Note a frame that stands so far away that less than seven digits are left for its bars."""
+    """Note a frame so far from the origin that fewer than seven digits are left for its bars."""
     if findings.problems:
         return
     try:
@@ -353,14 +365,14 @@ def check_far(scene: Scene, findings: Findings) -> None:
 
 
 def bar_lengths(scene: Scene) -> Iterator[Quantity]:
-    """Every length of a bar that the scene states."""
+    """Every bar length that the scene states."""
     for link in scene.every_link:
         for placing in link.placings:
             yield from (length for _, _, length in lengths_of(placing))
 
 
 def fixed_places(scene: Scene) -> Iterator[tuple[Quantity, Quantity]]:
-    """The coordinates of the frame's points and of guides and tracks through coordinates."""
+    """The coordinates of the frame's points, and those of the frame's guides and tracks."""
     for placing in scene.frame.placings:
         if isinstance(placing, At):
             yield placing.x, placing.y
@@ -371,10 +383,9 @@ def fixed_places(scene: Scene) -> Iterator[tuple[Quantity, Quantity]]:
 
 
 def metres(scene: Scene, length: Quantity) -> float:
-    """A length in metres."""
     return float(length.si(scene.values))
 
 
 def metres_written(length: float) -> str:
-    """A length in few digits."""
+    """A length with three significant digits."""
     return shortest(float(f"{length:.3g}"))

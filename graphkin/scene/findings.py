@@ -1,4 +1,4 @@
-"""Problems gathered while a scene is read, so that all of them are told at once."""
+"""Problems gathered while a scene is read, so that all of them are reported at once."""
 
 from __future__ import annotations
 
@@ -9,12 +9,12 @@ from graphkin.text.errors import MOST, About, Change, Hint, Mend, Problem, Scene
 
 LISTED = 12
 BEGUN = 3
-"""Letters in which a name and a longer one must begin alike for either to be near the other."""
+"""Number of first letters that two names must share for one to be near the other."""
 SHORT = 2
-"""Letters of a name so short that one of them is more than a third."""
+"""Length of a name so short that one letter is more than a third of it."""
 DIGITS = "0123456789"
 COMBINING = "\u0300"
-"""The first sign that combines with the letter before it: what is all below is composed."""
+"""The first combining character: a text with only lower code points is already composed (NFC)."""
 
 
 class Findings:
@@ -37,7 +37,7 @@ class Findings:
         self.extend([Problem(place, found, expected, hint, changes, about)])
 
     def extend(self, problems: Iterable[Problem]) -> None:
-        """Note problems that were not noted before; with more than an error carries, stop."""
+        """Note problems, each only once; stop when there are more than an error can hold."""
         for problem in problems:
             if problem not in self.problems:
                 self.problems.append(problem)
@@ -45,25 +45,25 @@ class Findings:
                 self.stop()
 
     def inside(self, place: str) -> bool:
-        """Whether something was found at a place or within it."""
+        """Whether a problem was found at a place or within it."""
         return any(
             problem.place == place or problem.place.startswith((f"{place}.", f"{place}["))
             for problem in self.problems
         )
 
     def stop(self) -> None:
-        """Raise an error when anything was found: SceneError, or that of the file at hand."""
+        """Raise an error if anything was found: SceneError, or the error of a subclass."""
         if self.problems:
             raise SceneError(self.problems)
 
 
 WHOLE = ("graphkin", "title", "time", "module")
-"""Keys of a whole scene that hold no table: below a heading they are keys of that."""
+"""Top-level keys that hold no table: written below a heading, they belong to that table."""
 ABOVE = "it belongs at the top of the file, above the first heading in brackets"
 
 
 class Table:
-    """A table of the file whose keys are taken one by one; what is left over is unknown."""
+    """A table of the file whose keys are taken one by one; keys left over are unknown."""
 
     def __init__(self, place: str, raw: dict[str, object], findings: Findings) -> None:
         self.place = place
@@ -79,7 +79,7 @@ class Table:
         return f"{self.place}.{shown_key(key)}" if self.place else shown_key(key)
 
     def take(self, key: str) -> object:
-        """The raw value of a key, None where it is not written."""
+        """The raw value of a key, or None."""
         self.known.append(key)
         return self.raw.get(key)
 
@@ -89,7 +89,7 @@ class Table:
         return default if raw is None else plain_text(self.at(key), raw, self.findings)
 
     def flag(self, key: str) -> bool:
-        """True or false; false where it is not written."""
+        """A boolean value; False where the key is absent."""
         raw = self.take(key)
         if raw is None or isinstance(raw, bool):
             return raw is True
@@ -97,8 +97,10 @@ class Table:
         return False
 
     def choice(self, key: str, words: tuple[str, ...], default: str = "") -> str:
-        """One of some words, the first where none can be read; it must be written without a
-        default."""
+        """One of some words; the default, or the first word, where it cannot be read.
+
+        Without a default, the key must be present.
+        """
         raw = self.take(key)
         if isinstance(raw, str) and raw in words:
             return raw
@@ -109,14 +111,14 @@ class Table:
         return default or words[0]
 
     def table(self, key: str) -> Table:
-        """A table within this one, empty where it is not written."""
+        """A table within this one; an empty table where the key is absent."""
         raw = self.take(key)
         if raw is not None and not isinstance(raw, dict):
             self.findings.add(self.at(key), shown(raw), "a table")
         return Table(self.at(key), raw if isinstance(raw, dict) else {}, self.findings)
 
     def finish(self) -> None:
-        """Note each key that nobody asked for, with the nearest known one."""
+        """Note each key that was not taken, with the nearest known key."""
         for key in self.raw:
             if key not in self.known:
                 misplaced = self.place and key in WHOLE
@@ -125,7 +127,7 @@ class Table:
 
 
 def plain_text(place: str, raw: object, findings: Findings) -> str:
-    """A text to be printed, in composed letters (NFC), refused with control or bidi characters."""
+    """A printable text in NFC form; a text with control or bidirectional characters is refused."""
     if not isinstance(raw, str):
         findings.add(place, shown(raw), "a text in quotes")
         return ""
@@ -141,29 +143,30 @@ def plain_text(place: str, raw: object, findings: Findings) -> str:
 
 
 def one_or_many(raw: object) -> list[object]:
-    """A value that may be written alone or as a list, as a list; absent is empty."""
+    """A list of a value that may be written alone or as a list; [] for None."""
     if raw is None:
         return []
     return raw if isinstance(raw, list) else [raw]
 
 
 def numbered(place: str, index: int, count: int) -> str:
-    """The place of one of several; one alone has no number."""
+    """The place of one of several items; a single item has no number."""
     return f"{place}[{index}]" if count > 1 else place
 
 
 def nearest(name: str, known: Iterable[str]) -> Hint:
-    """The known name nearest to one that is not known as its mend; empty when none is near."""
+    """A correction of an unknown name to the nearest known one; "" when none is near."""
     near = near_name(name, known)
     return Mend(name, near) if near else ""
 
 
 def near_name(name: str, known: Iterable[str]) -> str:
-    """The known name nearest to one that is not known; empty when none is near.
+    """The known name nearest to an unknown one; "" when none is near.
 
-    Near is what differs by its case, its number or leading zeros, what begins alike, and what at
-    most a third of its letters would have to change for. A name of one or two letters is near to
-    the only known one that has a letter more or less, or that is known at all and one letter off.
+    A name is near if it differs only in case, number or leading zeros, begins alike, or needs
+    changes to at most a third of its letters. For a name of one or two letters, only one near name
+    may exist: it is one letter longer or shorter, or it is the only known name and differs in one
+    letter.
     """
     meant, known = name[:60].lower(), tuple(known)
     near: dict[str, tuple[int, int]] = {}
@@ -187,12 +190,12 @@ def near_name(name: str, known: Iterable[str]) -> str:
 
 
 def number_of(name: str) -> int:
-    """The number at the end of a name, 0 where it has none."""
+    """The number at the end of a name; 0 where there is none."""
     return int(f"0{name[len(name.rstrip(DIGITS)) :]}")
 
 
 def changes_between(name: str, other: str) -> int:
-    """How many letters must be put in, left out, replaced or exchanged with the next one."""
+    """The number of letters to insert, delete, replace or swap with the next one."""
     before: list[int] = [0] * (len(other) + 1)
     row: list[int] = [*range(len(other) + 1)]
     for i, letter in enumerate(name, 1):
@@ -205,7 +208,7 @@ def changes_between(name: str, other: str) -> int:
 
 
 def near_file(path: str, files: Iterable[str]) -> str:
-    """The file whose name is nearest to that of one that is not there, whatever their endings."""
+    """The file whose name is nearest to a missing file's, regardless of endings; "" if none."""
     ending = path.rpartition(".")[2]
     known: dict[str, str] = {}
     for each in sorted(files, key=lambda each: each.rpartition(".")[2] != ending):
@@ -214,19 +217,19 @@ def near_file(path: str, files: Iterable[str]) -> str:
 
 
 def listed(names: Iterable[str]) -> str:
-    """A short list of names: one of A, B, C."""
+    """A list of names in words: "one of A, B, C"."""
     every = sorted(dict.fromkeys(names), key=natural)
     some = ", ".join(every[:LISTED]) + (", …" if len(every) > LISTED else "")
     return f"one of {some}" if len(every) > 1 else some
 
 
 def natural(name: str) -> tuple[bool, int, str]:
-    """Key that puts numbered links in order of number, before names."""
+    """The sort key that puts numbered links first, by number, and names after them."""
     return (False, int(name), "") if name.isdigit() else (True, 0, name)
 
 
 def shown(raw: object) -> str:
-    """A raw value as an error shows it: short, on one line, with nothing invisible."""
+    """A raw value as an error shows it: short, on one line, without invisible characters."""
     match raw:
         case bool():
             return str(raw).lower()
@@ -242,12 +245,12 @@ def shown(raw: object) -> str:
 
 
 def shown_key(key: str) -> str:
-    """A key as an error shows it, in quotes when it is not a bare one."""
+    """A key as an error shows it, in quotes unless it is a bare key."""
     bare = key.isascii() and all(c.isalnum() or c in "-_" for c in key) and key
     return key if bare and len(key) <= 60 else f'"{visible(key)}"'
 
 
 def visible(text: str) -> str:
-    """A text cut to 60 characters, invisible ones written as escapes."""
+    """A text cut to 60 characters, with invisible characters as escapes."""
     cut = text if len(text) <= 60 else text[:57] + "…"
     return "".join(c if c.isprintable() else ascii(c)[1:-1] for c in cut)

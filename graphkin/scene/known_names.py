@@ -1,4 +1,4 @@
-"""Names that a scene uses, held against those that it writes."""
+"""Checks of the names used in a scene against the names defined in it."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ from graphkin.scene.model import FRAME, GuideOrTrack, Link, Scene, Slide, link_w
 
 
 def known_link(scene: Scene, name: str, place: str, findings: Findings) -> Link | None:
-    """The link of a name; None, with a problem noted, when there is none."""
+    """The link with a name; None, with a problem noted, when there is none."""
     if name == FRAME or name in scene.links:
         return scene.link(name)
     found = f"link {name} is not in [links]"
@@ -28,19 +28,19 @@ def known_point(
 
 
 def place_of(name: str) -> str:
-    """Where a link is written."""
+    """The place of a link in the file."""
     return "frame" if name == FRAME else f"links.{name}"
 
 
 def quoted(link: str) -> str:
-    """The name of a link as a scene writes it as a value: 2, but "arm"."""
+    """A link's name as a scene writes it as a value: 2, but "arm"."""
     return link if link.isdigit() else f'"{link}"'
 
 
 def check_guide(
     scene: Scene, link: Link, joint: GuideOrTrack, place: str, findings: Findings
 ) -> None:
-    """A guide or a track is on another link, and the points it names are that link's."""
+    """Note a guide or track on its own or an unknown link, or through points which that lacks."""
     if joint.on == link.name:
         findings.add(f"{place}.on", f"link {link.name} itself", "another link")
         return
@@ -63,7 +63,7 @@ def check_guide(
 
 
 def next_name(links: Collection[str]) -> str:
-    """A name for an equivalent link: the next number after the others', or a letter of its own."""
+    """A name for an equivalent link: the next number after the others, or a new name in letters."""
     if all(name.isdigit() for name in links):
         return str(max(map(int, links)) + 1)
     letters = ("e", *(f"e{number}" for number in range(2, len(links) + 2)))

@@ -1,4 +1,4 @@
-"""Numbers of a scene as read: each with its unit, its place and its value checked."""
+"""Numbers of a scene as read: the unit, the place and the value of each are checked."""
 
 from __future__ import annotations
 
@@ -19,13 +19,13 @@ LARGEST = 10**FARTHEST
 
 
 class FloatText(str):
-    """A TOML float kept as it was written, so that 0.1 is one tenth."""
+    """A TOML float kept as it was written, so that 0.1 is exactly one tenth."""
 
     __slots__ = ()
 
 
 def quantity(raw: object, unit: str, place: str) -> Quantity:
-    """A raw value as a quantity; UnreadableError when it is no number and no expression."""
+    """A raw value as a quantity. Raises UnreadableError if it is no number and no expression."""
     if isinstance(raw, bool):
         raise UnreadableError(shown(raw))
     if isinstance(raw, Integral):
@@ -44,7 +44,7 @@ def quantity(raw: object, unit: str, place: str) -> Quantity:
 
 
 class Measures:
-    """How the numbers of one scene are read: its units, its parameters, its findings."""
+    """The reader of one scene's numbers, with its units, parameters and findings."""
 
     def __init__(
         self, findings: Findings, units: Mapping[str, str], values: Mapping[str, Fraction]
@@ -56,7 +56,10 @@ class Measures:
     def number(
         self, place: str, raw: object, unit: str = "", *, positive: bool = False, law: bool = False
     ) -> Quantity:
-        """A number in a unit; ``law`` lets ``t`` in. A problem is noted and one stands in."""
+        """A number in a unit; ``law`` allows the time ``t``.
+
+        A number that cannot be read is noted as a problem and replaced by 1.
+        """
         try:
             read = quantity(raw, unit, place)
         except UnreadableError as error:
@@ -76,7 +79,7 @@ class Measures:
         return self.number(place, raw, self.units["angle"])
 
     def point(self, place: str, raw: object) -> Pair:
-        """Two coordinates ``[x, y]``."""
+        """Two coordinates, from ``[x, y]``."""
         if not isinstance(raw, list) or len(raw) != 2:
             self.findings.add(place, shown(raw), "two coordinates [x, y]")
             raw = [1, 1]
@@ -115,7 +118,7 @@ class Measures:
         return law and not unknown and TIME in self.values
 
     def exists(self, read: Quantity, positive: bool = False, hint: Hint = "") -> bool:
-        """Whether a quantity has a value now, and a positive one where it must."""
+        """Whether a quantity has a value in range, and a positive one where required."""
         try:
             value = read.number(self.values)
         except SceneError as error:

@@ -1,6 +1,4 @@
-"""The guides of blocks and the profiles of links, and what is written as they are: a line, a
-table or a list of them.
-"""
+"""The guides of blocks and the profiles of links, with shared readers for lines and tables."""
 
 from __future__ import annotations
 
@@ -18,7 +16,7 @@ GUIDE = "the link that carries the guide, 0 for the frame"
 
 
 def tables(table: Table, key: str) -> list[Table]:
-    """The tables of a key that may hold one or a list of them."""
+    """The tables of a key that may hold one table or a list of them."""
     raws = one_or_many(table.take(key))
     if len(raws) > MOST:
         table.findings.add(table.at(key), f"a list of {len(raws)}", f"at most {MOST}")
@@ -58,7 +56,7 @@ def read_slide(table: Table, measures: Measures) -> Slide:
 
 
 def read_line(table: Table, measures: Measures) -> tuple[str | Pair | None, Quantity | None]:
-    """A line by a point that it passes through and its angle to the x axis of its link."""
+    """A line, by a point on it and its angle to the x axis of its link."""
     raw, turned = table.take("through"), table.take("angle")
     if raw is None:
         expected = 'through = "P" or [x, y], with an angle, or along = "P-Q"'
@@ -80,7 +78,7 @@ def read_line(table: Table, measures: Measures) -> tuple[str | Pair | None, Quan
 
 
 OTHERWISE = "a profile is an arc: it needs a radius"
-"""The hint where the centre of a profile lies on it."""
+"""The hint where the centre of a profile is on the profile."""
 FULL = 360
 """The whole circle of a profile, in degrees."""
 
@@ -91,7 +89,7 @@ def read_profiles(table: Table, measures: Measures) -> tuple[Profile, ...]:
 
 
 def read_profile(table: Table, measures: Measures) -> Profile:
-    """One profile, ``{ about, through, arc, hollow }``; a point that cannot be read is empty."""
+    """One profile, ``{ about, through, arc, hollow }``; a point that cannot be read is ""."""
     about, through = (
         point_name(table.at(key), table.take(key), table.findings) or ""
         for key in ("about", "through")
@@ -104,7 +102,7 @@ def read_profile(table: Table, measures: Measures) -> Profile:
 
 
 def check_profiles(scene: Scene, link: Link, findings: Findings) -> None:
-    """Every profile is about a point of its link, through another place of the mechanism."""
+    """Note profiles about unknown points, through their own centre, or with arcs out of range."""
     place = place_of(link.name)
     sound, points = not findings.inside(place), scene.points
     for index, profile in enumerate(link.profiles):
@@ -127,7 +125,7 @@ def check_profiles(scene: Scene, link: Link, findings: Findings) -> None:
 
 
 def at_one_spot(scene: Scene, link: Link, profile: Profile) -> bool:
-    """Whether both points of a profile are written by the same coordinates of its link."""
+    """Whether both points of a profile are written with the same coordinates of its link."""
     spots = [
         (placing.x.number(scene.values), placing.y.number(scene.values))
         for placing in link.placings

@@ -1,4 +1,4 @@
-"""A scene from its file: every problem in it is found before one error tells them all."""
+"""A scene from its file; all its problems are found before one error reports them together."""
 
 from __future__ import annotations
 
@@ -31,7 +31,7 @@ FORMAT = 1
 """Version of the scene format that is read."""
 MOST_LINKS = 500
 CHOSEN = {"ask", "branches", "notes", "titles"}
-"""The tables that no link hangs on."""
+"""The tables on which no link depends."""
 SPELLINGS = {
     **dict.fromkeys(("rpm", "r.p.m.", "rot/min", "1/min", "min^-1", "rev/mn"), "rev/min"),
     **dict.fromkeys(("rad/sec", "radians/s", "1/s", "s^-1"), "rad/s"),
@@ -42,13 +42,13 @@ SPELLINGS = {
     **dict.fromkeys(("metre", "metres", "meter", "meters"), "m"),
     **dict.fromkeys(("inch", "inches", '"'), "in"),
 }
-"""Other spellings of units, for hints; a unit that is only spelt alike is not meant."""
+"""Other spellings of units, for hints; a unit that is merely spelt alike is not included."""
 UNITS = {"length": tuple(LENGTHS), "angle": tuple(TURNS), "speed": ("rev/min", "rad/s")}
 NO_SETTINGS: Mapping[str, object] = {}
 
 
 def read_scene(path: paths.Named, settings: Mapping[str, object] = NO_SETTINGS) -> Scene:
-    """The scene in a file, its parameters set; SceneError with every problem found.
+    """The scene in a file with its parameters set. Raises SceneError with all problems found.
 
     The scene is named after its file, or after its folder when the file is ``scene.toml``.
     """
@@ -61,13 +61,14 @@ def read_scene(path: paths.Named, settings: Mapping[str, object] = NO_SETTINGS) 
 def read_text(
     text: str, name: str, source: str | None = None, settings: Mapping[str, object] = NO_SETTINGS
 ) -> Scene:
-    """The scene in a TOML text, its parameters set; SceneError with every problem found."""
+    """The scene in a TOML text with its parameters set. Raises SceneError with all problems."""
     return read_into(Findings(), text, name, source, settings)
 
 
 def known_keys(text: str, name: str) -> dict[str, list[str]]:
-    """The keys that the reader knows in each table of a text, by the table's place, as far as the
-    text can be read: those that are written there and those that might be.
+    """The keys that the reader knows in each table of a text, by the table's place.
+
+    They include keys that are absent. Only tables that can be read are included.
     """
     findings = Findings()
     with suppress(GraphkinError):
@@ -82,7 +83,7 @@ def read_into(
     source: str | None = None,
     settings: Mapping[str, object] = NO_SETTINGS,
 ) -> Scene:
-    """The scene in a text, its problems noted; SceneError where there are any."""
+    """The scene in a text, with its problems noted. Raises SceneError if there are any."""
     top = Table("", tables_of(text, findings), findings)
     if not top.raw:
         found = "nothing but comments" if text.strip("\ufeff \t\r\n") else "the file is empty"
@@ -99,10 +100,10 @@ def read_into(
 
 
 def note_structure(scene: Scene, findings: Findings) -> None:
-    """Beside what is wrong with what is chosen and asked alone, note what is wrong with the links.
+    """Note problems of the links too, where only the branches or requests have problems.
 
-    What is asked does not change these, and a branch with a problem is taken out; nothing is said
-    of a branch that is missing, for one with a problem may be meant for it.
+    Requests do not change the links, and a branch with a problem is left out. A missing branch is
+    not reported then, because the branch with a problem may be meant for it.
     """
     tables = {problem.place.partition(".")[0] for problem in findings.problems}
     if not findings.problems or not tables <= CHOSEN:
@@ -116,7 +117,7 @@ def note_structure(scene: Scene, findings: Findings) -> None:
 
 
 def check_version(top: Table, findings: Findings) -> None:
-    """The format is ours; a newer one stops the reading at once."""
+    """Check the format version; a newer version stops the reading at once."""
     version = top.take("graphkin")
     if version is None:
         found = "the version of the format is missing"
@@ -136,7 +137,7 @@ def assembled(
     settings: Mapping[str, object],
     findings: Findings,
 ) -> Scene:
-    """All parts but what is asked; where one cannot be read, a problem is noted, another put in."""
+    """The scene without its requests; an unreadable part is noted and replaced by a default."""
     units = read_units(top.table("units"), findings)
     parameters = read_parameters(top.table("parameters"), findings)
     values = set_values(parameters, settings, findings)
@@ -190,7 +191,7 @@ def read_units(table: Table, findings: Findings) -> dict[str, str]:
 
 
 def read_time(top: Table, measures: Measures, values: dict[str, Fraction]) -> Quantity | None:
-    """The moment at which laws of time are taken, in seconds; it joins the values as ``t``."""
+    """The time in seconds at which laws of time are evaluated; it joins the values as ``t``."""
     raw = top.take("time")
     if raw is None:
         return None
@@ -208,8 +209,10 @@ def read_module(top: Table, measures: Measures) -> Quantity | None:
 def read_links(
     top: Table, fixed: Link, measures: Measures, module: Quantity | None
 ) -> tuple[Link, dict[str, Link]]:
-    """The frame, and the moving links by name; what reads touching profiles and cams is loaded for
-    these."""
+    """The frame, and the moving links by name.
+
+    The readers of touching profiles and of cams are imported only where a link needs them.
+    """
     table = top.table("links")
     if not table.raw and not measures.findings.inside(table.place):
         measures.findings.add("links", "no link", "a table [links.NAME] for each moving link")
@@ -245,7 +248,7 @@ def read_links(
 
 
 def read_link(name: str, table: Table, measures: Measures, module: Quantity | None) -> Link:
-    """One link: its points and their placings, its guides, wheels, tracks and profiles."""
+    """One link: its points and their placings, guides, wheels, tracks and profiles."""
     points, placings = read_shape(table, measures)
     wheels, profiles = read_wheels(table, measures, module), read_profiles(table, measures)
     if name == FRAME:
@@ -287,7 +290,7 @@ def read_drivers(top: Table, links: Mapping[str, Link], measures: Measures) -> t
 
 
 def read_driver(table: Table, links: Mapping[str, Link], measures: Measures) -> Driver | None:
-    """One driver; None, with a problem noted, when what it drives is not clear."""
+    """One driver; None, with a problem noted, when it does not name exactly one motion."""
     kinds = [kind for kind in KINDS if kind in table]
     if len(kinds) != 1:
         found = " and ".join(kinds) or "nothing driven"
@@ -362,7 +365,7 @@ def read_position(table: Table, key: str, unit: str, measures: Measures) -> Quan
 def derivatives(
     table: Table, position: Quantity, measures: Measures
 ) -> tuple[Quantity, Quantity, Quantity]:
-    """A law of time with its first and second derivative."""
+    """A law of time with its first and second derivatives."""
     refuse_beside_law(table, measures)
     try:
         speed = position.derivative(TIME)
@@ -376,7 +379,7 @@ def derivatives(
 
 
 def is_law(raw: object) -> bool:
-    """Whether a text is an expression in the time, though the scene may not give it."""
+    """Whether a text is an expression in the time, even if the scene gives no time."""
     try:
         return TIME in quantity(raw, "", "").uses()
     except UnreadableError:
@@ -384,7 +387,7 @@ def is_law(raw: object) -> bool:
 
 
 def refuse_beside_law(table: Table, measures: Measures) -> None:
-    """Note a speed and an acceleration that stand beside a law of time."""
+    """Note a speed or an acceleration written next to a law of time."""
     for key in ("speed", "acceleration"):
         if table.take(key) is not None:
             found = f"{key} beside a law of time"

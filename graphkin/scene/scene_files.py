@@ -1,4 +1,4 @@
-"""Where the shipped labs lie, and how a name or a path becomes the file of a scene."""
+"""The folders of the shipped labs, and the scene file for a name or a path."""
 
 from __future__ import annotations
 
@@ -19,16 +19,16 @@ if TYPE_CHECKING:
 HERE = paths.beside(paths.beside(__file__))
 ABOVE = paths.beside(HERE)
 SHELVES = (within(HERE, "sheets"), within(ABOVE, "sheets"))
-"""The package's own shelf (a wheel), then the checkout's (an editable install)."""
+"""The folder in the package (a wheel), then the one in the checkout (an editable install)."""
 EXAMPLES = (within(HERE, "scenes"), within(ABOVE, "examples", "scenes"))
-"""The folders with the scenes that come with it, likewise."""
+"""The folders with the example scenes, in the same order."""
 LAB, SCENE, ENDING = "lab.toml", "scene.toml", ".toml"
-"""The file that makes a scene a lab, the scene of a folder, and how all of them end."""
+"""The file that makes a scene a lab, the scene file of a folder, and the ending of both."""
 BEGINS, HEAD = re.compile(rb"^\s*graphkin\s*=", re.MULTILINE), 4096
-"""The first key of a scene, and how many bytes of a file are looked at for it."""
+"""The first key of a scene, and the number of bytes in which it is searched for."""
 
 UNFINISHED = ".graphkin-unfinished"
-"""The folder, beside a scene or the files of a class, in which what is written waits."""
+"""The folder, next to a scene or the files of a class, for files that are being written."""
 
 
 def shipped() -> str:
@@ -44,7 +44,7 @@ def shipped() -> str:
 
 
 def shelf() -> Path:
-    """The same folder, for what goes on from there."""
+    """The folder with the shipped labs, as a Path."""
     from pathlib import Path
 
     return Path(shipped())
@@ -57,7 +57,7 @@ def names() -> list[str]:
 
 
 def examples() -> dict[str, Path]:
-    """The scenes that come with it and are no labs, by name, in alphabetical order."""
+    """The example scenes that are no labs, by name, in alphabetical order."""
     from pathlib import Path
 
     found = next((folder for folder in EXAMPLES if paths.is_folder(folder)), None)
@@ -65,7 +65,7 @@ def examples() -> dict[str, Path]:
 
 
 def settle(path: paths.Named) -> None:
-    """Have the folder of a scene or a lab made whole, where a run that wrote there was killed."""
+    """Complete the writes of a killed run in the folder of a scene or a lab."""
     root = path if paths.is_folder(path) else paths.folder_of(path)
     if paths.is_folder(within(root, UNFINISHED)):
         service("settle")(root)
@@ -88,7 +88,7 @@ def folder(name: str | Path) -> Path | None:
 
 
 def scenes_beside(path: str) -> Iterator[str]:
-    """The scenes in the folder of a path: files that begin as one, and folders with a scene."""
+    """The scenes in the folder of a path: files that begin as a scene, and folders with a scene."""
     around = path[: len(path) - len(paths.name_of(path))]
     for other in paths.in_folder(around or "."):
         file = within(around, other, SCENE) if paths.is_folder(around + other) else around + other
@@ -99,7 +99,7 @@ def scenes_beside(path: str) -> Iterator[str]:
 
 
 def find(name: str) -> str:
-    """The scene file of a path, of a folder with a scene.toml, or of a shipped lab's name."""
+    """The scene file for a path, for a folder with scene.toml, or for a shipped lab's name."""
     path = name or "."
     settle(path)
     if paths.is_file(path) and paths.name_of(path) == LAB:

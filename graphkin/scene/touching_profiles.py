@@ -1,8 +1,8 @@
-"""Profiles that touch, each by its centre of curvature: at an instant they are a link.
+"""Touching profiles, replaced by an instantaneously equivalent link between centres of curvature.
 
-Up to the second order two profiles move as the circles of their curvature. The centres of these
-keep their distance, so a link between them, the associated mechanism, has the same velocities and
-accelerations. The common normal lies along it, and on it the contact.
+Up to the second order, two profiles move like their circles of curvature. The centres of these
+circles keep their distance, so a link between them (the associated mechanism) has the same
+velocities and accelerations. The common normal runs along this link, and the contact is on it.
 """
 
 from __future__ import annotations
@@ -21,7 +21,7 @@ OTHER = "the link of the other profile, 0 for the frame"
 def normals(
     written: Mapping[str, Table], frame: Table, links: Mapping[str, Link], measures: Measures
 ) -> Iterator[tuple[str, Table]]:
-    """The links that stand for touching profiles, each with the table that it could be read from.
+    """The links that replace touching profiles, each with a table from which it can be read.
 
     ``written`` are the tables of the moving links, ``links`` the links read from them.
     """
@@ -74,7 +74,7 @@ def normal(
 def two_radii(table: Table, measures: Measures, *, inside: bool) -> tuple[str, str] | None:
     """The radii of curvature of both profiles, as expressions.
 
-    The hollow in which a profile lies has the larger one.
+    If one profile is inside the hollow of the other, the hollow has the larger radius.
     """
     raw = table.take("radii")
     place = table.at("radii")
@@ -107,7 +107,7 @@ def between(
 ) -> dict[str, object]:
     """The lengths of a link from the first centre to the second, with the contact on its line.
 
-    A profile that lies inside the hollow of the other touches it beyond its own centre.
+    A profile inside the hollow of the other touches it beyond its own centre.
     """
     (first, second), (r, s) = centres, radii
     if inside:
@@ -124,5 +124,5 @@ def between(
 
 
 def points_of(table: Table) -> list[str]:
-    """The points that the keys of a link's table name."""
+    """The points named in the keys of a link's table."""
     return [point for key in table.raw for point in key.split("-")]
