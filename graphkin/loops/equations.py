@@ -177,6 +177,7 @@ def drives_of(
     turned: Turnings,
     numbers: Numbers,
     own_turns: OwnTurns,
+    known: Mapping[str, int],
     whole: bool,
 ) -> Drives:
     """The drivers' equations; ``whole`` counts full turns, on which places of wheels depend."""
@@ -211,20 +212,26 @@ def drives_of(
     rates = speed, acceleration, np.array(errors)
     lifts = lifts_of(scene, guides, turned, numbers)
     places = lean, leaning, aim, given
-    bases = bases_of(scene, turned, own_turns, numbers)
+    bases = bases_of(scene, turned, own_turns, numbers, known)
     return Drives(selects[:, 1:], turning, *places, whole, *rates, lifts, bases)
 
 
 def bases_of(
-    scene: Scene, turned: Turnings, own_turns: OwnTurns, numbers: Numbers
+    scene: Scene,
+    turned: Turnings,
+    own_turns: OwnTurns,
+    numbers: Numbers,
+    known: Mapping[str, int],
 ) -> tuple[CountedApart, ...]:
-    """The links that drivers turn others against, where these turn as one with further links.
+    """The links that drivers turn others from, where these turn as one with further links.
 
     Those that a driver turns count with it.
     """
-    counting = turned_from(scene, turned)
-    against = [(d, each.against) for d, each in enumerate(scene.drivers) if each in counting]
-    return tuple(base for d, link in against for base in own_turns.of(d, link, -1, turned, numbers))
+    found = list[CountedApart]()
+    for d, base in turned_from(scene, turned, known).items():
+        weight = 1 if base == scene.drivers[d].link else -1
+        found += own_turns.of(d, base, weight, turned, numbers)
+    return tuple(found)
 
 
 def lifts_of(
@@ -653,7 +660,7 @@ def joined(
     closing = tree.closures()
     chains = packed([*(tree.origins[name] for name in links), *closing.values()], tree, numbers)
     turned = standing(turned, near, numbers)
-    counted = counted_turnings(written, every, turned, numbers)
+    counted = counted_turnings(written, every, turned, numbers, known)
     owner = {point: link for link in reversed(links) for point in bodies[link]}
     reach = numbers.columns([bodies[link][point] for point, link in owner.items()])
     return Equations(
@@ -670,7 +677,7 @@ def joined(
         chains=chains,
         closing=tuple(closing),
         slips=packed_slips(slips, counted, own_turns, turned, guides, numbers),
-        drives=drives_of(scene, bodies, guides, turned, numbers, own_turns, bool(every)),
+        drives=drives_of(scene, bodies, guides, turned, numbers, own_turns, known, bool(every)),
         home=numbers.complexes(parts.starts[FRAME]),
         size=longest(scene, bodies, numbers),
         known=known,

@@ -15,7 +15,7 @@ from msgspec.structs import replace
 
 from graphkin.loops.rigid_bodies import Body, Guide, Numbers, Reals, radius, written_line
 from graphkin.numbers.arithmetic import Point, Real
-from graphkin.scene.model import FRAME, Driver, Rolling, Scene, Wheel
+from graphkin.scene.model import FRAME, Rolling, Scene, Wheel
 from graphkin.text.errors import Problem, StructureError
 
 
@@ -539,8 +539,9 @@ def own_turns_of(
     none does, pins show one, of the first group that is ``known``, of what is no wheel first.
     """
     of, led, doubtful = turned.of, set[str](), False
-    driven = {of[FRAME], *(of[d.link] for d in scene.drivers if d.kind == "turn")}
-    driven |= turned_from_frame(scene, turned)
+    turning = turning_ends(scene, known)
+    from_frame = turned_from_frame(scene, turned)
+    driven = from_frame | {of[end] for end, _ in turning.values()}
     told, left = set(driven), list(slips)
 
     def unknown(slip: NoSlip) -> list[str]:
@@ -562,10 +563,12 @@ def own_turns_of(
         told.add(of[min(missing, key=lambda link: (known.get(link, 0), of[link] in wheels))])
     counted = driven | {of[link] for link in led}
     links = {each for slip in slips for each in slip.weights}
-    links |= {driver.against for driver in scene.drivers if driver.kind == "turn"}
+    links |= {base for _, base in turning.values()}
     own = frozenset(link for link in links if of[link] not in counted)
     concerned = any(turns_with_others(link, turned) for link in links if of[link] not in driven)
-    return OwnTurns(own, near, doubtful and concerned)
+    free = (end for ends in turning.values() for end in ends if of[end] not in from_frame)
+    either = bool(slips) and any(turns_with_others(end, turned) for end in free)
+    return OwnTurns(own, near, (doubtful and concerned) or either)
 
 
 def starting_angles(scene: Scene, slips: Sequence[NoSlip], numbers: Numbers) -> dict[str, Real]:
@@ -604,7 +607,11 @@ def within_half_a_turn(angle: Reals, start: Reals) -> Reals:
 
 
 def counted_turnings(
-    scene: Scene, slips: Sequence[NoSlip], turned: Turnings, numbers: Numbers
+    scene: Scene,
+    slips: Sequence[NoSlip],
+    turned: Turnings,
+    numbers: Numbers,
+    known: Mapping[str, int],
 ) -> dict[int, Reals]:
     """By turning, the angle within half a turn of which it is counted (N,), radians.
 
@@ -629,27 +636,40 @@ def counted_turnings(
     for slip in sorted(slips, key=lambda slip: order.index(slip.links[0])):
         for link, angle in slip.near.items():
             count(link, angle)
-    for driver in turned_from(scene, turned):
-        count(driver.against, 0.0)
+    for base in turned_from(scene, turned, known).values():
+        count(base, 0.0)
     found.pop(turned.of[FRAME], None)
     return found
 
 
-def turned_from(scene: Scene, turned: Turnings) -> list[Driver]:
-    """The drivers that turn a link against one which no driver turns.
+def turning_ends(scene: Scene, known: Mapping[str, int]) -> dict[int, tuple[str, str]]:
+    """By the number of a driver that turns: the link that it turns, and the link it turns it from.
+
+    The latter is of the group that is ``known`` first, where that is told, whichever of the two the
+    driver names first.
+    """
+    found = dict[int, tuple[str, str]]()
+    for d, driver in enumerate(scene.drivers):
+        if driver.kind == "turn":
+            first, second = known.get(driver.link, 0), known.get(driver.against, 0)
+            ends = driver.link, driver.against
+            found[d] = ends[::-1] if 0 < first < second else ends
+    return found
+
+
+def turned_from(scene: Scene, turned: Turnings, known: Mapping[str, int]) -> dict[int, str]:
+    """The links from which drivers turn others and which no driver turns, by the driver's number.
 
     Of two drivers that turn one link the later moves the other way: the link that it names second.
     """
-    drivers = [driver for driver in scene.drivers if driver.kind == "turn"]
-    turning = [turned.of.get(driver.link, -1) for driver in drivers]
+    ends = turning_ends(scene, known)
+    turning = [turned.of.get(link, -1) for link, _ in ends.values()]
     told = turned_from_frame(scene, turned)
-    return [
-        driver
-        for n, (driver, k) in enumerate(zip(drivers, turning, strict=True))
-        if k not in told
-        and (k < 0 or k not in turning[:n])
-        and turned.of.get(driver.against) not in turning
-    ]
+    return {
+        d: base
+        for n, ((d, (_, base)), k) in enumerate(zip(ends.items(), turning, strict=True))
+        if k not in told and (k < 0 or k not in turning[:n]) and turned.of.get(base) not in turning
+    }
 
 
 def turned_from_frame(scene: Scene, turned: Turnings) -> set[int]:

@@ -232,17 +232,30 @@ class Maker:
         bodies = self.standing.bodies
         if body == FRAME:
             return 0.0
-        for drive in self.standing.drives:
-            if (drive.kind, drive.body) == ("turn", body):
-                line = 1 + 0j
-                if drive.of:
-                    p, q = (bodies[body].points[point] for point in drive.of)
-                    line = (q - p) * bodies[body].axis.conjugate()
-                    straight = abs(line.imag) < 1e-12 * abs(line)
-                    line = complex(line.real, 0.0) if straight else line
-                return self.angle(drive.against) + drive.position - phase(line)
+        if (drive := self.driven_from(body)) is not None:
+            line = 1 + 0j
+            if drive.of:
+                p, q = (bodies[drive.body].points[point] for point in drive.of)
+                line = (q - p) * bodies[drive.body].axis.conjugate()
+                straight = abs(line.imag) < 1e-12 * abs(line)
+                line = complex(line.real, 0.0) if straight else line
+            turned = drive.position - phase(line)
+            if drive.body == body:
+                return self.angle(drive.against) + turned
+            return self.angle(drive.body) - turned
         known = self.slid_with_counted(body)
         return bodies[body].angle if known is None else self.along(known, body)
+
+    def driven_from(self, body: str) -> Drive | None:
+        """The driver that turns a body from one that stands before it, whichever it names first."""
+        order = [*self.standing.bodies]
+        for drive in self.standing.drives:
+            ends = {drive.body, drive.against}
+            if drive.kind == "turn" and body in ends:
+                (other,) = ends - {body}
+                if order.index(other) < order.index(body):
+                    return drive
+        return None
 
     def counts(self, body: str) -> bool:
         """Whether a driver or a contact turns a body, or one that it slides along."""
@@ -251,7 +264,7 @@ class Maker:
     @property
     def counted(self) -> set[str]:
         """The bodies that drivers or contacts turn."""
-        return {d.body for d in self.standing.drives if d.kind == "turn"} | self.standing.led
+        return {n for n in self.standing.bodies if self.driven_from(n)} | self.standing.led
 
     def slid_with_counted(self, body: str) -> str | None:
         """The next body along slides towards one that a driver or a contact turns."""
@@ -274,7 +287,7 @@ class Maker:
         """Bodies that contacts turn, or whose wheels they keep apart, but for driven ones."""
         found = {each.wheel for each in self.standing.straights}
         found |= {name for gear in self.standing.gears for name in (gear.wheel, gear.on, gear.arm)}
-        return found - {drive.body for drive in self.standing.drives if drive.kind == "turn"}
+        return {name for name in found if self.driven_from(name) is None}
 
     def shifts(self, body: str) -> bool:
         """Whether slides alone join a body to the frame, so that it never turns."""

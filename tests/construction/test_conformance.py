@@ -63,6 +63,7 @@ OWN = {
     for path in (
         TESTS / "motion" / "scenes" / "planet-on-coupler.toml",
         TESTS / "scenes" / "construction" / "wheels-that-speed-up.toml",
+        TESTS / "scenes" / "structure" / "pins" / "rod-in-two-bushings.toml",
     )
 }
 """Scenes of tests that draw what no example does."""
@@ -78,7 +79,10 @@ DECLARED = {"imaged", "laid_at", "pencil", "titled", "told_after"}
 """Faces that a kind says by the roles that they have, without a method."""
 PLANNING = {"absence", "cause", "comes_along", "draw", "lines_at"}
 """Faces of classes: how a program is written, and why ``explain`` leaves an effect out."""
-WIDE = {"GuideLine", "NormalComponent", "PerpendicularThrough", "RollingNormal", "SetByCoordinate"}
+WIDE = {
+    *("GuideLine", "GuideThroughPins", "NormalComponent", "PerpendicularThrough", "RollingNormal"),
+    "SetByCoordinate",
+}
 """Kinds of which narrower ones exist that are drawn themselves."""
 UNREACHED = {
     "AccelerationPole.mark_far",

@@ -8,7 +8,7 @@ from pathlib import Path
 import pytest
 
 from graphkin.construction.core.crossings import Determined
-from graphkin.construction.core.kind import constructions
+from graphkin.construction.core.kind import ByHand, constructions
 from graphkin.construction.guides.swung_guide import GuideThroughPins, TangentGuide
 from graphkin.documents.sheet import sheet
 from graphkin.documents.sheet_documents import drawings_of, proved
@@ -52,7 +52,7 @@ def test_the_guide_of_a_lever_has_no_angle_and_turns_its_link():
     (lever, *_) = constructions(mechanism("crank-slot").program, GuideThroughPins | TangentGuide)
     assert lever.has_angle is isinstance(lever, TangentGuide)
     assert lever.found_link == lever.link
-    assert lever.directions >= {"turn"}
+    assert lever.pencil["turn"] is ByHand.TURNED
 
 
 def test_a_pivot_of_the_frame_may_be_given_by_two_distances():

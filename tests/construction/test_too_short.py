@@ -84,9 +84,9 @@ def test_wheels_that_hardly_speed_up_have_their_values_and_senses():
 
 def test_what_is_only_rounding_is_nought_even_where_nothing_else_is_there():
     first, then = found = scene_of("a bar that shifts", SHIFTED)
-    assert cells_of(first)["v_BA"][1:] == ("0.00", "0")
+    assert cells_of(first)["v_BA"][1:] == ("0", "0")
     assert cells_of(first)["ω2"] == cells_of(then)["ε2"] == ("0", "")
-    assert {cells[1:] for name, cells in cells_of(then).items() if name != "ε2"} == {("0.00", "0")}
+    assert {cells[1:] for name, cells in cells_of(then).items() if name != "ε2"} == {("0", "0")}
     assert not [line for line in lines_of(found) if "·10" in line]
     assert plain(sentences(then)[-1].markup).startswith(
         "nothing is set on the mechanism, because all"

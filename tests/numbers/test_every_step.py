@@ -49,6 +49,7 @@ MANY |= {
     f"cam_centre.{name}": ("rrrrrrrr", (-1.0,))
     for name in ("table_lift", "table_rate", "table_bend")
 }
+MANY["two_trials.pace"] = ("rrr", (2,))
 """What steps take any number of, and what these are told; two points where nothing is said."""
 
 
