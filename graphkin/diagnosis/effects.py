@@ -63,9 +63,11 @@ def effects(mechanism: Mechanism) -> tuple[EffectRow, ...]:
     return (*rows, by_hand(program, asked), *by_command)
 
 
-def measured(mechanism: Mechanism, watch: Stopwatch) -> tuple[tuple[EffectRow, ...], list[Timing]]:
+def measured(
+    mechanism: Mechanism, watch: Stopwatch, wholes: Sequence[Sequence[Target]]
+) -> tuple[tuple[EffectRow, ...], list[Timing]]:
     """The same, each with the time that its steps alone take on this scene; and the times of one
-    position, of what is asked and of everything. All are measured in the same rounds.
+    position, of each whole of targets. All are measured in the same rounds.
     """
     program, asked, values = mechanism.program, mechanism.asked(), mechanism.scene.values
     trace = mechanism.trace(asked, by_hand=True)
@@ -74,11 +76,11 @@ def measured(mechanism: Mechanism, watch: Stopwatch) -> tuple[tuple[EffectRow, .
         numbers.setdefault(effect, []).append(number)
     rows = effects(mechanism)
     works = [work_of_steps(trace, numbers[row.name], values) for row in rows if row.steps]
-    for targets in (asked, program.answers):
-        works.append(one_position(program, program.needed(targets), values))
-    *times, some, every = watch.times([(work, 1) for work in works])
-    left = iter(times)
-    return tuple(replace(row, time=next(left)) if row.steps else row for row in rows), [some, every]
+    works += [one_position(program, program.needed(targets), values) for targets in wholes]
+    found = watch.times([(work, 1) for work in works])
+    left = iter(found)
+    timed = tuple(replace(row, time=next(left)) if row.steps else row for row in rows)
+    return timed, [*left]
 
 
 def parted(mechanism: Mechanism) -> dict[int, Effect]:

@@ -6,13 +6,13 @@ from typing import TYPE_CHECKING, get_args
 
 from graphkin.construction.core.drawn_scene import Drawing
 from graphkin.construction.core.layout import Layout, centre, poles_of, spans, with_poles
-from graphkin.documents.detail import with_detail
+from graphkin.documents.detail import parted
 from graphkin.documents.scaling import sheet_motion
 from graphkin.documents.sheet import HEADING, left_board, right_board
 from graphkin.documents.sheet_documents import drawings_of, hand_out, language_of, proved
 from graphkin.drawing.field import ABOVE, Field, Rect
-from graphkin.drawing.labels import FieldContent
-from graphkin.drawing.marks import Mark
+from graphkin.drawing.labels import FieldContent, must_be_named, no_place_for
+from graphkin.drawing.marks import Mark, Text
 from graphkin.drawing.scale import Extent
 from graphkin.drawing.style import Ink
 from graphkin.mechanism import Mechanism, Which
@@ -44,7 +44,7 @@ def plot(
     and letters have the sheet's own sizes in every figure (capitals of 2.5 mm, as text of 10
     points).
 
-    Raises the errors of hand_out. Raises PageError where the axes are too small for the letters,
+    Raises the errors of hand_out. Raises PageError where the axes are too small for most letters,
     and SceneError where the scene asks for nothing of a plan.
     """
     from graphkin.writers.axes import put_drawing, size_of
@@ -90,7 +90,7 @@ def for_axes(
     """The marks of a mechanism or of its plan, their field, and the enlargement.
 
     The enlargement is relative to the sheet. The axes have a size in mm and their upper left corner
-    at (0, 0). Raises PageError where the axes are too small for the letters.
+    at (0, 0). Raises PageError where the axes are too small for most letters.
     """
     rect: Rect = (EDGE, EDGE, width - EDGE, height - EDGE)
     mm, metres = 1000 / drawing.scales.kL, drawing.scales.metres(drawing.kind)
@@ -116,11 +116,16 @@ def times(extent: Extent, mm: float, width: float, height: float) -> float:
 
 
 def lettered(board: FieldContent, width: float, height: float) -> list[Mark]:
-    """The marks of a board with its letters. Raises PageError where the letters have no place."""
-    try:
-        return with_detail(board)
-    except PageError as error:
-        (problem,) = error.problems
+    """The marks of a board with its letters.
+
+    Raises PageError where more letters and numbers are only noted than have a place.
+    """
+    (field,) = parted(board)
+    shown = {mark.markup for mark in field.details if isinstance(mark, Text)}
+    lost = [label for label in board.unplaced if label.markup not in shown]
+    if len(lost) > sum(map(must_be_named, board.labels)):
+        problem = no_place_for(lost)
         found = f"axes of {width:.0f} × {height:.0f} mm are too small: {problem.found}"
         hint = "a larger figure, or fewer axes in it"
-        raise PageError(Problem("plot", found, problem.expected, hint)) from error
+        raise PageError(Problem("plot", found, problem.expected, hint))
+    return [*field.marks, *field.details]

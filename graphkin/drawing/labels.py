@@ -673,20 +673,20 @@ def placed_after(
 
 def refuse_crowds(labels: Sequence[Label], spots: Sequence[Spot]) -> None:
     """Raise PageError naming every label for which there was no free place."""
-    crowded = [
-        label.name or plain(label.markup)
-        for label, spot in zip(labels, spots, strict=True)
-        if not spot.free
-    ]
+    crowded = [label for label, spot in zip(labels, spots, strict=True) if not spot.free]
     if crowded:
-        raise PageError(
-            Problem(
-                "labels",
-                "does not fit: no free place for " + ", ".join(crowded),
-                "room for every name",
-                "ask for less on one sheet, or choose a position in which less falls together",
-            )
-        )
+        raise PageError(no_place_for(crowded))
+
+
+def no_place_for(labels: Sequence[Label]) -> Problem:
+    """The problem that some labels have no place in a field."""
+    names = ", ".join(label.name or plain(label.markup) for label in labels)
+    return Problem(
+        "labels",
+        f"does not fit: no free place for {names}",
+        "room for every name",
+        "ask for less on one sheet, or choose a position in which less falls together",
+    )
 
 
 # --- fields of a page that do not overlap, finished together: all their labels placed in one go ---

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
 from msgspec import Struct
 
 from graphkin.construction.core.drawn_scene import Drawing
@@ -14,9 +12,6 @@ from graphkin.documents.sheet import left_board, right_board
 from graphkin.documents.sheet_documents import drawings_of, language_of, proved
 from graphkin.drawing.marks import Mark
 from graphkin.mechanism import Mechanism
-
-if TYPE_CHECKING:
-    pass
 
 
 class ScreenSheet(Struct, frozen=True):

@@ -9,6 +9,7 @@ from pathlib import Path
 import pytest
 from click.testing import CliRunner
 
+from graphkin.classroom.grading.turn_scores import TURNS
 from graphkin.cli.main import app
 from tests.browser.opening import Opened
 from tests.browser.test_your_turn import by_lists
@@ -91,7 +92,7 @@ def test_a_saved_score_sheet_is_listed_beside_answers(
     assert (row["alone"], row["seal"]) == ("2", "broken")
 
     path.write_text("nonsense", encoding="utf-8")
-    result = run("grade", folder, answers, "-o", tmp_path / "refused", "--format", "none")
-    assert result.exit_code == 2
+    result = run("grade", folder, answers, "-o", tmp_path / "unread", "--format", "none")
+    assert result.exit_code == 1
     assert "0042-turn.json: " in result.output
-    assert not (tmp_path / "refused").exists()
+    assert not (tmp_path / "unread" / TURNS).exists()

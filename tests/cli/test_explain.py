@@ -60,7 +60,7 @@ def test_only_the_steps_of_an_effect_are_timed(monkeypatch: pytest.MonkeyPatch) 
         return lambda: None
 
     monkeypatch.setattr(room, "work_of_steps", noted)
-    rows, _ = room.measured(mechanism, Stopwatch(rounds=2, least=0, patience=0))
+    rows, _ = room.measured(mechanism, Stopwatch(rounds=2, least=0, patience=0), [])
     assert [len(numbers) for numbers in handed] == [row.steps for row in rows if row.steps]
     program, asked = mechanism.program, mechanism.asked()
     every = sorted(number for numbers in handed for number in numbers)
@@ -83,6 +83,20 @@ def test_a_position_that_does_not_close_is_explained_without_times(
     found = told(run, four_bar(coupler=9))
     assert found["time_asked"] is None
     assert found["steps_asked"] > 0
+
+
+def test_what_is_asked_is_timed_where_the_rest_cannot_be_drawn(run: Run) -> None:
+    """The block that drives a slider-crank moves as given, too far off for crank and rod."""
+    scene = ROOT / "tests" / "scenes" / "cli" / "block-out-of-reach.toml"
+    result = run("explain", scene)
+    assert result.exit_code == 0
+    (line,) = [each for each in result.stdout.splitlines() if "would give everything" in each]
+    assert "no time is measured: " in line
+    assert "the arcs miss each other by 0.001 m" in line
+    found = told(run, scene)
+    assert found["time_asked"] is not None
+    assert found["time_everything"] is None
+    assert list(found["waits"]) == ["load", "solve", "check"]
 
 
 def test_a_guide_that_never_turns_is_not_said_to() -> None:

@@ -129,6 +129,12 @@ def test_axes_too_small_for_the_letters_are_refused():
         load("pump", n=7).plot(ax, "acceleration")
 
 
+def test_axes_with_room_for_most_letters_are_drawn():
+    """The rest are noted, as at the foot of a sheet: d′ in axes of 39 × 29 mm."""
+    ax = Figure((2, 1.5)).subplots()
+    assert load("pump", n=7).plot(ax, "acceleration").patches
+
+
 def test_a_plan_of_which_nothing_is_asked_is_refused(tmp_path):
     text = (SCENES / "crank-rocker.toml").read_text(encoding="utf-8")
     asked = 'acceleration = ["B", "P"]\nomega = [2, 3]\nepsilon = [2, 3]\n'

@@ -23,6 +23,7 @@ from graphkin.reading.read_run import read_class, read_order
 from graphkin.reading.read_sheet import Grid
 from graphkin.reading.settled_points import PointDecision, SettledPoints
 from graphkin.text import words
+from graphkin.text.errors import Refusals
 from tests.bench.desk import desk_of
 from tests.bench.reading import Taken
 
@@ -65,7 +66,7 @@ def main(folder: Path, name: str, out: Path) -> None:
             keep(page.screenshot(), out / "marking-desk.png")
         asked = {point.step for point in outcome.records[0].points if point.ask}
         settle(read, name, taken, asked)
-        (marked,) = drawings_of_class(opened, read, words("en"), ["html"]).values()
+        (marked,) = drawings_of_class(opened, read, words("en"), ["html"], Refusals()).values()
         (Path(kept) / "marked.html").write_bytes(marked)
         page.set_viewport_size({"width": 900, "height": 960})
         page.goto((Path(kept) / "marked.html").as_uri())

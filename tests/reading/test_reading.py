@@ -67,6 +67,7 @@ from graphkin.reading.settled_points import (
 from graphkin.studio.guard import Guard
 from graphkin.studio.session import PageRequestError
 from graphkin.text import words
+from graphkin.text.errors import Refusals
 from tests.bench.reading import lab_of
 from tests.chosen import EVERY
 from tests.reading.camera import Picture, Shot, photograph, scan
@@ -1250,13 +1251,15 @@ def test_the_desk_speaks_each_language(taken: Path, language: str) -> None:
 def test_the_drawing_goes_back_with_green_and_red(a_class: Path, taken: Path) -> None:
     from graphkin.classroom.printing.edition import read_edition
 
-    found = drawings_of_class(read_edition(a_class), taken / "read", words("en"), ("html", "pdf"))
+    opened, kinds, refusals = read_edition(a_class), ("html", "pdf"), Refusals()
+    found = drawings_of_class(opened, taken / "read", words("en"), kinds, refusals)
+    assert not refusals.found
     page = found["0042-drawing.html"].decode()
     assert "<svg" in page
     assert "data:image/jpeg;base64," in page
     assert GREEN in page
     assert found["0042-drawing.pdf"].startswith(b"%PDF")
-    again = drawings_of_class(read_edition(a_class), taken / "read", words("en"), ("html", "pdf"))
+    again = drawings_of_class(opened, taken / "read", words("en"), kinds, refusals)
     assert found == again
 
 

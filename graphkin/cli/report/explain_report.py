@@ -10,6 +10,7 @@ from msgspec import Struct
 from graphkin.cli.report.catalogue import ask_words
 from graphkin.cli.report.solution_record import heading
 from graphkin.cli.report.waits import Waits, time_record, waits_lines, waits_of, waits_record
+from graphkin.construction.core.program import Target
 from graphkin.construction.core.timing import Stopwatch, Timing
 from graphkin.diagnosis.effects import EFFECTS, EffectRow, effects, measured
 from graphkin.scene.model import Scene
@@ -24,7 +25,7 @@ class Explanation(Struct, frozen=True):
     """The content of explain for a scene.
 
     ``asked`` and ``everything`` are the numbers of steps and the times of a run for what is asked,
-    and for everything that can be asked. ``unmeasured`` says why there are no times.
+    and for everything that can be asked. ``unmeasured`` says why a time is missing.
     """
 
     scene: Scene
@@ -42,14 +43,25 @@ def explained(new: Callable[[], Mechanism]) -> Explanation:
     """
     mechanism = new()
     program, asked, scene = mechanism.program, mechanism.asked(), mechanism.scene
-    steps = len(program.needed(asked)), len(program.needed(program.answers))
+    less, more = (len(program.needed(targets)) for targets in (asked, program.answers))
+    unmeasured = undrawn(mechanism, program.answers)
     try:
-        rows, times = measured(mechanism, Stopwatch())
-        some, every = zip(steps, times, strict=True)
-        return Explanation(scene, rows, some, every, waits_of(new))
+        wholes = [asked] if unmeasured else [asked, program.answers]
+        rows, (some, *every) = measured(mechanism, Stopwatch(), wholes)
     except ClosureError as error:
-        why, (less, more) = str(error.problems[0]), steps
+        why = str(error.problems[0])
         return Explanation(scene, effects(mechanism), (less, None), (more, None), unmeasured=why)
+    everything = more, every[0] if every else None
+    return Explanation(scene, rows, (less, some), everything, waits_of(new), unmeasured)
+
+
+def undrawn(mechanism: Mechanism, targets: Sequence[Target]) -> str:
+    """Why some targets cannot be drawn together; empty if they can."""
+    try:
+        mechanism.trace(targets)
+    except ClosureError as error:
+        return str(error.problems[0])
+    return ""
 
 
 def explain_lines(found: Explanation) -> Iterator[str]:
@@ -62,12 +74,16 @@ def explain_lines(found: Explanation) -> Iterator[str]:
     yield from table(heads, [cells(row) for row in found.rows])
     yield ""
     (steps, asked), (all_steps, everything) = found.asked, found.everything
-    if asked is None or everything is None:
+    if asked is None:
         yield f"{steps} steps give what is asked, {all_steps} would give everything"
         yield f"no time is measured: {found.unmeasured}"
         return
     yield f"{steps} steps give what is asked, in {in_words(asked)}; {share(found.rows)}"
-    yield f"{all_steps} steps would give everything, in {in_words(everything)}"
+    whole = f"{all_steps} steps would give everything"
+    if everything is None:
+        yield f"{whole}; no time is measured: {found.unmeasured}"
+    else:
+        yield f"{whole}, in {in_words(everything)}"
     yield (
         f"time: median of {asked.rounds} rounds of those steps alone on one scene in float64, with "
         "nothing kept; half of the rounds lie between the quartiles"
