@@ -28,8 +28,7 @@ from graphkin.text.errors import ClosureError, Problem, Sought, Written
 
 
 def in_line(scene: Scene, program: Program, number: int, nearly: str = "") -> str:
-    """Words for the bars and guides that are in line, parallel or square at a failed or flat
-    crossing.
+    """Words for bars and guides in line, parallel or square at a failed or flat crossing.
 
     ``nearly`` precedes these words where the crossing is only flat.
     """
@@ -81,9 +80,7 @@ def parallel(program: Program, step: Step, nearly: str = "") -> str:
 
 
 def line_words(line: Step) -> tuple[str, bool]:
-    """The bar or guide that a line of a plan refers to, and whether the line is perpendicular to
-    it.
-    """
+    """The bar or guide that a plan's line refers to, and whether the line is normal to it."""
     kind = construction(line)
     runs = kind.runs if kind is not None else None
     return (runs.what, runs.square) if runs is not None else ("", False)
@@ -136,7 +133,7 @@ ALONE = "it closes at this dead point alone: change the lengths"
 def does_not_close(
     scene: Scene, program: Program, needed: Sequence[int], failed: StepFailed
 ) -> ClosureError:
-    """The error for a step that cannot be drawn: which step, by how much, and where it would close."""
+    """The error for a step that cannot be drawn: which, by how much, where it would close."""
     step = failed.step
     if isinstance(failed.__cause__, ClosingError):
         return ClosureError(no_such_closure(scene, failed, failed.__cause__))
@@ -232,7 +229,7 @@ def undetermined(step: Step, args: Sequence[Any]) -> Problem | None:
 
 
 def no_such_closure(scene: Scene, failed: StepFailed, error: ClosingError) -> Problem:
-    """The problem of a higher-class group that does not close, or has fewer closures than stated."""
+    """The problem of a higher-class group without the stated closure, or without any."""
     closed = closed_by(failed.step)
     links = ", ".join(closed)
     if not error.ways:

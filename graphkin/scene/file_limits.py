@@ -32,7 +32,7 @@ WHERE = r"\s*\(at (?:line (\d+), column (\d+)|end of document)\)\s*$"
 
 
 def read_bytes(path: paths.Named) -> bytes:
-    """The bytes of a scene file, up to one beyond the limit. Raises SceneError if it is unreadable."""
+    """The bytes of a scene file, up to one beyond the limit. Raises SceneError."""
     try:
         return file_bytes(path, LARGEST + 1)
     except (OSError, ValueError) as error:
@@ -115,7 +115,7 @@ def parsed(text: str) -> dict[str, Any]:
 
 
 def refuse_bombs(text: str) -> None:
-    """Raise SceneError for text that would take long to read: too large, or too long a line or key."""
+    """Raise SceneError for text that would take long to read: a large text, line or key."""
     if len(text) > LARGEST:
         raise SceneError(Problem("", "the scene is too large", f"at most {LARGEST // 1024} KiB"))
     for number, line in enumerate(text.splitlines(), 1):
@@ -283,7 +283,7 @@ SPARE = "\ue000"
 
 
 def written_twice(text: str) -> tuple[list[Problem], str, list[Again]]:
-    """The problems of duplicates in a text, the text with the duplicates renamed, and their places."""
+    """The problems of duplicates, the text with the duplicates renamed, and their places."""
     again = walked(text).again
     problems = [problem_of(text, each) for each in again]
     for number, each in reversed([*enumerate(again)]):

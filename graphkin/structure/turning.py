@@ -1,4 +1,4 @@
-"""Links that slide on one another turn together: which links, at what angle, and which never turn."""
+"""Links that turn together because they slide on one another, and links that never turn."""
 
 from __future__ import annotations
 
@@ -119,7 +119,7 @@ def stands(scene: Scene, base: str, way: complex) -> Mapping[str, Stand]:
 
 
 def block_stand(scene: Scene, block: str, slide: Slide, under: Stand, way: complex) -> Stand | None:
-    """The stand of a block on a link with a known stand; None if the guide has another direction."""
+    """The stand of a block, from its guide's link; None if the guide is not parallel."""
     line = guide_line(scene, slide)
     lean = under.lean * line.along
     if abs(cross(way, lean)) > LEVEL:
@@ -130,7 +130,7 @@ def block_stand(scene: Scene, block: str, slide: Slide, under: Stand, way: compl
 def carrier_stand(
     scene: Scene, block: str, slide: Slide, upon: Stand, way: complex
 ) -> Stand | None:
-    """The stand of a guide's link from its block's stand; None if the guide has another direction."""
+    """The stand of a guide's link, from its block's; None if the guide is not parallel."""
     line = guide_line(scene, slide)
     lean = upon.lean / line.along
     if abs(cross(way, upon.lean)) > LEVEL:
