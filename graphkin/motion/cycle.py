@@ -252,7 +252,7 @@ def cycle_at(
     at: Reals,
     targets: tuple[Target, ...] | None = None,
 ) -> Cycle:
-    """The rows of a cycle: each place run with the closures of its piece, in batches."""
+    """The rows of a cycle: each position is run with the closures of its piece, in batches."""
     found = columns_at(sweep, path, at, targets)
     moves = found.piece > 0
     for value in found.columns.values():
@@ -269,7 +269,7 @@ def cycle_at(
 
 
 class Columns(Struct, frozen=True, eq=False):
-    """Values by target and margins by pin for each place (N,), NaN where there is no piece."""
+    """Values by target and margins by pin for each u (N,), NaN where there is no piece."""
 
     piece: np.ndarray[Any, np.dtype[np.int_]]
     columns: Mapping[Target, Any]
@@ -285,9 +285,9 @@ def columns_at(
     geometric: bool = False,
     near: float | None = None,
 ) -> Columns:
-    """Run every place with the closures of its piece; places within ``near`` of its ends are left.
+    """Run every u with the closures of its piece, except within ``near`` of singular ends.
 
-    ``near`` nought lets positions stand at the dead points themselves.
+    With ``near`` zero, the dead points themselves have positions.
     """
     usual = BESIDE if sweep.what in ("turn", "time") else BESIDE / 1000
     usual = min(usual, SHARE * (sweep.high - sweep.low))
@@ -315,9 +315,9 @@ def columns_at(
 
 
 def assigned(path: Path, at: Reals, near: float) -> tuple[Any, Reals]:
-    """The piece of each place, from 1 (0 where there is none), and the place within that piece.
+    """The piece of each u, from 1 (0 where there is none), and the equivalent u within that piece.
 
-    A place in no piece is that of one some circles of the driver on.
+    A u outside all pieces belongs to a piece some whole circles of the driver away.
     """
     which = np.zeros(len(at), dtype=int)
     within = at.copy()
@@ -334,7 +334,7 @@ def assigned(path: Path, at: Reals, near: float) -> tuple[Any, Reals]:
 
 
 def placed(whole: Any, value: Any, rows: Any, count: int) -> Any:
-    """Values at their rows of an array of the whole length, made where there is none."""
+    """Insert values at their rows into an array of full length, created if needed."""
     if isinstance(value, Ratio):
         parts = whole or (None, None, None)
         return Ratio(*(placed(w, v, rows, count) for w, v in zip(parts, value, strict=True)))
@@ -347,10 +347,11 @@ def placed(whole: Any, value: Any, rows: Any, count: int) -> Any:
 
 
 def witnessed(found: Cycle, *, numbered: bool = True) -> Witnessed:
-    """Each piece held against the vector loops with its own closures.
+    """The residual check of each piece against the vector loops, with the piece's own closures.
 
-    Without ``numbered`` numbers of closures are not verified, which takes most of the time. They
-    are in ``NUMBERED`` rows, and in at least one of each piece: on it the closure is followed.
+    Without ``numbered``, closure numbers are not checked; they take most of the time. They are
+    checked in ``NUMBERED`` rows, and in at least one row of each piece, on which the closure is
+    followed.
     """
     from graphkin.loops.witness import examine
 

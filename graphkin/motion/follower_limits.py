@@ -31,9 +31,7 @@ REST = 1e-15
 NEAR = 0.1
 """Degrees about a dwell within which a limit counts as the one at the dwell."""
 APART = 1e-4
-"""Distance from a singular position (degrees, or tenths of a mm) at which a speed's sign is
-reliable.
-"""
+"""Distance (degrees, or 0.1 mm) from singular positions at which a speed's sign is reliable."""
 
 
 class Limit(Struct, frozen=True):
@@ -48,7 +46,7 @@ class Limit(Struct, frozen=True):
 
 
 class Dwell(Struct, frozen=True):
-    """A rest of a follower while the driver moves: from one u to another, and the follower's value."""
+    """A rest of a follower while the driver moves: from one u to another, and its value."""
 
     start: float
     end: float
@@ -168,7 +166,7 @@ def swinging_line(scene: Scene, link: Link) -> tuple[str, str] | None:
 def values(
     cycle: Cycle, at: Reals, targets: Sequence[Target], *, moving: bool = False
 ) -> Mapping[Target, Reals]:
-    """Targets at positions of the path; rates are by the driver's position, dead points included."""
+    """Targets at positions of the path, dead points included; rates are by u."""
     return columns_at(cycle.sweep, cycle.path, at, targets, geometric=moving, near=0.0).columns
 
 
@@ -181,8 +179,7 @@ def follower(
     rests: Sequence[tuple[float, float]],
     again: bool,
 ) -> Follower | None:
-    """The travel of one follower, from its ``places`` by u, with ``turns`` and ``rests`` among
-    them.
+    """The travel of one follower, from its ``places`` by u, ``turns`` and ``rests``.
 
     ``again`` means that the follower recurs after the driver's circle. None for a follower at rest.
     """

@@ -48,7 +48,7 @@ class At(Struct, frozen=True):
 
 
 class Polar(Struct, frozen=True):
-    """``P = {from, length, angle}``: at a distance from a point, at an angle to the link's x axis."""
+    """``P = {from, length, angle}``: at a distance from a point, at an angle to the x axis."""
 
     point: str
     start: str
@@ -176,7 +176,7 @@ class Belt(Struct, frozen=True):
 
     @property
     def sense(self) -> int:
-        """+1 where the wheels turn in opposite senses relative to their arm, like gears; else -1."""
+        """+1 where the wheels turn oppositely relative to their arm, like gears; else -1."""
         return 1 if self.crossed else -1
 
 
@@ -356,7 +356,7 @@ class Link(Struct, frozen=True):
     cam: Cam | None = None
 
     def wheel_sign(self, wheel: Wheel) -> str:
-        """The label of one of its wheels: the link's name, with primes after the first: 2, 2′, 2″."""
+        """The label of one of its wheels: the link's name, then with primes: 2, 2′, 2″."""
         return self.name + ("′" * self.wheels.index(wheel)).replace("′′", "″")
 
     @property
@@ -376,9 +376,7 @@ class Link(Struct, frozen=True):
 
     @property
     def spare_paths(self) -> tuple[GuideOrTrack, ...]:
-        """The joints that may be idle: the tracks of its wheels, and all its guides except the
-        first.
-        """
+        """The joints that may be idle: tracks of its wheels, and all guides except the first."""
         return (*self.rolls, *self.slides[1:])
 
     def without(self, path: GuideOrTrack) -> Link:
@@ -578,7 +576,7 @@ class Scene(Struct, frozen=True, dict=True):
 
     @property
     def fixed_points(self) -> tuple[str, ...]:
-        """The points of the frame that do not move; a cam at rest has a moving centre of curvature."""
+        """The points of the frame that do not move, unlike a fixed cam's centre of curvature."""
         return tuple(point for point in self.frame.points if point not in self.cam_centres)
 
     @property
@@ -615,9 +613,7 @@ class Scene(Struct, frozen=True, dict=True):
 
     @property
     def in_touch(self) -> tuple[tuple[str, str], ...]:
-        """The contacts except those of open belts on wheels of one size, whose points never
-        coincide.
-        """
+        """The contacts except open belts on wheels of one size, whose points never touch."""
         every = ((link.name, each) for link in self.every_link for each in link.rolls)
         return tuple((name, each.on) for name, each in every if not self.turn_alike(name, each))
 
@@ -660,7 +656,7 @@ class Scene(Struct, frozen=True, dict=True):
         return self.frame if name == FRAME else self.links[name]
 
     def values_in(self, kind: Kind) -> Mapping[str, object]:
-        """The values, with the time as a number of the given kind, because it may be no fraction."""
+        """The values, with the time as a number of the given kind; it may be no fraction."""
         if kind is FLOAT or self.time is None:
             return self.values
         return {**self.values, TIME: self.time.number(self.values, kind)}

@@ -461,7 +461,7 @@ def read_piece(table: Table, measures: Measures, swings: bool, slides: bool) -> 
 
 
 def check_law(place: str, pieces: list[CamPiece], measures: Measures, *, slides: bool) -> None:
-    """Check that angles increase to a full turn and the follower returns; plate lengths increase."""
+    """Check that angles increase to a full turn, lengths increase, and followers return."""
     values, findings = measures.values, measures.findings
     unit = measures.units["angle"]
     low, lift = 0.0, 0.0
