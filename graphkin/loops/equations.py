@@ -283,7 +283,7 @@ def driven_slide(number: int, driver: Driver, guides: Sequence[Guide]) -> int:
     )
 
 
-# --- the loop equations f(φ -----------------------------------------------------------------------
+# --- the loop equations f(φ, q) = 0----------------------------------------------------------------
 
 
 class Linear(Struct, frozen=True, eq=False):

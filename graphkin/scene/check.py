@@ -1,5 +1,7 @@
-"""What the parts of a scene say of each other: names that are written, drivers that can move a
-link, blocks on a guide, and coordinates that hold the lengths.
+"""Consistency of a scene's parts: names, drivers, blocks on guides, and distant coordinates.
+
+Names must exist, drivers must be able to move their links, and coordinates must resolve the
+lengths.
 """
 
 from __future__ import annotations
@@ -36,7 +38,7 @@ from graphkin.text.errors import SceneError, Written
 
 
 def check_scene(scene: Scene, findings: Findings) -> None:
-    """Note every name that is unknown or used for two things, and every link left alone."""
+    """Record every unknown or ambiguous name, and every isolated link."""
     check_namespace(scene, findings)
     check_capitals(scene, findings)
     for link in scene.every_link:
@@ -50,7 +52,7 @@ def check_scene(scene: Scene, findings: Findings) -> None:
 
 
 def check_namespace(scene: Scene, findings: Findings) -> None:
-    """One name, one thing: a point and a link do not share it."""
+    """Record points and links that share a name."""
     points = scene.points
     for name in scene.links:
         if name in points:
@@ -58,9 +60,9 @@ def check_namespace(scene: Scene, findings: Findings) -> None:
 
 
 def check_capitals(scene: Scene, findings: Findings) -> None:
-    """A point that one link alone has is not another link's point in other capitals.
+    """Record a point of a single link whose name equals another link's point but for capitals.
 
-    The plans write the image of B as b, so that two such names could not be told apart there.
+    The plans write the image of B as b, so that the two names could not be distinguished there.
     """
     links = scene.every_link
     owners: dict[str, list[str]] = {}
@@ -84,7 +86,7 @@ def check_capitals(scene: Scene, findings: Findings) -> None:
 
 
 def check_link(scene: Scene, link: Link, findings: Findings) -> None:
-    """Guides, tracks, wheels and profiles of a link name points and links that are there."""
+    """Record guides, tracks, wheels and profiles that name missing points or links."""
     place = place_of(link.name)
     check_centres(link, place, findings)
     for index, slide in enumerate(link.slides):
@@ -96,7 +98,7 @@ def check_link(scene: Scene, link: Link, findings: Findings) -> None:
 
 
 def check_guides(scene: Scene, link: Link, findings: Findings) -> None:
-    """No two links are guides of one another."""
+    """Record two links that are guides of one another."""
     order = list(scene.links)
     for on in dict.fromkeys(slide.on for slide in link.slides):
         other = scene.links.get(on)
@@ -109,7 +111,7 @@ def check_guides(scene: Scene, link: Link, findings: Findings) -> None:
 
 
 def check_alone(scene: Scene, findings: Findings) -> None:
-    """Every moving link has points and touches another: by a pin, a guide, a track or a wheel."""
+    """Record moving links without points, or without a pin, guide, track or wheel contact."""
     links = scene.every_link
     carriers = {path.on for link in links for path in link.paths}
     shared = Counter(point for link in links for point in link.points)
@@ -126,9 +128,9 @@ def check_alone(scene: Scene, findings: Findings) -> None:
 
 
 def check_branches(scene: Scene, findings: Findings) -> None:
-    """A side is chosen for a point, a way or a closure for a link.
+    """Record a side that is not stated for a point, or a way or closure not stated for a link.
 
-    A way also for a pin, where a link is led in several ways.
+    A way may also be stated for a pin, where a link has several guides.
     """
     points = scene.points
     for name, branch in scene.branches.items():
@@ -153,14 +155,14 @@ def check_branches(scene: Scene, findings: Findings) -> None:
 
 
 def is_of_several_ways(scene: Scene, point: str) -> bool:
-    """Whether a point is of a link that is led in several ways, or of what leads one."""
+    """Whether a point belongs to a link with several guides or tracks, or to one of these."""
     several = [link for link in scene.links.values() if len(link.paths) > 1]
     near = {name for link in several for name in (link.name, *(path.on for path in link.paths))}
     return any(point in scene.link(name).points for name in near if name != FRAME)
 
 
 def ways_hint(scene: Scene, name: str, side: Side) -> str:
-    """Where a side belongs that is written under a link: a block takes a way, a pin a side."""
+    """A hint for a side stated under a link: a block takes a way, a pin takes a side."""
     pin = side_of_pin(scene, name, side)
     if scene.links[name].paths:
         ways = f'{name} = "forward" or "backward"'
@@ -169,7 +171,7 @@ def ways_hint(scene: Scene, name: str, side: Side) -> str:
 
 
 def side_of_pin(scene: Scene, name: str, side: Side) -> str:
-    """A side as it is written under a pin that a link shares with another."""
+    """A side as written under a pin that a link shares with another."""
     shared = Counter(point for link in scene.links.values() for point in link.points)
     points = [p for p in scene.links[name].points if shared[p] > 1]
     pins = [p for p in points if p not in (side.first, side.second)]
@@ -177,7 +179,7 @@ def side_of_pin(scene: Scene, name: str, side: Side) -> str:
 
 
 def check_blocks(scene: Scene, findings: Findings) -> None:
-    """Every link with one point is held by more than its pin, and no block by its guide's link."""
+    """Record links held only by their one pin, and blocks that cannot slide on their guide's link."""
     for link in scene.links.values():
         if not findings.inside(place_of(link.name)):
             check_bare(scene, link, findings)
@@ -185,7 +187,7 @@ def check_blocks(scene: Scene, findings: Findings) -> None:
 
 
 def check_bare(scene: Scene, link: Link, findings: Findings) -> None:
-    """A link on one pin and nothing else would spin about it unless a driver turns it."""
+    """Record a link on one pin and nothing else, which could spin unless a driver turns it."""
     if len(link.points) != 1 or link.paths or link.wheels:
         return
     point = link.points[0]
@@ -201,7 +203,7 @@ def check_bare(scene: Scene, link: Link, findings: Findings) -> None:
 
 
 def lent_slides(scene: Scene, link: Link) -> str:
-    """A hint where another link at the same pin has the slides that seem to be this one's."""
+    """A hint where another link at the same pin has slides that seem to be this link's."""
     others = [
         other.name
         for other in scene.links.values()
@@ -211,7 +213,7 @@ def lent_slides(scene: Scene, link: Link) -> str:
 
 
 def check_locked(scene: Scene, link: Link, findings: Findings) -> None:
-    """A block does not slide on a link that it is pinned to: it could not move against it."""
+    """Record a block that slides on a link to which it is pinned, so that it cannot move."""
     place = f"{place_of(link.name)}.slides"
     for index, slide in enumerate(link.slides):
         if slide.on == link.name or slide.on not in (FRAME, *scene.links):
@@ -229,7 +231,7 @@ def check_locked(scene: Scene, link: Link, findings: Findings) -> None:
 
 
 def meant(scene: Scene, block: Link) -> str:
-    """The one link that hangs by a single pin, and so may lack this guide, as a text writes it."""
+    """The one link on a single pin, which may lack this guide, as a text writes it."""
     shut = {slide.on for slide in block.slides}
     loose = [
         name
@@ -259,14 +261,14 @@ def is_driven(scene: Scene, name: str) -> bool:
 
 
 def check_drivers(scene: Scene, findings: Findings) -> None:
-    """Every driver moves a known link that can move so, and no motion is given twice."""
+    """Record drivers that cannot move their link, and motions that are given twice."""
     for driver in scene.drivers:
         check_driver(scene, driver, driver.position.place.rpartition(".")[0], findings)
     check_repeated(scene, findings)
 
 
 def check_driver(scene: Scene, driver: Driver, place: str, findings: Findings) -> None:
-    """A driver moves a known link against another, along a guide or a track that is there."""
+    """Record a driver whose link, reference, guide or track is missing."""
     link = known_link(scene, driver.link, f"{place}.{driver.kind}", findings)
     against = known_link(scene, driver.against, f"{place}.against", findings)
     if link is None or against is None:
@@ -288,7 +290,7 @@ def check_driver(scene: Scene, driver: Driver, place: str, findings: Findings) -
 
 
 def other_ends(scene: Scene, link: Link) -> list[Written]:
-    """Of a driver along a link's guide: the blocks on that, or what the link itself slides on."""
+    """The choices for a driver along a link's guide: blocks on the link, or the link's own guides."""
     pairs = [(each.name, slide.on) for each in scene.links.values() for slide in each.slides]
     blocks = [("slide", block) for block, on in pairs if on == link.name]
     guides = [("against", on) for block, on in pairs if block == link.name]
@@ -296,7 +298,7 @@ def other_ends(scene: Scene, link: Link) -> list[Written]:
 
 
 def check_slid(scene: Scene, driver: Driver, link: Link, place: str, findings: Findings) -> None:
-    """A driver that slides a link has a guide to move it along."""
+    """Record a driver that slides a link without a guide."""
     guides = [slide.on for slide in link.slides]
     if driver.against in guides:
         return
@@ -315,7 +317,7 @@ def check_slid(scene: Scene, driver: Driver, link: Link, place: str, findings: F
 
 
 def check_repeated(scene: Scene, findings: Findings) -> None:
-    """No motion is given twice."""
+    """Record motions that are given twice."""
     seen = Counter((driver.kind, driver.link, driver.against) for driver in scene.drivers)
     for (kind, link, against), times in seen.items():
         if times > 1:
@@ -324,13 +326,13 @@ def check_repeated(scene: Scene, findings: Findings) -> None:
 
 
 FARTHEST = 1e9
-"""Lengths of the shortest bar beyond which coordinates of 16 digits are too coarse for it."""
+"""Distance, in lengths of the shortest bar, beyond which 16 digits resolve it too coarsely."""
 BESIDE = 1e3
-"""Lengths of the whole mechanism beyond which it lies far from the origin."""
+"""Distance, in lengths of the whole mechanism, beyond which it is far from the origin."""
 
 
 def check_far(scene: Scene, findings: Findings) -> None:
-    """Note a frame that stands so far away that less than seven digits are left for its bars."""
+    """Record a frame so far from the origin that its bars have less than seven digits."""
     if findings.problems:
         return
     try:

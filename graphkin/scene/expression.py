@@ -1,7 +1,7 @@
 """Expressions as a lecturer writes them ("30 + 2*n"), read into a small tree and never executed.
 
-Python's own parser gives the shape; only numbers, names, + - * / **, a leading minus, brackets and
-four functions are let through, and every number keeps the digits it was written with.
+Python's own parser gives the structure. Only numbers, names, + - * / **, a leading minus, brackets
+and four functions are accepted. Every number keeps the digits it was written with.
 """
 
 from __future__ import annotations
@@ -30,33 +30,35 @@ RESERVED = frozenset((*FUNCTIONS, CONSTANT, TIME))
 """Names that no parameter may have."""
 
 ONE_AT_A_TIME = Lock()
-"""Python's parser is entered by one thread at a time, though requests to the studio come at once:
-two may end with "AST constructor recursion depth mismatch" on Python 3.11.7."""
+"""Lock for Python's parser, because requests to the studio arrive in several threads.
+
+Two threads at once may cause "AST constructor recursion depth mismatch" on Python 3.11.7.
+"""
 LONGEST = 500
 DEEPEST = 60
 WIDEST = 1000
-"""Largest number of bits above or below the fraction bar of a number."""
+"""The most bits above or below the fraction bar of a number."""
 FARTHEST = 60
-"""Largest power of ten of a number as written."""
+"""The largest power of ten of a number as written."""
 DIGITS = 60
 HEAVIEST = 2000
-"""Largest number of parts of a law of time and of its first derivative."""
+"""The most parts of a law of time and of its first derivative."""
 
 UNITS = ("degrees", "degree", "deg", "°", "rad", "grad", "rpm", "mm", "cm", "dm", "in", "m", "s")
 RATES = ("mm/s", "cm/s", "m/s", "in/s", "rev/min", "rot/min", "rad/s", "deg/s", "°/s")
 MEASURED = rf"(?as)(.*[\w.)\s])((?<![A-Za-z_])(?:{'|'.join((*RATES, *UNITS))})|°)"
-"""A number or an expression with a unit behind it."""
+"""A number or an expression followed by a unit."""
 MARKS = "_.+-*/() \t\r\n"
 JUXTAPOSED = r"(?a)(?<![A-Za-z0-9_.])(?>(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?)\s*[A-Za-z_(]"
 DECIMAL = frozenset("0123456789.eE+-")
-"""The signs of a decimal number."""
+"""The characters of a decimal number."""
 SIGNS = {ast.Add: "+", ast.Sub: "-", ast.Mult: "*", ast.Div: "/", ast.Pow: "**", ast.Mod: "mod"}
 REST = r"\bmod\b"
-"""The sign of a rest: ``number mod 30``."""
+"""The operator of a remainder: ``number mod 30``."""
 
 
 class UnreadableError(ValueError):
-    """An expression or a number that cannot be read: what was found, and a hint."""
+    """An unreadable expression or number: what was found, and a hint."""
 
     def __init__(self, found: str, hint: Hint = "") -> None:
         super().__init__(found)
@@ -77,13 +79,13 @@ class Name(Struct, frozen=True):
 
 
 class Minus(Struct, frozen=True):
-    """The negative of what follows."""
+    """The negative of an expression."""
 
     inner: Tree
 
 
 class Pair(Struct, frozen=True):
-    """Two parts joined by one of + - * / ** or mod, the rest of a division."""
+    """Two parts joined by one of + - * / ** or mod, the remainder of a division."""
 
     sign: str
     left: Tree
@@ -101,9 +103,9 @@ Tree = Number | Name | Minus | Pair | Call
 
 
 def parse(text: str, *, counting: bool = False) -> Tree:
-    """The tree of an expression; UnreadableError says what could not be read.
+    """The tree of an expression. Raises UnreadableError with the part that could not be read.
 
-    ``counting`` lets rests in (``number mod 30``), which only exact numbers have.
+    ``counting`` accepts remainders (``number mod 30``), which only exact numbers have.
     """
     if len(text) > LONGEST:
         raise UnreadableError(f"an expression of {len(text)} characters", f"at most {LONGEST}")
@@ -124,7 +126,7 @@ def parse(text: str, *, counting: bool = False) -> Tree:
 
 
 def unit_hint(text: str) -> Hint:
-    """How to write a number that has a unit behind it; empty where it has none."""
+    """A hint for a number followed by a unit; empty for other texts."""
     bare = text.strip()
     measured = re.fullmatch(MEASURED, bare) if bare.endswith((*RATES, *UNITS)) else None
     rest = measured[1].strip() if measured else ""
@@ -137,7 +139,7 @@ def unit_hint(text: str) -> Hint:
 
 
 def refuse_foreign(text: str) -> None:
-    """Refuse characters and shapes that no expression has, each with the way to write it."""
+    """Raise UnreadableError for characters and forms that no expression has, with a correction."""
     hint = unit_hint(text)
     if hint:
         raise UnreadableError(f"{shown(text.strip())} has a unit", hint)
@@ -162,7 +164,7 @@ def refuse_foreign(text: str) -> None:
 
 
 def runs_on(text: str) -> bool:
-    """Whether a letter or a bracket stands right after a figure, as it may in a name, too."""
+    """Whether a letter or a bracket follows a digit directly; a name may contain this, too."""
     bare = "".join(text.split())
     return any(
         (one.isdigit() or one == ".") and (after == "(" or after.isidentifier())
@@ -171,7 +173,7 @@ def runs_on(text: str) -> bool:
 
 
 def convert(node: ast.expr, text: str, depth: int) -> Tree:
-    """Our tree for a part of Python's, if it is on the short list of what is allowed."""
+    """The tree of a part of Python's tree, if it is allowed."""
     if depth > DEEPEST:
         raise UnreadableError(f"an expression nested more than {DEEPEST} deep")
     match node:
@@ -192,7 +194,7 @@ def convert(node: ast.expr, text: str, depth: int) -> Tree:
 
 
 def refuse(node: ast.expr, text: str) -> NoReturn:
-    """Say which part of an expression is not allowed."""
+    """Raise UnreadableError that names the part of an expression that is not allowed."""
     part = visible(text[node.col_offset : node.end_col_offset]).replace("%", "mod")
     if isinstance(node, ast.Call) and isinstance(node.func, ast.Name):
         raise UnreadableError(
@@ -221,7 +223,7 @@ def decimal(text: str) -> Fraction:
 
 
 def integer(value: int) -> Fraction:
-    """The exact value of a whole number, refused when it has too many digits."""
+    """The exact value of a whole number. Raises UnreadableError if it has too many digits."""
     if value.bit_length() > FARTHEST * 10 // 3:
         raise UnreadableError("a whole number with too many digits", f"at most 1e{FARTHEST}")
     return Fraction(value)
@@ -239,7 +241,7 @@ def size(tree: Tree) -> int:
 
 
 def names(tree: Tree) -> frozenset[str]:
-    """Names used in an expression: parameters and the time, but not ``pi``."""
+    """The names in an expression: parameters and the time, but not ``pi``."""
     match tree:
         case Number():
             return frozenset()
@@ -251,7 +253,7 @@ def names(tree: Tree) -> frozenset[str]:
             return names(left) | names(right)
 
 
-# --- the value and the derivative of an expression: exact while it can be, then of a kind ---------
+# --- the value and the derivative of an expression: exact where possible, else of a kind-----------
 
 
 LARGEST_POWER = 64
@@ -261,7 +263,7 @@ TANGENTS = {0: 0, 45: 1, 135: -1}
 
 
 class EvaluationError(ArithmeticError):
-    """A value that does not exist or grows without bound: what is found, and what expected."""
+    """A value that does not exist or is too large: what was found, and what was expected."""
 
 
 BOUNDLESS = "a number that grows without bound", "a number between 1e-60 and 1e60"
@@ -270,7 +272,7 @@ NO_ROOT = "the square root of a negative number", "0 or more under the root"
 
 
 def evaluate(tree: Tree, values: Mapping[str, Any], kind: Kind) -> Any:
-    """Value of a tree: a Fraction as long as only rational operations meet, else of the kind."""
+    """The value of a tree: a Fraction for rational operations only, otherwise of the kind."""
     match tree:
         case Number(value):
             return value
@@ -285,14 +287,14 @@ def evaluate(tree: Tree, values: Mapping[str, Any], kind: Kind) -> Any:
 
 
 def entered(value: Any, kind: Kind) -> Any:
-    """A parameter as it enters a reckoning: exact as a Fraction, an array as the kind has it."""
+    """A parameter as used in a computation: an exact Fraction, or an array of the kind."""
     if isinstance(value, int):
         return Fraction(value)
     return kind.number(value) if hasattr(value, "shape") else value
 
 
 def joined(sign: str, left: Any, right: Any, kind: Kind) -> Any:
-    """Sum, difference, product, quotient, rest or power of two numbers, exact where both are."""
+    """Sum, difference, product, quotient, remainder or power of two numbers, exact where both are."""
     if sign == "**":
         return power(left, right, kind)
     exact = isinstance(left, Fraction) and isinstance(right, Fraction)
@@ -317,19 +319,19 @@ def joined(sign: str, left: Any, right: Any, kind: Kind) -> Any:
 
 
 def inexact(value: Any, kind: Kind) -> Any:
-    """An exact number as the kind has it; anything else as it is."""
+    """An exact number converted to the kind; anything else unchanged."""
     return kind.number(value) if isinstance(value, Fraction) else value
 
 
 def quotient(left: Any, right: Any) -> Any:
-    """Left over right; over nought it raises on one scene and is masked in a batch."""
+    """Left over right; division by zero raises on one scene and is masked in a batch."""
     if not hasattr(right, "shape") and right == 0:
         raise EvaluationError(*NO_QUOTIENT)
     return left / right
 
 
 def bounded(value: Fraction) -> Fraction:
-    """An exact number, refused when it has grown beyond sense."""
+    """An exact number. Raises EvaluationError if it has too many bits."""
     if max(value.numerator.bit_length(), value.denominator.bit_length()) > WIDEST:
         raise EvaluationError(*BOUNDLESS)
     return value
@@ -375,7 +377,7 @@ def called(function: str, value: Any, kind: Kind) -> Any:
 
 
 def rational_ratio(function: str, degrees: Fraction) -> Fraction | None:
-    """Sine, cosine or tangent where it is rational; None where it is not."""
+    """Sine, cosine or tangent where it is rational; otherwise None."""
     if degrees.denominator != 1:
         return None
     whole = int(degrees)
@@ -391,7 +393,7 @@ def rational_ratio(function: str, degrees: Fraction) -> Fraction | None:
 
 
 def root(value: Any, kind: Kind) -> Any:
-    """Square root; exact for squares of rationals; of a negative number EvaluationError."""
+    """Square root, exact for squares of rationals. Raises EvaluationError for a negative number."""
     if isinstance(value, Fraction):
         if value < 0:
             raise EvaluationError(*NO_ROOT)
@@ -405,7 +407,7 @@ def root(value: Any, kind: Kind) -> Any:
 
 
 UNIT = 2.0**-53
-"""Share of itself by which one operation in doubles is off at most; a function by up to four."""
+"""The largest relative error of one operation in doubles; a function has up to four of these."""
 
 
 def with_error(tree: Tree, values: Mapping[str, Any], kind: Kind) -> tuple[Any, Any]:
@@ -435,7 +437,7 @@ def with_error(tree: Tree, values: Mapping[str, Any], kind: Kind) -> tuple[Any, 
 
 
 def rounded(value: Any, error: Any, kind: Kind) -> tuple[Any, Any]:
-    """A number in doubles with its error, which an exact one has from then on."""
+    """A number in doubles with its error; an exact number acquires one by the conversion."""
     if not isinstance(value, Fraction):
         return value, error
     near = kind.number(value)
@@ -443,7 +445,7 @@ def rounded(value: Any, error: Any, kind: Kind) -> tuple[Any, Any]:
 
 
 def joined_error(sign: str, left: tuple[Any, Any], right: tuple[Any, Any], value: Any) -> Any:
-    """The error of two numbers joined, from theirs."""
+    """The error of two joined numbers, from their errors."""
     (a, off_a), (b, off_b) = left, right
     own = UNIT * abs(value)
     match sign:
@@ -459,7 +461,7 @@ def joined_error(sign: str, left: tuple[Any, Any], right: tuple[Any, Any], value
 
 
 def called_error(function: str, error: Any, value: Any) -> Any:
-    """The error of a root or of a sine, cosine or tangent of degrees, from that of the argument."""
+    """The error of a root, or of a sine, cosine or tangent of degrees, from the argument's error."""
     if function == "sqrt":
         return error / (2 * abs(value) + (value == 0)) + UNIT * abs(value)
     turned = error / 57 + 4 * UNIT
@@ -472,7 +474,9 @@ DEGREE = Pair("/", Name(CONSTANT), Number(Fraction(180)))
 
 
 def differentiated(tree: Tree, name: str) -> Tree:
-    """The tree of the derivative by a name; EvaluationError when an exponent holds the name."""
+    """The tree of the derivative by a name. Raises EvaluationError if an exponent contains the
+    name.
+    """
     match tree:
         case Number():
             return NOUGHT
@@ -503,7 +507,7 @@ def quotient_rule(left: Tree, right: Tree, name: str) -> Tree:
 
 
 def power_rule(base: Tree, exponent: Tree, name: str) -> Tree:
-    """Derivative of a power whose exponent does not hold the name."""
+    """Derivative of a power whose exponent does not contain the name."""
     if name in names(exponent):
         raise EvaluationError(f"an exponent that holds {name}", f"an exponent without {name}")
     inner = differentiated(base, name)
@@ -516,7 +520,7 @@ def power_rule(base: Tree, exponent: Tree, name: str) -> Tree:
 
 
 def slope(function: str, inner: Tree) -> Tree:
-    """Derivative of a function by its own argument, angles in degrees."""
+    """Derivative of a function by its own argument, with angles in degrees."""
     if function == "sqrt":
         return Pair("/", Number(Fraction(1, 2)), Call("sqrt", inner))
     if function == "sin":
@@ -528,7 +532,7 @@ def slope(function: str, inner: Tree) -> Tree:
 
 
 def plus(sign: str, left: Tree, right: Tree) -> Tree:
-    """A sum or a difference without idle noughts."""
+    """A sum or a difference without zero terms."""
     if right == NOUGHT:
         return left
     if left == NOUGHT:
@@ -537,7 +541,7 @@ def plus(sign: str, left: Tree, right: Tree) -> Tree:
 
 
 def times(left: Tree, right: Tree) -> Tree:
-    """A product without idle noughts and ones."""
+    """A product without factors of zero and one."""
     if NOUGHT in (left, right):
         return NOUGHT
     if left == ONE:

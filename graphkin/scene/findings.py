@@ -1,4 +1,4 @@
-"""Problems gathered while a scene is read, so that all of them are told at once."""
+"""Problems collected while a scene is read, so that all of them are reported at once."""
 
 from __future__ import annotations
 
@@ -9,14 +9,14 @@ from graphkin.text.errors import MOST, About, Change, Hint, Mend, Problem, Scene
 
 LISTED = 12
 BEGUN = 3
-"""Letters in which a name and a longer one must begin alike for either to be near the other."""
+"""Initial letters that a name and a longer one must share for either to be near the other."""
 DIGITS = "0123456789"
 COMBINING = "\u0300"
-"""The first sign that combines with the letter before it: what is all below is composed."""
+"""The first combining character; text below it is already composed."""
 
 
 class Findings:
-    """All problems found so far in one scene, and the keys that each of its tables may have."""
+    """All problems found so far in one scene, and the permitted keys of each of its tables."""
 
     def __init__(self) -> None:
         self.problems: list[Problem] = []
@@ -31,11 +31,11 @@ class Findings:
         changes: tuple[Change, ...] = (),
         about: tuple[About, ...] = (),
     ) -> None:
-        """Note one problem."""
+        """Record one problem."""
         self.extend([Problem(place, found, expected, hint, changes, about)])
 
     def extend(self, problems: Iterable[Problem]) -> None:
-        """Note problems that were not noted before; with more than an error carries, stop."""
+        """Record new problems; raise when there are more than an error can hold."""
         for problem in problems:
             if problem not in self.problems:
                 self.problems.append(problem)
@@ -43,25 +43,25 @@ class Findings:
                 self.stop()
 
     def inside(self, place: str) -> bool:
-        """Whether something was found at a place or within it."""
+        """Whether a problem was found at a place or within it."""
         return any(
             problem.place == place or problem.place.startswith((f"{place}.", f"{place}["))
             for problem in self.problems
         )
 
     def stop(self) -> None:
-        """Raise an error when anything was found: SceneError, or that of the file at hand."""
+        """Raise SceneError, or the error of the file at hand, if anything was found."""
         if self.problems:
             raise SceneError(self.problems)
 
 
 WHOLE = ("graphkin", "title", "time", "module")
-"""Keys of a whole scene that hold no table: below a heading they are keys of that."""
+"""Keys of a whole scene that are not tables; below a heading they would belong to its table."""
 ABOVE = "it belongs at the top of the file, above the first heading in brackets"
 
 
 class Table:
-    """A table of the file whose keys are taken one by one; what is left over is unknown."""
+    """A table of the file whose keys are read one by one; those left over are unknown."""
 
     def __init__(self, place: str, raw: dict[str, object], findings: Findings) -> None:
         self.place = place
@@ -77,7 +77,7 @@ class Table:
         return f"{self.place}.{shown_key(key)}" if self.place else shown_key(key)
 
     def take(self, key: str) -> object:
-        """The raw value of a key, None where it is not written."""
+        """The raw value of a key, or None without one."""
         self.known.append(key)
         return self.raw.get(key)
 
@@ -87,7 +87,7 @@ class Table:
         return default if raw is None else plain_text(self.at(key), raw, self.findings)
 
     def flag(self, key: str) -> bool:
-        """True or false; false where it is not written."""
+        """True or false; false where the key is missing."""
         raw = self.take(key)
         if raw is None or isinstance(raw, bool):
             return raw is True
@@ -95,8 +95,7 @@ class Table:
         return False
 
     def choice(self, key: str, words: tuple[str, ...], default: str = "") -> str:
-        """One of some words, the first where none can be read; it must be written without a
-        default."""
+        """One of some words, or the first where none can be read; required if there is no default."""
         raw = self.take(key)
         if isinstance(raw, str) and raw in words:
             return raw
@@ -107,14 +106,14 @@ class Table:
         return default or words[0]
 
     def table(self, key: str) -> Table:
-        """A table within this one, empty where it is not written."""
+        """A table within this one, empty where it is missing."""
         raw = self.take(key)
         if raw is not None and not isinstance(raw, dict):
             self.findings.add(self.at(key), shown(raw), "a table")
         return Table(self.at(key), raw if isinstance(raw, dict) else {}, self.findings)
 
     def finish(self) -> None:
-        """Note each key that nobody asked for, with the nearest known one."""
+        """Record each unread key, with the nearest known one."""
         for key in self.raw:
             if key not in self.known:
                 misplaced = self.place and key in WHOLE
@@ -123,7 +122,7 @@ class Table:
 
 
 def plain_text(place: str, raw: object, findings: Findings) -> str:
-    """A text to be printed, in composed letters (NFC), refused with control or bidi characters."""
+    """A printable text in composed letters (NFC); control and bidi characters are refused."""
     if not isinstance(raw, str):
         findings.add(place, shown(raw), "a text in quotes")
         return ""
@@ -139,28 +138,28 @@ def plain_text(place: str, raw: object, findings: Findings) -> str:
 
 
 def one_or_many(raw: object) -> list[object]:
-    """A value that may be written alone or as a list, as a list; absent is empty."""
+    """A value that may be written alone or as a list, as a list; empty where it is missing."""
     if raw is None:
         return []
     return raw if isinstance(raw, list) else [raw]
 
 
 def numbered(place: str, index: int, count: int) -> str:
-    """The place of one of several; one alone has no number."""
+    """The place of one of several; a single one has no number."""
     return f"{place}[{index}]" if count > 1 else place
 
 
 def nearest(name: str, known: Iterable[str]) -> Hint:
-    """The known name nearest to one that is not known as its mend; empty when none is near."""
+    """The correction of an unknown name to the nearest known one; empty when none is near."""
     near = near_name(name, known)
     return Mend(name, near) if near else ""
 
 
 def near_name(name: str, known: Iterable[str]) -> str:
-    """The known name nearest to one that is not known; empty when none is near.
+    """The known name nearest to an unknown one; empty when none is near.
 
-    Near is what differs by its case or its number, what begins alike, and what at most a third of
-    its letters would have to change for.
+    A name is near if it differs by case or number, begins alike, or needs changes in at most a
+    third of its letters.
     """
     meant = name[:60].lower()
     near: dict[str, tuple[int, int]] = {}
@@ -182,7 +181,7 @@ def number_of(name: str) -> int:
 
 
 def changes_between(name: str, other: str) -> int:
-    """How many letters must be put in, left out, replaced or exchanged with the next one."""
+    """The number of letters to insert, leave out, replace or exchange with the next one."""
     before: list[int] = [0] * (len(other) + 1)
     row: list[int] = [*range(len(other) + 1)]
     for i, letter in enumerate(name, 1):
@@ -195,7 +194,7 @@ def changes_between(name: str, other: str) -> int:
 
 
 def near_file(path: str, files: Iterable[str]) -> str:
-    """The file whose name is nearest to that of one that is not there, whatever their endings."""
+    """The existing file whose name is nearest to a missing one, whatever their endings."""
     ending = path.rpartition(".")[2]
     known: dict[str, str] = {}
     for each in sorted(files, key=lambda each: each.rpartition(".")[2] != ending):
@@ -211,12 +210,12 @@ def listed(names: Iterable[str]) -> str:
 
 
 def natural(name: str) -> tuple[bool, int, str]:
-    """Key that puts numbered links in order of number, before names."""
+    """Sort key that puts numbered links in order of number, before names."""
     return (False, int(name), "") if name.isdigit() else (True, 0, name)
 
 
 def shown(raw: object) -> str:
-    """A raw value as an error shows it: short, on one line, with nothing invisible."""
+    """A raw value as shown in an error: short, on one line, with nothing invisible."""
     match raw:
         case bool():
             return str(raw).lower()
@@ -232,12 +231,12 @@ def shown(raw: object) -> str:
 
 
 def shown_key(key: str) -> str:
-    """A key as an error shows it, in quotes when it is not a bare one."""
+    """A key as shown in an error, in quotes when it is not a bare key."""
     bare = key.isascii() and all(c.isalnum() or c in "-_" for c in key) and key
     return key if bare and len(key) <= 60 else f'"{visible(key)}"'
 
 
 def visible(text: str) -> str:
-    """A text cut to 60 characters, invisible ones written as escapes."""
+    """A text cut to 60 characters, with invisible ones written as escapes."""
     cut = text if len(text) <= 60 else text[:57] + "…"
     return "".join(c if c.isprintable() else ascii(c)[1:-1] for c in cut)

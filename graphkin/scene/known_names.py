@@ -1,4 +1,4 @@
-"""Names that a scene uses, held against those that it writes."""
+"""Names that a scene uses, compared with the names that it defines."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ from graphkin.scene.model import FRAME, GuideOrTrack, Link, Scene, Slide, link_w
 
 
 def known_link(scene: Scene, name: str, place: str, findings: Findings) -> Link | None:
-    """The link of a name; None, with a problem noted, when there is none."""
+    """The link of a name; None, with a problem recorded, if there is none."""
     if name == FRAME or name in scene.links:
         return scene.link(name)
     found = f"link {name} is not in [links]"
@@ -20,7 +20,7 @@ def known_link(scene: Scene, name: str, place: str, findings: Findings) -> Link 
 def known_point(
     name: str, points: Collection[str], where: str, place: str, findings: Findings
 ) -> bool:
-    """Whether a point is among those of ``where``; a problem is noted when it is not."""
+    """Whether a point is among those of ``where``; a problem is recorded if it is not."""
     if name not in points:
         expected = listed(points) or "a point that is written"
         findings.add(place, f"{name} is no point of {where}", expected, nearest(name, points))
@@ -28,19 +28,19 @@ def known_point(
 
 
 def place_of(name: str) -> str:
-    """Where a link is written."""
+    """The place of a link in a scene."""
     return "frame" if name == FRAME else f"links.{name}"
 
 
 def quoted(link: str) -> str:
-    """The name of a link as a scene writes it as a value: 2, but "arm"."""
+    """The name of a link as written as a value in a scene: 2, but "arm"."""
     return link if link.isdigit() else f'"{link}"'
 
 
 def check_guide(
     scene: Scene, link: Link, joint: GuideOrTrack, place: str, findings: Findings
 ) -> None:
-    """A guide or a track is on another link, and the points it names are that link's."""
+    """Record a guide or track that is not on another link, or names points of other links."""
     if joint.on == link.name:
         findings.add(f"{place}.on", f"link {link.name} itself", "another link")
         return
@@ -63,7 +63,7 @@ def check_guide(
 
 
 def next_name(links: Collection[str]) -> str:
-    """A name for an equivalent link: the next number after the others', or a letter of its own."""
+    """A name for an equivalent link: the next number, or a letter where names are not numbers."""
     if all(name.isdigit() for name in links):
         return str(max(map(int, links)) + 1)
     letters = ("e", *(f"e{number}" for number in range(2, len(links) + 2)))

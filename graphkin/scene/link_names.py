@@ -1,4 +1,4 @@
-"""What the links of a scene are called in each language of the sheets."""
+"""The names of a scene's links in each language of the sheets."""
 
 from __future__ import annotations
 
@@ -13,11 +13,11 @@ from graphkin.scene.phrases import FRAME_WORD, LONGEST_NAME
 from graphkin.scene.requests import LANGUAGES
 
 Names = Mapping[str, str]
-"""The name of a link by the one that it has in the scene."""
+"""The printed name of a link, by its name in the scene."""
 
 
 def read_names(table: Table, findings: Findings) -> dict[str, Names]:
-    """A table of names per language: ``it = { boom = "braccio" }``."""
+    """Read a table of names per language: ``it = { boom = "braccio" }``."""
     found: dict[str, Names] = {}
     for language in (language for language in LANGUAGES if language in table):
         own = table.table(language)
@@ -38,7 +38,7 @@ def is_printable_name(text: str) -> bool:
 
 
 def check_names(scene: Scene, findings: Findings) -> None:
-    """Only links are given names, each its own, which is no point's and no other link's."""
+    """Record names that are not of moving links, or not unique among points and links."""
     for language, names in scene.names.items():
         used = {*scene.points, *(link for link in scene.links if link not in names)}
         for link, name in names.items():
@@ -51,7 +51,7 @@ def check_names(scene: Scene, findings: Findings) -> None:
 
 
 def in_language(scene: Scene, language: str) -> Scene:
-    """The same scene with its links called as a language calls them."""
+    """The scene with its links renamed for a language."""
     names = scene.names.get(language, {})
     if not names:
         return scene
@@ -67,17 +67,17 @@ def in_language(scene: Scene, language: str) -> Scene:
 
 
 def driven(driver: Driver, names: Names) -> Driver:
-    """A driver of a link that is called otherwise."""
+    """A driver with links renamed."""
     link, against = (names.get(name, name) for name in (driver.link, driver.against))
     return replace(driver, link=link, against=against)
 
 
 def asked(ask: Ask, names: Names) -> Ask:
-    """What is asked of links that are called otherwise: 2, 2-4, or of a point A@2."""
+    """The requests with links renamed: 2, 2-4, or a point A@2."""
     return Ask(*(tuple(by_parts(name, names) for name in each) for each in astuple(ask)))
 
 
 def by_parts(name: str, names: Names) -> str:
-    """A name of what is asked, each link in it as it is called."""
+    """The name of a request, with each link in it renamed."""
     point, at, link = name.rpartition("@")
     return point + at + "-".join(names.get(part, part) for part in link.split("-"))

@@ -1,4 +1,4 @@
-"""Numbers of a scene as read: each with its unit, its place and its value checked."""
+"""Numbers of a scene as they are read: each with its unit, its place and its value checked."""
 
 from __future__ import annotations
 
@@ -19,13 +19,13 @@ LARGEST = 10**FARTHEST
 
 
 class FloatText(str):
-    """A TOML float kept as it was written, so that 0.1 is one tenth."""
+    """A TOML float kept as written, so that 0.1 is one tenth."""
 
     __slots__ = ()
 
 
 def quantity(raw: object, unit: str, place: str) -> Quantity:
-    """A raw value as a quantity; UnreadableError when it is no number and no expression."""
+    """A raw value as a quantity. Raises UnreadableError if it is no number and no expression."""
     if isinstance(raw, bool):
         raise UnreadableError(shown(raw))
     if isinstance(raw, Integral):
@@ -44,7 +44,7 @@ def quantity(raw: object, unit: str, place: str) -> Quantity:
 
 
 class Measures:
-    """How the numbers of one scene are read: its units, its parameters, its findings."""
+    """The reader for the numbers of one scene, with its units, parameters and findings."""
 
     def __init__(
         self, findings: Findings, units: Mapping[str, str], values: Mapping[str, Fraction]
@@ -56,7 +56,7 @@ class Measures:
     def number(
         self, place: str, raw: object, unit: str = "", *, positive: bool = False, law: bool = False
     ) -> Quantity:
-        """A number in a unit; ``law`` lets ``t`` in. A problem is noted and one stands in."""
+        """A number in a unit; ``law`` permits ``t``. An invalid one is recorded and replaced by 1."""
         try:
             read = quantity(raw, unit, place)
         except UnreadableError as error:
@@ -115,7 +115,7 @@ class Measures:
         return law and not unknown and TIME in self.values
 
     def exists(self, read: Quantity, positive: bool = False, hint: Hint = "") -> bool:
-        """Whether a quantity has a value now, and a positive one where it must."""
+        """Whether a quantity has a value now, and a positive one where required."""
         try:
             value = read.number(self.values)
         except SceneError as error:

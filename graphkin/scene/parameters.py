@@ -1,4 +1,4 @@
-"""Parameters: what a variant may change, with its range, and the values as set."""
+"""Parameters: the numbers that a variant may change, their ranges, and the values as set."""
 
 from __future__ import annotations
 
@@ -38,7 +38,7 @@ def read_parameters(table: Table, findings: Findings) -> dict[str, Parameter]:
 
 
 def read_parameter(name: str, table: Table, place: str) -> Parameter:
-    """One parameter, its range and its steps checked against its value."""
+    """One parameter, with its range and steps checked against its value."""
     value = rational(place, table.take("value"), table.findings) or exact(1)
     least, most, step = (optional(table, key) for key in ("min", "max", "step"))
     table.finish()
@@ -53,13 +53,13 @@ def read_parameter(name: str, table: Table, place: str) -> Parameter:
 
 
 def optional(table: Table, key: str) -> Quantity | None:
-    """A bound or a step, None where it is not written."""
+    """A bound or a step, or None without one."""
     raw = table.take(key)
     return None if raw is None else rational(table.at(key), raw, table.findings)
 
 
 def rational(place: str, raw: object, findings: Findings) -> Quantity | None:
-    """An exact number that uses no parameter; None, with a problem noted, when it is none."""
+    """An exact number without parameters; None, with a problem recorded, for anything else."""
     try:
         read = quantity(raw, "", place)
         value = None if read.uses() else read.number({})
@@ -89,13 +89,13 @@ def plain(read: Quantity) -> Fraction:
 
 
 def out_of_range(parameter: Parameter, value: Fraction, place: str) -> list[Problem]:
-    """The problem of a value outside the range of its parameter or off its steps, if any."""
+    """The problem of a value outside its parameter's range or off its steps, if any."""
     wrong, given = misfit(parameter, value), f"{parameter.name} = {shortest(value)}"
     return [Problem(place, f"{given} is {wrong}", range_words(parameter))] if wrong else []
 
 
 def misfit(parameter: Parameter, value: Fraction) -> str:
-    """What a value is that a parameter may not have; nothing for any other."""
+    """Words for a value that a parameter may not have; empty for any other."""
     least, most, step = parameter.minimum, parameter.maximum, parameter.step
     if (least and value < plain(least)) or (most and value > plain(most)):
         return "out of range"
@@ -119,7 +119,7 @@ def range_words(parameter: Parameter) -> str:
 def set_values(
     parameters: Mapping[str, Parameter], settings: Mapping[str, object], findings: Findings
 ) -> dict[str, Fraction]:
-    """The exact value of each parameter: as written, or as set from outside within its range."""
+    """The exact value of each parameter, as written or as set from outside within its range."""
     values = {name: plain(parameter.value) for name, parameter in parameters.items()}
     for name, raw in settings.items():
         wrong = Findings()
@@ -134,6 +134,6 @@ def set_values(
 
 
 def of_setting(name: str, problems: Iterable[Problem]) -> Iterator[Problem]:
-    """Problems of the value that a parameter is set to from outside."""
+    """Problems of values set from outside, with the setting as their place."""
     about = Setting(name)
     return (replace(each, place=str(about), about=(about,)) for each in problems)

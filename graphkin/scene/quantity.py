@@ -1,4 +1,4 @@
-"""A number of a scene: as written, exact, in its written unit, and only later of some kind."""
+"""A number of a scene: as written, exact, in its written unit, and converted to a kind later."""
 
 from __future__ import annotations
 
@@ -41,7 +41,7 @@ TURNS = {"rad": (Fraction(1), False), "deg": (Fraction(1, 180), True)}
 
 
 def si_factors() -> dict[str, tuple[Fraction, bool]]:
-    """What one of each unit is in metres, radians and seconds, and whether pi multiplies it."""
+    """Each unit in metres, radians and seconds, and whether pi multiplies the factor."""
     bases = {unit: (factor, False) for unit, factor in LENGTHS.items()} | TURNS
     per_second = {f"{unit}/s": factor for unit, factor in bases.items()}
     per_square = {f"{unit}/s²": factor for unit, factor in bases.items()}
@@ -51,15 +51,15 @@ def si_factors() -> dict[str, tuple[Fraction, bool]]:
 
 SI = si_factors()
 SHOWN = 12
-"""Significant digits of a number that does not end."""
+"""Significant digits of a decimal that does not terminate."""
 ENDING = 17
-"""Significant digits up to which a number that ends is written in full."""
+"""Significant digits up to which a terminating decimal is written in full."""
 
 
 class Quantity(Struct, frozen=True, eq=False):
     """A number as written, perhaps an expression in parameters, with its unit.
 
-    ``place`` is the key it was read from, for errors; two quantities are equal without it.
+    ``place`` is its key in the file, for errors. Equality ignores it.
     """
 
     text: str
@@ -69,7 +69,7 @@ class Quantity(Struct, frozen=True, eq=False):
 
     @property
     def key(self) -> tuple[object, ...]:
-        """By what it is told from others."""
+        """The key that distinguishes it from other quantities."""
         return self.text, self.tree, self.unit
 
     def __eq__(self, other: object) -> bool:
@@ -79,15 +79,15 @@ class Quantity(Struct, frozen=True, eq=False):
         return hash((self.text, self.unit))
 
     def uses(self) -> frozenset[str]:
-        """Names of the parameters in it, and ``t`` if it is a law of time."""
+        """The names of its parameters, and ``t`` if it is a law of time."""
         return names(self.tree)
 
     def is_zero(self) -> bool:
-        """True when it is nought whatever the parameters."""
+        """Whether it is zero for all parameters."""
         return not self.uses() and self.number({}) == 0
 
     def number(self, values: Mapping[str, Any], kind: Kind = FLOAT) -> Real:
-        """Value in the written unit: a Fraction while exact, else a real of the kind.
+        """Value in the written unit: a Fraction while exact, otherwise a real of the kind.
 
         Raises SceneError where it does not exist; an array has NaN or inf there instead.
         """
@@ -107,7 +107,7 @@ class Quantity(Struct, frozen=True, eq=False):
         return value
 
     def si(self, values: Mapping[str, Any], kind: Kind = FLOAT) -> Real:
-        """Value in metres, radians and seconds: exact up to one last conversion to the kind."""
+        """Value in metres, radians and seconds, exact up to one final conversion to the kind."""
         factor, of_pi = SI[self.unit]
         value = self.number(values, kind)
         if isinstance(value, Fraction):
@@ -119,7 +119,7 @@ class Quantity(Struct, frozen=True, eq=False):
         return real * kind.pi if of_pi else real
 
     def direction(self, values: Mapping[str, Any], kind: Kind = FLOAT) -> Point:
-        """Unit vector at this angle; whole quarters of a turn in degrees are exact."""
+        """Unit vector at this angle; whole quarter turns in degrees are exact."""
         value = self.number(values, kind)
         if self.unit == "rad":
             return kind.radians(kind.number(value) if isinstance(value, Fraction) else value)
@@ -128,9 +128,10 @@ class Quantity(Struct, frozen=True, eq=False):
         return kind.radians(value * (kind.pi / 180))
 
     def error(self, values: Mapping[str, Any], kind: Kind = FLOAT) -> Real:
-        """Bound of the error of ``si``, or of ``direction``, by sums and functions in doubles: in
-        metres, radians and seconds. It leaves out the last few roundings, which are shares of the
-        value, or of a turn.
+        """Bound of the error of ``si`` or ``direction`` by sums and functions in doubles.
+
+        It is in metres, radians and seconds. The last few roundings are not included; they are
+        shares of the value, or of a turn.
         """
         try:
             value, error = with_error(self.tree, values, kind)
@@ -142,11 +143,11 @@ class Quantity(Struct, frozen=True, eq=False):
         return error * float(factor) * (kind.pi if of_pi else 1)
 
     def written(self, values: Mapping[str, Any]) -> str:
-        """The value as printed on a sheet: ``44``, ``0.25``; 12 digits when it does not end."""
+        """The value as printed on a sheet: ``44``, ``0.25``; 12 digits if it does not terminate."""
         return shortest(self.number(values))
 
     def derivative(self, name: str) -> Quantity:
-        """The exact derivative by a name; by the time ``t`` its unit becomes per second."""
+        """The exact derivative by a name; by the time ``t`` the unit becomes per second."""
         if size(self.tree) > HEAVIEST:
             raise SceneError(self.problem({}, "a derivative of too many parts", "a shorter law"))
         try:
@@ -157,23 +158,22 @@ class Quantity(Struct, frozen=True, eq=False):
         return Quantity(f"d({self.text})/d{name}", tree, unit, self.place)
 
     def negative(self) -> Quantity:
-        """The same number with the other sign."""
         return Quantity(f"-({self.text})", Minus(self.tree), self.unit, self.place)
 
     def less(self, number: int) -> Quantity:
-        """The same number less a whole one in its unit."""
+        """The number reduced by a whole number in its unit."""
         tree = Pair("-", self.tree, Number(Fraction(number)))
         return Quantity(f"({self.text}) - {number}", tree, self.unit, self.place)
 
     def problem(self, values: Mapping[str, Any], what: str, expected: str) -> Problem:
-        """What is wrong with this number, with the parameters it was reckoned with."""
+        """The problem of this number, with the parameters used."""
         known = [f"{name} = {values[name]}" for name in sorted(self.uses()) if name in values]
         given = f" with {', '.join(known)}" if known else ""
         return Problem(self.place, f"{shown(self.text)} gives {what}{given}", expected)
 
 
 def reckoned(tree: Tree, values: Mapping[str, Any], kind: Kind) -> Any:
-    """Value of a tree; in a batch what does not exist is masked without a warning."""
+    """The value of a tree; undefined values in a batch are masked without a warning."""
     if not any(hasattr(value, "shape") for value in values.values()):
         return evaluate(tree, values, kind)
     with np.errstate(all="ignore"):
@@ -181,7 +181,7 @@ def reckoned(tree: Tree, values: Mapping[str, Any], kind: Kind) -> Any:
 
 
 def per_second(unit: str) -> str:
-    """The unit of a derivative by the time: deg, deg/s, deg/s²; SceneError beyond."""
+    """The unit of a derivative by the time: deg, deg/s, deg/s². Raises SceneError beyond these."""
     rate = f"{unit}²" if unit.endswith("/s") else f"{unit}/s"
     if rate not in SI:
         raise SceneError(Problem("", f"no unit for the derivative of a number in {unit or '1'}"))
@@ -189,21 +189,21 @@ def per_second(unit: str) -> str:
 
 
 def exact(value: int | Fraction, unit: str = "", place: str = "") -> Quantity:
-    """A quantity that is an exact number."""
+    """A quantity with an exact value."""
     number = Fraction(value)
     return Quantity(shortest(number), Number(number), unit, place)
 
 
 def expression(text: str, unit: str = "", place: str = "", *, counting: bool = False) -> Quantity:
-    """A quantity from an expression as written; UnreadableError when it is none.
+    """A quantity from an expression as written. Raises UnreadableError if it is none.
 
-    ``counting`` lets rests in: ``number mod 30``.
+    ``counting`` accepts remainders: ``number mod 30``.
     """
     return Quantity(text, parse(text, counting=counting), unit, place)
 
 
 def shortest(value: Real) -> str:
-    """Shortest decimal text of a number: all digits when it ends within 17, else 12 of them."""
+    """Shortest decimal text of a number: all digits if it terminates within 17, otherwise 12."""
     if isinstance(value, Fraction):
         top, bottom = Decimal(value.numerator), Decimal(value.denominator)
         full = Context(prec=ENDING).divide(top, bottom)

@@ -1,6 +1,4 @@
-"""The guides of blocks and the profiles of links, and what is written as they are: a line, a
-table or a list of them.
-"""
+"""Reading of guides and profiles, and of the forms they share: a line, a table, a list of tables."""
 
 from __future__ import annotations
 
@@ -33,7 +31,6 @@ def tables(table: Table, key: str) -> list[Table]:
 
 
 def read_slides(table: Table, measures: Measures) -> tuple[Slide, ...]:
-    """The guides of a block."""
     return tuple(read_slide(each, measures) for each in tables(table, "slides"))
 
 
@@ -58,7 +55,7 @@ def read_slide(table: Table, measures: Measures) -> Slide:
 
 
 def read_line(table: Table, measures: Measures) -> tuple[str | Pair | None, Quantity | None]:
-    """A line by a point that it passes through and its angle to the x axis of its link."""
+    """A line, by a point on it and its angle to the x axis of its link."""
     raw, turned = table.take("through"), table.take("angle")
     if raw is None:
         expected = 'through = "P" or [x, y], with an angle, or along = "P-Q"'
@@ -82,16 +79,15 @@ def read_line(table: Table, measures: Measures) -> tuple[str | Pair | None, Quan
 OTHERWISE = "a profile is an arc: it needs a radius"
 """The hint where the centre of a profile lies on it."""
 FULL = 360
-"""The whole circle of a profile, in degrees."""
+"""The full circle of a profile, in degrees."""
 
 
 def read_profiles(table: Table, measures: Measures) -> tuple[Profile, ...]:
-    """The profiles of a link."""
     return tuple(read_profile(each, measures) for each in tables(table, "profiles"))
 
 
 def read_profile(table: Table, measures: Measures) -> Profile:
-    """One profile, ``{ about, through, arc, hollow }``; a point that cannot be read is empty."""
+    """One profile, ``{ about, through, arc, hollow }``; an unreadable point is empty."""
     about, through = (
         point_name(table.at(key), table.take(key), table.findings) or ""
         for key in ("about", "through")
@@ -104,7 +100,7 @@ def read_profile(table: Table, measures: Measures) -> Profile:
 
 
 def check_profiles(scene: Scene, link: Link, findings: Findings) -> None:
-    """Every profile is about a point of its link, through another place of the mechanism."""
+    """Record profiles that are not about a point of their link, or not through another place."""
     place = place_of(link.name)
     sound, points = not findings.inside(place), scene.points
     for index, profile in enumerate(link.profiles):
@@ -127,7 +123,7 @@ def check_profiles(scene: Scene, link: Link, findings: Findings) -> None:
 
 
 def at_one_spot(scene: Scene, link: Link, profile: Profile) -> bool:
-    """Whether both points of a profile are written by the same coordinates of its link."""
+    """Whether both points of a profile have the same written coordinates on its link."""
     spots = [
         (placing.x.number(scene.values), placing.y.number(scene.values))
         for placing in link.placings

@@ -1,4 +1,4 @@
-"""A scene from its file: every problem in it is found before one error tells them all."""
+"""A scene from its file: one error reports every problem in it."""
 
 from __future__ import annotations
 
@@ -31,7 +31,7 @@ FORMAT = 1
 """Version of the scene format that is read."""
 MOST_LINKS = 500
 CHOSEN = {"ask", "branches", "notes", "titles"}
-"""The tables that no link hangs on."""
+"""The tables on which no link depends."""
 SPELLINGS = {
     **dict.fromkeys(("rpm", "r.p.m.", "rot/min", "1/min", "min^-1", "rev/mn"), "rev/min"),
     **dict.fromkeys(("rad/sec", "radians/s", "1/s", "s^-1"), "rad/s"),
@@ -42,15 +42,15 @@ SPELLINGS = {
     **dict.fromkeys(("metre", "metres", "meter", "meters"), "m"),
     **dict.fromkeys(("inch", "inches", '"'), "in"),
 }
-"""Other spellings of units, for hints; a unit that is only spelt alike is not meant."""
+"""Other spellings of units, for hints; a unit that merely looks similar is not suggested."""
 UNITS = {"length": tuple(LENGTHS), "angle": tuple(TURNS), "speed": ("rev/min", "rad/s")}
 NO_SETTINGS: Mapping[str, object] = {}
 
 
 def read_scene(path: paths.Named, settings: Mapping[str, object] = NO_SETTINGS) -> Scene:
-    """The scene in a file, its parameters set; SceneError with every problem found.
+    """The scene in a file, with its parameters set. Raises SceneError with every problem found.
 
-    The scene is named after its file, or after its folder when the file is ``scene.toml``.
+    The scene is named after its file, or after its folder for a file ``scene.toml``.
     """
     name = paths.stem(path)
     if name == "scene":
@@ -61,13 +61,14 @@ def read_scene(path: paths.Named, settings: Mapping[str, object] = NO_SETTINGS) 
 def read_text(
     text: str, name: str, source: str | None = None, settings: Mapping[str, object] = NO_SETTINGS
 ) -> Scene:
-    """The scene in a TOML text, its parameters set; SceneError with every problem found."""
+    """The scene in a TOML text, with its parameters set. Raises SceneError with every problem."""
     return read_into(Findings(), text, name, source, settings)
 
 
 def known_keys(text: str, name: str) -> dict[str, list[str]]:
-    """The keys that the reader knows in each table of a text, by the table's place, as far as the
-    text can be read: those that are written there and those that might be.
+    """The keys, written and possible, that the reader knows in each table of a text, by place.
+
+    They are given as far as the text can be read.
     """
     findings = Findings()
     with suppress(GraphkinError):
@@ -82,7 +83,7 @@ def read_into(
     source: str | None = None,
     settings: Mapping[str, object] = NO_SETTINGS,
 ) -> Scene:
-    """The scene in a text, its problems noted; SceneError where there are any."""
+    """The scene in a text, with its problems recorded. Raises SceneError if there are any."""
     top = Table("", tables_of(text, findings), findings)
     if not top.raw:
         found = "nothing but comments" if text.strip("\ufeff \t\r\n") else "the file is empty"
@@ -99,10 +100,10 @@ def read_into(
 
 
 def note_structure(scene: Scene, findings: Findings) -> None:
-    """Beside what is wrong with what is chosen and asked alone, note what is wrong with the links.
+    """Record structural problems, too, if only choices and requests are wrong so far.
 
-    What is asked does not change these, and a branch with a problem is taken out; nothing is said
-    of a branch that is missing, for one with a problem may be meant for it.
+    Requests do not affect the structure. A branch with a problem is removed first. A missing branch
+    is not reported, because the faulty one may be meant for it.
     """
     tables = {problem.place.partition(".")[0] for problem in findings.problems}
     if not findings.problems or not tables <= CHOSEN:
@@ -116,7 +117,7 @@ def note_structure(scene: Scene, findings: Findings) -> None:
 
 
 def check_version(top: Table, findings: Findings) -> None:
-    """The format is ours; a newer one stops the reading at once."""
+    """Check the version of the format; a newer one stops the reading at once."""
     version = top.take("graphkin")
     if version is None:
         found = "the version of the format is missing"
@@ -136,7 +137,7 @@ def assembled(
     settings: Mapping[str, object],
     findings: Findings,
 ) -> Scene:
-    """All parts but what is asked; where one cannot be read, a problem is noted, another put in."""
+    """All parts except requests; an unreadable part is recorded and replaced."""
     units = read_units(top.table("units"), findings)
     parameters = read_parameters(top.table("parameters"), findings)
     values = set_values(parameters, settings, findings)
@@ -172,7 +173,7 @@ def assembled(
 
 
 def read_units(table: Table, findings: Findings) -> dict[str, str]:
-    """The units of lengths, angles and turning speeds; each must be written."""
+    """The units of lengths, angles and speeds of rotation; all are required."""
     units = {}
     lost = findings.inside(table.place)
     for key, choices in UNITS.items():
@@ -190,7 +191,7 @@ def read_units(table: Table, findings: Findings) -> dict[str, str]:
 
 
 def read_time(top: Table, measures: Measures, values: dict[str, Fraction]) -> Quantity | None:
-    """The moment at which laws of time are taken, in seconds; it joins the values as ``t``."""
+    """The time in seconds at which laws are evaluated; it is added to the values as ``t``."""
     raw = top.take("time")
     if raw is None:
         return None
@@ -208,8 +209,10 @@ def read_module(top: Table, measures: Measures) -> Quantity | None:
 def read_links(
     top: Table, fixed: Link, measures: Measures, module: Quantity | None
 ) -> tuple[Link, dict[str, Link]]:
-    """The frame, and the moving links by name; what reads touching profiles and cams is loaded for
-    these."""
+    """The frame, and the moving links by name.
+
+    The readers of touching profiles and cams are loaded only for scenes that have some.
+    """
     table = top.table("links")
     if not table.raw and not measures.findings.inside(table.place):
         measures.findings.add("links", "no link", "a table [links.NAME] for each moving link")
@@ -287,7 +290,7 @@ def read_drivers(top: Table, measures: Measures) -> tuple[Driver, ...]:
 
 
 def read_driver(table: Table, measures: Measures) -> Driver | None:
-    """One driver; None, with a problem noted, when what it drives is not clear."""
+    """One driver; None, with a problem recorded, if its motion is not clear."""
     kinds = [kind for kind in KINDS if kind in table]
     if len(kinds) != 1:
         found = " and ".join(kinds) or "nothing driven"
@@ -306,7 +309,7 @@ def read_driver(table: Table, measures: Measures) -> Driver | None:
 
 
 def read_against(table: Table, measures: Measures) -> str:
-    """The link that a motion is measured against, the frame where none is written."""
+    """The reference link of a motion; the frame without one."""
     raw = table.take("against")
     if raw is None:
         return FRAME
@@ -316,7 +319,7 @@ def read_against(table: Table, measures: Measures) -> str:
 def read_motion(
     table: Table, kind: DriverKind, measures: Measures
 ) -> tuple[Quantity, Quantity, Quantity]:
-    """Position, speed and acceleration: three numbers, or one law in ``t`` and its derivatives."""
+    """Position, speed and acceleration: three numbers, or one law in ``t`` with its derivatives."""
     key, unit = ("angle", measures.units["angle"])
     speed, acceleration = measures.units["speed"], "rad/s²"
     if kind != "turn":
@@ -372,7 +375,7 @@ def derivatives(
 
 
 def is_law(raw: object) -> bool:
-    """Whether a text is an expression in the time, though the scene may not give it."""
+    """Whether a text is an expression in the time, even where the scene may not use it."""
     try:
         return TIME in quantity(raw, "", "").uses()
     except UnreadableError:
@@ -380,7 +383,7 @@ def is_law(raw: object) -> bool:
 
 
 def refuse_beside_law(table: Table, measures: Measures) -> None:
-    """Note a speed and an acceleration that stand beside a law of time."""
+    """Record a speed and an acceleration next to a law of time."""
     for key in ("speed", "acceleration"):
         if table.take(key) is not None:
             found = f"{key} beside a law of time"

@@ -1,4 +1,4 @@
-"""What is chosen and asked: branches of assembly, results, the sheet, its titles and notes."""
+"""Choices and requests: branches of assembly, results, the sheet, its titles and notes."""
 
 from __future__ import annotations
 
@@ -35,18 +35,18 @@ LINKS_ASKED = tuple(
     if key not in (*POINTS_ASKED, PATHS_ASKED, CENTRES_ASKED, "pairs")
 )
 ALL = "all"
-"""Asks for the relative centres of all links."""
+"""Requests the relative centres of all links."""
 BRANCH_WORDS = '"left of P-Q", "right of P-Q", "forward", "backward" or "closure 1"'
 SIDES_OF_PIN = '"left of P-Q" or "right of P-Q"'
 ANY_LINK = tuple(map(Written, ('"forward"', '"backward"', '"closure 1"')))
-"""The branches that need no names."""
+"""The branch statements that need no names."""
 WAYS_OF_LINK = ", ".join(each.value for each in ANY_LINK)
 KLEIN = "klein"
 METHODS = ("triangles", KLEIN)
-"""What gives the components of accelerations."""
+"""The methods for the components of accelerations."""
 PLANS = ("images", "kutzbach")
 RULES = ("largest", "lab")
-"""How large plans are drawn."""
+"""The rules for the size of plans."""
 MOST = 500
 
 
@@ -72,9 +72,9 @@ def read_branches(
 def wanted(
     name: str, raw: object, frame: Link, links: Mapping[str, Link]
 ) -> tuple[str, Hint, tuple[Written, ...]]:
-    """Which branches a name may have, a hint for one that is none, and changes that mend it.
+    """The branches that a name may have, a hint for an invalid one, and corrections.
 
-    A link has a way or a closure, a pin a side, which needs the names of other points.
+    A link has a way or a closure. A pin has a side, which needs the names of other points.
     """
     if name in links:
         return WAYS_OF_LINK, phrase_hint(raw, (*WAYS, CLOSURE)), ANY_LINK
@@ -85,7 +85,7 @@ def wanted(
 
 
 def sides(name: str, links: Mapping[str, Link], branch: object = "") -> tuple[str, str]:
-    """Which branches a pin may have, and a hint; those of a block's pin are under the block."""
+    """The branches of a pin, and a hint; a block's pin has its branch under the block."""
     blocks = [link.name for link in links.values() if link.slides and name in link.points]
     if not blocks:
         return SIDES_OF_PIN, f"P and Q are the outer pins of the two links that {name} joins"
@@ -95,7 +95,7 @@ def sides(name: str, links: Mapping[str, Link], branch: object = "") -> tuple[st
 
 
 def read_ask(table: Table, findings: Findings, scene: Scene) -> Ask:
-    """What is asked of a scene; each key holds a list of its points or of its links."""
+    """The requests of a scene; each key holds a list of its points or links."""
     names = {
         key: names_asked(table, key, findings, scene)
         for key in (*POINTS_ASKED, PATHS_ASKED, *LINKS_ASKED)
@@ -106,13 +106,13 @@ def read_ask(table: Table, findings: Findings, scene: Scene) -> Ask:
 
 
 def names_asked(table: Table, key: str, findings: Findings, scene: Scene) -> tuple[str, ...]:
-    """The names in one list, each once."""
+    """The names in one list, without duplicates."""
     found = (name_asked(place, key, raw, findings, scene) for place, raw in items(table, key))
     return tuple(dict.fromkeys(name for name in found if name is not None))
 
 
 def name_asked(place: str, key: str, raw: object, findings: Findings, scene: Scene) -> str | None:
-    """The name of a point or a link; None, with a problem noted, for one that is not written."""
+    """The name of a point or link; None, with a problem recorded, if it does not exist."""
     if key in LINKS_ASKED or key == CENTRES_ASKED:
         name = moving_link(place, raw, findings)
         link = None if name is None else known_link(scene, name, place, findings)
@@ -127,7 +127,7 @@ def name_asked(place: str, key: str, raw: object, findings: Findings, scene: Sce
 
 
 def items(table: Table, key: str) -> Iterator[tuple[str, object]]:
-    """Each item of a list with its place; a problem is noted when there is no list."""
+    """Each item of a list with its place; a problem is recorded if there is no list."""
     raw = table.take(key)
     if isinstance(raw, list) and len(raw) <= MOST:
         yield from ((f"{table.at(key)}[{index}]", each) for index, each in enumerate(raw))
@@ -137,7 +137,7 @@ def items(table: Table, key: str) -> Iterator[tuple[str, object]]:
 
 
 def moving_link(place: str, raw: object, findings: Findings) -> str | None:
-    """The name of a link; not that of the frame, which is at rest."""
+    """The name of a link other than the frame, which is at rest."""
     name = link_name(place, raw, findings)
     if name == FRAME:
         findings.add(place, "the frame, which is at rest", "a moving link")
@@ -148,7 +148,7 @@ def moving_link(place: str, raw: object, findings: Findings) -> str | None:
 def centres_asked(
     table: Table, findings: Findings, scene: Scene
 ) -> tuple[tuple[str, ...], tuple[str, ...]]:
-    """The links and the pairs of links whose centres are asked: 2, "2-4", or "all" pairs."""
+    """The links and the pairs of links whose centres are requested: 2, "2-4", or "all" pairs."""
     if table.raw.get(CENTRES_ASKED) == ALL:
         table.take(CENTRES_ASKED)
         return (), tuple(all_pairs(scene))
@@ -170,7 +170,7 @@ def all_pairs(scene: Scene) -> Iterator[str]:
 
 
 def link_pair(place: str, raw: str, findings: Findings, scene: Scene) -> list[str]:
-    """Two links with a dash, in the order of the scene; none, with a problem noted, if not so."""
+    """Two links with a dash, in the order of the scene; none, with a problem, for other texts."""
     first, _, second = raw.replace(" ", "").partition("-")
     names = [name for each in (first, second) if (name := link_name(place, each, findings))]
     if len(names) < 2:
@@ -184,7 +184,7 @@ def link_pair(place: str, raw: str, findings: Findings, scene: Scene) -> list[st
 
 
 def read_sheet(table: Table, measures: Measures) -> Sheet:
-    """The title block: owner, author, approved, date, number; the language, scales and sheets."""
+    """The title block (owner, author, approved, date, number), the language, scales and sheets."""
     rule, ka = table.choice("rule", RULES, RULES[0]), table.take("ka")
     sheets = table.take("sheets")
     if sheets is not None and (isinstance(sheets, bool) or sheets not in (1, 2)):
@@ -220,7 +220,7 @@ def lenient_text(table: Table, key: str) -> str:
 
 
 def read_scale(table: Table, measures: Measures) -> Quantity | None:
-    """The scale kL, real over drawn: 5 or ``"1:5"``; None where it is left to the page."""
+    """The scale kL, real over drawn: 5 or ``"1:5"``; None lets the page choose."""
     raw, place = table.take("scale"), table.at("scale")
     if raw is None:
         return None
@@ -233,7 +233,7 @@ def read_scale(table: Table, measures: Measures) -> Quantity | None:
 
 
 def read_enlarge(table: Table, measures: Measures, rule: str) -> tuple[Quantity, ...]:
-    """How many times as long as its crank plans draw its vectors: 2 for both, or ``[2, 3]``."""
+    """The factors on the lab rule's vector lengths in plans: 2 for both, or ``[2, 3]``."""
     raw, place = table.take("enlarge"), table.at("enlarge")
     if raw is None:
         return ()

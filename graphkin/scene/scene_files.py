@@ -1,4 +1,4 @@
-"""Where the shipped labs lie, and how a name or a path becomes the file of a scene."""
+"""The folders of the shipped labs, and the scene file for a name or path."""
 
 from __future__ import annotations
 
@@ -19,20 +19,20 @@ if TYPE_CHECKING:
 HERE = paths.beside(paths.beside(__file__))
 ABOVE = paths.beside(HERE)
 SHELVES = (within(HERE, "sheets"), within(ABOVE, "sheets"))
-"""The package's own shelf (a wheel), then the checkout's (an editable install)."""
+"""The package's own labs (a wheel), then the checkout's (an editable install)."""
 EXAMPLES = (within(HERE, "scenes"), within(ABOVE, "examples", "scenes"))
-"""The folders with the scenes that come with it, likewise."""
+"""The folders of example scenes, likewise."""
 LAB, SCENE, ENDING = "lab.toml", "scene.toml", ".toml"
-"""The file that makes a scene a lab, the scene of a folder, and how all of them end."""
+"""The file that makes a scene a lab, the scene of a folder, and the ending of both."""
 BEGINS, HEAD = re.compile(rb"^\s*graphkin\s*=", re.MULTILINE), 4096
-"""The first key of a scene, and how many bytes of a file are looked at for it."""
+"""The first key of a scene, and the bytes of a file that are searched for it."""
 
 UNFINISHED = ".graphkin-unfinished"
-"""The folder, beside a scene or the files of a class, in which what is written waits."""
+"""The folder for unfinished files, next to a scene or the files of a class."""
 
 
 def shipped() -> str:
-    """The folder with the shipped labs. Raises SceneError when the installation lacks it."""
+    """The folder of the shipped labs. Raises SceneError if the installation lacks it."""
     for folder in SHELVES:
         if paths.is_folder(folder):
             return folder
@@ -44,7 +44,7 @@ def shipped() -> str:
 
 
 def shelf() -> Path:
-    """The same folder, for what goes on from there."""
+    """The folder of the shipped labs, as a Path."""
     from pathlib import Path
 
     return Path(shipped())
@@ -57,7 +57,7 @@ def names() -> list[str]:
 
 
 def examples() -> dict[str, Path]:
-    """The scenes that come with it and are no labs, by name, in alphabetical order."""
+    """The example scenes that are no labs, by name, in alphabetical order."""
     from pathlib import Path
 
     found = next((folder for folder in EXAMPLES if paths.is_folder(folder)), None)
@@ -65,7 +65,7 @@ def examples() -> dict[str, Path]:
 
 
 def settle(path: paths.Named) -> None:
-    """Have the folder of a scene or a lab made whole, where a run that wrote there was killed."""
+    """Complete the folder of a scene or lab after an interrupted run."""
     root = path if paths.is_folder(path) else paths.folder_of(path)
     if paths.is_folder(within(root, UNFINISHED)):
         service("settle")(root)
@@ -74,7 +74,7 @@ def settle(path: paths.Named) -> None:
 def folder(name: str | Path) -> Path | None:
     """The folder of a lab: a shipped lab's name, a folder with lab.toml, or that file itself.
 
-    None where there is no lab.toml: a scene by itself is no lab.
+    None where there is no lab.toml: a scene alone is no lab.
     """
     from pathlib import Path
 

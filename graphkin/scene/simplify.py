@@ -1,4 +1,4 @@
-"""Expressions made short, as a hand leaves them: numbers gathered, like terms added; their text."""
+"""Simplified expressions as written by hand: numbers combined, like terms added; their text."""
 
 from __future__ import annotations
 
@@ -12,11 +12,11 @@ from graphkin.scene.expression import Call, Minus, Name, Number, Pair, Tree
 from graphkin.scene.quantity import shortest
 
 SUM, PRODUCT, POWER, ATOM = range(4)
-"""How closely the parts of an expression hold together."""
+"""How tightly the parts of an expression bind."""
 
 
 class Product(Struct, frozen=True):
-    """A number times some factors over others."""
+    """A number times some factors, divided by others."""
 
     number: Fraction
     above: tuple[Tree, ...] = ()
@@ -24,7 +24,7 @@ class Product(Struct, frozen=True):
 
 
 def simplified(tree: Tree) -> Tree:
-    """A tree of the same value whose numbers are gathered and whose like terms are added."""
+    """A tree of the same value with numbers combined and like terms added."""
     match tree:
         case Pair("+" | "-"):
             return added(tree)
@@ -39,7 +39,7 @@ def simplified(tree: Tree) -> Tree:
 
 
 def added(tree: Tree) -> Tree:
-    """The sum of the terms of a tree, like ones as one, in their order."""
+    """The sum of the terms of a tree, with like terms combined, in their order."""
     found: dict[Product, Fraction] = {}
     for term in terms(tree):
         like = replace(term, number=Fraction(1))
@@ -73,7 +73,7 @@ def terms(tree: Tree) -> Iterator[Product]:
 
 
 def product(tree: Tree) -> Product:
-    """A tree as one number times factors over others."""
+    """A tree as one number times factors, divided by others."""
     match tree:
         case Number(value):
             return Product(value)
@@ -96,7 +96,7 @@ def product(tree: Tree) -> Product:
 
 
 def multiplied(parts: Product) -> Tree:
-    """The tree of a number times factors over others."""
+    """The tree of a number times factors, divided by others."""
     number, above, below = parts.number, parts.above, parts.below
     if not number:
         return Number(Fraction(0))
@@ -120,7 +120,7 @@ def chained(factors: list[Tree]) -> Tree:
 
 
 def ends(number: Fraction) -> bool:
-    """Whether a number has an end as a decimal."""
+    """Whether a number has a terminating decimal."""
     rest = number.denominator
     for prime in (2, 5):
         while rest % prime == 0:
@@ -129,12 +129,12 @@ def ends(number: Fraction) -> bool:
 
 
 def text_of(tree: Tree) -> str:
-    """An expression as a lecturer writes it, with the brackets it needs and no others."""
+    """An expression as a lecturer writes it, with only the brackets it needs."""
     return spelled(tree, SUM)
 
 
 def spelled(tree: Tree, least: int) -> str:
-    """A tree as text, in brackets where it holds together less than it must."""
+    """A tree as text, in brackets where it binds less tightly than required."""
     match tree:
         case Number(value):
             closeness, text = (ATOM if value >= 0 else SUM), shortest(value)

@@ -1,8 +1,8 @@
-"""Profiles that touch, each by its centre of curvature: at an instant they are a link.
+"""Touching profiles by their centres of curvature: at an instant they are equivalent to a link.
 
-Up to the second order two profiles move as the circles of their curvature. The centres of these
-keep their distance, so a link between them, the associated mechanism, has the same velocities and
-accelerations. The common normal lies along it, and on it the contact.
+To second order, two profiles move like the circles of their curvature. The centres of these circles
+keep their distance. A link between them, the associated mechanism, therefore has the same
+velocities and accelerations. It lies on the common normal, on which the contact lies, too.
 """
 
 from __future__ import annotations
@@ -21,7 +21,7 @@ OTHER = "the link of the other profile, 0 for the frame"
 def normals(
     written: Mapping[str, Table], frame: Table, links: Mapping[str, Link], measures: Measures
 ) -> Iterator[tuple[str, Table]]:
-    """The links that stand for touching profiles, each with the table that it could be read from.
+    """The links equivalent to touching profiles, each with a table as if it were written.
 
     ``written`` are the tables of the moving links, ``links`` the links read from them.
     """
@@ -74,7 +74,7 @@ def normal(
 def two_radii(table: Table, measures: Measures, *, inside: bool) -> tuple[str, str] | None:
     """The radii of curvature of both profiles, as expressions.
 
-    The hollow in which a profile lies has the larger one.
+    A hollow that contains the other profile has the larger radius.
     """
     raw = table.take("radii")
     place = table.at("radii")
@@ -107,7 +107,7 @@ def between(
 ) -> dict[str, object]:
     """The lengths of a link from the first centre to the second, with the contact on its line.
 
-    A profile that lies inside the hollow of the other touches it beyond its own centre.
+    A profile inside the hollow of the other touches it beyond its own centre.
     """
     (first, second), (r, s) = centres, radii
     if inside:

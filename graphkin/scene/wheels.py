@@ -1,4 +1,4 @@
-"""Wheels: what they are, what they roll on or run with, and the letters of where they touch."""
+"""Wheels: their circles, the tracks and belts they run on, and the letters of their contacts."""
 
 from __future__ import annotations
 
@@ -22,9 +22,9 @@ from graphkin.text.errors import Hint, Mend, SceneError
 OTHER = "the link that carries the other wheel, 0 for the frame"
 TRACK = "the link that carries the track or the other wheel, 0 for the frame"
 STEMS = ("T", "K", "H")
-"""The letters tried in turn; after them come TT, TTT and so on."""
+"""The letters tried in turn; TT, TTT and so on follow."""
 MANY = 1000
-"""Turns up to which a driver's angle is left as it is written: they cost three digits at most."""
+"""Turns up to which a driver's angle stays as written: they cost three digits at most."""
 
 
 def read_wheels(table: Table, measures: Measures, module: Quantity | None) -> tuple[Wheel, ...]:
@@ -34,7 +34,7 @@ def read_wheels(table: Table, measures: Measures, module: Quantity | None) -> tu
 
 
 def read_wheel(table: Table, measures: Measures, module: Quantity | None) -> Wheel:
-    """One wheel: a centre, with a radius, or with teeth whose module makes the radius."""
+    """One wheel: a centre with a radius, or with teeth and a module that give the radius."""
     centre = point_name(table.at("centre"), table.take("centre"), measures.findings) or ""
     raw_radius, raw_teeth, own = table.take("radius"), table.take("teeth"), table.take("module")
     if own is not None:
@@ -74,18 +74,18 @@ def pitch_radius(teeth: Quantity, module: Quantity) -> Quantity:
 
 
 def read_tracks(table: Table, measures: Measures) -> tuple[Rolling, ...]:
-    """What the wheels of a link roll on, then what belts join them to."""
+    """The tracks of a link's wheels, then their belts."""
     belts = (read_belt(each, measures) for each in tables(table, "belt"))
     return (*read_rolls(table, measures), *belts)
 
 
 def read_rolls(table: Table, measures: Measures) -> tuple[Rolling, ...]:
-    """The tracks, straight or circular, that the wheels of a link roll on."""
+    """The tracks, straight or circular, of a link's wheels."""
     return tuple(read_rolling(each, measures) for each in tables(table, "rolls"))
 
 
 def read_rolling(table: Table, measures: Measures) -> Rolling:
-    """One track: ``{ on, through, angle, start, turns, side, link }``; a wheel's has no line."""
+    """One track: ``{ on, through, angle, start, turns, side, link }``; a wheel has no line."""
     on = link_name(table.at("on"), table.take("on"), measures.findings, TRACK) or FRAME
     through, angle = None, None
     if "through" in table or "angle" in table:
@@ -109,7 +109,7 @@ def read_rolling(table: Table, measures: Measures) -> Rolling:
 def read_drums(table: Table, measures: Measures) -> tuple[Rolling, ...]:
     """The bars that roll on wheels of the frame; ``start`` gives the angle of the bar.
 
-    Against the bar the wheel is then turned as far the other way.
+    Relative to the bar, the wheel is then turned by the opposite angle.
     """
     found = []
     for rolling in read_rolls(table, measures):
@@ -151,7 +151,7 @@ def by_link(table: Table, key: str, measures: Measures, unit: str) -> dict[str, 
 
 
 def check_centres(link: Link, place: str, findings: Findings) -> None:
-    """The wheels of a link are about points that it has."""
+    """Record wheels about points that their link does not have."""
     for index, wheel in enumerate(link.wheels):
         where = numbered(f"{place}.wheel", index, len(link.wheels))
         if wheel.centre:
@@ -159,7 +159,7 @@ def check_centres(link: Link, place: str, findings: Findings) -> None:
 
 
 def check_tracks(scene: Scene, link: Link, place: str, findings: Findings) -> None:
-    """What the wheels of a link roll on, and what belts join them to, is there."""
+    """Record tracks and belts that run on nothing."""
     tracks = [rolling for rolling in link.rolls if rolling.belt is None]
     belts = [rolling for rolling in link.rolls if rolling.belt is not None]
     for key, rollings in (("rolls", tracks), ("belt", belts)):
@@ -172,7 +172,7 @@ def check_tracks(scene: Scene, link: Link, place: str, findings: Findings) -> No
 def check_rolling(
     scene: Scene, link: Link, rolling: Rolling, place: str, findings: Findings
 ) -> None:
-    """A wheel rolls on a line, or on a wheel of another link; its start names known links."""
+    """Record a wheel without a line or another link's wheel to roll on, or an unknown start."""
     check_guide(scene, link, rolling, place, findings)
     if not link.wheels:
         expected = 'wheel = { centre = "P", radius = … }'
@@ -205,7 +205,7 @@ def check_rolling(
 
 
 def check_belt(scene: Scene, link: Link, rolling: Rolling, place: str, findings: Findings) -> None:
-    """A belt runs on wheels that are there, round the outside of both."""
+    """Record a belt on missing wheels, or not round the outside of both."""
     on = scene.links.get(rolling.on, scene.frame if rolling.on == FRAME else None)
     if rolling.belt is None or on is None:
         return
@@ -219,7 +219,7 @@ def check_belt(scene: Scene, link: Link, rolling: Rolling, place: str, findings:
 
 
 def check_driven(driver: Driver, link: Link, place: str, findings: Findings) -> None:
-    """A driver that rolls a link has a straight track to move it along."""
+    """Record a driver that rolls a link without a straight track."""
     tracks = [rolling.on for rolling in link.rolls if rolling.through is not None]
     if driver.against in tracks:
         return
@@ -236,10 +236,10 @@ def check_driven(driver: Driver, link: Link, place: str, findings: Findings) -> 
 
 
 def contact_letters(scene: Scene) -> dict[str, tuple[str, ...]]:
-    """The letters of the contacts of each link that rolls, in the order written.
+    """The letters of the contacts of each link that rolls, in written order.
 
-    One contact alone has no number, so that T3, the point of link 3 at the contact T, is no
-    other contact. A letter that a point of the scene has, in either size, is left to it.
+    A single contact has no number, so that T3, the point of link 3 at the contact T, is no other
+    contact. A letter of a point of the scene, in either case, is not used.
     """
     total = sum(len(link.rolls) for link in scene.every_link)
     stem = free_stem(scene)
@@ -259,10 +259,10 @@ def free_stem(scene: Scene) -> str:
 
 
 def angle_less_cycles(scene: Scene, driver: Driver) -> Quantity:
-    """The angle of a driver, less whole cycles of the wheels where it is many turns.
+    """The angle of a driver, reduced by whole cycles of the wheels where it is many turns.
 
-    Those are taken off the number as the scene states it, without rounding, so that a wheel stands
-    right after any number of turns. Angles in radians, and those that roots or sines give, stay.
+    They are subtracted from the stated number, without rounding, so that a wheel is correct after
+    any number of turns. Angles in radians, and angles from roots or sines, are unchanged.
     """
     try:
         angle = driver.position.number(scene.values)
@@ -276,10 +276,10 @@ def angle_less_cycles(scene: Scene, driver: Driver) -> Quantity:
 
 
 def cycle(scene: Scene) -> int | None:
-    """After how many turns of any link all wheels stand as before; None where none is sure.
+    """The number of turns of any link after which all wheels are back; None if it is uncertain.
 
-    A wheel that turns another in the ratio p : q does after p·q turns of either. One that rolls on
-    a straight track comes farther with each turn.
+    A wheel that turns another in the ratio p : q is back after p·q turns of either. A wheel on a
+    straight track moves further with each turn.
     """
     ratios = list[Fraction]()
     for link in scene.every_link:
@@ -292,7 +292,7 @@ def cycle(scene: Scene) -> int | None:
 
 
 def ratio(scene: Scene, name: str, rolling: Rolling) -> Fraction | None:
-    """The ratio of two wheels of fixed radii that roll on one another, their links' only ones."""
+    """The ratio of two wheels in contact, with fixed radii and each the only one of its link."""
     wheels = *scene.link(name).wheels, *scene.link(rolling.on).wheels
     if rolling.through is not None or len(wheels) != 2:
         return None
