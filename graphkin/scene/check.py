@@ -179,7 +179,7 @@ def side_of_pin(scene: Scene, name: str, side: Side) -> str:
 
 
 def check_blocks(scene: Scene, findings: Findings) -> None:
-    """Record links held only by their one pin, and blocks that cannot slide on their guide's link."""
+    """Record links held only by one pin, and blocks that cannot slide on their guide."""
     for link in scene.links.values():
         if not findings.inside(place_of(link.name)):
             check_bare(scene, link, findings)
@@ -290,7 +290,7 @@ def check_driver(scene: Scene, driver: Driver, place: str, findings: Findings) -
 
 
 def other_ends(scene: Scene, link: Link) -> list[Written]:
-    """The choices for a driver along a link's guide: blocks on the link, or the link's own guides."""
+    """The choices for a driver along a link's guide: blocks on it, or its own guides."""
     pairs = [(each.name, slide.on) for each in scene.links.values() for slide in each.slides]
     blocks = [("slide", block) for block, on in pairs if on == link.name]
     guides = [("against", on) for block, on in pairs if block == link.name]

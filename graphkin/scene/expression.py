@@ -294,7 +294,7 @@ def entered(value: Any, kind: Kind) -> Any:
 
 
 def joined(sign: str, left: Any, right: Any, kind: Kind) -> Any:
-    """Sum, difference, product, quotient, remainder or power of two numbers, exact where both are."""
+    """Sum, difference, product, quotient, remainder or power, exact where both numbers are."""
     if sign == "**":
         return power(left, right, kind)
     exact = isinstance(left, Fraction) and isinstance(right, Fraction)
@@ -461,7 +461,7 @@ def joined_error(sign: str, left: tuple[Any, Any], right: tuple[Any, Any], value
 
 
 def called_error(function: str, error: Any, value: Any) -> Any:
-    """The error of a root, or of a sine, cosine or tangent of degrees, from the argument's error."""
+    """The error of a root, or of a sine, cosine or tangent of degrees."""
     if function == "sqrt":
         return error / (2 * abs(value) + (value == 0)) + UNIT * abs(value)
     turned = error / 57 + 4 * UNIT
@@ -474,9 +474,7 @@ DEGREE = Pair("/", Name(CONSTANT), Number(Fraction(180)))
 
 
 def differentiated(tree: Tree, name: str) -> Tree:
-    """The tree of the derivative by a name. Raises EvaluationError if an exponent contains the
-    name.
-    """
+    """The tree of the derivative by a name. Raises EvaluationError for a name in an exponent."""
     match tree:
         case Number():
             return NOUGHT

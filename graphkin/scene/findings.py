@@ -95,7 +95,7 @@ class Table:
         return False
 
     def choice(self, key: str, words: tuple[str, ...], default: str = "") -> str:
-        """One of some words, or the first where none can be read; required if there is no default."""
+        """One of some words, or the first on an error; required if there is no default."""
         raw = self.take(key)
         if isinstance(raw, str) and raw in words:
             return raw

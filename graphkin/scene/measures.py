@@ -56,7 +56,7 @@ class Measures:
     def number(
         self, place: str, raw: object, unit: str = "", *, positive: bool = False, law: bool = False
     ) -> Quantity:
-        """A number in a unit; ``law`` permits ``t``. An invalid one is recorded and replaced by 1."""
+        """A number in a unit; ``law`` permits ``t``. An invalid number is recorded and 1 used."""
         try:
             read = quantity(raw, unit, place)
         except UnreadableError as error:

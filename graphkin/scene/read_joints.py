@@ -1,4 +1,4 @@
-"""Reading of guides and profiles, and of the forms they share: a line, a table, a list of tables."""
+"""Reading of guides and profiles, and of their forms: a line, a table, a list of tables."""
 
 from __future__ import annotations
 
