@@ -1,1 +1,1 @@
-"""What any picture is made of: marks, symbols, lettering, and places for labels."""
+"""The elements of any drawing: marks, symbols, lettering, and places for labels."""

@@ -1,4 +1,4 @@
-"""The places that are open to labels, and which of them rule each other out (mm)."""
+"""The open places of labels, and which of them exclude each other (mm)."""
 
 from __future__ import annotations
 
@@ -26,11 +26,11 @@ APART = HAIR[:, :, 0] + np.array([-BESIDE, -PAD, BESIDE, PAD], dtype=np.float32)
 WIDER = HAIR[:, :, 0] + np.array([-PAD, -PAD, PAD, PAD], dtype=np.float32)[:, None]
 
 
-AT_ONCE = 512  # places compared with all at one go, so that memory grows with them no faster
+AT_ONCE = 512  # places compared with all others at once, which bounds the memory
 
 
 class OpenPlaces(NamedTuple):
-    """The places that are open, a row for each; a leader NOWHERE is none; mm."""
+    """The open places, one per row; a leader at NOWHERE is none; mm."""
 
     label: Index
     x: Array  # centre
@@ -48,7 +48,7 @@ class OpenPlaces(NamedTuple):
         )
 
     def joined(self, more: OpenPlaces) -> OpenPlaces:
-        """Return these places and then more."""
+        """Return these places followed by more."""
         both = (np.concatenate(pair) for pair in zip(self[1:], more[1:], strict=True))
         return OpenPlaces(np.concatenate([self.label, more.label]), *both)
 
@@ -58,7 +58,7 @@ NO_PLACES = OpenPlaces(np.empty(0, dtype=np.intp), NONE, NONE, NONE, NONE, NONE,
 
 
 class Clashes:
-    """Which places rule each other out."""
+    """The places that exclude each other."""
 
     def __init__(self) -> None:
         self.places = NO_PLACES
@@ -66,14 +66,14 @@ class Clashes:
         self.kept: list[int] = []
 
     def add(self, more: OpenPlaces) -> None:
-        """Add places; those there were keep their numbers."""
+        """Add places; existing ones keep their numbers."""
         self.places = self.places.joined(more)
 
     def rows(self) -> list[int]:
-        """Return for each place which others it rules out if a label sits there: bits of a number.
+        """Return for each place the places it excludes for other labels, as bits of a number.
 
-        Places that were added since this was done last are now compared with all others. What is
-        noted between places of the same label means nothing.
+        Places added since the last call are now compared with all others. Entries between places of
+        the same label have no meaning.
         """
         count, old = len(self.places.label), len(self.kept)
         if old < count:
@@ -88,9 +88,9 @@ class Clashes:
         return self.kept
 
     def _compare(self, new: int, old: int, end: int) -> None:
-        """Compare the places from one number to another with all before the latter.
+        """Compare the places from ``old`` to ``end`` with all places before ``end``.
 
-        Those from ``new`` on are compared both ways round, as if all were at one go.
+        Those from ``new`` on are compared in both directions, as if all were compared at once.
         """
         places = self.places.take(np.arange(end)) if end < len(self.places.label) else self.places
         _, x, y, hx, hy, _, leader = places
@@ -107,7 +107,7 @@ class Clashes:
         self.table[:old, old:end] = self.table[old:end, :old].T
 
     def _compare_leaders(self, box: NDArray[np.float32], led: Index, old: int) -> None:
-        """Find the leaders that run into labels or cross: those of places from a number on to all.
+        """Find the leaders that run into labels or cross, between new places and all places.
 
         ``led`` are the places with a leader.
         """
@@ -132,7 +132,7 @@ class Clashes:
         self.table[one, other] |= crossed
 
     def _undecided(self, one: Index, led: Index, nth: Index) -> tuple[Index, Index]:
-        """Return those pairs of places with ones with leaders that are not known to clash."""
+        """Return the pairs of places and places with leaders that are not known to clash."""
         other, label = led.take(nth), self.places.label
         known = self.table[np.maximum(one, other), np.minimum(one, other)]
         rest = where(~known & (label.take(one) != label.take(other)))

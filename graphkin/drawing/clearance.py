@@ -1,4 +1,4 @@
-"""How far labels are from what is drawn on a page, and what their places cost (mm)."""
+"""The distance of labels from the marks of a page, and the cost of their places (mm)."""
 
 from __future__ import annotations
 
@@ -33,12 +33,12 @@ from graphkin.drawing.shapes import (
     where,
 )
 
-CELL = 0.8  # mm, of the grid that rules places out at a glance
+CELL = 0.8  # mm, of the grid that excludes most places quickly
 OFF_MIDDLE = 4.0  # cost of a segment's label at the segment's end; all costs are in mm of distance
 
 
 class Subjects(NamedTuple):
-    """The subjects of labels and the labels' sizes as arrays, a row for each; mm."""
+    """The subjects of labels and the labels' sizes as arrays, one per row; mm."""
 
     ends: Array  # x0, y0, x1, y1
     half: Array  # half extents of the label
@@ -67,8 +67,8 @@ class Tries(NamedTuple):
 def tries(subjects: Subjects, near: Array, far: Array | None = None) -> Tries:
     """Return candidates at the distances ``near`` beyond the gap or, if given, at ``far``, in mm.
 
-    The far ones lie on rings around a point or three places of a segment; the near ones on rings
-    around a point or along both sides of the middle two thirds of a segment.
+    The far ones are on rings around a point or around three places of a segment. The near ones are
+    on rings around a point, or along both sides of the middle two thirds of a segment.
     """
     line = subjects.line
     if line.all():
@@ -102,7 +102,7 @@ def _by_segments(subjects: Subjects, near: Array, far: Array | None) -> Tries:
 
 @lru_cache(maxsize=8)
 def _directions(angles: int, roots: int) -> Array:
-    """Return unit vectors as rows x and y: for each root its own share of the directions."""
+    """Return unit vectors as rows x and y, with different directions for each root."""
     turn = (np.arange(angles) * roots + np.arange(roots)[:, None]) * (2 * np.pi / angles / roots)
     return np.array([np.cos(turn), np.sin(turn)]).reshape(2, -1)
 
@@ -112,8 +112,8 @@ def _rings(
 ) -> Tries:
     """Return places around roots at x, y (n, a), each as wide as a half extent (2, n, 1); mm.
 
-    The label's box slides around the root, and a push makes good what the sliding loses of the
-    gap beside the box's edges.
+    The label's box slides around the root. A push restores the part of the gap that the sliding
+    loses next to the box's edges.
     """
     u = _directions(angles, x.shape[1])[:, None, :]
     reach = subjects.half.T[:, :, None] + extent
@@ -150,7 +150,7 @@ def _flat(*fields: Array) -> Tries:
 
 
 def distance_cost(some: Tries, own: Array, subjects: Subjects) -> Array:
-    """Return what places cost by their distance, side and shift along a segment alone."""
+    """Return the cost of places by their distance, side and shift along a segment alone."""
     (lean_x, lean_y), (x0, y0, x1, y1) = subjects.lean.T[:, :, None], subjects.ends.T[:, :, None]
     cost = own - subjects.gap[:, None] + np.sqrt(lean_x * lean_x + lean_y * lean_y)
     cost -= some.toward_x * lean_x + some.toward_y * lean_y
@@ -161,12 +161,12 @@ def distance_cost(some: Tries, own: Array, subjects: Subjects) -> Array:
 
 
 class Blots:
-    """Marks along lines, counted over a grid, that rule most of the taken places out at once."""
+    """Marks along lines, counted over a grid, that exclude most of the taken places at once."""
 
     def __init__(self, lines: Array, field: Box, pad: float, cell: float = CELL) -> None:
-        """Prepare for boxes in a field that shall be clear of the lines by ``pad`` mm.
+        """Prepare for boxes in a field that must be clear of the lines by ``pad`` mm.
 
-        The grid's cells are ``cell`` mm wide at least.
+        The grid's cells are at least ``cell`` mm wide.
         """
         self.pad, self.x, self.y = pad, field[0], field[1]
         wide, high = max(0.0, field[2] - field[0]), max(0.0, field[3] - field[1])
@@ -187,7 +187,7 @@ class Blots:
             np.add(row, above, out=row)
 
     def hit(self, x: Array, y: Array, hx: Array | float, hy: Array | float) -> Mask:
-        """Return which boxes are surely nearer to a line than they should be."""
+        """Return which boxes are certainly too near to a line."""
         wide, high = hx + self.pad, hy + self.pad
         left, right = self._cells(x - wide - self.x, x + wide - self.x, self.across)
         top, bottom = self._cells(y - high - self.y, y + high - self.y, self.down)
@@ -198,37 +198,37 @@ class Blots:
         return np.asarray(count > 0)
 
     def _cells(self, low: Array, high: Array, most: int) -> tuple[Index, Index]:
-        """Return the first cells wholly beyond some places and those where others lie."""
+        """Return the first cells wholly beyond some places, and the cells that contain others."""
         first = np.minimum(np.maximum(np.ceil(low / self.cell), 0), most).astype(np.intp)
         return first, np.maximum(first, np.minimum(high / self.cell, most).astype(np.intp))
 
 
-# --- how far labels are from what is drawn on a page, and what their places cost (mm) -------------
+# --- the distance of labels from the marks of a page, and the cost of their places (mm)------------
 
 
-OWN = 0.4  # mm within which a drawn line is taken for the subject itself
+OWN = 0.4  # mm within which a drawn line counts as the subject itself
 ROOM = 1.4  # mm of air around a label beyond which more is no better
-LEADER = np.array([6.0, 3.7])  # what one costs to a point and to a segment; costs are in mm
+LEADER = np.array([6.0, 3.7])  # cost of a leader to a point and to a segment; costs are in mm
 CROSSING = 0.9  # a line that a leader crosses
-STRONG = 30.0  # a link, a guide or a vector that it crosses, besides
+STRONG = 30.0  # additional cost if it is a link, a guide or a vector
 SKIRT = 2.5  # a line that a leader runs along
 ASTRAY = 4.0  # a label further than FAR_OFF from its segment and nearer to another of length LONG
 FAR_OFF, LONG = 2.5, 24.0  # mm; the first is beyond the gap
 BEYOND = 8.0  # another line between a label and its segment
 SLANT = 0.34  # sine of the angle to a line below which a leader runs along it
-AIR = 0.7  # each mm of air that is missing
-PART = 2048  # candidates compared with all that is drawn at one go, a multiple of TOGETHER
-FEW = 8  # labels, whose candidates are compared with all that is drawn at once
+AIR = 0.7  # each mm of missing air
+PART = 2048  # candidates compared with all marks at once, a multiple of TOGETHER
+FEW = 8  # labels whose candidates are all compared with all marks at once
 
-# Kinds of shapes; how far (mm) each should be beyond a label's own subject, and the cost of each
-# mm that is missing, for the labels of points and of segments.
+# Kinds of shapes; the distance (mm) of each beyond a label's own subject, and the cost of each
+# missing mm, for the labels of points and of segments.
 LINE, BOX, DOT, CORE = range(4)
 MARGIN = np.array([[0.3, -NOWHERE, 1.5, 0.3], [0.8, -NOWHERE, 1.5, 2.0]])
 WEIGHT = np.array([[0.4, 0.0, 2.5, 0.5], [2.0, 0.0, 0.7, 1.5]])
 
 
 class Open(NamedTuple):
-    """Candidates that nothing has ruled out yet, a row for each; mm."""
+    """Candidates that are not yet excluded, one per row; mm."""
 
     label: Index
     x: Array  # centre
@@ -237,7 +237,7 @@ class Open(NamedTuple):
     hy: Array
     cost: Array
     own: Array  # distance from the label's own subject
-    root_x: Array  # the place on the subject that is meant
+    root_x: Array  # the place on the subject that the label refers to
     root_y: Array
 
     def take(self, which: Index) -> Open:
@@ -245,14 +245,14 @@ class Open(NamedTuple):
         return Open(self.label.take(which), *np.array(self[1:]).take(which, axis=1))
 
     def boxes(self, more: Array | float = 0.0) -> Array:
-        """Return the labels' boxes as rows left, top, right, bottom, wider by a length in mm."""
+        """Return the labels' boxes as rows left, top, right, bottom, enlarged by a length in mm."""
         wide, high = self.hx + more, self.hy + more
         return np.array([self.x - wide, self.y - high, self.x + wide, self.y + high])
 
     def leaders(self, radius: Array) -> Array:
         """Return lines from 0.5 mm off the labels' boxes, aimed at their centres, to the subjects.
 
-        They end at circles of a radius in mm; columns are x0, y0, x1, y1.
+        They end at circles of a radius in mm; the columns are x0, y0, x1, y1.
         """
         way_x, way_y = self.root_x - self.x, self.root_y - self.y
         length = np.maximum(np.sqrt(way_x * way_x + way_y * way_y), TINY)
@@ -264,7 +264,7 @@ class Open(NamedTuple):
 
 
 def in_parts(work: Callable[[Open], NDArray[Any]], some: Open) -> NDArray[Any]:
-    """What is found of candidates, each by itself, some of many at a time: memory is bounded."""
+    """The results for candidates, computed in parts to bound the memory."""
     if len(some.label) <= PART:
         return work(some)
     every = np.arange(len(some.label))
@@ -273,7 +273,7 @@ def in_parts(work: Callable[[Open], NDArray[Any]], some: Open) -> NDArray[Any]:
 
 
 class Clearance:
-    """What labels must keep clear of, and what each place costs."""
+    """The marks that labels avoid, and the cost of each place."""
 
     def __init__(
         self,
@@ -308,7 +308,7 @@ class Clearance:
 
     @cached_property
     def blots(self) -> Blots:
-        """Marks along what is drawn, which rule most candidates of many labels out at a glance."""
+        """Marks along all lines, which exclude most candidates of many labels quickly."""
         low, high = self.field[:, :2].min(axis=0), self.field[:, 2:].max(axis=0)
         whole = float(low[0]), float(low[1]), float(high[0]), float(high[1])
         return Blots(self.drawn, whole, self.pad)
@@ -319,9 +319,9 @@ class Clearance:
         return OpenPlaces(*some[:5], some.cost + in_parts(self._doubt, some), leader)
 
     def led(self, some: Open) -> OpenPlaces:
-        """Return candidates as places with a leader, but those where it runs into what is named.
+        """Return candidates as places with a leader, except where it runs into a named mark.
 
-        What it costs to cross lines or to run along them is added to their costs.
+        The cost of crossing lines or running along them is added to their costs.
         """
         leader = some.leaders(self.subjects.radius.take(some.label))
         toll = LEADER[self.subjects.line.take(some.label).astype(int)] + self._toll(some, leader)
@@ -329,9 +329,10 @@ class Clearance:
         return places.take(where(np.isfinite(toll)))
 
     def open(self, which: Index, some: Tries, first: Index, last: Index) -> Open:
-        """Return the free ones among the candidates of labels.
+        """Return the free candidates of labels.
 
-        Of each label those are looked at from a first to before a last, the nearest one being 0.
+        For each label, the candidates from ``first`` to before ``last`` are examined; the nearest
+        is 0.
         """
         subjects = self.subjects.take(which)
         x, y, (hx, hy) = some.x, some.y, subjects.half.T[:, :, None]
@@ -356,7 +357,7 @@ class Clearance:
         return found.take(where(in_parts(self._clear_of_all, found)))
 
     def _clear_of_all(self, some: Open) -> Mask:
-        """Return which candidates are as far from all shapes as they must be."""
+        """Return which candidates are far enough from all shapes."""
         clear = self.clear
         place, shape = meeting(some.boxes(), self.shapes.boxes(clear))
         other = where(shape != some.label.take(place) + self.first)
@@ -367,12 +368,12 @@ class Clearance:
         return free
 
     def _apart(self, some: Open, place: Index, shape: Index) -> Array:
-        """Return how far candidates are from shapes, a pair in each row."""
+        """Return the distances of candidates from shapes, one pair per row."""
         x, y, hx, hy = (column.take(place) for column in some[1:5])
         return separation(x, y, hx, hy, self.shapes.take(shape))
 
     def _owned(self) -> Mask:
-        """Return which shapes (columns) run through a label's whole subject or are a part of it."""
+        """Return which shapes (columns) run through a label's whole subject or are part of it."""
         ends, wide = self.subjects.ends, self.subjects.radius + OWN
         low, high = np.minimum(ends[:, :2], ends[:, 2:]).T, np.maximum(ends[:, :2], ends[:, 2:]).T
         label, shape = meeting(np.concatenate([low - wide, high + wide]), self.shapes.boxes(0.0))
@@ -388,11 +389,11 @@ class Clearance:
         return table
 
     def _is_own(self, label: Index, shape: Index) -> Mask:
-        """Return which shapes are a label's own subject, a pair in each row."""
+        """Return which shapes are a label's own subject, one pair per row."""
         return np.asarray(self.own.take(label * len(self.kind) + shape))
 
     def _doubt(self, some: Open) -> Array:
-        """Return what places cost where a label may seem to name something else, or is cramped."""
+        """Return the cost of places where a label is ambiguous or cramped."""
         far = np.maximum(ROOM, some.own)
         more = np.maximum(MARGIN.max(axis=0), 0.0).take(self.kind)
         place, shape = meeting(some.boxes(far), self.shapes.boxes(more))
@@ -416,7 +417,7 @@ class Clearance:
         return np.asarray(doubt + AIR * (ROOM - air) + ASTRAY * astray + BEYOND * beyond)
 
     def _between(self, some: Open, place: Index, shape: Index) -> Mask:
-        """Return which lines run between a label and what it names, a pair in each row."""
+        """Return which lines run between a label and its subject, one pair per row."""
         x, y, root_x, root_y = (
             column.take(place) for column in (some.x, some.y, some.root_x, some.root_y)
         )
@@ -425,7 +426,7 @@ class Clearance:
         return np.asarray(crossed & (self.kind.take(shape) != BOX))
 
     def _toll(self, some: Open, leader: Array) -> Array:
-        """Return what leaders cost: lines crossed or skirted; infinite across a box or a point."""
+        """Return the cost of leaders, for lines crossed or skirted; infinite across a box or point"""
         columns = leader.T.copy()
         x0, y0, x1, y1 = columns
         ways = np.minimum(x0, x1), np.minimum(y0, y1), np.maximum(x0, x1), np.maximum(y0, y1)
@@ -451,7 +452,7 @@ class Clearance:
         return np.asarray(every, dtype=np.float64)
 
     def _off(self, path: Array, shape: Index) -> Array:
-        """Return on which side of shapes, and how far off in mm, both ends of leaders lie.
+        """Return the signed distances, in mm, of both ends of leaders from shapes.
 
         ``path`` has the leaders' x0, y0, x1, y1 as rows.
         """
@@ -461,7 +462,7 @@ class Clearance:
         return np.array([nx * (x0 - x) + ny * (y0 - y), nx * (x1 - x) + ny * (y1 - y)])
 
     def _brush(self, path: Array, shape: Index, off: Array, own: Mask) -> Array:
-        """Return what it costs that leaders cross or run along these lines, a line for each."""
+        """Return the cost of leaders that cross these lines or run along them, line by line."""
         x0, y0, x1, y1 = path
         length = np.maximum(np.sqrt((x1 - x0) ** 2 + (y1 - y0) ** 2), TINY)
         sine = (off[1] - off[0]) / length
@@ -480,21 +481,21 @@ class Clearance:
         return np.asarray(toll)
 
 
-# --- the straight pieces that stand for marks where labels and details look for free places -------
+# --- the straight pieces of marks, for labels and details in search of free places-----------------
 
 
 SAGITTA = 0.05
-"""How far the chords that stand for an arc may leave it, in mm."""
+"""Largest deviation of chords from their arc, in mm."""
 
 
 def pieces_of(marks: Iterable[Mark]) -> Array:
-    """The straight pieces of marks, a row x0, y0, x1, y1 for each."""
+    """The straight pieces of marks, one row x0, y0, x1, y1 for each."""
     found = [piece for mark in marks for piece in chords_of(mark)]
     return np.fromiter(chain.from_iterable(found), np.float64, 4 * len(found)).reshape(-1, 4)
 
 
 def chords_of(mark: Mark) -> Sequence[tuple[float, float, float, float]]:
-    """The straight pieces of a mark, for labels to keep clear of; arcs as short chords."""
+    """The straight pieces of a mark that labels avoid; arcs as short chords."""
     if isinstance(mark, LineMark):
         return [(mark.x1, mark.y1, mark.x2, mark.y2)]
     if isinstance(mark, Polyline):
@@ -508,7 +509,7 @@ def chords_of(mark: Mark) -> Sequence[tuple[float, float, float, float]]:
 
 
 def chained(points: Sequence[XY]) -> list[tuple[float, float, float, float]]:
-    """The chords_of between points that follow one another."""
+    """The segments between consecutive points."""
     return [(*points[i], *points[i + 1]) for i in range(len(points) - 1)]
 
 
@@ -516,7 +517,7 @@ def chained(points: Sequence[XY]) -> list[tuple[float, float, float, float]]:
 def arc_chords(
     x: float, y: float, r: float, start: float, end: float
 ) -> tuple[tuple[float, float, float, float], ...]:
-    """Chords of an arc, so short that they leave it by less than a twentieth of a millimetre."""
+    """Chords of an arc that deviate from it by less than a twentieth of a millimetre."""
     widest = 2 * degrees(acos(max(1 - SAGITTA / r, 0.5))) if r > 0 else 120.0
     count = max(2, ceil(abs(end - start) / widest))
     angles = (radians(start + (end - start) * i / count) for i in range(count + 1))

@@ -1,4 +1,4 @@
-"""Ruled tables in columns beside one another, in rows and lettering that let them fit."""
+"""Ruled tables in adjacent columns, with rows and lettering that make them fit."""
 
 from __future__ import annotations
 
@@ -16,17 +16,17 @@ from graphkin.drawing.richtext import extent
 from graphkin.text.errors import PageError, Problem
 
 HEIGHT, SMALL = 2.5, 1.8
-"""Heights of the letters in mm: as they are wished, and the least."""
+"""Heights of the letters in mm: the preferred one and the least."""
 PAD = 1.4
-"""Least room beside the letters of a cell, both sides together, in mm."""
+"""Least space on both sides of a cell's letters together, in mm."""
 BETWEEN, APART = 3, 0.6
-"""Room between tables beside one another, in mm, and below one another, in rows."""
+"""Space between adjacent tables, in mm, and between tables one below another, in rows."""
 
 
 class Look(NamedTuple):
-    """Height of a row, how far below its upper line letters stand (mm), the part of the widths.
+    """Height of a row, baseline below its upper line (mm), share of the widths.
 
-    ``large``: with large letters or not at all.
+    ``large`` allows large letters only.
     """
 
     row: float
@@ -36,28 +36,27 @@ class Look(NamedTuple):
 
     @property
     def letters(self) -> tuple[float, ...]:
-        """The heights of letters that are tried."""
+        """The heights of letters to try."""
         return (HEIGHT, SMALL) if self.part >= 1 else (SMALL,)
 
 
 WIDENED = ((1.0, True), (1.15, True), (1.3, True), (1.0, False))
-"""Parts of the widths that are tried for large letters, before small ones."""
+"""Shares of the widths to try with large letters, before small ones."""
 HIGH = (
     *(Look(5.0, 3.55, *how) for how in WIDENED if how[1]),
     *(Look(5.6, 3.7, *how) for how in WIDENED if how[1]),
     Look(5.0, 3.55, 1.0),
 )
-"""How tables with signs above letters look where there is room for it, with indices of indices
-below them in higher rows."""
+"""Looks for tables with raised signs, if there is room; higher rows fit double indices."""
 LOOKS = (
     *(Look(4.7, 3.2, *how) for how in WIDENED),
     *(Look(row, row - 1.15, 0.72) for row in (4.7, 4.2, 3.8)),
 )
-"""How tables look where there is room, and where there is less and less."""
+"""Looks of tables, from ample room to less and less."""
 BY_HAND = tuple(Look(row, row / 2 + 1.0, *how) for row in (7.0, 6.0, 5.0) for how in WIDENED)
-"""How tables that a hand fills in look where there is room."""
+"""Looks of tables to be filled in by hand, if there is room."""
 NUMBER = re.compile(r"(\(?[−<\s\d]+)(.*)", re.DOTALL)
-"""A number in a cell: what stands before its decimal mark, and the rest."""
+"""A number in a cell: the part before its decimal mark, and the rest."""
 
 
 class Row(Struct, frozen=True):
@@ -70,9 +69,9 @@ class Row(Struct, frozen=True):
 class ColumnTable(Struct, frozen=True):
     """A head and rows below it; the widths of its columns, in mm, where nothing needs more.
 
-    ``among`` are all rows of a table that stands in blocks, which look alike. ``beside``: it stands
-    beside a table in one block, and below one of more blocks where a whole row stays free.
-    ``numbers`` are the columns of numbers, which stand with their decimal marks below one another.
+    ``among`` are all rows of a table split into blocks, which look alike. ``beside`` places the
+    table next to a table of one block, and below one of several blocks where a whole row is free.
+    ``numbers`` are the columns of numbers, with aligned decimal marks.
     """
 
     widths: tuple[float, ...]
@@ -84,16 +83,16 @@ class ColumnTable(Struct, frozen=True):
 
     @property
     def lines(self) -> int:
-        """Its rows with the head."""
+        """The number of its rows, with the head."""
         return len(self.rows) + 1
 
     def blocks(self, room: int) -> list[ColumnTable]:
-        """Tables of at most so many rows each, which look alike."""
+        """Tables of at most ``room`` rows each, which look alike."""
         starts = range(0, len(self.rows), room)
         return [replace(self, rows=self.rows[i : i + room], among=self.rows) for i in starts]
 
     def columns(self, look: Look) -> tuple[float, ...]:
-        """Widths of the columns: the given ones, the room shared evenly, or what letters need."""
+        """Widths of the columns: as given, with the room shared evenly, or as letters need."""
         given = tuple(look.part * width for width in self.widths)
         for height in look.letters:
             needs = self.needs(height)
@@ -112,21 +111,21 @@ class ColumnTable(Struct, frozen=True):
         ]
 
     def breadth(self, column: int, height: float) -> float:
-        """The width of all texts of a column in mm; of numbers with their marks aligned."""
+        """The width of a column's texts in mm; numbers have their decimal marks aligned."""
         texts = tuple(row.cells[column] for row in self.among)
         return breadth_of(texts, height, aligned=column in self.numbers)
 
     def marked(self, column: int, height: float) -> float:
-        """How far left of the middle of its column, in mm, decimal marks stand."""
+        """The distance of decimal marks to the left of their column's middle, in mm."""
         sides = [around_mark(row.cells[column], height) for row in self.among]
         return (max(b for _, b in sides) - max(a for a, _ in sides)) / 2
 
     def lettering(self, look: Look) -> float:
-        """The lettering of its rows."""
+        """The height of the letters in its rows."""
         return self.letters(look, self.columns(look))
 
     def letters(self, look: Look, widths: Sequence[float]) -> float:
-        """The lettering in which every cell fits its column and its row."""
+        """The height of letters at which every cell fits its column and its row."""
         if look.letters[0] != HEIGHT:
             return look.letters[0]
         for i, width in enumerate(widths):
@@ -156,7 +155,7 @@ class ColumnTable(Struct, frozen=True):
     def cells(
         self, x: float, baseline: float, widths: Sequence[float], row: Row, height: float
     ) -> Iterator[Mark]:
-        """The texts of one row: numbers by their decimal marks, others amid their columns."""
+        """The texts of one row: numbers at their decimal marks, others centred."""
         for i, (width, markup) in enumerate(zip(widths, row.cells, strict=True)):
             middle = x + width / 2
             x += width
@@ -169,7 +168,7 @@ class ColumnTable(Struct, frozen=True):
 
 @lru_cache(maxsize=256)
 def breadth_of(texts: tuple[str, ...], height: float, *, aligned: bool) -> float:
-    """The width of texts below one another in mm, amid their column or with marks aligned."""
+    """The width in mm of texts in a column, centred or with decimal marks aligned."""
     if not aligned:
         return max((extent(text, height)[0] for text in texts), default=0.0)
     sides = [around_mark(text, height) for text in texts]
@@ -177,7 +176,7 @@ def breadth_of(texts: tuple[str, ...], height: float, *, aligned: bool) -> float
 
 
 def around_mark(markup: str, height: float) -> tuple[float, float]:
-    """The widths in mm of a number left of its decimal mark, and of the rest."""
+    """The widths in mm of a number's part before its decimal mark, and of the rest."""
     found = NUMBER.match(markup)
     if found is None:
         return 0.0, extent(markup, height)[0]
@@ -187,7 +186,7 @@ def around_mark(markup: str, height: float) -> tuple[float, float]:
 
 
 def heads(x: float, baseline: float, widths: Sequence[float], row: Row) -> Iterator[Mark]:
-    """The small texts of a head, each in the middle of its column."""
+    """The small texts of a head, each centred in its column."""
     for width, markup in zip(widths, row.cells, strict=True):
         if markup:
             yield Text(x + width / 2, baseline, markup, "table", SMALL, "middle", row.name)
@@ -195,9 +194,9 @@ def heads(x: float, baseline: float, widths: Sequence[float], row: Row) -> Itera
 
 
 def laid_out(tables: Sequence[ColumnTable], rect: Rect, *, by_hand: bool = False) -> list[Mark]:
-    """Tables in a rectangle, as large as they fit it; ``by_hand``: with room to write.
+    """Tables in a rectangle, as large as possible; ``by_hand`` leaves room for writing.
 
-    Raises PageError where none do.
+    Raises PageError if none fit.
     """
     left, top, right, low = rect
     for look in looks_of(tables, by_hand=by_hand):
@@ -214,11 +213,11 @@ def laid_out(tables: Sequence[ColumnTable], rect: Rect, *, by_hand: bool = False
 def on_sheets(
     tables: Sequence[ColumnTable], first: Rect, others: Rect, *, by_hand: bool = False
 ) -> list[list[Mark]]:
-    """Tables on as many sheets as they need, in a rectangle of the first and of each other sheet.
+    """Tables on as many sheets as needed, in a rectangle of the first and of each other sheet.
 
-    Their lettering is the largest, columns that a hand fills in are the widest; what of a table has
-    no room goes on below its head again.
-    Raises PageError where a table is wider than a sheet.
+    Their lettering is the largest, and columns for handwriting are the widest. A table that does
+    not fit continues on the next sheet, with its head repeated. Raises PageError where a table is
+    wider than a sheet.
     """
     looks = looks_of(tables, by_hand=by_hand)
     look = max(looks, key=lambda each: each.part) if by_hand else looks[0]
@@ -239,7 +238,7 @@ def on_sheets(
 
 
 def rejoined(blocks: Iterable[ColumnTable]) -> list[ColumnTable]:
-    """Tables of blocks, those that follow one another of one table put together again."""
+    """Tables with consecutive blocks of the same table rejoined."""
     found: list[ColumnTable] = []
     for block in blocks:
         if found and found[-1].among is block.among:
@@ -250,7 +249,7 @@ def rejoined(blocks: Iterable[ColumnTable]) -> list[ColumnTable]:
 
 
 def looks_of(tables: Sequence[ColumnTable], *, by_hand: bool) -> tuple[Look, ...]:
-    """How tables may look, as they are wished first; ``by_hand``: with room to write."""
+    """The possible looks of tables, preferred first; ``by_hand`` leaves room for writing."""
     raised = any("^" in row.cells[0] for table in tables for row in table.rows)
     return (*(BY_HAND if by_hand else ()), *(HIGH if raised else ()), *LOOKS)
 
@@ -262,7 +261,7 @@ def side_by_side(
     top: float,
     look: Look,
 ) -> Iterator[Mark]:
-    """Columns of tables beside one another, so wide each, from a place on."""
+    """Columns of tables side by side, with given widths, from a place on."""
     for nth, column in enumerate(columns):
         x, y = left + sum(wide[:nth]) + BETWEEN * nth, top
         for table in column:
@@ -271,7 +270,7 @@ def side_by_side(
 
 
 def in_columns(tables: Sequence[ColumnTable], lines: float) -> list[list[ColumnTable]]:
-    """Tables from top to bottom of columns of so many lines, in blocks where they are long."""
+    """Tables in columns of ``lines`` rows, top to bottom, in blocks where they are long."""
     columns: list[list[ColumnTable]] = []
     for table in tables:
         room = lines - (1 - APART if table.beside else 0)
@@ -290,7 +289,7 @@ def in_columns(tables: Sequence[ColumnTable], lines: float) -> list[list[ColumnT
 
 
 def no_room(tables: Sequence[ColumnTable], width: float) -> Problem:
-    """The problem of tables that are too large: a name that is too long, or too many rows."""
+    """The problem of tables that are too large: too long a name, or too many rows."""
     widest, name = max(
         (extent(row.cells[i], SMALL)[0], row.name)
         for table in tables

@@ -1,4 +1,4 @@
-"""A field of the page with a drawing in it: metres of the drawing to millimetres of paper."""
+"""A field of the page with a drawing: the map from metres of the drawing to mm of paper."""
 
 from __future__ import annotations
 
@@ -19,50 +19,50 @@ A4_AREA: Rect = (20.0, 18.0, 200.0, 279.0)
 """Between header and footer of an A4 page."""
 
 MARGIN = 15.0
-"""Room left and right of a drawing for symbols, ends of lines and labels, in mm."""
+"""Space left and right of a drawing for symbols, ends of lines and labels, in mm."""
 ABOVE = 8.5
-"""Room above and below a drawing, in mm."""
+"""Space above and below a drawing, in mm."""
 LEAST_FIELD = 80.0
-"""Width that every field has, in mm, so that its caption stands above it in two lines."""
+"""Least width of a field, in mm, so that its caption fits in two lines."""
 HEADER = 28.0
-"""Height of the title, the data and the fields' captions below the frame's upper edge, in mm."""
+"""Height of the title, the data and the captions below the frame's upper edge, in mm."""
 FOOT = 201.0
-"""Where the tables below the drawings begin, in mm from the page's upper edge."""
+"""Top of the tables below the drawings, in mm from the page's upper edge."""
 
 AREA: Rect = (A3_AREA[0] + 2, A3_AREA[1] + HEADER, A3_AREA[2] - 2, FOOT)
 """The part of the sheet for the mechanism and the plan side by side, below their captions."""
 WIDTH, HEIGHT = AREA[2] - AREA[0] - 4 * MARGIN, AREA[3] - AREA[1] - 2 * ABOVE
-"""The room for both drawings together, without their margins."""
+"""The space for both drawings together, without their margins."""
 BELOW: Rect = (AREA[0], FOOT + 2, AREA[2], A3_AREA[3] - 2)
 """The part for steps, tables and check bar."""
 SCHEME: Rect = (150.0, 210.0, 226.0, 281.0)
-"""The kinematic scheme of a task, right of what is asked and above the centring mark."""
+"""The kinematic scheme of a task, to the right of the questions and above the centring mark."""
 MARKED = (207.0, 276.0)
-"""Left of this, or above it, words stay clear of the centring mark at the sheet's lower edge."""
+"""Left of this, or above it, text is clear of the centring mark at the sheet's lower edge."""
 TABLES: Rect = (A3_TITLE_BLOCK[0], FOOT + 2, AREA[2], A3_TITLE_BLOCK[1] - 2)
 """The table above the title block."""
 
 
-# --- A field of the page with a drawing in it: metres of the drawing to millimetres of paper ------
+# --- a field of the page with a drawing------------------------------------------------------------
 
 
 XY = tuple[float, float]
 
 
 class Carried(tuple[Any, Any]):
-    """A place of a page that moves: it knows how others are laid off from it."""
+    """A place on an animated page, which knows how other places depend on it."""
 
     def toward(self, end: XY) -> tuple[Any, XY]:
-        """How far another place is from this one, and the unit way to it."""
+        """The distance to another place, and the unit vector towards it."""
         raise NotImplementedError
 
     def across(self, way: XY, along: Any, aside: Any) -> XY:
-        """The place so far along a unit way from this one and so far to its right."""
+        """The place at a distance along a unit vector, and at another distance to its right."""
         raise NotImplementedError
 
 
 class Field(Struct, frozen=True):
-    """A rectangle of the page (mm, y down) and where a drawing's points (y up) fall in it."""
+    """A rectangle of the page (mm, y down) and the placement of a drawing's points (y up) in it."""
 
     rect: Rect
     mm: float
@@ -70,12 +70,12 @@ class Field(Struct, frozen=True):
     at: XY
 
     def __call__(self, point: complex) -> XY:
-        """Where a point of the drawing lies on the page."""
+        """The place of a drawing's point on the page."""
         shift = (point - self.middle) * self.mm
         return self.at[0] + shift.real, self.at[1] - shift.imag
 
     def holds(self, point: complex, margin: float = 0.0) -> bool:
-        """True when a point of the drawing lies in the field, a margin from its edge."""
+        """Whether a point of the drawing is in the field, at least a margin from its edge."""
         left, top, right, bottom = self.rect
         x, y = self(point)
         return left + margin <= x <= right - margin and top + margin <= y <= bottom - margin
@@ -87,7 +87,7 @@ class Field(Struct, frozen=True):
 
 
 def clipped(start: XY, end: XY, rect: Rect) -> tuple[XY, XY] | None:
-    """The part of a segment that lies in a rectangle; None when there is none."""
+    """The part of a segment inside a rectangle, or None."""
     left, top, right, bottom = rect
     if all(left <= x <= right and top <= y <= bottom for x, y in (start, end)):
         return start, end

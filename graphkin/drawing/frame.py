@@ -1,4 +1,4 @@
-"""What every sheet has: ISO 5457 frame and fields, ISO 7200 title block, print check, A4 page."""
+"""The common parts of sheets: ISO 5457 frame, ISO 7200 title block, print check, A4 page."""
 
 from __future__ import annotations
 
@@ -27,9 +27,9 @@ HEIGHTS = (7.0, 5.0, 3.5, 2.5, 1.8)  # ISO 3098
 class TitleBlock(Struct, frozen=True):
     """The data fields of ISO 7200 in plain text; ``scale`` is markup, ``labels`` name the fields.
 
-    ``labels`` is keyed by the names of the fields; a field without a label shows its value alone,
-    an empty value leaves its cell free for handwriting. A block with a label for the ``student``
-    has that cell where the creator's is in others.
+    ``labels`` is keyed by the names of the fields. A field without a label shows only its value. An
+    empty value leaves its cell free for handwriting. A block with a label for the ``student`` has
+    that cell in place of the creator's.
     """
 
     legal_owner: str = ""
@@ -62,7 +62,7 @@ CELLS: tuple[tuple[str, Rect, float], ...] = (
     ("sheet", (150, 26, 180, 36), 3.5),
 )
 STUDENT = "student"
-"""The name of the field that says whose a sheet is."""
+"""The name of the field with the owner of a student's sheet."""
 STUDENTS: tuple[tuple[str, Rect, float], ...] = (
     CELLS[0],
     (STUDENT, *CELLS[1][1:]),
@@ -72,11 +72,11 @@ STUDENTS: tuple[tuple[str, Rect, float], ...] = (
     ("approved_by", (144, 15.3, 180, 26), 3.5),
     *CELLS[5:],
 )
-"""The same of a sheet that is a student's, who writes or is named where others name the creator."""
+"""The cells of a student's sheet, with the student in place of the creator."""
 
 
 def cells_of(block: TitleBlock) -> tuple[tuple[str, Rect, float], ...]:
-    """The cells of a block; a student's has one for the creator where the scene names an author."""
+    """The cells of a block; a student's has a cell for the creator if the scene names an author."""
     if STUDENT not in block.labels:
         return CELLS
     return STUDENTS if block.creator else (CELLS[0], STUDENTS[1], *CELLS[2:])
@@ -116,7 +116,7 @@ def centring_marks(width: float, height: float) -> tuple[Mark, ...]:
 
 
 def bounds(length: float, low: float, high: float) -> list[float]:
-    """Give the bounds of the fields along one side, counted in 50 mm from its middle."""
+    """The bounds of the fields along one side, counted in 50 mm from its middle."""
     half = floor(length / 2 / FIELD)
     inner = [length / 2 + i * FIELD for i in range(-half, half + 1)]
     return [low, *(at for at in inner if low + FIELD / 4 < at < high - FIELD / 4), high]
@@ -145,7 +145,7 @@ def fields(width: float, height: float) -> tuple[Mark, ...]:
 
 
 def wrapped(text: str, room: float, height: float) -> list[str]:
-    """Break plain text between its words into lines of markup no wider than ``room`` mm."""
+    """Break plain text between words into lines of markup no wider than ``room`` mm."""
     lines: list[str] = []
     for word in escape(text).split():
         longer = f"{lines[-1]} {word}" if lines else word
@@ -159,7 +159,7 @@ def wrapped(text: str, room: float, height: float) -> list[str]:
 def fitting(
     name: str, text: str, room: float, depth: float, most: float
 ) -> tuple[list[str], float]:
-    """Give lines of markup and the greatest ISO 3098 height at which they fit a cell (mm)."""
+    """Lines of markup and the greatest ISO 3098 height at which they fit a cell (mm)."""
     for height in (height for height in HEIGHTS if height <= most):
         lines = [text] if name == "scale" else wrapped(text, room, height)
         wide = max(extent(line, height)[0] for line in lines)
@@ -176,7 +176,7 @@ def fitting(
 
 
 def room_in(rect: Rect) -> tuple[float, float]:
-    """Width and height, in mm, of what a cell of the title block has room for below its label."""
+    """Width and height, in mm, of the space in a title block's cell below its label."""
     left, top, right, bottom = rect
     return right - left - 3, bottom - top - LABEL - UNDER - 0.9
 
@@ -213,8 +213,9 @@ def title_block_marks(block: TitleBlock, x: float, y: float) -> tuple[Mark, ...]
 
 @lru_cache(maxsize=8)
 def check_bar(x: float, y: float) -> tuple[Mark, ...]:
-    """Draw a ruler of 100 mm from (x, y) to the right to check the print: 1 mm ticks, numbers each
-    10 mm. It takes 4 mm above y, 4 mm below it.
+    """Draw a print check from (x, y): a ruler of 100 mm to the right with 1 mm ticks.
+
+    It has numbers every 10 mm. It takes 4 mm above y and 4 mm below it.
     """
     marks: list[Mark] = [LineMark(x, y, x + 100, y, "check-bar", "check-bar")]
     for i in range(101):
@@ -239,8 +240,7 @@ def page_frame(
 
 
 def ends(y: float, words: tuple[str, str], name: str) -> list[Mark]:
-    """Write markup at the left and at the right end of an A4 page's line, the left one in two
-    small lines where it is long."""
+    """Write markup at both ends of an A4 page's line; a long left text takes two small lines."""
     left, right = A4_FRAME[0] + 3, A4_FRAME[2] - 3
     first, last = words
     wide = sum(extent(markup, 2.5)[0] for markup in words)

@@ -1,4 +1,4 @@
-"""Where on a field there is room for a disc, as near as possible to what it belongs to (mm)."""
+"""Free space for a disc in a field, as near as possible to its subject (mm)."""
 
 from __future__ import annotations
 
@@ -25,22 +25,25 @@ from graphkin.drawing.shapes import (
 )
 
 GRID = 5.0
-"""Distance of the places tried, in mm."""
+"""Distance of the tried places, in mm."""
 ABREAST = 64
-"""Places of boxes that are compared with what is drawn about them at one go."""
+"""Places of boxes that are compared with nearby marks at once."""
 TOGETHER = 16
-"""Places that are compared with all that is drawn at one go."""
+"""Places that are compared with all marks at once."""
 INNER = ((0.7, 0.7), (0.95, 0.3), (0.3, 0.95))
 """Half the sides of rectangles in a disc of radius 1."""
 BLOT = 2.0
-"""Size of the cells in which marks are counted to rule places out at a glance, in mm."""
+"""Size of the grid cells that quickly exclude places, in mm."""
 CLEAR = 0.5
-"""How far the line to a disc stays from lettering, links' numbers and centres, in mm."""
+"""Distance of the line to a disc from lettering, links' numbers and centres, in mm."""
 APART = ("number", "centre", "centre-line")
-"""The classes of circles about a link's number or name, and about a centre or a pole, and of axes
-and lines of guides: what the line to a disc stays clear of."""
+"""The classes of marks that the line to a disc avoids.
+
+They are circles about a link's number or name and about a centre or pole, axes, and lines of
+guides.
+"""
 MOST = 240
-"""Places, nearest first, among which one is sought to which a line crosses no text or centre."""
+"""The most places, nearest first, searched for one whose line crosses no text or centre."""
 
 
 class FreeDisc(NamedTuple):
@@ -51,7 +54,7 @@ class FreeDisc(NamedTuple):
 
 
 class Space:
-    """What stands in a field, made ready for looking for free discs."""
+    """The marks of a field, prepared for the search for free discs."""
 
     def __init__(self, marks: Sequence[Mark], rect: Rect) -> None:
         self.rect = rect
@@ -63,13 +66,13 @@ class Space:
 
     @cached_property
     def blots(self) -> Blots:
-        """Marks along what is drawn, which rule most places of discs out at a glance."""
+        """Marks along all lines, which quickly exclude most places of discs."""
         return Blots(self.drawn, self.rect, 0.0, BLOT)
 
     def first(self, places: Iterable[XY], half: XY, air: float) -> XY | None:
-        """The first place in the field where a box has so much air around it; None where none has.
+        """The first place in the field where a box has ``air`` around it, or None.
 
-        ``half`` are half the sides of the box. No more places are made than are looked at.
+        ``half`` are half the sides of the box. Places are generated only as they are examined.
         """
         drawn, coming = joined(self.lines, self.texts), iter(places)
         grown = drawn.boxes(air)
@@ -92,9 +95,9 @@ class Space:
         self.texts = joined(self.texts, rectangles([box]))
 
     def disc(self, near: XY, room: float) -> FreeDisc | None:
-        """The free disc of radius ``room`` as near as possible to a place; None if there is none.
+        """The free disc of radius ``room`` nearest to a place, or None.
 
-        One in sight of the place goes before others.
+        A disc in sight of the place is preferred.
         """
         x, y = self._likely(near, room)
         texts, zero = self.texts.upright(), np.zeros(1)
@@ -117,7 +120,7 @@ class Space:
         return hidden
 
     def _likely(self, near: XY, room: float) -> tuple[Array, Array]:
-        """The places of a grid where the middle of a free disc may be, nearest first."""
+        """The grid places where the middle of a free disc may be, nearest first."""
         xs, ys = (
             np.arange(self.rect[i] + room, self.rect[i + 2] - room, GRID, dtype=np.float64)
             for i in (0, 1)

@@ -1,10 +1,10 @@
-"""The display list: everything a page shows, laid out once, in millimetres.
+"""The display list: everything on a page, laid out once, in millimetres.
 
-Coordinates have their origin at the page's top-left corner, x to the right, y DOWN. Angles are in
+The origin of coordinates is the page's top-left corner, x to the right, y DOWN. Angles are in
 degrees, counter-clockwise as seen on the paper. ``cls`` holds one or more classes separated by
 blanks; the first decides the style (see ``style``). ``name`` and ``step`` go into the SVG as
-``data-name`` and ``data-step``; ``part`` counts the strokes by which a step was drawn. ``shows`` is
-what of a link no step draws.
+``data-name`` and ``data-step``. ``part`` counts the strokes of a step. ``shows`` is a part of a
+link that no step draws.
 """
 
 from __future__ import annotations
@@ -21,15 +21,13 @@ from graphkin.text.errors import PageError, Problem
 
 Point = tuple[float, float]
 Anchor = Literal["start", "middle", "end"]
-SLACK = 1e-6  # mm, rounding forgiven at the page's edge
+SLACK = 1e-6  # mm, rounding accepted at the page's edge
 CHORDS = 12
-"""Chords of the half circle at an end of a circle that is drawn out."""
+"""Chords of the half circle at each end of a widened circle."""
 
 
 class Shown(Struct, frozen=True):
-    """What a mark shows of a link: the guide on which it slides, or of a driven one where it stands
-    (``coordinate``) or how fast it moves (``rate``).
-    """
+    """The part of a link that a mark shows: its guide, or a driver's ``coordinate`` or ``rate``."""
 
     what: Literal["guide", "coordinate", "rate"]
     link: str
@@ -50,7 +48,7 @@ class LineMark(Struct, frozen=True):
 
 
 class Polyline(Struct, frozen=True):
-    """A broken line; a closed one is a polygon, filled when its class is."""
+    """A polyline; a closed one is a polygon, filled if its class is."""
 
     points: tuple[Point, ...]
     cls: str
@@ -62,7 +60,7 @@ class Polyline(Struct, frozen=True):
 
 
 class CircleMark(Struct, frozen=True):
-    """A circle, filled when its class is."""
+    """A circle, filled if its class is."""
 
     cx: float
     cy: float
@@ -89,13 +87,13 @@ class Arc(Struct, frozen=True):
     shows: Shown | None = None
 
     def at(self, angle: float) -> Point:
-        """Give the point of the arc's circle at an angle in degrees."""
+        """The point of the arc's circle at an angle in degrees."""
         turn = radians(angle)
         return self.cx + self.r * cos(turn), self.cy - self.r * sin(turn)
 
 
 class SharedLetter(Struct, frozen=True):
-    """A letter of a text that points share which fall together, and what joins it to the last."""
+    """The letter of one of several coinciding points in a text, with the text that joins it."""
 
     name: str
     markup: str
@@ -103,12 +101,12 @@ class SharedLetter(Struct, frozen=True):
 
     @property
     def joined(self) -> str:
-        """It after what joins it."""
+        """The letter after its joint."""
         return self.joint + self.markup
 
 
 class Text(Struct, frozen=True):
-    """Marked-up text: baseline at y, capitals ``height`` mm high, turned by ``rotate``°.
+    """Marked-up text: baseline at y, capitals ``height`` mm high, rotated by ``rotate``°.
 
     ``letters`` are those of the points of a plan that it names.
     """
@@ -127,14 +125,14 @@ class Text(Struct, frozen=True):
     shows: Shown | None = None
 
     def left(self) -> float:
-        """Tell how far the text's beginning lies from x along the baseline, in mm."""
+        """The offset of the text's start from x along the baseline, in mm."""
         if self.anchor == "start":
             return 0.0
         width = extent(self.markup, self.height)[0]
         return -width / 2 if self.anchor == "middle" else -width
 
     def corners(self) -> tuple[Point, ...]:
-        """Give the four corners of the text's box on the page, turned with the text."""
+        """The four corners of the text's box on the page, rotated with the text."""
         left = self.left()
         width, top, bottom = extent(self.markup, self.height)
         box = ((left, top), (left + width, top), (left + width, bottom), (left, bottom))
@@ -148,19 +146,19 @@ Mark = LineMark | Polyline | CircleMark | Arc | Text
 
 
 def showing(shown: Shown, marks: Iterable[Mark]) -> Iterator[Mark]:
-    """The same marks as those of what they show."""
+    """The marks, each with the part of a link that it shows."""
     return (replace(mark, shows=shown) for mark in marks)
 
 
 def style_class(mark: Mark) -> str:
-    """Tell the class that decides a mark's style: its first."""
+    """The class that decides a mark's style: its first."""
     return mark.cls.split(maxsplit=1)[0]
 
 
 def polygon(
     points: tuple[Point, ...], cls: str, name: str = "", step: int | None = None
 ) -> Polyline:
-    """Make a closed broken line."""
+    """Make a closed polyline."""
     return Polyline(points, cls, name, step, closed=True)
 
 
@@ -171,7 +169,7 @@ def box(x: float, y: float, width: float, height: float, cls: str) -> Polyline:
 
 
 def drawn_out(x: float, y: float, radius: float, width: float, cls: str) -> Polyline:
-    """Make a circle drawn out to a width in mm: half circles of chords at the ends of two lines."""
+    """Make a circle widened to a width in mm: two lines with half circles of chords."""
     half = width / 2 - radius
     turns = [pi * i / CHORDS for i in range(CHORDS + 1)]
     right = [(x + half + radius * sin(t), y - radius * cos(t)) for t in turns]
@@ -180,7 +178,7 @@ def drawn_out(x: float, y: float, radius: float, width: float, cls: str) -> Poly
 
 
 def arc_points(arc: Arc) -> Iterator[Point]:
-    """Give both ends of an arc and those of its quarter points that it passes."""
+    """Both ends of an arc and the quarter points on it."""
     low, high = sorted((arc.start, arc.end))
     yield arc.at(arc.start)
     yield arc.at(arc.end)
@@ -191,7 +189,7 @@ def arc_points(arc: Arc) -> Iterator[Point]:
 
 
 def moved(mark: Mark, right: float, down: float) -> Mark:
-    """Give the same mark farther right and down by some mm."""
+    """The mark shifted to the right and down by some mm."""
     if isinstance(mark, LineMark):
         x1, y1, x2, y2 = mark.x1 + right, mark.y1 + down, mark.x2 + right, mark.y2 + down
         return replace(mark, x1=x1, y1=y1, x2=x2, y2=y2)
@@ -203,7 +201,7 @@ def moved(mark: Mark, right: float, down: float) -> Mark:
 
 
 def scaled(mark: Mark, times: float) -> Mark:
-    """Give the same mark so many times as large about the page's corner; text keeps its height."""
+    """The mark scaled about the page's corner; text keeps its height."""
     if isinstance(mark, LineMark):
         x1, y1, x2, y2 = (times * each for each in (mark.x1, mark.y1, mark.x2, mark.y2))
         return replace(mark, x1=x1, y1=y1, x2=x2, y2=y2)
@@ -215,7 +213,7 @@ def scaled(mark: Mark, times: float) -> Mark:
 
 
 def reach(mark: Mark) -> tuple[float, float, float, float]:
-    """Tell the upright box (left, top, right, bottom) that a mark takes up, without line widths."""
+    """The upright box (left, top, right, bottom) of a mark, without line widths."""
     if isinstance(mark, LineMark):
         points: tuple[Point, ...] = ((mark.x1, mark.y1), (mark.x2, mark.y2))
     elif isinstance(mark, Polyline):
@@ -231,7 +229,7 @@ def reach(mark: Mark) -> tuple[float, float, float, float]:
 
 
 def numbers(mark: Mark) -> Iterator[float]:
-    """Give every number that a mark is drawn from."""
+    """Every number from which a mark is drawn."""
     if isinstance(mark, LineMark):
         return iter((mark.x1, mark.y1, mark.x2, mark.y2))
     if isinstance(mark, Polyline):
@@ -244,7 +242,7 @@ def numbers(mark: Mark) -> Iterator[float]:
 
 
 def fits(mark: Mark, width: float, height: float) -> bool:
-    """Tell at a glance that a mark lies on a page; of arcs and turned texts it tells nothing."""
+    """Quick check that a mark is on a page; False for arcs and rotated texts, too."""
     if isinstance(mark, Text):
         if mark.rotate or not mark.height > 0:
             return False
@@ -264,7 +262,7 @@ def fits(mark: Mark, width: float, height: float) -> bool:
 
 
 def fault(mark: Mark, width: float, height: float) -> tuple[str, str] | None:
-    """Tell (found, expected) when a mark cannot be drawn on a page of this size in mm."""
+    """The fault (found, expected) of a mark that cannot be drawn on a page of this size in mm."""
     if not all(map(isfinite, numbers(mark))):
         return "a coordinate that is not a finite number", "finite millimetres"
     if isinstance(mark, CircleMark | Arc) and mark.r <= 0:
@@ -283,7 +281,7 @@ def fault(mark: Mark, width: float, height: float) -> tuple[str, str] | None:
 
 
 def place_of(mark: Mark) -> str:
-    """Name a mark in an error: its kind, class, name and text."""
+    """The description of a mark in an error: its kind, class, name and text."""
     words = [type(mark).__name__.removesuffix("Mark").lower(), mark.cls, mark.name]
     if isinstance(mark, Text):
         words.append(f"“{mark.markup}”")
@@ -300,7 +298,7 @@ class Page(Struct, frozen=True):
     lang: str = "en"
 
     def check(self) -> None:
-        """Refuse marks that are not finite or leave the page; name each of them."""
+        """Raise PageError with every mark that is not finite or leaves the page."""
         problems = []
         for mark in self.marks:
             if fits(mark, self.width, self.height):

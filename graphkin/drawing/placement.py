@@ -1,4 +1,4 @@
-"""Places for labels on a page: near their subjects, clear of lines, boxes and each other (mm)."""
+"""Placement of labels on a page: near their subjects, clear of lines, boxes and each other (mm)."""
 
 from __future__ import annotations
 
@@ -17,26 +17,26 @@ from graphkin.drawing.clearance import Clearance, Subjects, tries
 from graphkin.drawing.shapes import NOWHERE, Box, Index, where
 
 NEAR = np.array([0.0, 0.6, 1.4, 2.8])  # mm beyond the gap, without a leader
-MOST = 12_000  # places that are offered on a page in all: memory grows with their square
-AT_ONCE = 64  # labels that look further at one go
+MOST = 12_000  # places offered on a page in all: memory grows with their square
+AT_ONCE = 64  # labels that search further at once
 FAR = np.array([4.0, 7.0, 11.0, 17.0, 24.0, 33.0])  # mm beyond the gap, with a leader
 
 
 class Level(NamedTuple):
-    """How many candidates of a label are looked at, by distance, and how many are offered."""
+    """The number of a label's candidates examined, by distance, and the number offered."""
 
     seen: int
-    offered: int  # the cheapest ones, at one go
+    offered: int  # the cheapest ones, at once
 
 
 NONE, FEW, CLOSE = Level(0, 0), Level(24, 4), Level(24, 10)
 
 
 class CandidateSet:
-    """The places offered to each label, cheapest first, and which of them rule each other out.
+    """The places offered to each label, cheapest first, and their mutual exclusions.
 
-    ``menus`` holds the numbers of each label's places; ``cost`` and ``label`` belong to places,
-    ``best`` is what the cheapest place of each label costs.
+    ``menus`` holds the numbers of each label's places. ``cost`` and ``label`` belong to places.
+    ``best`` is the cost of the cheapest place of each label.
     """
 
     def __init__(self, page: Clearance, first: Level = CLOSE) -> None:
@@ -51,7 +51,7 @@ class CandidateSet:
         self._offer(page.near(page.open(every, near, 0 * every, seen)), offered)
 
     def widen(self, levels: Mapping[int, Level]) -> bool:
-        """Offer labels that were at lower levels more places, with a leader; true if any were."""
+        """Offer labels at lower levels more places, with a leader; return whether any were."""
         behind = {i: level for i, level in sorted(levels.items()) if self.level[i] < level}
         if not behind:
             return False
@@ -66,7 +66,7 @@ class CandidateSet:
         return True
 
     def _led(self, levels: Mapping[int, Level]) -> OpenPlaces:
-        """Return the places with a leader that some labels did not look at before."""
+        """Return the places with a leader that some labels have not examined before."""
         seeking = [i for i, level in levels.items() if self.level[i].seen < level.seen]
         found = NO_PLACES
         for start in range(0, len(seeking), AT_ONCE):
@@ -77,9 +77,9 @@ class CandidateSet:
         return found
 
     def _offer(self, more: OpenPlaces, most: Index) -> None:
-        """Offer the cheapest of some places, at most so many for each label; the rest is kept.
+        """Offer the cheapest places, up to ``most`` for each label; the rest is kept.
 
-        Those of a label that cost the same keep their order.
+        A label's places of equal cost keep their order.
         """
         order = np.lexsort((more.cost, more.label))
         label = more.label.take(order)
@@ -99,13 +99,13 @@ class CandidateSet:
         self.best = [self.cost[menu[0]] if menu else inf for menu in self.menus]
 
     def rows(self) -> list[int]:
-        """Return for each place which others it rules out: bits of a number."""
+        """Return for each place the places it excludes, as bits of a number."""
         return self.clashes.rows()
 
 
-PUSH = 4.0  # what it is reckoned to cost, in mm, to push a label aside
+PUSH = 4.0  # assumed cost, in mm, of pushing a label aside
 GAIN = 0.01  # mm that a chase must save in all to be kept
-WEAR = 4.0  # mm that a place costs more each time that it is taken in a chase
+WEAR = 4.0  # mm that a place costs more each time it is taken in a chase
 
 LEAST = 500.0  # the least fine of labels that must have a place
 URGENT = 2500.0  # the least fine, in mm, of labels that choose first
@@ -114,7 +114,7 @@ Moves = tuple[tuple[int, int], ...]
 
 
 class Assignment:
-    """Which label has which place, what each pays, and the taken places as bits of a number."""
+    """The place of each label, the cost of each, and the taken places as bits of a number."""
 
     def __init__(self, offers: CandidateSet, fine: Sequence[float]) -> None:
         """Begin with no label on the page; each pays a fine as long as it has no place."""
@@ -124,7 +124,7 @@ class Assignment:
         self.taken = 0
 
     def order(self) -> list[int]:
-        """Return the labels: the urgent ones, then those with few places, then by priority."""
+        """Return the labels: urgent ones first, then those with few places, then by priority."""
         count, fine = [len(menu) for menu in self.offers.menus], self.fine
         first = [(fine[i] < URGENT, count[i] > 7, -fine[i], count[i], i) for i in range(len(fine))]
         return [i for *_, i in sorted(first)]
@@ -144,11 +144,11 @@ class Assignment:
         return [i for i in self.unplaced() if not self.is_given_up(i)]
 
     def is_given_up(self, i: int) -> bool:
-        """Tell whether a label has no place and may stay so."""
+        """Return whether a label has no place and may remain without one."""
         return self.pick[i] < 0 and self.fine[i] < LEAST
 
     def settle(self, which: Iterable[int]) -> None:
-        """Give each of the labels the cheapest place that is left, if there is one."""
+        """Give each of the labels the cheapest remaining place, if there is one."""
         rows = self.offers.rows()
         for i in which:
             self._lift(i)
@@ -156,7 +156,7 @@ class Assignment:
             self._put(i, next(left, -1))
 
     def shift(self, labels: Iterable[int]) -> None:
-        """Give labels a place for which others, each in turn for the next one, can make room."""
+        """Give labels a place by moving others, each of which may move one more."""
         rows = self.offers.rows()
         for i in labels:
             moves = self._moves(i, rows)
@@ -166,9 +166,9 @@ class Assignment:
                 self._put(label, place)
 
     def _moves(self, i: int, rows: Sequence[int]) -> Moves:
-        """Return the fewest labels that must move for one to have a place, and where each goes.
+        """Return the shortest chain of moves that gives a label a place, and each new place.
 
-        Each makes room for one other only; nothing where no such chain leads to a free place.
+        Each label makes room for one other only; the chain is empty if none leads to a free place.
         """
         moved = {i}
         queue: deque[tuple[int, int, Moves]] = deque([(i, self.taken, ())])
@@ -185,14 +185,14 @@ class Assignment:
         return ()
 
     def improve(self, labels: Iterable[int], steps: int) -> None:
-        """Let each of the labels push others aside and those others in turn, if it pays in all."""
+        """Let each of the labels push others aside, and those others in turn, if it pays."""
         rows = self.offers.rows()
         for i in labels:
             if not self.offers.menus[i]:
                 continue
             saved = [*self.pick], [*self.paid], self.taken
             before = sum(self.paid)
-            least = before - self.paid[i] + self.offers.best[i]  # others paying their best
+            least = before - self.paid[i] + self.offers.best[i]  # others at their best
             worn, queue = {self.pick[i]: WEAR}, deque([i])
             self._lift(i)
             for _ in range(steps):
@@ -205,7 +205,8 @@ class Assignment:
     def _push(self, queue: deque[int], rows: Sequence[int], worn: dict[int, float]) -> float:
         """Put the first label of a queue on the place with the best price.
 
-        Those that it pushes aside queue up. Return how much more all pay above their best.
+        Labels that it displaces join the queue. Return the increase of the total excess over the
+        best.
         """
         i = queue.popleft()
         offers, taken, best, chosen, pushed = self.offers, self.taken, inf, -1, 0
@@ -259,44 +260,44 @@ Point = tuple[float, float]
 Segment = tuple[Point, Point]
 
 CLEAR = 0.6  # mm between a label and a drawn line
-SIDE = 1.5  # cost of a place square to the preferred side; all costs are in mm of distance
-UNPLACED, OPTIONAL = 1000.0, 100.0  # a label without a place, and one that may stay so
-DEAR = 7.4  # what a label may pay before places with a leader are looked for
-STRUCK = 20.0  # what a place costs at least whose leader crosses a strong line
-WIDE = Level(108, 12)  # how far a label looks that has such a place
-BAD = 2.0  # what a label may pay above its best before places are traded
-CROWD, AROUND = 8, 20.0  # how many labels are a crowd around one without a place, within how far
-HOPELESS = 60  # so many labels without a place that none are sought for them but the nearest
-MANY = 300  # labels of which each is offered fewer places
-SHORT, LONG, LONGEST = 8, 16, 150  # how many labels are pushed about in a chase
+SIDE = 1.5  # cost of a place perpendicular to the preferred side; all costs are in mm of distance
+UNPLACED, OPTIONAL = 1000.0, 100.0  # a label without a place, and one that may remain so
+DEAR = 7.4  # cost above which places with a leader are examined
+STRUCK = 20.0  # least cost of a place whose leader crosses a strong line
+WIDE = Level(108, 12)  # search range of a label with such a place
+BAD = 2.0  # cost above its best at which a label trades places
+CROWD, AROUND = 8, 20.0  # labels that form a crowd around one without a place, within a distance
+HOPELESS = 60  # labels without a place, above which only nearest places are used
+MANY = 300  # labels above which each is offered fewer places
+SHORT, LONG, LONGEST = 8, 16, 150  # labels displaced in a chase
 LAST_RESORT = (
     (Level(48, 16), Level(128, 32)),
     (Level(128, 32), Level(999, 64)),
     (Level(999, 999), Level(999, 999)),
 )
-"""What is offered at last to the labels around one without a place, and to that one itself."""
+"""The final offer to the labels around one without a place, and to that label."""
 
 
 class Wish(Struct, frozen=True):
-    """One label that wants a place; lengths in mm, y down."""
+    """A label to be placed; lengths in mm, y down."""
 
     width: float  # of the ink
     height: float
     subject: Point | Segment  # the point or the segment that it names
     away: Point | None = None  # unit vector from the subject to the preferred side
-    priority: int = 0  # the higher goes first
+    priority: int = 0  # a higher one is placed first
     gap: float = 1.0  # clear distance to the subject
-    radius: float = 0.0  # of the circle that a point subject is drawn as
-    optional: bool = False  # it may stay without a place
+    radius: float = 0.0  # of the circle that marks a point subject
+    optional: bool = False  # it may remain without a place
 
 
 class Spot(Struct, frozen=True):
-    """The place of a label, mm: its centre, its leader if it has one, and whether it is free."""
+    """The place of a label, mm: its centre, its leader if any, and whether it is free."""
 
     x: float
     y: float
     leader: Segment | None  # from the label's edge to the subject
-    free: bool  # False: nothing in reach was free; use a key number and a legend
+    free: bool  # False: no free place in reach; use a key number and a legend
 
 
 def place(
@@ -308,10 +309,10 @@ def place(
 ) -> list[Spot]:
     """Return a place for every wish, in the order of the wishes; lengths in mm.
 
-    ``lines`` are drawn segments x0, y0, x1, y1, ``strong`` those that leaders should not cross;
-    ``boxes`` are taken rectangles xmin, ymin, xmax, ymax; no label leaves the rectangle ``field``,
-    or its own one if there is one for each. A label that is ``free`` touches nothing; one that is
-    not is returned where it would like to be.
+    ``lines`` are drawn segments x0, y0, x1, y1, and ``strong`` those that leaders should not cross.
+    ``boxes`` are taken rectangles xmin, ymin, xmax, ymax. No label leaves the rectangle ``field``,
+    or its own one if there is one for each. A label that is ``free`` touches nothing. One that is
+    not free is returned at its preferred place.
     """
     if not wishes:
         return []
@@ -343,7 +344,7 @@ def _subjects(wishes: Sequence[Wish]) -> Subjects:
 
 
 def _widen(seats: Assignment) -> None:
-    """Let labels without a place, or with a dear one, look further, and those around them too."""
+    """Let labels without a place, or with an expensive one, and their neighbours search further."""
     offers = seats.offers
     dear = [i for i, paid in enumerate(seats.paid) if paid > DEAR and not seats.is_given_up(i)]
     more = dict.fromkeys(dear, CLOSE) | _round_about(seats, CLOSE, Level(32, 12))
@@ -366,12 +367,12 @@ def _widen(seats: Assignment) -> None:
 
 
 def _round_about(seats: Assignment, crowded: Level, seeking: Level) -> dict[int, Level]:
-    """Return what is to be offered to labels without a place, and to those around them."""
+    """Return the offers for labels without a place, and for those around them."""
     return dict.fromkeys(_crowds(seats), crowded) | dict.fromkeys(seats.seeking(), seeking)
 
 
 def _crowds(seats: Assignment) -> list[int]:
-    """Return the labels around each one without a place that has a place in sight."""
+    """Return the labels around each unplaced label that has a possible place."""
     offers, seeking = seats.offers, seats.seeking()
     found: list[int] = []
     ends = offers.page.subjects.ends
@@ -385,7 +386,7 @@ def _crowds(seats: Assignment) -> list[int]:
 
 
 def _spot(offers: CandidateSet, label: int, place: int) -> Spot:
-    """Return where a label is, or where it would like to be if it has no place."""
+    """Return the place of a label, or its preferred place if it has none."""
     if place < 0:
         x, y = offers.hope[label].tolist()
         return Spot(x, y, None, False)

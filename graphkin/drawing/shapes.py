@@ -1,4 +1,4 @@
-"""Shapes on a page and how far apart they are (mm)."""
+"""Shapes on a page and their distances (mm)."""
 
 from __future__ import annotations
 
@@ -11,15 +11,15 @@ Array = NDArray[np.float64]
 Index = NDArray[np.intp]
 Mask = NDArray[np.bool_]
 Box = tuple[float, float, float, float]
-SHY = 0.8  # mm before its end where a leader no longer crosses what it leads to
+SHY = 0.8  # mm before its end within which a leader does not cross its subject
 TINY = 1e-9  # mm
-NOWHERE = 1e9  # mm, where that is which has no place
+NOWHERE = 1e9  # mm, the place of a missing leader
 
-SHORT = 1.5  # mm, lines shorter than this together may be taken for one
-LOOSE = 0.06  # mm by which such a one may miss the others
+SHORT = 1.5  # mm, total length below which lines may be merged
+LOOSE = 0.06  # mm by which a merged line may miss the others
 HAIR = np.array([-1e-3, -1e-3, 1e-3, 1e-3], dtype=np.float32)[:, None, None]
 """More than single precision loses on a page, in mm, for the sides of a box."""
-TOGETHER = 16  # boxes that are compared with others as one at first
+TOGETHER = 16  # boxes that are first compared with others as one
 
 NO_INDEX: Index = np.empty(0, dtype=np.intp)
 
@@ -33,24 +33,24 @@ class Shapes(NamedTuple):
     ey: Array
     nx: Array  # unit normal of a segment, zero for the others
     ny: Array
-    slack: Array  # takes the test across the normal out where there is none
+    slack: Array  # disables the test across the normal for other shapes
 
     def take(self, which: Index) -> Shapes:
         """Return some of the shapes."""
         return Shapes(*np.array(self).take(which, axis=1))
 
     def boxes(self, more: Array | float = 0.0) -> Array:
-        """Return boxes around the shapes as rows left, top, right, bottom, wider by some mm."""
+        """Return boxes around the shapes as rows left, top, right, bottom, enlarged by some mm."""
         wide, high = self.ex + more, self.ey + more
         return np.array([self.x - wide, self.y - high, self.x + wide, self.y + high])
 
     def upright(self) -> Shapes:
-        """Return the shapes as columns, for arrays with a row for each."""
+        """Return the shapes as columns, for arrays with one row per shape."""
         return Shapes(*(column[:, None] for column in self))
 
 
 def segments(ends: ArrayLike) -> Shapes:
-    """Return segments given as rows x0, y0, x1, y1 in mm; one without length is a point."""
+    """Return segments given as rows x0, y0, x1, y1 in mm; one of zero length is a point."""
     x0, y0, x1, y1 = np.asarray(ends, dtype=np.float64).reshape(-1, 4).T
     dx, dy = x1 - x0, y1 - y0
     length = np.sqrt(dx * dx + dy * dy)
@@ -62,7 +62,7 @@ def segments(ends: ArrayLike) -> Shapes:
 
 
 def merged(lines: Array, clear: Array) -> tuple[Array, Array]:
-    """Return chains of tiny lines as fewer ones, each with more clearance to make up for it; mm."""
+    """Return chains of tiny lines as fewer ones, each with more clearance to compensate; mm."""
     loose = np.zeros(len(lines))
     for _ in range(3):
         first, off = _joints(lines, clear, loose)
@@ -77,7 +77,7 @@ def merged(lines: Array, clear: Array) -> tuple[Array, Array]:
 
 
 def _joints(lines: Array, clear: Array, loose: Array) -> tuple[Index, Array]:
-    """Return which lines can be one with the next, and how far (mm) that one misses the two."""
+    """Return which lines can be merged with the next, and the deviation (mm) of the result."""
     linked = (lines[:-1, 2:] == lines[1:, :2]).all(axis=1) & (clear[:-1] == clear[1:])
     (cx, cy), (lx, ly) = (lines[1:, 2:] - lines[:-1, :2]).T, (lines[:-1, 2:] - lines[:-1, :2]).T
     size, along = np.sqrt(cx * cx + cy * cy), lx * cx + ly * cy
@@ -103,10 +103,10 @@ def joined(*parts: Shapes) -> Shapes:
 
 
 def separation(x: Array, y: Array, hx: Array, hy: Array, other: Shapes) -> Array:
-    """Return a length in mm never above the distance of boxes from shapes, below 0 if they meet.
+    """Return a lower bound in mm of the distance of boxes from shapes, negative if they meet.
 
-    The boxes have centre x, y and half extents hx, hy; all arguments broadcast. It is the largest
-    gap along x, along y or across a segment: short of the distance only between corners.
+    The boxes have centre x, y and half extents hx, hy; all arguments broadcast. The bound is the
+    largest gap along x, along y or across a segment. It is below the distance only between corners.
     """
     dx, dy = other.x - x, other.y - y
     across = other.nx * dx
@@ -118,13 +118,13 @@ def separation(x: Array, y: Array, hx: Array, hy: Array, other: Shapes) -> Array
 
 
 def met(boxes: ArrayLike, lines: Shapes) -> Index:
-    """Return how many segments run into each of some boxes: rows xmin, ymin, xmax, ymax in mm."""
+    """Return the number of segments that run into each box: rows xmin, ymin, xmax, ymax in mm."""
     x, y, hx, hy = rectangles(boxes).upright()[:4]
     return np.asarray((separation(x, y, hx, hy, lines) < 0).sum(axis=1))
 
 
 def distance(x: Array, y: Array, hx: Array, hy: Array, other: Shapes) -> Array:
-    """Return the same as `separation`, but the distance itself at the corners too."""
+    """Return the same as `separation`, but with the true distance at corners."""
     dx = np.maximum(np.abs(other.x - x) - (other.ex + hx), 0.0)
     dy = np.maximum(np.abs(other.y - y) - (other.ey + hy), 0.0)
     return np.asarray(np.maximum(np.sqrt(dx * dx + dy * dy), separation(x, y, hx, hy, other)))
@@ -144,7 +144,7 @@ def crossings(one: Array, other: Array) -> Mask:
 
 
 def struck(leaders: Array, lines: Array) -> Index:
-    """Return how many lines each leader crosses before it comes to what it leads to."""
+    """Return how many lines each leader crosses before its subject."""
     way = leaders[:, 2:] - leaders[:, :2]
     length = np.maximum(np.hypot(way[:, 0], way[:, 1]), TINY)
     share = np.maximum(1.0 - SHY / length, 0.0)[:, None]
@@ -153,22 +153,22 @@ def struck(leaders: Array, lines: Array) -> Index:
 
 
 def where(mask: Mask) -> Index:
-    """Return the numbers of what is true: as flatnonzero() does, in a third of its time."""
+    """Return the indices of true elements, like flatnonzero() but in a third of its time."""
     return mask.reshape(-1).nonzero()[0]
 
 
 def pairs_of(mask: Mask) -> tuple[Index, Index]:
-    """Return the rows and columns of what is true: as nonzero() does, but much faster."""
+    """Return the rows and columns of true elements, like nonzero() but much faster."""
     at, across = where(mask), max(1, mask.shape[1])
     row = at // across
     return row, at - row * across
 
 
 def meeting(one: Array, other: Array) -> tuple[Index, Index]:
-    """Return which upright boxes of two sets meet, as numbers in each set; a hair's gap is none.
+    """Return which upright boxes of two sets meet, as numbers in each set, but for a hair.
 
-    Both are given as rows left, top, right, bottom in mm. Boxes of the first set that follow one
-    another should be neighbours: the others are first compared with ones around some at a time.
+    Both are given as rows left, top, right, bottom in mm. Consecutive boxes of the first set should
+    be neighbours, because the others are first compared with hulls of several at a time.
     """
     count, short = one.shape[1], -one.shape[1] % TOGETHER
     if not count:

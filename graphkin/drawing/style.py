@@ -1,8 +1,8 @@
-"""How each class of mark looks: line width in mm, colour, dashes and fill, in two inks.
+"""The style of each class of mark: line width in mm, colour, dashes and fill, in two inks.
 
-Widths follow line group 0.5 of ISO 128 (thick 0.5, thin 0.25), the mechanism's links stand out
-with 0.7. The first class of a mark decides. A style without a colour of its own takes that of the
-mark's next class: ``arrowhead velocity`` and ``label velocity`` are drawn in the velocity's blue.
+Widths follow line group 0.5 of ISO 128 (thick 0.5, thin 0.25); the mechanism's links have 0.7. The
+first class of a mark decides. A style without a colour takes that of the mark's next class:
+``arrowhead velocity`` and ``label velocity`` are drawn in the velocity's blue.
 """
 
 from __future__ import annotations
@@ -18,7 +18,7 @@ Ink = Literal["colour", "black"]
 
 BLACK = "#000000"
 GREY = "#6a6a6a"
-BODY = "#767676"  # of links, grey in both inks so that vectors along them are seen
+BODY = "#767676"  # of links, grey in both inks so that vectors along them are visible
 BLUE = "#0b4f9e"
 TEAL = "#006d77"
 RED = "#b3260e"
@@ -39,16 +39,16 @@ INKS = {
     PALE: "pale",
     WHITE: "paper",
 }
-"""The variable of a page that holds each ink, so that a dark page has its own."""
+"""The CSS variable of each ink, so that a dark page has its own."""
 NEXT = ""  # the colour of the mark's next class
 NOW = "now"
-"""The class of what the sentence of a step page draws."""
+"""The class of the marks that the sentence of a step page describes."""
 BARE = "bare"
-"""The class of a figure that is drawn without the light tint that fills it."""
+"""The class of a figure drawn without its light tint."""
 STRONGER = 0.2
-"""How much wider its lines are, in mm."""
+"""The additional width of its lines, in mm."""
 BRIEF = "brief"
-"""The class of a vector that is short, and has a thinner shaft for its head to be seen."""
+"""The class of a short vector, with a thinner shaft so that its head is visible."""
 SHAFT = 0.25
 """The widest shaft of such a vector, in mm."""
 
@@ -70,7 +70,7 @@ class Style(Struct, frozen=True):
 
 
 class VectorKind(Struct, frozen=True):
-    """A kind of component of an acceleration: its class, its sign, how it looks, its legend."""
+    """A kind of acceleration component: its class, its sign, its style, its legend."""
 
     look: str
     sign: str
@@ -86,9 +86,9 @@ COMPONENTS = (
 )
 """The components of accelerations."""
 BY_SIGN = {kind.sign: kind for kind in COMPONENTS}
-"""The same by their signs."""
+"""The components by their signs."""
 AUXILIARY = OWN_LINES, CHAIN_LINES = "trial", "trial-line"
-"""The looks of the lines of auxiliary plans: their own, and chain lines through their points."""
+"""The classes of the lines of auxiliary plans: their own, and chain lines through their points."""
 VECTORS = ("velocity", "relative-velocity", "acceleration", *(kind.look for kind in COMPONENTS))
 """The classes of lines that are vectors."""
 DRAWN = ("construction", "ray", "compass", *AUXILIARY, "centre", "inflection", "ordinate", *VECTORS)
@@ -151,7 +151,7 @@ STYLES: dict[str, Style] = {
     # plans
     "velocity": Style(0.5, BLUE),
     "relative-velocity": Style(0.35, TEAL),
-    "ordinate": Style(0.35, BLUE),  # of a velocity laid off square to an axis
+    "ordinate": Style(0.35, BLUE),  # of a velocity drawn perpendicular to an axis
     "acceleration": Style(0.5, RED),
     "relative-acceleration": Style(0.35, RED),
     "trial": Style(0.13, GREY),
@@ -173,7 +173,7 @@ STYLES: dict[str, Style] = {
 
 @lru_cache(maxsize=512)
 def style_of(cls: str, ink: Ink = "colour") -> Style:
-    """Give the style of a mark's classes, fill and colour resolved; unknown classes: KeyError."""
+    """The style of a mark's classes, with fill and colour. Raises KeyError for an unknown class."""
     names = cls.split()
     first = STYLES[names[0]]
     colours = (STYLES[name].colour for name in names if name in STYLES)
@@ -192,10 +192,10 @@ def style_of(cls: str, ink: Ink = "colour") -> Style:
 
 
 def black(colour: str) -> str:
-    """Turn every colour into black; white, the light fills and the grey of links stay."""
+    """Turn every colour into black, except white, light fills and the grey of links."""
     return colour if colour in ("", WHITE, LIGHT, PALE, BODY) else BLACK
 
 
 def in_variables(rules: str) -> str:
-    """Put the variables of a page for the inks in rules of style."""
+    """Replace the inks in style rules by the variables of a page."""
     return re.sub("#[0-9a-f]{6}", lambda found: f"var(--{INKS[found[0]]})", rules)

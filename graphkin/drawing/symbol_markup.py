@@ -12,36 +12,38 @@ NAME = (
     r"(?:_(?P<sub>[^\W¹²](?:[\w,]*[^\W¹²])?))?(?P<tag>[¹²]*)(?:\^(?P<sup>\w))?$"
 )
 SPECIAL = "\\*_^{}"
-"""The signs of the markup itself."""
+"""The control characters of the markup."""
 FOURTH = "⁗"
 TAGS = {"¹": "I", "²": "II"}
-"""The tags of two auxiliary plans as they are written: below, so that none reads as a power."""
+"""The tags of two auxiliary plans as written: as indices, so that they do not read as powers."""
 WITHIN = ({"¹": "a", "²": "b"}, TAGS)
-"""The same of plans within one of these, then within one of those: Ia, IbII."""
+"""The tags of plans within one of these, then within one of those: Ia, IbII."""
 
 
 def escape(text: str) -> str:
-    """Make plain text safe to stand in markup."""
+    """Escape plain text for use in markup."""
     return "".join("\\" + sign if sign in SPECIAL else sign for sign in text)
 
 
 def tag_words(tag: str) -> str:
-    """The tag of an auxiliary plan as it is written, after those of the plans around it."""
+    """The tag of an auxiliary plan as written, after those of the plans around it."""
     written = (WITHIN[k % 2][sign] for k, sign in enumerate(tag[1:]))
     return "".join((TAGS.get(tag[:1], ""), *written))
 
 
 @lru_cache(maxsize=1024)
 def symbol(name: str, short: str = "") -> Markup:
-    """The symbol of a name, or of how it is written ``short`` where no other is written so."""
+    """The symbol of a name, or of its unique ``short`` form."""
     said = Markup(written(short or name))
     said.names = frozenset((name,)) if name else frozenset()
     return said
 
 
 def written(name: str) -> str:
-    """Markup of a name: O1 gets its index, b⁗ its numeral, a_BA^ν its two scripts, b¹ the
-    numeral of its plan; nothing where there is no name."""
+    """Markup of a name: O1 with its index, b⁗, a_BA^ν with two scripts, b¹ with its plan.
+
+    Empty for an empty name.
+    """
     found = re.match(NAME, name)
     if not name or name.isdigit():
         return name
@@ -58,12 +60,12 @@ def written(name: str) -> str:
 
 
 def without_index(name: str) -> str:
-    """A name as far as what NAME sets below it: B‴ of B‴_BA."""
+    """A name without the part that NAME writes as an index: B‴ of B‴_BA."""
     return name.partition("_")[0]
 
 
 def of_wheel(letter: str, sign: str) -> Markup:
-    """Markup of the radius or the number of teeth of a wheel by its sign: r₂′."""
+    """Markup of a wheel's radius or number of teeth, by the wheel's label: r₂′."""
     return Markup(f"*{letter}*_{{{escape(sign)}}}")
 
 

@@ -12,12 +12,14 @@ from graphkin.drawing.style import BRIEF
 from graphkin.numbers.arithmetic import pick
 
 HEAD, SHARE = 3.2, 0.4
-"""Length of an arrowhead in mm, and of that of a short vector in parts of it."""
+"""Length of an arrowhead in mm, and of a short vector's as a share of the vector."""
 SHORT, SHAFTED = 2.0 - 1e-6, 6.0
-"""Vectors shorter than this, in mm, have no head; a thin shaft. One as long as a crank of 2 mm has
-one, however it is rounded."""
+"""Lengths in mm below which a vector has no head, or has a thin shaft.
+
+A vector as long as a crank of 2 mm has a head, however it is rounded.
+"""
 HALF, BLUNT, LEAST = 0.25, 0.5, 0.6
-"""Half the width of a head in parts of its length, of a small one at most; and at least, in mm."""
+"""Half the width of a head over its length, the limit for a small one, the least in mm."""
 PIN = 1.1
 """Radius of a pin in mm."""
 FIXED = 1.3
@@ -25,15 +27,15 @@ FIXED = 1.3
 FREE = 0.8
 """Radius of the mark of a point that joins no links, in mm."""
 HINGE = 0.9
-"""How much wider each further circle of a multiple hinge is, in mm."""
+"""Additional radius of each further circle of a multiple hinge, in mm."""
 PIVOT = 5.6
 """Height of a fixed pivot's triangle in mm."""
 TALL = 9.5
-"""The same of one about which a block turns, in mm."""
+"""Height of the triangle of a pivot with a block, in mm."""
 HIP = 4 / 7
-"""Half its width, in parts of its height."""
+"""Half the width of the triangle, relative to its height."""
 STRIP, HATCH = 5.2, 2.0
-"""Half the length of the hatched line on which it stands, and the depth of hatching, in mm."""
+"""Half the length of the hatched line below it, and the depth of hatching, in mm."""
 SQUARE = 2.0
 """Side of the mark of a right angle in mm."""
 BLOCK = (11.0, 6.4)
@@ -43,13 +45,13 @@ SLOT = 1.75
 ROUND = 10
 """Chords of a slot's round end."""
 UPRIGHT = (1.0, 0.0)
-"""The way to the right on the page."""
+"""The direction to the right on the page."""
 WELD = 2.4
-"""Side of the filled corner between two bars that are joined rigidly, in mm."""
+"""Side of the filled corner between two rigidly joined bars, in mm."""
 
 
 def arrow(tail: XY, tip: XY, cls: str, name: str, step: int | None = None) -> Iterator[Mark]:
-    """A vector as one line from tail to tip, its head apart."""
+    """A vector as one line from tail to tip, with a separate head."""
     length = distance(tail, tip)
     yield LineMark(*tail, *tip, cls if length >= SHAFTED else f"{cls} {BRIEF}", name, step)
     if length >= SHORT:
@@ -57,7 +59,7 @@ def arrow(tail: XY, tip: XY, cls: str, name: str, step: int | None = None) -> It
 
 
 def head(tail: XY, tip: XY, cls: str, name: str = "", step: int | None = None) -> Mark:
-    """An arrowhead at the tip, wider than any shaft; a page that moves lays it off itself."""
+    """An arrowhead at the tip, wider than any shaft; an animated page draws its own."""
     if isinstance(tail, Carried):
         return polygon((tip, tail), f"arrowhead {cls.split(maxsplit=1)[0]}", name, step)
     length = hypot(tip[0] - tail[0], tip[1] - tail[1])
@@ -79,7 +81,7 @@ def pin(at: XY, name: str, radius: float = PIN) -> Mark:
 
 
 def hatched(start: XY, end: XY, *, spacing: float = 2.2, depth: float = HATCH) -> Iterator[Mark]:
-    """A line of the frame with hatching on its right-hand side as one walks along it (y down)."""
+    """A line of the frame with hatching on its right-hand side in its direction (y down)."""
     length, way = toward(start, end)
     yield LineMark(*start, *end, "guide")
     for i in takewhile(lambda i: i + 1 <= length / spacing, count()):
@@ -88,7 +90,7 @@ def hatched(start: XY, end: XY, *, spacing: float = 2.2, depth: float = HATCH) -
 
 
 def pivot_ground(at: XY, way: XY, height: float = PIVOT) -> Iterator[Mark]:
-    """The triangle on a hatched line that carries a pin of the frame, a unit way from it."""
+    """The triangle on a hatched line that carries a pin of the frame, in the direction ``way``."""
     half = HIP * height
     feet = (across(at, way, height, side * half) for side in (1, -1))
     yield polygon((at, *feet), "fixed-pivot")
@@ -97,20 +99,20 @@ def pivot_ground(at: XY, way: XY, height: float = PIVOT) -> Iterator[Mark]:
 
 
 def legs(at: XY, way: XY, height: float) -> Iterator[Mark]:
-    """Both sides of such a triangle once more, thin, where a block in front of it covers them."""
+    """Both sides of such a triangle, thin, in front of a block that covers them."""
     for half in (HIP * height, -HIP * height):
         yield LineMark(*at, *across(at, way, height, half), "ground")
 
 
 def distance(start: XY, end: XY) -> float:
-    """How far one place is from another."""
+    """The distance between two places."""
     if isinstance(start, Carried):
         return start.toward(end)[0]  # type: ignore[no-any-return]
     return hypot(end[0] - start[0], end[1] - start[1])
 
 
 def toward(start: XY, end: XY) -> tuple[float, XY]:
-    """How far one place is from another, and the unit way to it."""
+    """The distance between two places, and the unit vector from the first to the second."""
     if isinstance(start, Carried):
         return start.toward(end)
     length = distance(start, end)
@@ -118,21 +120,21 @@ def toward(start: XY, end: XY) -> tuple[float, XY]:
 
 
 def across(at: XY, way: XY, along: float, aside: float) -> XY:
-    """The place so far along a unit way of the page and so far to its right as one walks."""
+    """The place at a distance along a unit vector of the page, and another to its right."""
     if isinstance(at, Carried):
         return at.across(way, along, aside)
     return at[0] + along * way[0] - aside * way[1], at[1] + along * way[1] + aside * way[0]
 
 
 def rails(at: XY, way: XY, low: float, high: float) -> Iterator[Mark]:
-    """The two sides of a guide of the frame, hatched outside; from ``low`` to ``high`` along it."""
+    """The two sides of a guide of the frame, hatched outside, from ``low`` to ``high`` along it."""
     half = BLOCK[1] / 2
     yield from hatched(across(at, way, low, half), across(at, way, high, half))
     yield from hatched(across(at, way, high, -half), across(at, way, low, -half))
 
 
 def block(at: XY, way: XY, name: str, cls: str = "block") -> Mark:
-    """A sliding block: a rectangle turned along its guide; on the frame its class is slider."""
+    """A sliding block: a rectangle along its guide; on the frame its class is slider."""
     a, b = BLOCK[0] / 2, BLOCK[1] / 2
     corners = ((-a, -b), (a, -b), (a, b), (-a, b))
     return polygon(tuple(across(at, way, *corner) for corner in corners), cls, name)
@@ -150,14 +152,14 @@ def slot(at: XY, way: XY, low: float, high: float, name: str) -> Mark:
 
 
 def slot_ground(at: XY, way: XY, low: float, high: float) -> Iterator[Mark]:
-    """Hatching beside both sides of a slot that is cut in the frame."""
+    """Hatching on both sides of a slot in the frame."""
     for first, last, side in ((low, high, SLOT), (high, low, -SLOT)):
         marks = hatched(across(at, way, first, side), across(at, way, last, side))
         yield from (mark for mark in marks if mark.cls == "ground")
 
 
 def weld(corner: XY, first: XY, second: XY, name: str) -> Mark:
-    """The filled corner that joins two bars rigidly; the ways are unit vectors on the page."""
+    """The filled corner that joins two bars rigidly; directions are unit vectors on the page."""
     ends = (across(corner, way, WELD, 0) for way in (first, second))
     return polygon((corner, *ends), "weld", name)
 
@@ -165,9 +167,10 @@ def weld(corner: XY, first: XY, second: XY, name: str) -> Mark:
 def turned_arrow(
     centre: XY, radius: float, way: XY, end: tuple[float, float], cls: str
 ) -> Iterator[Mark]:
-    """An arc with an arrowhead at its end, for a sense of turning.
+    """An arc with an arrowhead at its end, for a sense of rotation.
 
-    ``way`` leads to its end; ``end`` is the angle there, and how far from it the arc begins, in °.
+    ``way`` points to its end. ``end`` is the angle there and the angle from it back to the start,
+    in °.
     """
     angle, back = end
     yield Arc(*centre, radius, angle + back, angle, cls)
@@ -175,9 +178,9 @@ def turned_arrow(
 
 
 def sense_head(centre: XY, radius: float, way: XY, side: float, cls: str) -> Mark:
-    """The head of a turning arrow at the end of a way, along the chord from an angle before.
+    """The head of a rotation arrow at the end of ``way``, along a chord of the arc.
 
-    ``side`` is 1 where the arc comes from greater angles, -1 where it comes from smaller ones.
+    ``side`` is 1 where the arc comes from larger angles, -1 where it comes from smaller ones.
     """
     before = 2.2 / radius
     x0, y0 = radius * cos(before), radius * sin(before)
@@ -192,7 +195,7 @@ def sense_head(centre: XY, radius: float, way: XY, side: float, cls: str) -> Mar
 
 
 def square_mark(corner: XY, first: XY, second: XY, step: int | None) -> Mark:
-    """The small square that marks a right angle; the ways are unit vectors on the page."""
+    """The small square that marks a right angle; the directions are unit vectors on the page."""
     (x, y), (a, b), (c, d), size = corner, first, second, SQUARE
     points = (
         (x + size * a, y + size * b),
@@ -203,5 +206,5 @@ def square_mark(corner: XY, first: XY, second: XY, step: int | None) -> Mark:
 
 
 def bearing(way: XY) -> float:
-    """The angle in degrees, counter-clockwise on paper, of a way on the page."""
+    """The angle in degrees, counter-clockwise on paper, of a direction on the page."""
     return degrees(atan2(-way[1], way[0]))

@@ -294,7 +294,7 @@ class FlatDyad(NamedTuple):
     def fits_beside(
         self, j: int, cells: Cells, slope: Array, half: Array, ranges: Array
     ) -> tuple[Array, Array]:
-        """The roots near cells, with v in place of a share that has a known ``slope`` of the reach."""
+        """The roots near cells, with v in place of a share with a known ``slope`` of the reach."""
         row, middle = cells
         scale, plain = np.sqrt(abs(slope) * half[j]), row & ~self.bit
 

@@ -68,9 +68,7 @@ def roots_and_touches(misfit: Misfit, grid: Array) -> tuple[Array, Array, Array]
 
 
 def beside_breaks(misfit: Misfit, grid: Array, value: Array) -> list[tuple[Array, Array, Array]]:
-    """Intervals with a root between the last grid place and the place where the function breaks
-    off.
-    """
+    """Intervals with a root between the last grid place and the function's break."""
     there = np.isfinite(value)
     element, at = np.nonzero(there[:, :-1] != there[:, 1:])
     if not element.size:

@@ -68,9 +68,7 @@ class Words:
         return self.decimal(f"{rounded:.{places}f}") if rounded else "0"
 
     def significant(self, number: float, digits: int = 4) -> str:
-        """A number rounded to ``digits`` significant digits, with a power of ten if it is far from
-        one.
-        """
+        """A number rounded to significant digits, with a power of ten if it is far from one."""
         if number == 0:
             return "0"
         rounded = float(f"{number:.{digits - 1}e}")

@@ -151,7 +151,7 @@ MORE = Problem("", "and perhaps more problems")
 
 
 class GraphkinError(Exception):
-    """Base of every error that a user can correct; it holds all problems found, not only the first."""
+    """Base of every error that a user can correct; it holds all problems found."""
 
     def __init__(self, problems: Problem | Iterable[Problem]) -> None:
         found = (problems,) if isinstance(problems, Problem) else tuple(problems)

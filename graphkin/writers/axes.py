@@ -38,7 +38,7 @@ SIGNS = ("pole", "point", "pin", "centre", "number")
 def put_marks(
     ax: Axes, marks: Sequence[Mark], origin: tuple[float, float], ink: Ink = "colour"
 ) -> None:
-    """Draw marks to scale, lettering included, with a place of the page at the axes' origin, in mm."""
+    """Draw marks to scale in mm, with lettering, and a place of the page at the axes' origin."""
     page = Affine2D().translate(-origin[0], -origin[1]).scale(1, -1)
     for order, mark in enumerate(marks):
         for patch in patches(mark, style_of(mark.cls, ink), page):

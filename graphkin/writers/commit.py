@@ -33,8 +33,7 @@ FORWARD, BACK, DRAFT = "forward.json", "back.json", "draft.json"
 ASIDE = re.compile(r"\.graphkin-([0-9]+)\.part")
 """A single temporary file, with its process."""
 FEW = 8
-"""The most files that are flushed one by one; more are flushed by one call, if the system has it.
-"""
+"""The most files that are flushed one by one; more are flushed by one call, if available."""
 
 
 class CommitPlan(Struct, frozen=True):
@@ -242,7 +241,7 @@ def move(source: Path, target: Path, failed: str = "cannot be replaced") -> None
 
 
 def keep(target: Path, old: Path) -> None:
-    """Keep a file under another name as well, by a link, or a copy where links are not available."""
+    """Keep a file under another name as well, by a link, or by a copy."""
     try:
         os.link(target, old, follow_symlinks=False)
     except (OSError, NotImplementedError):

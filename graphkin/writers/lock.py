@@ -30,8 +30,7 @@ class InUseError(PageError):
 
 @contextmanager
 def locked(folder: Path, patience: float = 0.0) -> Iterator[str]:
-    """Hold a folder while files are written into it; yields the last holder that did not release
-    it.
+    """Hold a folder while files are written into it; yields a last holder that was killed.
 
     The holder is empty after a run that ended normally. A killed process holds nothing: its lock is
     stale and taken over. Raises InUseError, with the process and its age, if another run still

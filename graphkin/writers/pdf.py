@@ -72,7 +72,7 @@ def path(points: Iterable[Point], top: float) -> str:
 
 
 def curve(arc: Arc, top: float) -> str:
-    """Write an arc as Bézier pieces short enough to deviate from the circle by less than 0.001 mm."""
+    """Write an arc as Bézier pieces that deviate from the circle by less than 0.001 mm."""
     most = 45.0 if arc.r <= 100 else 22.5
     count = max(1, ceil(abs(arc.end - arc.start) / most))
     turn = radians(arc.end - arc.start) / count

@@ -1,8 +1,9 @@
-"""Make the sheet's font: Source Sans 3 upright, STIX Two italic, what they lack from DejaVu Sans.
+"""Make the sheet's font from Source Sans 3 (upright) and STIX Two (italic), and DejaVu Sans.
 
 A tool for maintainers (needs fontTools, brotli and matplotlib): ``python make_fonts.py FOLDER``.
-FOLDER holds the unpacked packages source-sans-3 and stix-two-text of Fontsource. Capitals of all
-are equally high. Running it twice gives the same bytes; nothing here is needed to write sheets.
+FOLDER holds the unpacked packages source-sans-3 and stix-two-text of Fontsource. DejaVu Sans
+supplies characters that they lack. Capitals of all fonts are scaled to one height. Two runs give
+the same bytes. Writing sheets does not need this module.
 """
 
 from __future__ import annotations
@@ -33,7 +34,7 @@ FACES = {
     ),
 }
 PARTS = ("latin", "latin-ext", "greek", "greek-ext")
-"""The files into which Fontsource divides a face; not every one has all."""
+"""The files into which Fontsource divides a face; not every face has all."""
 EM, CAPITAL = 1000, 660
 """Font units in an em, and the height of capitals in them."""
 ASCENT, DESCENT = 1024, 400
@@ -48,7 +49,7 @@ SIGNS = (
 
 
 def wanted() -> set[int]:
-    """Tell the code points the sheets may use: Latin, Romanian, Italian, Greek and signs."""
+    """The code points that sheets may use: Latin, Romanian, Italian, Greek and symbols."""
     latin = set(range(0x20, 0x7F)) | set(range(0xA0, 0x180)) - {0xAD}
     comma_below = set(range(0x218, 0x21C))
     greek = set(range(0x386, 0x3CF)) | {0x3D1, 0x3D5, 0x3D6, 0x3F1, 0x3F5}
@@ -57,14 +58,14 @@ def wanted() -> set[int]:
 
 
 def sources(folder: Path, package: str, style: str, other: str) -> list[TTFont]:
-    """The fonts of a face in the order in which signs are looked for."""
+    """The fonts of a face, in the order of search for a character."""
     files = folder / package / "package" / "files"
     found = [files / f"{package}-{part}-400-{style}.woff2" for part in PARTS]
     return [TTFont(path) for path in (*found, DEJAVU / other) if path.exists()]
 
 
 def face_of(fonts: list[TTFont], postscript: str, style: str) -> TTFont:
-    """A face with the wanted signs, each from the first font that has it."""
+    """A face with the wanted characters, each from the first font that has it."""
     capital = [height(font) for font in fonts]
     glyphs, widths, names = {".notdef": TTGlyphPen(None).glyph()}, {".notdef": EM // 2}, {}
     for code in sorted(wanted()):
@@ -108,7 +109,7 @@ def height(font: TTFont) -> int:
 
 
 def scaled(font: TTFont, name: str, scale: float) -> object:
-    """The outline of a sign in units of the made font, without references to others."""
+    """The outline of a character in units of the new font, without references to others."""
     drawn = DecomposingRecordingPen(font.getGlyphSet())
     font.getGlyphSet()[name].draw(drawn)
     pen = TTGlyphPen(None)
@@ -117,7 +118,7 @@ def scaled(font: TTFont, name: str, scale: float) -> object:
 
 
 def bounds(font: TTFont, name: str) -> tuple[int, int]:
-    """The lowest and the highest ink of a sign, in font units."""
+    """The lowest and the highest ink of a character, in font units."""
     pen = BoundsPen(font.getGlyphSet())
     font.getGlyphSet()[name].draw(pen)
     _, low, _, high = pen.bounds or (0, 0, 0, 0)
@@ -134,7 +135,7 @@ def measures(font: TTFont) -> dict[str, list[int]]:
 
 
 def main() -> None:
-    """Write both faces as .ttf and .woff2, the metrics and the licences beside this file."""
+    """Write both faces as .ttf and .woff2, with the metrics and licences, into this folder."""
     folder = Path(sys.argv[1])
     metrics: dict[str, object] = {"unitsPerEm": EM, "capHeight": CAPITAL}
     metrics |= {"ascent": ASCENT, "descent": -DESCENT}

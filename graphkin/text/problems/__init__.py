@@ -20,8 +20,7 @@ GAP = re.compile(r"\{\d\}")
 PARTS = (re.compile(r"; (?![^(]*\))"), re.compile(", "))
 """The separators of sentences, and of list members."""
 WEAK = 4
-"""The most letters of a weak template, such as "{1} or {2}", whose fillings must be translatable.
-"""
+"""The most letters of a template, such as "{1} or {2}", that needs translatable fillings."""
 QUOTED = re.compile(r'"[^"]*"|\{.*?\}|\[.*?\]|\w+ = \S+')
 WORD = re.compile(r"(?<![\w-])[a-z]{3,}(?![\w-])")
 """An English word, not one of TOML or a name."""
@@ -49,9 +48,7 @@ class Sentences:
 
     @cached_property
     def gapped(self) -> list[tuple[tuple[str, ...], str]]:
-        """The templates with gaps: the text between the gaps, and the English sentence; longest
-        first.
-        """
+        """The templates with gaps: text between gaps, and the English sentence; longest first."""
         gapped = [(tuple(GAP.split(each)), each) for each in self.templates if GAP.search(each)]
         return sorted(gapped, key=lambda pair: -sum(map(len, pair[0])))
 
