@@ -426,7 +426,7 @@ class Clearance:
         return np.asarray(crossed & (self.kind.take(shape) != BOX))
 
     def _toll(self, some: Open, leader: Array) -> Array:
-        """Return the cost of leaders, for lines crossed or skirted; infinite across a box or point"""
+        """Return the cost of leaders for lines crossed or skirted; infinite across a box."""
         columns = leader.T.copy()
         x0, y0, x1, y1 = columns
         ways = np.minimum(x0, x1), np.minimum(y0, y1), np.maximum(x0, x1), np.maximum(y0, y1)

@@ -1,1 +1,1 @@
-"""Photographs of drawn sheets: whose each is, where its points lie, and what is right of them."""
+"""Photographs of drawn sheets: their owners, the positions of their points, and what is correct."""

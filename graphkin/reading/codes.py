@@ -1,4 +1,4 @@
-"""The opaque code of a student in a picture, and where its square lies."""
+"""The opaque code of a student in a picture, and the position of its square."""
 
 from __future__ import annotations
 
@@ -12,8 +12,10 @@ from msgspec import Struct
 from graphkin.classroom.printing.personal import QUIET, SIDE, corners_of_a3, modules
 
 AGREES, BEFORE = 0.85, 0.08
-"""The share of its modules by which a square that cannot be read is one of some, and by how much
-that must be more than the share of any other: two squares have about three quarters in common.
+"""Conditions for an unreadable square to count as one of some: agreement, and lead over others.
+
+AGREES is the share of its modules that must agree. BEFORE is the required lead over any other
+square. Two squares have about three quarters of their modules in common.
 """
 
 
@@ -25,7 +27,7 @@ class FoundCode(Struct, frozen=True):
 
 
 def codes_in(grey: Any) -> list[FoundCode]:
-    """The codes in a grey picture; a faint or noisy one is looked for in several ways."""
+    """The codes in a grey picture; a faint or noisy code is searched for in several ways."""
     import zxingcpp
 
     square: Any = zxingcpp.BarcodeFormat.QRCode
@@ -37,21 +39,21 @@ def codes_in(grey: Any) -> list[FoundCode]:
 
 
 def ways_to_look(grey: Any) -> Iterator[tuple[Any, float]]:
-    """The picture as it is, with its light evened, and smaller; each with how much smaller."""
+    """The picture itself, with even lighting, and smaller; each with the factor of reduction."""
     yield grey, 1.0
     yield cv2.createCLAHE(4.0, (16, 16)).apply(cv2.GaussianBlur(grey, (0, 0), 1.0)), 1.0
     yield cv2.resize(grey, None, fx=0.5, fy=0.5, interpolation=cv2.INTER_AREA), 2.0
 
 
 def corners_of(position: Any) -> Any:
-    """The corners of a square as an array."""
     order = position.top_left, position.top_right, position.bottom_right, position.bottom_left
     return np.array([(corner.x, corner.y) for corner in order], dtype=float)
 
 
 def code_among(sheet: Any, density: float, codes: Sequence[str]) -> FoundCode | None:
-    """Of some codes of one length that whose square stands on a sheet that lies flat, so many
-    pixels for each mm, where a part of it is not seen; None where none surely is.
+    """The one of some codes whose partly hidden square is on a flattened sheet, or None.
+
+    All codes have one length. ``density`` is in pixels per mm. None where the match is uncertain.
     """
     squares = np.array([modules(code) for code in codes], dtype=float)
     count = squares.shape[1]

@@ -1,6 +1,6 @@
-"""The marking desk: a page of this computer alone, for what a person decides of drawings.
+"""The marking desk: a page on this computer only, for a person's decisions on drawings.
 
-It reads the records and pictures of one folder and writes one file into it, decision by decision.
+It reads the records and pictures of one folder and writes each decision to one file in it.
 """
 
 from __future__ import annotations
@@ -33,7 +33,7 @@ SAID = (
 
 
 class DeskSession(Struct, dict=True):
-    """The readings of a folder and what is decided of them; one request at a time."""
+    """The readings of a folder and the decisions on them; one request at a time."""
 
     folder: Path
     words: Words
@@ -44,14 +44,14 @@ class DeskSession(Struct, dict=True):
         self.lock = Lock()
 
     def sheets(self) -> list[dict[str, Any]]:
-        """All sheets as they stand, those that were refused last."""
+        """All sheets with their decisions, refused ones last."""
         with self.lock:
             standing = self.settled.standing
             read = sorted(self.records.values(), key=lambda each: each.refused is not None)
             return [self.told(each, standing) for each in read]
 
     def told(self, record: SheetRecord, standing: Any) -> dict[str, Any]:
-        """A sheet as the page has it."""
+        """A sheet as sent to the page."""
         points = [
             msgspec.to_builtins(each, enc_hook=as_text) for each in settled_points(record, standing)
         ]
@@ -70,7 +70,7 @@ class DeskSession(Struct, dict=True):
         }
 
     def decide(self, data: bytes) -> dict[str, Any]:
-        """Let a decision stand. Raises PageRequestError for one on no point, or of no kind."""
+        """Record a decision. Raises PageRequestError for an unknown point or a bad decision."""
         try:
             decision = msgspec.json.decode(data, type=PointDecision)
         except msgspec.MsgspecError as error:
@@ -89,7 +89,7 @@ class DeskSession(Struct, dict=True):
             return self.told(record, self.settled.standing)
 
     def undo(self) -> dict[str, Any]:
-        """Take the last decision back; the sheet on which it was made."""
+        """Take the last decision back, and return the sheet it concerned."""
         with self.lock:
             if not self.settled.lines:
                 return {}

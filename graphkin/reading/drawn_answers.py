@@ -1,7 +1,7 @@
-"""The fields of the form that a drawing tells: lengths of vectors, and places, in mm of paper.
+"""The fields of the form that a drawing answers: lengths of vectors, and places, in mm of paper.
 
-A point that a person has yet to look at leaves its fields open: they are written as ?, which
-``grade`` neither counts as wrong nor as right.
+A point that a person has yet to check leaves its fields open. They are written as ?, which
+``grade`` counts neither as wrong nor as right.
 """
 
 from __future__ import annotations
@@ -26,11 +26,11 @@ from graphkin.text.errors import GraphkinError, Refusals
 
 ANSWERS = "answers.csv"
 Places = Mapping[int, complex | None]
-"""Where steps lie on paper; None for what is not drawn. What is not there at all is open."""
+"""Positions of steps on paper; None for a step that is not drawn. A missing step is open."""
 
 
 class DrawnRow(Struct, frozen=True):
-    """What the drawings of a student tell: a cell for each field, and which of them follow."""
+    """The answers from a student's drawings: a cell for each field, and which of them follow."""
 
     who: str
     cells: tuple[str, ...]
@@ -38,16 +38,16 @@ class DrawnRow(Struct, frozen=True):
 
 
 def answers_table(opened: Edition, out: Path, refusals: Refusals) -> bytes:
-    """The answers of all whose sheets were read, in the order of the roster."""
+    """The answers of all students with sheets that were read, in the order of the roster."""
     head = ["id", *(item.field for item in drawn_items(opened))]
     rows: list[list[object]] = [[row.who, *row.cells] for row in drawn_rows(opened, out, refusals)]
     return csv_text([head, *rows]).encode("utf-8")
 
 
 def drawn_rows(opened: Edition, out: Path, refusals: Refusals) -> Iterator[DrawnRow]:
-    """What was read and decided by now, of each student whose sheets were read.
+    """The current readings and decisions of each student with sheets that were read.
 
-    All is open of a student for whom that cannot be worked out, and why is noted.
+    If they cannot be computed for a student, all fields are open and the reason is recorded.
     """
     standing = SettledPoints(out).standing
     try:
@@ -71,7 +71,7 @@ def drawn_row(
     standing: Standing,
     form: tuple[Item, ...],
 ) -> DrawnRow:
-    """What was read and decided by now of a student's own sheets, by their kinds."""
+    """The current readings and decisions of a student's own sheets, by their kinds."""
     language = opened.words().language
     order = PrintOrder(opened.lab, opened.scene, language, "colour")
     sheets = sheets_of(order, taker, language)
@@ -98,12 +98,12 @@ def is_followed(probe: Probe, verdicts: Mapping[int, str]) -> bool:
 
 
 def drawn_items(opened: Edition) -> tuple[Item, ...]:
-    """The fields of the form that a drawing tells."""
+    """The fields of the form that a drawing answers."""
     return tuple(item for item in opened.book.form if item.what in ("segment", "place"))
 
 
 def places_of(sheet: LetteredSheet, record: SheetRecord, standing: Standing) -> Places:
-    """Where the steps of a sheet lie, as far as that is decided; printed ones where they are."""
+    """The positions of the steps of a sheet, as far as decided; printed ones have their own."""
     found: dict[int, complex | None] = {}
     steps = sheet.exact.program.steps
     for number, value in sheet.exact.trace.values.items():
@@ -119,7 +119,7 @@ def places_of(sheet: LetteredSheet, record: SheetRecord, standing: Standing) -> 
 
 
 def cell(probe: Probe, places: Mapping[int, tuple[str, complex | None]]) -> str:
-    """The answer to a field: nothing where it is not drawn, ? where it is not decided."""
+    """The answer to a field: empty if it is not drawn, ? if it is undecided."""
     if any(step not in places for step in probe.steps):
         return OPEN
     (_, first), (_, last) = places[probe.steps[0]], places[probe.steps[-1]]

@@ -1,4 +1,4 @@
-"""What a hand has put on the paper: dark thin lines in the fields of a sheet, in mm of paper."""
+"""The ink drawn by hand: dark thin lines in the fields of a sheet, in mm of paper."""
 
 from __future__ import annotations
 
@@ -15,59 +15,60 @@ from graphkin.drawing.style import style_of
 from graphkin.reading.paper_map import PaperMap
 
 DENSITY = 6.0
-"""Pixels for each mm of the flattened picture."""
+"""Pixels per mm of the flattened picture."""
 OPEN = 4.0
 """Dark places broader than this, in mm, are shadow and not ink."""
 FINE, COARSE = 0.12, 0.5
-"""Of a line and of the paper about it, in mm: what is darker than its surroundings."""
+"""Widths of a line and of the surrounding paper, in mm, for the detection of contrast."""
 LINES = 98.0
-"""Per cent of the paper lighter than a usual line."""
+"""Percentile of the paper's darkness that is a usual line."""
 FAINT = 0.012
-"""What a usual line takes of the light at least: less is the grain of the paper."""
+"""The least share of light that a usual line takes; less is the grain of the paper."""
 MASK = 0.35
-"""Millimetres about printed ink that are not looked at."""
+"""Millimetres about printed ink that are not examined."""
 STEP = 0.12
-"""Distance, across a line, of the places where it is looked for, in mm."""
+"""Distance of samples across a line, in mm."""
 STRAYS = 0.3
-"""By so many mm a line that is fitted may leave the window in which it was seen: one that leaves it
-farther is another.
+"""How far, in mm, a fitted line may leave the window in which it was seen.
+
+A line that leaves it further is another line.
 """
 ENDS = 1.6
-"""Millimetres at both ends of a line that are not looked at: heads, circles, letters."""
+"""Millimetres at both ends of a line that are not examined: heads, circles, letters."""
 LEAST_ERROR = 0.1
-"""Standard deviation of a line across, at least, in mm: a hand's lines are not quite straight."""
+"""Least standard deviation of a line across, in mm: hand-drawn lines are not quite straight."""
 TOLD = 0.4
-"""The share of a way that is not below printed ink, for it to tell something."""
+"""The least share of a path outside printed ink for a conclusion."""
 BOW = 5.0
-"""Half the length of a compass arc that is looked at, in mm."""
+"""Half the length of an examined compass arc, in mm."""
 ARRIVES = 0.35
-"""By how much less of the last piece of a way may be drawn: letters, heads and pale ends."""
+"""Allowed lack of ink in the last piece of a path, because of letters, heads and pale ends."""
 PAPER = 0.08
-"""Standard deviation of a place that is read, whatever the lines say: the map's, in mm."""
+"""Least standard deviation of a place that is read, in mm: that of the map."""
 COVERED = 0.3
-"""A place of a line counts as drawn from this part of a usual line on."""
+"""Share of a usual line's darkness above which a place of a line counts as drawn."""
 
 RUN, RUNS, GAP, PITCH = 6.0, 0.8, 1.4, 0.2
-"""A line ends where, after so many mm of which that share is drawn, so many mm are empty; how close
-it is looked at.
+"""The end of a line: RUN mm of which the share RUNS is drawn, then GAP mm empty.
+
+PITCH is the distance of samples, in mm.
 """
 SPECKS = 0.3
-"""The share of what counts as empty that may be dark: a letter stands near, or the paper's grain.
-"""
+"""The share of an empty piece that may be dark, from a letter nearby or the paper's grain."""
 MARKS = np.arange(0.45, 2.6, 0.15)
-"""Radii of the dots, rings and crosses by which a point is marked, in mm; the last lie beyond."""
+"""Radii of the dots, rings and crosses that mark a point, in mm; the last are outside them."""
 OFF_LINE = 0.5
-"""A mark whose middle lies farther from a line, in mm, is none of a point on it."""
+"""Distance from a line, in mm, beyond which a mark does not belong to a point on it."""
 ASIDE = np.arange(0.3, 0.5, 0.05)
-"""How far beside a printed line is seen what is drawn over it, in mm."""
+"""Distances beside a printed line, in mm, at which ink drawn over it is visible."""
 BEYOND, MARKED = 6, 0.7
-"""How many radii on there is paper again; the share of a mark that is drawn at least."""
+"""Radii after which there is paper again, and the least share of a mark that is drawn."""
 ASLANT, MOST_NODES = 12.0, 6
-"""Degrees at least by which another line leaves a line; the places where some do that are told."""
+"""The least angle in degrees at which another line leaves a line, and the most such places."""
 
 
 class InkLine(Struct, frozen=True):
-    """A straight line that was found: two places (mm, complex, y down), how much of it is there."""
+    """A straight line that was found: two places (mm, complex, y down), and the share drawn."""
 
     start: complex
     end: complex
@@ -81,29 +82,29 @@ class InkLine(Struct, frozen=True):
         return (self.end - self.start) / abs(self.end - self.start)
 
     def off(self, place: complex) -> float:
-        """How far a place lies beside it, in mm, to the left or to the right."""
+        """The signed distance of a place from the line, in mm."""
         return float(((place - self.start) * self.way.conjugate()).imag)
 
 
 class InkStroke(Struct, frozen=True):
-    """A line that comes to a place: how far beyond it the line ends, in mm; None: it goes on."""
+    """A line that reaches a place, and its end beyond it in mm; None if the line goes on."""
 
     end: float | None
 
 
 class DrawnInk(Struct, frozen=True):
-    """The drawn lines of a sheet's fields: ``dark`` is 1 on a usual line and 0 on paper.
+    """The drawn lines in a sheet's fields: ``dark`` is 1 on a usual line and 0 on paper.
 
-    ``known`` is 0 where printed ink hides what was drawn.
+    ``known`` is 0 where printed ink hides the drawing.
     """
 
     dark: Any
     known: Any
     sway: float = 0.0
-    """By how much (mm, standard deviation) places are known less well than those of flat paper."""
+    """Additional uncertainty of places on rippled paper (mm, standard deviation)."""
 
     def at(self, places: Any) -> tuple[Any, Any]:
-        """Darkness and whether it is known at some places (complex mm)."""
+        """Darkness at some places (complex mm), and whether it is known."""
         x = ((places.real - AREA[0]) * DENSITY - 0.5).astype(np.float32)
         y = ((places.imag - AREA[1]) * DENSITY - 0.5).astype(np.float32)
         shape = x.shape
@@ -115,7 +116,7 @@ class DrawnInk(Struct, frozen=True):
     def lines(
         self, start: complex, end: complex, beside: float, beyond: float, most: int = 3
     ) -> list[InkLine]:
-        """Lines from about a place to about another, that pass so far beside them at most."""
+        """Lines between two approximate places, passing within given distances of them."""
         long = abs(end - start)
         if not np.isfinite(long):
             return []
@@ -135,7 +136,7 @@ class DrawnInk(Struct, frozen=True):
         ]
 
     def arcs(self, centre: complex, radius: float, place: complex, beside: float) -> list[InkLine]:
-        """Arcs about a centre near a place, each as the line that touches it there."""
+        """Arcs about a centre near a place, each as its tangent there."""
         if not abs(place - centre) > BOW or not np.isfinite(radius):
             return []
         out = (place - centre) / abs(place - centre)
@@ -153,9 +154,7 @@ class DrawnInk(Struct, frozen=True):
         return lines
 
     def stroke(self, place: complex, way: complex, reach: float) -> InkStroke | None:
-        """How a line that comes along a direction goes on about a place; None where it does not
-        come so far.
-        """
+        """The continuation of a line about a place; None if the line does not reach it."""
         along = np.arange(-reach - RUN, reach + GAP + PITCH, PITCH)
         across = np.arange(-0.3, 0.31, 0.15)
         dark, known = self.at(place + way * (along[:, None] + 1j * across[None, :]))
@@ -171,8 +170,9 @@ class DrawnInk(Struct, frozen=True):
         return InkStroke(None) if near.mean() >= RUNS else None
 
     def spot(self, places: Any, way: complex | None) -> complex | None:
-        """Where, of some places, a dot, a ring or a small cross marks a point, beside a line that
-        runs there; None where nothing does.
+        """The one of some places at which a dot, ring or small cross marks a point, or None.
+
+        ``way`` is the direction of a line that runs there; the mark must be beside it.
         """
         turns = np.exp(1j * np.radians(np.arange(0.0, 360.0, 15.0)))
         if way is not None:
@@ -195,14 +195,16 @@ class DrawnInk(Struct, frozen=True):
         return complex(places[near].mean())
 
     def is_marked_beside(self, place: complex, way: complex) -> bool:
-        """Whether the mark that is seen at a place of a line rather stands beside the line."""
+        """Whether the mark at a place of a line is rather beside the line."""
         near = np.arange(-MARKS[-1] / 2, MARKS[-1] / 2 + PITCH / 2, PITCH)
         mark = self.spot((place + way * (near[:, None] + 1j * near[None, :])).ravel(), way)
         return mark is not None and abs(((mark - place) / way).imag) > OFF_LINE
 
     def on_print(self, place: complex, way: complex, reach: float) -> float | None:
-        """How far along a printed line, from a place on it, a dot, a ring or a stroke across it is
-        drawn, or a line that lies on it begins, as seen on both sides of it; None: nowhere.
+        """The distance along a printed line to a hand-drawn mark on it, or None.
+
+        The mark is a dot, a ring, a stroke across, or the start of a line on top of it, as seen on
+        both sides.
         """
         along = np.arange(-reach - RUN, reach + RUN + PITCH, PITCH)
         dark, _ = self.at(place + way * (along[:, None] + 1j * np.concatenate([-ASIDE, ASIDE])))
@@ -224,7 +226,7 @@ class DrawnInk(Struct, frozen=True):
         return min(near, key=abs) if near else None
 
     def node(self, place: complex, way: complex, reach: float) -> float | None:
-        """How far along a line, from a place on it, most others leave it; None where none does."""
+        """The distance along a line, from a place on it, where most others leave it, or None."""
         along = np.arange(-reach, reach + PITCH, PITCH)
         leaving, rays = self.leaving(place + along * way, way, 3.0)
         strength = np.minimum(leaving.sum(axis=1) / 2, 3.0) - abs(along) / reach
@@ -240,7 +242,7 @@ class DrawnInk(Struct, frozen=True):
         return float(along[best]) - back if abs(back) < GAP else None
 
     def nodes(self, start: complex, way: complex, long: float) -> list[complex]:
-        """The places of a line from a place on that others leave, those that most do first."""
+        """The places of a line, from a place on, that other lines leave, the busiest first."""
         along = np.arange(RUN, long, 3 * PITCH)
         leaving, _ = self.leaving(start + along * way, way, 6.0)
         strength = np.where(leaving.max(axis=1) >= RUNS, leaving.sum(axis=1), 0.0)
@@ -253,7 +255,7 @@ class DrawnInk(Struct, frozen=True):
         return [start + each * way for each in found]
 
     def leaving(self, places: Any, way: complex, turn: float) -> tuple[Any, Any]:
-        """How surely lines leave a line at some places, in each of many directions; these."""
+        """How surely lines leave a line at some places, in each of many directions, and these."""
         turns = np.radians(np.arange(ASLANT, 360 - ASLANT, turn))
         rays = way * np.exp(1j * turns[abs(turns - np.pi) > np.radians(ASLANT)])
         radii = np.arange(ENDS, RUN + ENDS, 1.5 * PITCH)
@@ -270,13 +272,13 @@ class DrawnInk(Struct, frozen=True):
         *,
         arrives: bool = False,
     ) -> float:
-        """How much of the way between two places is drawn, straight but for so many mm beside.
+        """The share of the straight path between two places that is drawn, within ``beside`` mm.
 
-        ``hidden`` is what stands for a way most of which lies below printed ink. ``arrives``: of
-        the whole way, or of its last piece where less of that is drawn: else it ends before.
+        ``hidden`` is the result for a path that is mostly below printed ink. With ``arrives``, the
+        last piece of the path limits the share, so that a line which ends before does not count.
         """
         long = abs(end - start)
-        if not long >= 2.5 * ENDS:  # nor where one end is nowhere
+        if not long >= 2.5 * ENDS:  # false for NaN, too
             return 0.0
         way = (end - start) / long
         along = np.linspace(ENDS, long - ENDS, max(8, int(long * 2)))
@@ -294,21 +296,21 @@ class DrawnInk(Struct, frozen=True):
 
 
 def offsets(far: float) -> Any:
-    """Distances across a line, so far to both sides."""
+    """Distances across a line, up to ``far`` on both sides."""
     half = int(far / STEP) + 2
     return np.arange(-half, half + 1) * STEP
 
 
 Fitted = tuple[float, float, float, float]
-"""How far a line lies to the side at both ends, how much of it is drawn, its deviation."""
+"""A line's distance to the side at both ends, its drawn share, and its deviation."""
 
 
 def fitted(
     strip: Any, known: Any, across: Any, part: Any, windows: tuple[float, float], most: int
 ) -> list[Fitted]:
-    """The lines along a strip that pass within windows at both of its ends, the best first.
+    """The lines along a strip that pass through windows at both of its ends, the best first.
 
-    ``part`` is where its rows stand, from 0 at one end to 1 at the other.
+    ``part`` is the position of its rows, from 0 at one end to 1 at the other.
     """
     strip = np.clip(strip, 0, 1) * known
     middle, count = len(across) // 2, len(part)
@@ -336,9 +338,7 @@ def fitted(
 def refined(
     strip: Any, known: Any, across: Any, part: Any, near: float, distant: float
 ) -> Fitted | None:
-    """Where the line of a strip really runs: its distance at both ends, how much of it is drawn,
-    and its standard deviation.
-    """
+    """The exact line of a strip: its distance at both ends, its drawn share and its deviation."""
     for width in (0.5, 0.35):
         centre = near * (1 - part) + distant * part
         weight = strip * (abs(across[None, :] - centre[:, None]) < width)
@@ -382,7 +382,7 @@ def drawn_ink(grey: Any, over: PaperMap, page: Page) -> DrawnInk:
 
 
 def flattened(grey: Any, over: PaperMap, rect: Any, density: float) -> Any:
-    """A part of the sheet as if it lay flat under the eye, so many pixels for each mm."""
+    """A part of the sheet as if flat and seen from above, with ``density`` pixels per mm."""
     left, top, right, bottom = rect
     width, height = round((right - left) * density), round((bottom - top) * density)
     coarse = 8
@@ -397,7 +397,7 @@ def flattened(grey: Any, over: PaperMap, rect: Any, density: float) -> Any:
 
 
 def printed_mask(page: Page, shape: Any) -> Any:
-    """1 where a page's own ink stands in the fields, with a margin."""
+    """1 where a page's own ink is in the fields, with a margin."""
     mask = np.zeros(shape, np.uint8)
     for mark in page.marks:
         for outline, width in outlines(mark):
@@ -412,7 +412,7 @@ def printed_mask(page: Page, shape: Any) -> Any:
 
 
 def outlines(mark: Mark) -> Iterator[tuple[list[tuple[float, float]], float]]:
-    """The outline of a printed mark in the fields, and the width of its line; boxes of texts."""
+    """The outlines of a printed mark in the fields, with line widths; boxes for texts."""
     left, top, right, bottom = reach(mark)
     if right < AREA[0] or left > AREA[2] or bottom < AREA[1] or top > AREA[3]:
         return

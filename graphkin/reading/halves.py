@@ -1,7 +1,8 @@
-"""Two A4 scans of the halves of one A3 sheet, put together to one picture of the sheet.
+"""Two A4 scans of the halves of one A3 sheet, combined into one picture of the sheet.
 
-The frame is the same on all sheets. In each half its upper corner is looked for, in all four turns
-and at the density of a scanner; from there its lines are followed. The code is read of the whole.
+The frame is the same on all sheets. In each half, its upper corner is searched for, in all four
+orientations and at the density of a scanner. From there its lines are followed. The code is read
+from the combined picture.
 """
 
 from __future__ import annotations
@@ -21,21 +22,22 @@ from graphkin.reading.pictures import Unreadable
 from graphkin.reading.registration import BENT_FROM, SHARED, SIDES, SheetSearch, segments
 
 CUT, HIGH = 210.0, 297.0
-"""Where the sheet is parted, and how high it is, in mm."""
+"""Where the sheet is divided, and its height, in mm."""
 DENSITY = 9.0
-"""Pixels for each mm of the sheet that is put together."""
+"""Pixels per mm of the combined sheet."""
 CORNERS = {"left": (8.0, 4.0, 68.0, 64.0), "right": (352.0, 4.0, 412.0, 64.0)}
-"""The corner of each half that is looked for, in mm."""
+"""The corner of each half that is searched for, in mm."""
 COARSE, ROOM = 3.0, 30.0
-"""Pixels for each mm where it is looked for, and how far it lies from its place on the glass."""
+"""Pixels per mm in the search, and the distance from the corner's place on the glass, in mm."""
 SCANNERS = (100, 150, 200, 240, 300, 400, 600)
-"""Pixels for each inch."""
+"""Pixels per inch."""
 WHOLE = (0.0, 0.0, 420.0, 297.0)
 
 
 def put_together(left: Any, right: Any, page: Page) -> Any:
-    """The sheet whose halves are two grey pictures, framed as a page. Raises Unreadable where a
-    half is not found.
+    """The sheet from grey pictures of its two halves, with the frame of a page.
+
+    Raises Unreadable where a half is not found.
     """
     frame = replace(page, marks=[m for m in page.marks if style_class(m) in SHARED])
     first, second = half_found(left, frame, "left"), half_found(right, frame, "right")
@@ -62,15 +64,16 @@ def half_found(grey: Any, frame: Page, half: str) -> PaperMap:
 
 
 def seen(over: PaperMap, grey: Any) -> Any:
-    """Which pixels of the sheet lie in a picture of a half."""
+    """Which pixels of the sheet are in a picture of a half."""
     inside = np.zeros(grey.shape, np.uint8)
     inside[1:-1, 1:-1] = 255
     return flattened(inside, over, WHOLE, DENSITY) > 0
 
 
 def corners_in(grey: Any, frame: Page, rect: tuple[float, float, float, float]) -> list[Any]:
-    """Where a corner of the frame may lie in a scan, as the pixels of its rectangle's own corners,
-    for each turn of the scan, that in which it looks most like one first.
+    """The possible positions of a frame corner in a scan, as pixels of its rectangle's corners.
+
+    There is one for each orientation of the scan, the most likely first.
     """
     high = max(grey.shape) / HIGH * 25.4
     shrink = COARSE * 25.4 / min(SCANNERS, key=lambda dpi: abs(dpi - high))
@@ -98,7 +101,7 @@ def corners_in(grey: Any, frame: Page, rect: tuple[float, float, float, float]) 
 
 
 def printed_ink(page: Page, rect: tuple[float, float, float, float]) -> Any:
-    """The lines of a part of a page as they are printed, 1 where there is ink."""
+    """The printed lines of a part of a page, 1 where there is ink."""
     left, top, right, bottom = rect
     found = np.zeros((round((bottom - top) * COARSE), round((right - left) * COARSE)), np.uint8)
     for x1, y1, x2, y2, cls in segments(page):

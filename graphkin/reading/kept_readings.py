@@ -11,11 +11,11 @@ from graphkin.scene.file_limits import whole_file
 from graphkin.text.errors import PageError, Problem
 
 READING, PICTURE = ".reading.json", ".jpg"
-"""How the names of a record and of its picture end."""
+"""The endings of the names of a record and its picture."""
 
 
 def kept(out: Path, name: str) -> SheetRecord | None:
-    """The record of a photograph in a folder; None where there is none that is whole."""
+    """The record of a photograph in a folder; None without a complete one."""
     try:
         data = whole_file(out / f"{name}{READING}")
         return msgspec.json.decode(data, type=SheetRecord)

@@ -1,5 +1,6 @@
-"""The lettered points of a student's sheet, in the order of the construction, and what leads to
-each: the lines, bars and arrows that meet there.
+"""The lettered points of a student's sheet, in construction order, and what leads to each.
+
+These are the lines, bars and arrows that meet at the point.
 """
 
 from __future__ import annotations
@@ -25,24 +26,24 @@ from graphkin.drawing.marks import Page
 from graphkin.numbers.plane import Circle, Line, Ratio, Vector
 
 LETTERED = (Part.POSITION, Part.VELOCITY, Part.ACCELERATION, Part.CENTRE, Part.POLE)
-"""The parts of the work whose points are read."""
+"""The parts of the construction whose points are read."""
 SHORT = 3.0
-"""Millimetres from a point within which the beginning of a line tells nothing of it."""
+"""Millimetres from a point within which the start of a line gives no information on it."""
 EXACT = 1e-6
 """Millimetres within which a line passes exactly through a point."""
 LONGEST = 420.0
-"""Lines longer than the paper, in mm, lead to what lies off it."""
+"""Length in mm beyond which a line leads off the paper."""
 AHEAD = 40.0
-"""How far along a line that begins at the point itself it is looked for, in mm."""
+"""Length in mm over which a line is searched for that starts at the point itself."""
 
 
 class Leading(Struct, frozen=True):
-    """What leads to a point: the step of its other end, a point, or a line that begins there.
+    """A line that leads to a point: its far end, a point, or a line that starts there.
 
-    ``given`` tells that the line is printed, ``bow`` that it is the arc of a compass, ``after``
-    that it is drawn through the point or from it when that is there, ``arrow`` that it is a vector
-    that begins or ends at the point and does not go on, ``back`` that the other end is the tail of
-    a vector, ``light`` that it is a side of a similar triangle that dividers do without.
+    ``given`` marks a printed line, and ``bow`` the arc of a compass. ``after`` marks a line drawn
+    through the point, or from it, once it is there. ``arrow`` is a vector that begins or ends at
+    the point and does not continue. ``back`` means that the far end is the tail of a vector.
+    ``light`` is a side of a similar triangle, unnecessary with dividers.
     """
 
     far: int
@@ -67,7 +68,7 @@ class LetteredSheet(Struct, frozen=True, dict=True):
 
     @cached_property
     def layout(self) -> Layout:
-        """Where its fields are."""
+        """The layout of its fields."""
         return lay_out(self.drawing)
 
     @cached_property
@@ -83,7 +84,7 @@ class LetteredSheet(Struct, frozen=True, dict=True):
         return self.layout.mechanism if step.plane is Plane.MECHANISM else self.layout.plan
 
     def place(self, number: int, value: Any) -> Any:
-        """Where a value of a step lies on paper: complex mm, y down. Of a line, where it begins."""
+        """The position of a step's value on paper: complex mm, y down. For a line, its start."""
         if isinstance(value, Ratio):
             value = value.start + value.shift / value.size
         elif isinstance(value, Line):
@@ -97,7 +98,7 @@ class LetteredSheet(Struct, frozen=True, dict=True):
         return complex(*field.at) + shift.conjugate()
 
     def value(self, number: int, place: complex) -> Any:
-        """The value of a step that lies at a place of the paper."""
+        """The value of a step at a given place of the paper."""
         field = self.field(number)
         found = (place - complex(*field.at)).conjugate() / field.mm + field.middle
         exact = self.exact.trace.values[number]
@@ -105,19 +106,20 @@ class LetteredSheet(Struct, frozen=True, dict=True):
 
     @cached_property
     def points(self) -> tuple[int, ...]:
-        """The steps of the points that are read, in the order of the construction."""
+        """The steps of the points that are read, in construction order."""
         return tuple(number for number in self.exact.order if self.is_read(number))
 
     @cached_property
     def found_by(self) -> Mapping[int, int]:
-        """The points that are read, by the steps that give them by hand."""
+        """The points that are read, by the steps that construct them by hand."""
         hands = {self.exact.by_hand(number): number for number in self.points}
         return {hand: number for hand, number in hands.items() if hand is not None}
 
     @cached_property
     def order(self) -> tuple[int, ...]:
-        """The steps that a pencil changes, each point directly after what gives it by hand; the
-        rates of trial plans are printed, and do not follow from what was read.
+        """The steps that a pencil changes, each point directly after its construction by hand.
+
+        The rates of trial plans are printed and do not follow from the readings.
         """
         apart = set(self.found_by.values())
         for trials in constructions(self.exact.program, TwoTrials):
@@ -132,9 +134,7 @@ class LetteredSheet(Struct, frozen=True, dict=True):
 
     @cached_property
     def corners(self) -> tuple[int, ...]:
-        """The steps of the corners of the plan that bear no letter of their own: ends of components
-        from which lines are drawn, and the points of auxiliary plans.
-        """
+        """The steps of plan corners without a letter: ends of components, and auxiliary points."""
         steps, values = self.exact.program.steps, self.exact.trace.values
         lettered = set(self.points)
         return tuple(
@@ -149,7 +149,7 @@ class LetteredSheet(Struct, frozen=True, dict=True):
         )
 
     def is_read(self, number: int) -> bool:
-        """Whether a step is a lettered point of this sheet that a hand finds."""
+        """Whether a step is a lettered point of this sheet that is found by hand."""
         step, value = self.exact.program.steps[number], self.exact.trace.values[number]
         own = step.plane is self.drawing.plane or number in self.on_mechanism
         lettered = bool(step.name) and step.aside is None and step.part in LETTERED
@@ -167,7 +167,7 @@ class LetteredSheet(Struct, frozen=True, dict=True):
 
     @cached_property
     def leading(self) -> Mapping[int, tuple[Leading, ...]]:
-        """What leads to each point that is read."""
+        """The lines that lead to each point that is read."""
         return {
             number: tuple(dict.fromkeys(self.led(number)))
             for number in (*self.points, *self.corners)
@@ -175,7 +175,7 @@ class LetteredSheet(Struct, frozen=True, dict=True):
 
     @cached_property
     def key_lines(self) -> tuple[tuple[float, float, float, float], ...]:
-        """The ways that lead to the points of the key, in mm: what a person holds drawings to."""
+        """The paths that lead to the points of the key, in mm, for comparison with drawings."""
         values, found = self.exact.trace.values, dict[tuple[float, float, float, float], None]()
         for number, every in self.leading.items():
             end = complex(self.place(number, values[number]))
@@ -188,7 +188,7 @@ class LetteredSheet(Struct, frozen=True, dict=True):
         return tuple(found)
 
     def led(self, number: int) -> Iterator[Leading]:
-        """What leads to a point: its own lines, then arrows, then bars."""
+        """The lines that lead to a point: its own lines, then arrows, then bars."""
         steps, values = self.exact.program.steps, self.exact.trace.values
         hand = steps[number].by_hand
         for way in (number, hand) if hand is not None and hand in values else (number,):
@@ -211,7 +211,7 @@ class LetteredSheet(Struct, frozen=True, dict=True):
         yield from self.after(number)
 
     def printed_through(self, number: int) -> Iterator[int]:
-        """The printed guides on which a point of a moving link lies, however a hand finds it."""
+        """The printed guides through a point of a moving link, however it is found by hand."""
         steps, values = self.exact.program.steps, self.exact.trace.values
         own = values[number]
         if steps[number].plane is Plane.MECHANISM and isinstance(own, complex):
@@ -223,13 +223,13 @@ class LetteredSheet(Struct, frozen=True, dict=True):
 
     @cached_property
     def vectors(self) -> tuple[tuple[int, int], ...]:
-        """The points at the tail and at the tip of each vector that joins two."""
+        """The points at the tail and tip of each vector that joins two points."""
         steps = self.exact.program.steps
         joined = (steps[n] for n in self.exact.trace.values if steps[n].action is join)
         return tuple((step.args[0], step.args[1]) for step in joined if step.arrow)
 
     def after(self, number: int) -> Iterator[Leading]:
-        """The lines that are drawn through a point when it is there, and the arrows set at it."""
+        """The lines drawn through a point once it is there, and the arrows that start at it."""
         steps, values = self.exact.program.steps, self.exact.trace.values
         own = values[number]
         if not isinstance(own, complex):
@@ -250,7 +250,7 @@ class LetteredSheet(Struct, frozen=True, dict=True):
                         yield Leading(other, after=True, back=back)
 
     def is_given(self, number: int) -> bool:
-        """Whether a line is that of a printed guide: nothing of it was drawn."""
+        """Whether a line is that of a printed guide, of which nothing was drawn."""
         steps, pending = self.exact.program.steps, [number]
         while pending:
             step = steps[pending.pop()]
@@ -263,7 +263,7 @@ class LetteredSheet(Struct, frozen=True, dict=True):
 
     @cached_property
     def guides(self) -> frozenset[int]:
-        """The lines of the mechanism that are nothing but guides of the frame."""
+        """The lines of the mechanism that are only guides of the frame."""
         steps = self.exact.program.steps
         return frozenset(
             number
@@ -281,7 +281,7 @@ class LetteredSheet(Struct, frozen=True, dict=True):
 
     @cached_property
     def bars(self) -> Mapping[int, tuple[int, ...]]:
-        """For each point of the mechanism the others of its links."""
+        """For each point of the mechanism, the other points of its links."""
         targets, found = self.exact.program.targets, dict[int, list[int]]()
         for link in self.drawing.scene.links.values():
             numbers = [targets.get(("position", point)) for point in link.points]

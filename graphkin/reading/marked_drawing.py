@@ -1,6 +1,6 @@
-"""The drawing that goes back: the photograph with green and red over it, and a line for each point.
+"""The returned drawing: the photograph with green and red marks, and a line for each point.
 
-As a page for a browser, and as a PDF of the same picture with the same lines.
+It is a page for a browser, and a PDF of the same picture with the same lines.
 """
 
 from __future__ import annotations
@@ -32,27 +32,27 @@ from graphkin.writers.templates import from_template
 GREEN, RED, YELLOW = "#087a2c", "#c21807", "#c77800"
 COLOURS = {"right": GREEN, "follows": GREEN, "wrong": RED, "missing": YELLOW, "unread": YELLOW}
 DENSITY = 5.0
-"""Pixels for each mm of the picture in a PDF."""
+"""Pixels per mm of the picture in a PDF."""
 STILL = gmtime(315532800)
-"""The time of a PDF: none, so that the same readings give the same bytes."""
+"""A fixed time for PDFs, so that the same readings give the same bytes."""
 LINE, MARGIN = 34, 30
 """Height of a line of text and margin of a PDF's page, in pixels."""
 
 
 class MarkedSheet(Struct, frozen=True):
-    """One drawing with what is said of it; ``picture`` is a JPEG."""
+    """One drawing with its comments; ``picture`` is a JPEG."""
 
     title: str
     picture: bytes
     points: tuple[PointReading, ...]
     lines: tuple[tuple[str, str], ...]
-    """What is said of each point, with its colour."""
+    """The comment on each point, with its colour."""
 
 
 def drawings_of_class(
     opened: Edition, folder: Path, words: Words, kinds: Sequence[str], refusals: Refusals
 ) -> dict[str, bytes]:
-    """The marked drawings of all whose sheets were read, by the names of their files."""
+    """The marked drawings of all students with sheets that were read, by file name."""
     standing = SettledPoints(folder).standing
     records = latest_of(records_in(folder), standing)
     names = stems([t.student.id for t in opened.takers], [t.code for t in opened.takers])
@@ -72,7 +72,7 @@ def drawings_of_class(
 def marked_sheet(
     folder: Path, record: SheetRecord, taker: Taker, standing: Standing, words: Words
 ) -> MarkedSheet:
-    """One drawing of a student with what is said of it."""
+    """One drawing of a student with its comments."""
     points = settled_points(record, standing)
     here = [each for each in standing.values() if each.sheet == record.name]
     notes = {each.step: each.note for each in here}
@@ -85,7 +85,7 @@ def marked_sheet(
 def said_of(
     points: Sequence[PointReading], notes: dict[int, str], words: Words
 ) -> Iterator[tuple[str, str]]:
-    """What is said of each point, with its colour."""
+    """The comment on each point, with its colour."""
     for point in points:
         if point.verdict == "unread" and not point.ask:
             continue  # by hand, no mark needs it
@@ -95,14 +95,14 @@ def said_of(
 
 
 def colour_of(point: PointReading) -> str:
-    """Green, red, or yellow for what nobody has decided; what is surely missing is red."""
+    """Green or red, or yellow if undecided; a point that is surely missing is red."""
     if point.ask:
         return YELLOW
     return RED if point.verdict == "missing" else COLOURS[point.verdict]
 
 
 def sentence(point: PointReading, words: Words) -> str:
-    """What is said of one point."""
+    """The comment on one point."""
     if point.ask or point.verdict == "unread":
         return words("marked.open", point=point.name)
     if point.at is None or point.verdict in ("missing", "right"):
@@ -122,12 +122,12 @@ def sentence(point: PointReading, words: Words) -> str:
 
 
 def tenths(value: float, words: Words) -> str:
-    """A number to the tenth, as the language writes it."""
+    """A number to the tenth, in the format of the language."""
     return words.decimal(f"{value:.1f}")
 
 
 def as_page(sheets: Sequence[MarkedSheet], words: Words) -> bytes:
-    """The drawings as one page for a browser, which needs no other file."""
+    """The drawings as one self-contained page for a browser."""
     shown = [
         {
             "title": sheet.title,
@@ -148,7 +148,7 @@ def as_page(sheets: Sequence[MarkedSheet], words: Words) -> bytes:
 
 
 def as_pdf(sheets: Sequence[MarkedSheet], words: Words) -> bytes:
-    """The drawings as a PDF, a page for each."""
+    """The drawings as a PDF, one page each."""
     from PIL import Image, ImageDraw, ImageFont
 
     font = ImageFont.truetype(str(font_file(italic=False)), 22)

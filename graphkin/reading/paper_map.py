@@ -1,7 +1,7 @@
-"""From millimetres of paper to pixels: a camera's perspective, its lens, and the bow of the paper.
+"""The map from mm of paper to pixels: a camera's perspective, its lens, and the paper's bending.
 
-The paper's own unevenness is a smooth shift of its places before the camera sees them: products of
-Legendre's polynomials, held small, and the smaller the more they bend.
+The unevenness of the paper is a smooth shift of its places before the camera sees them. It consists
+of products of Legendre polynomials, kept small, and smaller for higher degrees.
 """
 
 from __future__ import annotations
@@ -16,19 +16,19 @@ from msgspec import Struct
 from graphkin.reading.paper_ripple import Ripple
 
 MIDDLE, HALF = (210.0, 148.5), 210.0
-"""The middle of an A3 sheet and half its width, in mm: the unit of the paper's own places."""
+"""The middle of an A3 sheet and half its width, in mm: the unit of places on the paper."""
 FLAT = 148.5 / 210.0
 DEGREE = 5
 """Highest degree of the paper's bending."""
 BENDS = tuple((i, j) for i, j in product(range(DEGREE + 1), repeat=2) if 2 <= i + j <= DEGREE)
-"""The degrees across and down of each bending."""
+"""The degrees across and down of each bending term."""
 TILTS, LENS, PLAIN = slice(6, 8), 8, 9
-"""Where the parameters stand: eight of the perspective, one of the lens, then those of bending."""
+"""Indices of the parameters: eight of the perspective, one of the lens, then the bending."""
 COUNT = PLAIN + 2 * len(BENDS)
 
 
 class PaperMap(Struct, frozen=True, dict=True):
-    """A map from paper to a picture of so many pixels: its parameters, and the paper's ripples."""
+    """A map from paper to a picture of a given size: its parameters, and the paper's ripples."""
 
     width: int
     height: int
@@ -37,7 +37,7 @@ class PaperMap(Struct, frozen=True, dict=True):
 
     @cached_property
     def array(self) -> Any:
-        """The parameters."""
+        """The parameters as an array."""
         return np.array(self.parameters)
 
     def __call__(self, places: Any) -> Any:
@@ -47,12 +47,12 @@ class PaperMap(Struct, frozen=True, dict=True):
         return pixels_of(self.array, places, self.width, self.height)
 
     def scale(self, place: Any) -> float:
-        """Pixels for each mm about a place, geometric mean of both ways."""
+        """Pixels per mm about a place, the geometric mean of both directions."""
         across, along = self.ways(np.asarray(place, dtype=float))
         return float(np.sqrt(abs(across[0] * along[1] - across[1] * along[0])))
 
     def ways(self, places: Any) -> tuple[Any, Any]:
-        """By how many pixels a mm to the right goes, and a mm down, about some places."""
+        """The shift in pixels per mm to the right and per mm down, about some places."""
         right, down = np.array([0.5, 0.0]), np.array([0.0, 0.5])
         return self(places + right) - self(places - right), self(places + down) - self(
             places - down
@@ -82,13 +82,13 @@ def seen_at(parameters: Any, u: Any, v: Any, width: int, height: int) -> Any:
 
 
 def bendings(u: Any, v: Any) -> Any:
-    """Each bending at some places."""
+    """Each bending term at some places."""
     across, down = legendre(u), legendre(v / FLAT)
     return np.stack([across[i] * down[j] for i, j in BENDS], axis=-1)
 
 
 def legendre(x: Any) -> list[Any]:
-    """Legendre's polynomials at some places; beyond the sheet they go on flat."""
+    """Legendre polynomials at some places; beyond the sheet they are constant."""
     x = np.clip(x, -1.05, 1.05)
     found = [np.ones_like(x), x]
     for n in range(1, DEGREE):
@@ -97,7 +97,7 @@ def legendre(x: Any) -> list[Any]:
 
 
 def prior(bent: float) -> Any:
-    """How large each parameter is expected to be; ``bent``: the simplest bending, in mm."""
+    """The expected size of each parameter; ``bent`` is the simplest bending, in mm."""
     found = np.full(COUNT, 10.0)
     found[TILTS] = 0.25
     found[LENS] = 0.1

@@ -1,8 +1,8 @@
-"""What a smooth map leaves of the paper's ripples: how far off lines and crosses of it lie.
+"""The ripples of the paper that a smooth map leaves: deviations of lines and crosses from it.
 
-Between them it is what a random field with the same length and height would most likely have
-(Rasmussen and Williams, Gaussian Processes for Machine Learning, 2006, eqs. 2.23, 2.24, 5.12); its
-deviation there is the map's.
+Between them, the ripple is the most likely value of a random field with the same length and height
+(Rasmussen and Williams, Gaussian Processes for Machine Learning, 2006, eqs. 2.23, 2.24, 5.12). The
+field's deviation there is the map's.
 """
 
 from __future__ import annotations
@@ -15,29 +15,29 @@ from msgspec import Struct
 from graphkin.drawing.field import AREA
 
 LENGTH = 17.0
-"""Over so many mm ripples are alike: their waves are 45 mm long and longer."""
+"""Correlation length of ripples in mm: their waves are 45 mm long and longer."""
 EVERY = 3
-"""Of the places of lines, 3 mm apart, so many are one."""
+"""Every how many of the places of lines, 3 mm apart, one is used."""
 ACROSS, CROSSED = 0.05, 0.04
-"""Standard deviations of a line across and of a cross that were measured, in mm."""
+"""Standard deviations of measured lines, across, and of crosses, in mm."""
 LEAST = 0.01
-"""Height of a field of ripples at least, in mm."""
+"""Least height of a field of ripples, in mm."""
 STRAY, TRIED = 4.0, 3
-"""What lies so many deviations off what all others tell is left out, as often at most."""
+"""Deviations from all other values beyond which a value is left out, and the most such rounds."""
 PITCH, BEGIN, COUNT = 4.0, (0.0, 0.0), (106, 76)
-"""Where the field is kept: places so many mm apart from the sheet's corner on, across and down."""
+"""Grid of the field: distance of places in mm, the sheet's corner, and counts across and down."""
 TOLD = 12.0
-"""How far apart the places in the fields are at which its deviation is told, in mm."""
+"""Distance of the places in the fields at which the deviation is evaluated, in mm."""
 
 
 class Ripple(Struct, frozen=True):
-    """How far (mm) places of the paper lie off a smooth map, and the deviation in the fields."""
+    """The shift (mm) of places of the paper from a smooth map, and its deviation in the fields."""
 
     field: Any
     deviation: float
 
     def __call__(self, places: Any) -> Any:
-        """How far some places (mm) lie off, from the four about each."""
+        """The shift (mm) of some places, from the four grid places about each."""
         steps = (places - np.array(BEGIN)) / PITCH
         most = np.array(COUNT) - 1.001
         steps = np.clip(steps, 0, most)
@@ -49,7 +49,7 @@ class Ripple(Struct, frozen=True):
 
 
 class Offsets(Struct, frozen=True):
-    """How far (mm) places of paper lie off a map along directions, and how well each is known."""
+    """Shifts (mm) of places of paper from a map, along directions, and their errors."""
 
     places: Any
     ways: Any
@@ -57,12 +57,12 @@ class Offsets(Struct, frozen=True):
     errors: Any
 
     def some(self, which: Any) -> Offsets:
-        """Those that are picked."""
+        """A selection of them."""
         return Offsets(self.places[which], self.ways[which], self.off[which], self.errors[which])
 
 
 def ripple_of(lines: Offsets, crosses: Offsets) -> Ripple:
-    """The ripples that lines and crosses tell, without those that stray from all others."""
+    """The ripples from lines and crosses, without values that deviate from all others."""
     lines = lines.some(slice(None, None, EVERY))
     parts = zip(*((o.places, o.ways, o.off, o.errors) for o in (lines, crosses)), strict=True)
     known = Offsets(*(np.concatenate(part) for part in parts))
@@ -86,24 +86,24 @@ def ripple_of(lines: Offsets, crosses: Offsets) -> Ripple:
 
 
 def spread(off: Any) -> float:
-    """The standard deviation of offsets, whatever some of them are."""
+    """The robust standard deviation of shifts."""
     return 1.4826 * float(np.median(abs(off))) if len(off) else 0.0
 
 
 def likeness(apart: Any) -> Any:
-    """How alike ripples are so many mm apart along one axis."""
+    """The correlation of ripples at some mm apart along one axis."""
     return np.exp(-((apart / LENGTH) ** 2) / 2)
 
 
 def covariance(known: Offsets, height: float) -> Any:
-    """The covariance of what was measured."""
+    """The covariance of the measurements."""
     (x, y), (u, v) = known.places.T, known.ways.T
     alike = likeness(x[:, None] - x) * likeness(y[:, None] - y)
     return height**2 * alike * (np.outer(u, u) + np.outer(v, v)) + np.diag(known.errors**2)
 
 
 def deviation(known: Offsets, inverse: Any, height: float) -> float:
-    """The standard deviation along each axis that is left of a field, on average of the fields."""
+    """The remaining standard deviation of a field along each axis, averaged over the fields."""
     left, top, right, bottom = AREA
     xs, ys = np.arange(left, right, TOLD), np.arange(top, bottom, TOLD)
     places = np.stack(np.meshgrid(xs, ys), axis=-1).reshape(-1, 2)

@@ -1,6 +1,6 @@
-"""Photographs and scans as they come, opened with care: grey, upright, and nothing else of them.
+"""Photographs and scans as received, opened safely: grey, upright, and without other data.
 
-What a camera writes beside a picture (place, time, owner) is not read and goes nowhere.
+Metadata of the camera (place, time, owner) are not read and not stored.
 """
 
 from __future__ import annotations
@@ -25,33 +25,33 @@ from graphkin.text.errors import FileError, Problem
 from graphkin.writers.files import file_part
 
 KINDS = (".jpg", ".jpeg", ".png", ".heic", ".heif", ".pdf")
-"""The files that are read."""
+"""The file types that are read."""
 FORMATS = ("JPEG", "PNG", "HEIF")
-"""What they hold; of several pictures in one file the first."""
+"""Their formats; of several pictures in one file, the first is used."""
 OTHERS = (
     *(".tif", ".tiff", ".gif", ".bmp", ".webp", ".avif", ".jp2", ".jxl", ".dng", ".raw", ".svg"),
     *(".zip", ".docx", ".odt"),
 )
-"""Files of a folder that may hold a drawing and are not read: each is refused by its name."""
+"""File types that may hold a drawing but are not read; each is refused by name."""
 MOST_BYTES = 200 << 20
 MOST_PIXELS, MOST_SIDE, LEAST_SIDE = 120_000_000, 20_000, 900
-"""Pixels of a picture and of its longer side at most, and those of its shorter side at least."""
+"""The most pixels of a picture and of its longer side, and the fewest of its shorter side."""
 MOST_UNPACKED = 4 * MOST_PIXELS
-"""Bytes that any part of a PDF file may have, unpacked."""
+"""The most bytes of any part of a PDF file, unpacked."""
 GROWTH = {"/LZWDecode": 1400, "/LZW": 1400, "/RunLengthDecode": 64, "/RL": 64}
-"""How many times as large what other ways to pack hold may be, unpacked."""
+"""The largest growth by unpacking, for other compression methods."""
 HALVES = "-left", "-right"
-"""How the names of the pictures of a sheet's halves end."""
+"""The endings of the names of the pictures of a sheet's halves."""
 MOST_PAGES = 2000
-"""Pages of a PDF file; one with more is refused."""
+"""The most pages of a PDF file; larger files are refused."""
 EXPECTED = "a JPEG, PNG, HEIC or PDF file"
 
 
 class Photograph(Struct, frozen=True):
-    """A picture by the name that its reading has: its file, and which page of a PDF it is.
+    """A picture, by the name of its reading: its file, and its page of a PDF.
 
-    ``left`` is the picture of the left half of a sheet of which this one is the right half;
-    ``refused`` says why it is not looked at.
+    ``left`` is the picture of the left half of a sheet, of which this one is the right half.
+    ``refused`` is the reason for not examining it.
     """
 
     name: str
@@ -62,19 +62,19 @@ class Photograph(Struct, frozen=True):
 
     @property
     def shown_name(self) -> str:
-        """The name of its own file, where a reading of it bears that name."""
+        """The name of its own file, if its reading has that name."""
         whole = self.path.stem if self.page is None and self.left is None else self.name
         return whole if file_part(whole) == self.name else self.name
 
 
 class Unreadable(Exception):
-    """Why a picture cannot be read, in one line."""
+    """The reason why a picture cannot be read, in one line."""
 
 
 def photographs(paths: list[Path]) -> list[Photograph]:
-    """The pictures in some files and folders, by name; of those of one name each is refused.
+    """The pictures in some files and folders, by name; those with equal names are refused.
 
-    Raises FileError, all at once, for what is not there.
+    Raises FileError, for all at once, where files are missing.
     """
     found: list[Photograph] = []
     problems: list[Problem] = []
@@ -97,7 +97,7 @@ def photographs(paths: list[Path]) -> list[Photograph]:
 
 
 def pictures_in(folder: Path) -> Iterator[Path]:
-    """The files of a folder that are read, or might be meant to be; and folders of such in it."""
+    """The files of a folder that are read or perhaps intended, and subfolders with pictures."""
     for path in sorted(folder.iterdir()):
         if path.is_dir():
             inside = [each.name.lower() for each in path.iterdir()]
@@ -109,7 +109,7 @@ def pictures_in(folder: Path) -> Iterator[Path]:
 
 
 def twin(own: Photograph, every: list[Photograph]) -> Photograph:
-    """A picture whose name others have as well: it is refused, for readings are kept by name."""
+    """A refused picture with the name of another, because readings are kept by name."""
     others = [each for each in every if each.name == own.name and each is not own]
     said = f"has the name of {others[0].path}: rename one of them, readings are kept by name"
     page = f", page {own.page + 1}" if own.page is not None else ""
@@ -117,7 +117,7 @@ def twin(own: Photograph, every: list[Photograph]) -> Photograph:
 
 
 def with_halves(found: list[Photograph]) -> list[Photograph]:
-    """Some pictures, the two halves of a sheet (NAME-left, NAME-right) as one of the sheet."""
+    """The pictures, with the two halves of a sheet (NAME-left, NAME-right) combined."""
     named = {each.name: each for each in found}
     left, right = HALVES
     sheets = []
@@ -152,17 +152,17 @@ def pages_of(path: Path) -> Iterator[Photograph]:
 
 
 def count_of_pages(path: Path) -> int:
-    """The pages of a PDF file; one where it cannot be read, which is then told of that page."""
+    """The number of pages of a PDF file; one if it is unreadable, so that the page reports it."""
     try:
         with opened_pdf(file_bytes(path, MOST_BYTES)) as pdf:
             return len(pdf.pages)
-    except Exception:  # whatever it is, it is told when the page is read
+    except Exception:  # any error is reported when the page is read
         return 1
 
 
 @contextmanager
 def opened_pdf(data: bytes) -> Iterator[Any]:
-    """A PDF file whose parts unpack to no more than they may, where pikepdf can see to that."""
+    """A PDF file with limits on unpacked sizes, if pikepdf supports them."""
     import pikepdf
 
     limit = getattr(pikepdf.settings, "set_qpdf_limits", None)
@@ -189,7 +189,7 @@ def hash_of_picture(photograph: Photograph) -> str:
 
 @lru_cache(maxsize=4)
 def hash_of_file(path: Path, changed: int) -> Any:
-    """The hash of a file's bytes, worked out once for all its pages."""
+    """The hash of a file's bytes, computed once for all its pages."""
     try:
         return sha256(file_bytes(path, MOST_BYTES))
     except (OSError, ValueError):
@@ -224,8 +224,9 @@ def grey_of(photograph: Photograph) -> Any:
 
 
 def darkest(image: Any) -> Any:
-    """The darkest of a picture's colours at each place, as greys: a coloured pencil is as dark
-    there as a grey one.
+    """The darkest of a picture's colours at each place, as greys.
+
+    A coloured pencil is then as dark as a grey one.
     """
     from PIL import Image, ImageChops
 
@@ -241,14 +242,14 @@ def darkest(image: Any) -> Any:
 
 
 def in_bytes(greys: Any) -> Any:
-    """Greys of more than eight bits as bytes, by the range that their largest shows they have."""
+    """Greys of more than eight bits as bytes, scaled by the range of their largest value."""
     most = float(greys.max(initial=0))
     top = next((top for top in (255.0, 4095.0, 65535.0) if most <= top), most)
     return np.clip(greys * (255.0 / top), 0, 255).astype(np.uint8)
 
 
 def opened(data: bytes) -> Any:
-    """A picture whose pixels are not yet read."""
+    """A picture with its pixels not yet read."""
     from PIL import Image
     from pillow_heif import register_heif_opener
 
@@ -259,7 +260,7 @@ def opened(data: bytes) -> Any:
 
 
 def refuse_size(width: int, height: int) -> None:
-    """Raise Unreadable for a picture that is too large, or too small to hold a sheet's lines."""
+    """Raise Unreadable for a picture that is too large, or too small for a sheet's lines."""
     if width * height > MOST_PIXELS:
         found = f"has {width * height / 1e6:.0f} million pixels"
         raise Unreadable(f"{found}, {MOST_PIXELS // 10**6} at most")
@@ -270,7 +271,7 @@ def refuse_size(width: int, height: int) -> None:
 
 
 def scanned(data: bytes, page: int) -> Any:
-    """The picture that fills a page of a PDF file: the largest on it."""
+    """The scan on a page of a PDF file: its largest picture."""
     import pikepdf
 
     try:
@@ -286,14 +287,14 @@ def scanned(data: bytes, page: int) -> Any:
             return image.rotate(-turn, expand=True) if turn else image
     except Unreadable:
         raise
-    except Exception:  # other colours, other ways to pack, damage: pikepdf raises many kinds
+    except Exception:  # other colours, other compression, damage: pikepdf raises many kinds
         raise Unreadable("is no PDF file whose scan can be read: save it as JPEG") from None
 
 
 def refuse_bomb(image: Any) -> None:
-    """Raise Unreadable where the bytes of a picture in a PDF file are far more than its pixels.
+    """Raise Unreadable where a picture's bytes in a PDF file far exceed its pixels.
 
-    They are unpacked as far as what is expected, and never all held at once with what is more.
+    They are unpacked only up to the expected size, and never held in memory beyond it.
     """
     rows, bits = int(image.Height), int(image.get("/BitsPerComponent", 8))
     expected = rows * (int(image.Width) * 4 * bits // 8 + 2) + 1024

@@ -1,8 +1,8 @@
-"""Points read as a marker reads them: one after the other, each expected from those before it.
+"""Points read in a marker's way: one after another, each expected from those before it.
 
-What is expected of a point is a cloud: drawings of the construction with this pencil from the
-student's own earlier points. What lies there is right, or follows from an own mistake; the rest,
-and all doubts, are asked.
+The expectation of a point is a cloud: drawings of the construction with this pencil from the
+student's own earlier points. A point inside it is right, or follows from an own mistake. A person
+is asked about all others, and about all doubtful ones.
 """
 
 from __future__ import annotations
@@ -37,36 +37,39 @@ from graphkin.reading.point_search import (
 )
 
 OUTSIDE, APART = 6.5, 3.0
-"""The squared distance from the key, in deviations, beyond which a place is none that the pencil
-explains (95 of 100 lie within 6.0); and that in mm, from which it may follow from a mistake that
-nobody saw.
+"""Squared distances from the key, in deviations, beyond which a place is not explained.
+
+OUTSIDE is the limit of the pencil (95 of 100 are within 6.0). APART, in mm, is the distance from
+which a place may follow from an undetected mistake.
 """
 RIVAL = 0.3
-"""By how much less likely another place may be, for somebody to be asked which it is."""
+"""Difference of likelihood up to which a person is asked about another place."""
 OFF = 16.0
-"""The squared distance from what is not expected, in deviations, from which a place is off it."""
+"""Squared distance from an unexpected place, in deviations, from which a place is off it."""
 VAGUE, MEET, BESIDE = 4.0, 3, 2.5
-"""Where the pencil explains so many mm, a point that fits is looked at all the same, unless so many
-lines meet there, nothing on the sheet is wrong or missing before it, and it lies no farther off
-than so many mm. Where fewer meet, one that lies farther off is looked at, and what follows from it:
-another's lines may cross there.
+"""Limits for points that fit but are checked by a person all the same.
+
+A point is checked where the pencil explains VAGUE mm. It is not checked if MEET lines cross there,
+nothing before it on the sheet is wrong or missing, and it is within BESIDE mm. Where fewer lines
+cross, a point further off is checked, and what follows from it: another point's lines may cross
+there.
 """
 AT_KEY = 2.0
-"""The squared distance from the key, in deviations, up to which a point is there."""
+"""Squared distance from the key, in deviations, up to which a point is at the key."""
 ELSEWHERE = 0.6
-"""By how much another place must be likelier than one that fits, for its vectors to go there."""
+"""Difference of likelihood by which vectors are attributed to another place than one that fits."""
 NEARLY = 0.85
-"""The share of the ways to a point that must be there for the same."""
+"""The share of the paths to a point that must be drawn for the same."""
 WHOLE = 0.9
-"""The share of its lines that must be there for nobody to be asked of a point."""
+"""The share of its lines that must be drawn for a point without a question."""
 SHORTEST = 1e-3
-"""A place that lies nearer to another, in mm, lies there."""
+"""Distance in mm within which two places are one."""
 LEVER = 15.0
-"""Two points so many mm apart tell the direction of the line that is drawn through them."""
+"""Distance in mm at which two points determine the direction of the line through them."""
 
 
 class PointReader(PointSearch):
-    """Reads one sheet: what is drawn against what the construction expects."""
+    """Reads one sheet: the drawing against the expectation of the construction."""
 
     def __init__(self, sheet: LetteredSheet, ink: DrawnInk, pencil: Pencil) -> None:
         super().__init__(sheet, ink, pencil)
@@ -118,14 +121,14 @@ class PointReader(PointSearch):
         return tuple(self.readings[number] for number in self.sheet.points)
 
     def places(self, number: int, cloud: Any, own: ExpectedPlace, best: LinesCrossing) -> Any:
-        """Where a point that was read may lie: what follows from it is known no better."""
+        """The possible positions of a point that was read; its consequences are no more certain."""
         errors = self.stream(number, 1).standard_normal((DRAWINGS, 2))
         if own.away(best.place, best.error) <= FITS:
             return own.narrowed(cloud, best, errors)
         return self.own[number] + (errors @ np.linalg.cholesky(best.error).T) @ [1, 1j]
 
     def is_joined(self, number: int) -> bool:
-        """Whether the vectors are drawn that join a point with those read after it."""
+        """Whether the vectors are drawn that join a point with points read after it."""
         order = self.sheet.order
         later = (
             each
@@ -136,9 +139,10 @@ class PointReader(PointSearch):
         return all(cover is None or cover >= AGREED for cover in covers)
 
     def lines_through(self, number: int, found: Mapping[int, Any]) -> dict[int, Line]:
-        """The drawn lines of the mechanism that lead to a point that was read, as they were drawn:
-        from where they begin to the point. What is drawn along them takes this direction, and not
-        that which a shorter bar before gave them.
+        """The drawn lines of the mechanism that lead to a point that was read, as drawn.
+
+        They run from their start to the point. Lines drawn along them take this direction, not the
+        direction from a shorter bar before.
         """
         drawn = dict[int, Line]()
         for each in self.sheet.leading[number]:
@@ -156,7 +160,7 @@ class PointReader(PointSearch):
         return drawn
 
     def read_corner(self, number: int, where: ExpectedPlace) -> LinesCrossing | None:
-        """A corner without a letter: taken where lines cross there; what is off is a mistake."""
+        """A corner without a letter, read where lines cross; a distant crossing is a mistake."""
         best = self.best_near(number, where) if np.isfinite(where.middle) else None
         away = np.inf if best is None else where.away(best.place, best.error)
         off = away > FITS and (
@@ -178,12 +182,14 @@ class PointReader(PointSearch):
         return best
 
     def corners(self) -> dict[int, tuple[float, float]]:
-        """Where the corners without letters were read, by their steps."""
+        """The positions of the corners without letters that were read, by step."""
         return {n: pair(self.own[n]) for n in self.sheet.corners if n in self.own}
 
     def read_point(self, number: int, key: ExpectedPlace, own: ExpectedPlace) -> PointReading:
-        """A point, looked for where it is expected, then where it may be after a mistake; there it
-        needs to be no likelier where all ways are drawn to it, and here they are not.
+        """A point, searched for where it is expected, then where it may be after a mistake.
+
+        The second place need not be likelier if all paths to it are drawn, and those to the first
+        are not.
         """
         if not np.isfinite(own.middle):
             return self.told(number, key, own, None)
@@ -217,15 +223,18 @@ class PointReader(PointSearch):
         return self.told(number, key, own, best, doubtful=not (fits and led))
 
     def is_at_ends(self, number: int, own: ExpectedPlace) -> bool:
-        """Whether a point is expected so near all known ends of what leads to it that no line can
-        be seen between: what leaves these ends is that of others, and somebody is asked.
+        """Whether a point is expected too near all known ends for a line to be visible between.
+
+        Lines that leave these ends belong to other points, and a person is asked.
         """
         ends = self.known_ends(number)
         return bool(ends) and all(abs(end - own.middle) < SHORT for end in ends)
 
     def elsewhere(self, number: int, place: complex, own: ExpectedPlace) -> LinesCrossing | None:
-        """Where the vectors go that run on beyond a place that fits: its lines cross there, and yet
-        somebody may have taken another place for the point.
+        """The destination of vectors that run on beyond a place that fits.
+
+        The lines cross at the place, and yet the student may have taken another place for the
+        point.
         """
         if max(self.beyond(number, place), default=0.0) < DRAWN:
             return None
@@ -236,8 +245,9 @@ class PointReader(PointSearch):
         return far if there > here + ELSEWHERE else None
 
     def rival(self, number: int, place: complex, own: ExpectedPlace) -> LinesCrossing | None:
-        """Where all ways of a plan meet and end about as well as at another place that fits:
-        vectors that nothing explains may be those of this point.
+        """A place where all paths of a plan meet and end about as well as at a place that fits.
+
+        Unexplained vectors there may be those of this point.
         """
         if self.sheet.field(number) is self.sheet.layout.mechanism:
             return None
@@ -258,17 +268,16 @@ class PointReader(PointSearch):
     def is_likelier(
         self, number: int, rival: LinesCrossing, best: LinesCrossing, own: ExpectedPlace
     ) -> bool:
-        """Whether a point rather lies at a rival of its place: all of its vectors end there, or
-        those at its place are another point's.
+        """Whether a point is more likely at a rival place.
+
+        All of its vectors end there, or those at its place belong to another point.
         """
         if self.is_one_with_another(number, best.place):
             return True
         return self.likely(number, rival.place, own) > self.likely(number, best.place, own)
 
     def is_one_with_another(self, number: int, place: complex) -> bool:
-        """Whether a point that was read before lies at a place as well: what leads there is
-        explained by it.
-        """
+        """Whether a point that was read before is at the same place and explains its lines."""
         steps = self.sheet.exact.program.steps
         return any(
             abs(self.own[other] - place) < SAME and steps[other].plane is steps[number].plane
@@ -284,7 +293,7 @@ class PointReader(PointSearch):
         *,
         doubtful: bool = False,
     ) -> PointReading:
-        """The verdict on what was found of a point."""
+        """The verdict on a point."""
         behind = self.behind(number)
         after, fresh = bool(self.bad & behind), bool(self.noted & behind)
         self.noted -= behind
@@ -364,13 +373,11 @@ class PointReader(PointSearch):
         )
 
     def swayed(self, away: float, off: float) -> float:
-        """The squared distance of a place that lies so far off, were it farther by what the paper's
-        ripples leave open.
-        """
+        """The squared distance of a place, increased by the uncertainty of the paper's ripples."""
         return away * (1 + self.ink.sway / max(off, SHORTEST)) ** 2
 
     def is_met(self, number: int, place: complex) -> bool:
-        """Whether ways to a place that are drawn cross there, and its vectors do not run on."""
+        """Whether drawn paths to a place cross there, and its vectors do not run on."""
         ways = [
             self.far_place(each, self.next)
             for each in self.sheet.leading[number]
@@ -380,8 +387,9 @@ class PointReader(PointSearch):
         return are_crossing(ways, place) and beyond < DRAWN
 
     def is_checked(self, behind: frozenset[int]) -> bool:
-        """Whether all points behind one are read, and nobody is asked of any of them: then no
-        mistake is unseen, however far the pencil takes it from the key.
+        """Whether all points before one are read without a question.
+
+        Then no mistake is undetected, however far the pencil takes the point from the key.
         """
         points = behind.intersection(self.sheet.points)
         corners = behind.intersection(self.sheet.corners)
@@ -392,8 +400,9 @@ class PointReader(PointSearch):
         )
 
     def is_there(self, number: int, best: LinesCrossing, key: ExpectedPlace) -> bool:
-        """Whether lines that are all drawn cross where the key has a point, on a sheet where
-        nothing is wrong so far: then it is right, whatever was not seen of the way to it.
+        """Whether fully drawn lines cross at the key's point, on a sheet without mistakes so far.
+
+        The point is then right, even if parts of the paths to it were not seen.
         """
         near = abs(best.place - key.middle) <= BESIDE and key.away(best.place, best.error) <= AT_KEY
         whole = best.count > 1 and self.agreement(number, best.place) >= WHOLE
@@ -410,7 +419,7 @@ class PointReader(PointSearch):
         return None, ""
 
     def behind(self, number: int) -> frozenset[int]:
-        """The steps from which a hand draws a point."""
+        """The steps from which a point is drawn by hand."""
         steps, values = self.sheet.exact.program.steps, self.sheet.exact.trace.values
         found, pending = set[int](), [number]
         while pending:
@@ -425,7 +434,7 @@ class PointReader(PointSearch):
 
 
 def forecast_points(sheet: LetteredSheet, pencil: Pencil) -> tuple[PointReading, ...]:
-    """The points of a sheet of which nothing is read, with what the pencil explains."""
+    """The points of an unread sheet, with the deviations that the pencil explains."""
     empty = np.zeros((2, 2), np.float32)
     keys = PointReader(sheet, DrawnInk(empty, empty), pencil).clouds()
     found = []

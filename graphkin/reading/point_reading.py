@@ -1,4 +1,4 @@
-"""What was read of one lettered point, and what is right of it."""
+"""The reading of one lettered point, and its verdict."""
 
 from __future__ import annotations
 
@@ -11,10 +11,11 @@ VERDICTS: tuple[ReadVerdict, ...] = ("right", "follows", "wrong", "missing", "un
 
 
 class PointReading(Struct, frozen=True):
-    """A lettered point: where it was read (mm of paper, y down), what is right of it, and whether a
-    person is to look at it. ``key`` is where it should be, ``own`` where it follows from the own
-    earlier points; ``off`` is how far it lies from that, ``error`` what the pencil explains (mm).
-    ``tail`` is a known point from which it is drawn, with its letter.
+    """A lettered point: its position (mm of paper, y down), its verdict, and whether to ask.
+
+    ``key`` is its correct position, and ``own`` the one that follows from the student's earlier
+    points. ``off`` is the distance from the latter, and ``error`` the deviation that the pencil
+    explains (mm). ``tail`` is a known point from which it is drawn, with its letter.
     """
 
     name: str
@@ -31,5 +32,5 @@ class PointReading(Struct, frozen=True):
 
 
 def pair(place: complex) -> tuple[float, float]:
-    """A place as it is written, to the thousandth of a mm."""
+    """A place as written, rounded to a thousandth of a mm."""
     return round(place.real, 3), round(place.imag, 3)

@@ -1,8 +1,8 @@
-"""Places of points looked for in a drawing: near where they are expected, then after a mistake.
+"""The search for points in a drawing: near their expected place, then after a mistake.
 
-Near, the place is where the lines cross that lead to it, where a single one ends or others leave
-it. After a mistake, rays are followed from the points that are known, and a place is the likelier
-the better what leads to it is drawn, ends there and runs as it should, and what follows from it.
+Near the expected place, a point is where its lines cross, where a single line ends, or where others
+leave it. After a mistake, rays are followed from the known points. A place is likelier if the lines
+to it are drawn, end there and have the right direction, and if its consequences are drawn.
 """
 
 from __future__ import annotations
@@ -22,15 +22,15 @@ from graphkin.reading.drawn_ink import COVERED, PAPER, PITCH, DrawnInk, InkLine
 from graphkin.reading.lettered_points import AHEAD, LONGEST, SHORT, Leading, LetteredSheet
 
 CROSSING = 0.12
-"""Least sine of the angle at which lines cross that give a point."""
+"""Least sine of the angle at which crossing lines determine a point."""
 PASSES = 0.45
-"""A line passes through a point that lies so many mm beside it at most."""
+"""Distance in mm within which a line passes through a point."""
 
 
 class LinesCrossing(Struct, frozen=True):
-    """A place where lines cross: its covariance, and how many lines and how well they are there.
+    """A crossing of lines: its covariance, the number of lines and their drawn share.
 
-    ``ends`` tells that a single line ends there.
+    ``ends`` means that a single line ends there.
     """
 
     place: complex
@@ -41,7 +41,7 @@ class LinesCrossing(Struct, frozen=True):
 
 
 def met(one: InkLine, other: InkLine) -> complex | None:
-    """Where two lines meet; None where they cross too flatly."""
+    """The intersection of two lines; None where they cross too flatly."""
     if abs(sine(one.way, other.way)) < CROSSING:
         return None
     along = ((other.start - one.start) * other.way.conjugate()).imag / (
@@ -51,24 +51,24 @@ def met(one: InkLine, other: InkLine) -> complex | None:
 
 
 def sine(one: complex, other: complex) -> float:
-    """The sine of the angle between two ways."""
+    """The sine of the angle between two directions."""
     return (one.conjugate() * other).imag / abs(one) / abs(other)
 
 
 def are_crossing(ends: Sequence[complex], place: complex) -> bool:
-    """Whether some of the ways from some ends to a place cross there."""
+    """Whether any two of the paths from some ends to a place cross there."""
     ways = [end - place for end in ends]
     return any(abs(sine(*both)) > CROSSING for both in combinations(ways, 2))
 
 
 def along_way(way: complex, along: float, across: float) -> Any:
-    """The covariance of a place that is known so well along a direction, and so well across it."""
+    """The covariance of a place with given deviations along a direction and across it."""
     turned = np.array([[way.real, -way.imag], [way.imag, way.real]])
     return turned @ np.diag([along**2, across**2 + PAPER**2 / 2]) @ turned.T
 
 
 def distinct(lines: list[list[InkLine]], place: complex) -> list[list[InkLine]]:
-    """The lines of what leads to a point, those that were found twice only once."""
+    """The lines that lead to a point, without duplicates."""
     kept: list[list[InkLine]] = []
     seen: list[InkLine] = []
     for some in lines:
@@ -89,7 +89,7 @@ def is_same(one: InkLine, other: InkLine, place: complex) -> bool:
 def through(
     place: complex, lines: Sequence[Sequence[InkLine]], within: float = PASSES
 ) -> LinesCrossing | None:
-    """The place nearest to all lines that pass through about a place, one of each."""
+    """The place nearest to all lines that pass near a place, one for each target."""
     chosen = []
     for some in lines:
         near = [line for line in some if abs(line.off(place)) < within and line.cover >= 0.5]
@@ -109,44 +109,45 @@ def through(
     return LinesCrossing(place + complex(*shift), error, len(chosen), cover)
 
 
-# --- where a point is expected, as the cloud of its drawings tells --------------------------------
+# --- the expected place of a point, from the cloud of its drawings---------------------------------
 
 
 CLOSE, ROOM, WIDEST = 0.7, 0.3, 10.0
-"""Least half width of the window for a point, what is added to its cloud's, and the most, in mm."""
+"""Least half width of a point's window, the margin added to its cloud, and the most, in mm."""
 
 
 class ExpectedPlace(Struct, frozen=True):
-    """Where a point is expected: the middle of a cloud (complex mm), and its covariance."""
+    """The expected place of a point: the middle of a cloud (complex mm), and its covariance."""
 
     middle: complex
     spread: Any
 
     @property
     def reach(self) -> float:
-        """Half the width of the window in which it is looked for."""
+        """Half the width of the search window."""
         wide = 3 * float(np.sqrt(max(np.linalg.eigvalsh(self.spread)[-1], 0.0)))
         return min(max(wide, CLOSE) + ROOM, WIDEST)
 
     @property
     def radius(self) -> float:
-        """Within so many mm of the middle 95 of 100 drawings have it."""
+        """Radius in mm that contains 95 of 100 drawings."""
         return 2.4477 * float(np.sqrt(np.trace(self.spread) / 2))
 
     def away(self, place: complex, error: Any) -> float:
-        """The squared distance of a place in deviations of both."""
+        """The squared distance of a place, in deviations of both."""
         off = np.array([(place - self.middle).real, (place - self.middle).imag])
         return float(off @ np.linalg.solve(self.spread + error, off))
 
     def weighed(self, found: LinesCrossing) -> complex:
-        """A place that fits, drawn to what is expected as far as its lines leave it open."""
+        """A place that fits, moved towards the expectation as far as its lines permit."""
         off = np.array([(found.place - self.middle).real, (found.place - self.middle).imag])
         share = np.linalg.solve(self.spread + found.error, off)
         return self.middle + complex(*(self.spread @ share))
 
     def narrowed(self, cloud: Any, found: LinesCrossing, errors: Any) -> Any:
-        """A cloud that fits, each of its places drawn to what was found as ``weighed`` does; the
-        standard errors (count, 2) are what the lines leave open.
+        """A cloud that fits, with each place moved towards the finding as by ``weighed``.
+
+        The standard errors (count, 2) are the freedom that the lines leave.
         """
         lines = np.linalg.cholesky(found.error) @ errors.T
         seen = np.array([[found.place.real], [found.place.imag]]) + lines
@@ -156,7 +157,7 @@ class ExpectedPlace(Struct, frozen=True):
 
 
 def expected(cloud: Any) -> ExpectedPlace:
-    """What a cloud expects."""
+    """The expected place from a cloud."""
     cloud = np.atleast_1d(np.asarray(cloud, dtype=complex))
     cloud = cloud[np.isfinite(cloud)]
     if not len(cloud):
@@ -170,66 +171,63 @@ def expected(cloud: Any) -> ExpectedPlace:
     return ExpectedPlace(middle, spread)
 
 
-# --- places of points looked for in a drawing -----------------------------------------------------
+# --- the search for points in a drawing------------------------------------------------------------
 
 
 DRAWINGS, SEED = 300, 23
 """Drawings in a cloud, and the seed of their errors."""
 KNOWN, GUESSED = 0.6, 1.6
-"""Half width of the window at the other end of a line: a point that was read, one that was not."""
+"""Half width of the window at the far end of a line, for a point read and one not read."""
 FITS, SURE = 11.0, 6.5
-"""The squared distance from what is expected, in deviations, up to which a place fits, and up to
-which nobody is asked.
-"""
+"""Squared distances from the expectation, in deviations, for a fit and for a sure one."""
 CLOSE_BY = 1.2
-"""So many mm from where it is expected the end of a single line is taken for a point, and one that
-the pencil leaves vague for right.
+"""Distance in mm from its expected place within which the end of a single line is a point.
+
+Within it, a point that the pencil leaves vague counts as right, too.
 """
 DRAWN = 0.7
-"""The share of a line that must be there for it to count."""
+"""The share of a line that must be drawn for it to count."""
 PRINTED = 0.3
 """Standard deviation of a hand's mark across the printed line of a guide, in mm."""
 END, NODE, SPOT = 0.8, 0.5, 0.2
-"""The same of the end of a line, of where others leave it, and of the mark of a point."""
+"""Standard deviations of a line's end, of a place where others leave it, and of a mark."""
 TURN, PACE, BEGIN = 0.3, 0.5, 2.5
-"""Steps of a fan of rays in degrees and mm, and where rays begin."""
+"""Steps of a fan of rays, in degrees and mm, and the start of rays in mm."""
 AGREED = 0.5
-"""The share of the ways from known ends to a point that is drawn at least."""
+"""The least share of the paths from known ends to a point that is drawn."""
 RAY, MOST_RAYS, PARTED, BREAK = 7.0, 16, 0.8, 8
-"""The shortest ray that counts, in mm; how many of a place do; by how many degrees they differ;
-over how many steps nothing is drawn where a ray ends.
+"""The shortest ray in mm, the most rays of a place, their least angle in degrees, and the gap.
+
+The gap is the number of empty steps at which a ray ends.
 """
 SHORTENED = 9.0
-"""How much farther or nearer than its ray a line may end, in mm: a ray leaves it where it turns."""
+"""Difference in mm of a line's end from its ray's, which may leave the line at a turn."""
 BROAD = 0.6
-"""A ray that ends so near a longer one, in mm, is nothing but that one's stroke."""
+"""Distance in mm within which a ray next to a longer one is only part of its stroke."""
 EXPLAINED = 0.5
-"""What is left of a line that leads to a place where it goes on to a point that is known."""
+"""Factor for a line to a place that continues to another known point."""
 JOINS = 0.3
-"""What it counts that another line leaves the single one that leads to a place there."""
+"""Weight of another line that leaves the single line to a place there."""
 SURELY, WAYS, ALONE = 0.9, 3, 0.75
-"""So much is drawn of so many ways to a place that it needs nothing to follow from it; what that
-counts.
-"""
+"""Drawn share and number of paths to a place that needs no consequences, and the weight of this."""
 STOPS, OVER = 0.4, 6.0
-"""What it counts for a place that vectors end there, and how far beyond it, in mm, that is seen."""
+"""Weight of vectors that end at a place, and the length beyond in mm that is examined."""
 KEPT, LEANS = 0.3, 0.02
-"""What it counts that the lines pass through it that should, and by how much these may turn."""
+"""Weight of lines that pass through a place as they should, and the turn they may have."""
 ENOUGH, AS_EXPECTED = 1.8, 0.3
-"""What all that must come to for a place that is not expected, and what one has in advance that is.
-"""
+"""The total needed by an unexpected place, and the initial credit of an expected one."""
 APART = 1.5
-"""Nearer to a known point, in mm, another cannot be told from it."""
+"""Distance in mm within which another point cannot be distinguished from a known one."""
 SAME = 0.7
-"""Nearer to each other, in mm, two points are one on paper."""
+"""Distance in mm within which two points are one on paper."""
 LAST = 6.0
 """The last piece of a line up to a point, in mm."""
 TRIED = 10
-"""Places that are tried with what would follow from them."""
+"""Places that are tried with their consequences."""
 
 
 class PointSearch:
-    """Looks for the points of one sheet, each from those that were read before it."""
+    """Searches for the points of one sheet, each from those read before it."""
 
     def __init__(self, sheet: LetteredSheet, ink: DrawnInk, pencil: Pencil) -> None:
         self.sheet, self.ink, self.pencil = sheet, ink, pencil
@@ -240,10 +238,10 @@ class PointSearch:
         self.drawings: Mapping[int, Any] = {}
         self.fans: dict[complex, list[tuple[complex, float]]] = {}
 
-    # --- what is expected -------------------------------------------------------------------------
+    # --- expectations------------------------------------------------------------------------------
 
     def drawn(self, number: int, found: Mapping[int, Any], count: int) -> Any:
-        """The value of a step in so many drawings; in a single one, without errors."""
+        """The value of a step in ``count`` drawings; a single one is without errors."""
         exact = self.sheet.exact
         mark = exact.marks.get(number)
         errors = None
@@ -253,7 +251,7 @@ class PointSearch:
         return step_drawn(exact, number, found, errors, self.pencil)
 
     def stream(self, number: int, which: int = 0) -> np.random.Generator:
-        """The errors of a step: always the same, apart from those of others."""
+        """The random errors of a step: always the same, and independent of other steps."""
         return np.random.Generator(np.random.PCG64([SEED, number, which]))
 
     def clouds(self) -> dict[int, Any]:
@@ -277,7 +275,7 @@ class PointSearch:
         return found
 
     def far_place(self, leading: Leading, values: Mapping[int, Any]) -> complex:
-        """The other end of what leads to a point."""
+        """The far end of a line that leads to a point."""
         if leading.far in self.own:
             return self.own[leading.far]
         value = values[leading.far]
@@ -286,7 +284,7 @@ class PointSearch:
         return complex(np.ravel(self.sheet.place(leading.far, value))[0])
 
     def is_known(self, leading: Leading) -> bool:
-        """Whether the other end was read, or is printed, or a line from a point that is."""
+        """Whether the far end was read or printed, or is a line from such a point."""
         steps = self.sheet.exact.program.steps
         step = steps[leading.far]
         if leading.after:
@@ -296,17 +294,17 @@ class PointSearch:
             return first in self.own or not steps[first].args
         return leading.far in self.own or not step.args
 
-    # --- what is drawn of it ----------------------------------------------------------------------
+    # --- the drawn share---------------------------------------------------------------------------
 
     def holds(self, number: int, best: LinesCrossing | None, where: ExpectedPlace) -> bool:
-        """Whether what was found of a point fits, and all is there that leads to it."""
+        """Whether a found place fits, and all lines that lead to it are drawn."""
         if best is None or where.away(best.place, best.error) > FITS:
             return False
         agreed = self.agreement(number, best.place, read=best.count > 1)
         return agreed >= AGREED or self.stands(number, best, where)
 
     def stands(self, number: int, best: LinesCrossing | None, where: ExpectedPlace) -> bool:
-        """Whether lines cross so well where a point is expected that a vector may be lacking."""
+        """Whether lines cross well enough at the expected place for a vector to be missing."""
         if best is None or best.count < 2 or best.cover < SURELY:
             return False
         near = abs(best.place - where.middle) <= CLOSE_BY
@@ -322,9 +320,11 @@ class PointSearch:
     def agreement(
         self, number: int, place: complex, *, read: bool = False, lacking: int = 0
     ) -> float:
-        """How much of the ways from known ends to a place is drawn: the worst of a plan's arrows
-        and lines, but for so many that may be lacking; the best two of a mechanism's bars, which
-        nobody draws all. ``read``: only of those whose ends were surely read.
+        """The drawn share of the paths from known ends to a place.
+
+        It is the worst of a plan's arrows and lines, except ``lacking`` of them. For a mechanism,
+        it is the mean of the best two bars, because nobody draws all. With ``read``, only ends that
+        were surely read count.
         """
         covers = sorted(self.covers(number, place, read), reverse=True)
         if not covers:
@@ -334,7 +334,7 @@ class PointSearch:
         return covers[max(min(1, len(covers) - 1), len(covers) - 1 - lacking)]
 
     def covers(self, number: int, place: complex, read: bool) -> list[float]:
-        """How much is drawn of each way to a place that tells something."""
+        """The drawn share of each informative path to a place."""
         return [
             found
             for each in self.sheet.leading[number]
@@ -343,18 +343,18 @@ class PointSearch:
         ]
 
     def is_unsure(self, leading: Leading) -> bool:
-        """Whether the other end, or that of a line where it begins, was not surely read."""
+        """Whether the far end, or the start of its line, was not surely read."""
         return bool(self.begins(leading) & (self.unread | self.guessed))
 
     def begins(self, leading: Leading) -> set[int]:
-        """The other end, and that of a line where it begins."""
+        """The far end, and the start of its line."""
         steps = {leading.far}
         if isinstance(self.sheet.exact.trace.values[leading.far], Line):
             steps |= set(self.sheet.exact.program.steps[leading.far].args[:1])
         return steps
 
     def is_vague(self, leading: Leading) -> bool:
-        """Whether nobody knows where a line begins that leads to a point."""
+        """Whether the start of a line that leads to a point is uncertain."""
         value = self.drawings.get(leading.far)
         if value is None:
             return False
@@ -362,8 +362,9 @@ class PointSearch:
         return expected(cloud).radius > GUESSED
 
     def is_reached(self, number: int, place: complex) -> bool:
-        """Whether lines cross at a place without those from ends nobody knows that only point
-        there, and end before: these lead to another.
+        """Whether lines cross at a place without those from uncertain ends that stop short of it.
+
+        The latter lead to another point.
         """
         ends, ending = list[complex](), False
         for each in self.sheet.leading[number]:
@@ -382,12 +383,12 @@ class PointSearch:
         return not ending or are_crossing(ends, place)
 
     def is_single(self, number: int, place: complex) -> bool:
-        """Whether nothing but one line from an end that is known leads to a point."""
+        """Whether only one line from a known end leads to a point."""
         ends = self.known_ends(number)
         return not self.is_open(number) and not are_crossing(ends, place)
 
     def is_open(self, number: int) -> bool:
-        """Whether nobody knows where some line begins by which a hand finds a point."""
+        """Whether some line by which a point is found has an uncertain start."""
         later = self.sheet.exact.program.descendants(number)
         return any(
             not (each.after or each.given or each.bow or self.is_known(each))
@@ -396,7 +397,7 @@ class PointSearch:
         )
 
     def cover_of(self, number: int, leading: Leading, place: complex) -> float | None:
-        """How much of what leads to a place is drawn; None where that tells nothing."""
+        """The drawn share of a line that leads to a place; None where it gives no information."""
         far = self.far_place(leading, self.next)
         if leading.given or leading.bow or leading.after or abs(far - place) < 2 * SHORT:
             return None
@@ -413,10 +414,10 @@ class PointSearch:
         found = self.ink.lines(far, place, GUESSED, 0.5)
         return max((line.cover for line in found), default=0.0)
 
-    # --- near what is expected --------------------------------------------------------------------
+    # --- near the expected place-------------------------------------------------------------------
 
     def best_near(self, number: int, where: ExpectedPlace) -> LinesCrossing | None:
-        """The best crossing of what leads to a point near where it is expected."""
+        """The best crossing of the lines that lead to a point, near its expected place."""
         lines = [
             some
             for leading in self.sheet.leading[number]
@@ -442,9 +443,11 @@ class PointSearch:
     def end_near(
         self, number: int, lines: Sequence[Sequence[InkLine]], where: ExpectedPlace
     ) -> LinesCrossing | None:
-        """Where others leave a single line that leads to a point; where none does, its end; where
-        it goes on, or other points are expected about there, the place on it that is expected:
-        where others run there as well, too flatly to cross it, that is taken for its end.
+        """The place on a single line that leads to a point.
+
+        It is where others leave the line, else its end. If the line continues, or other points are
+        expected nearby, it is the expected place on the line. Where others run there too flatly to
+        cross it, that place counts as its end.
         """
         ends = [
             self.far_place(each, self.next)
@@ -461,7 +464,7 @@ class PointSearch:
                 continue
             straight = InkLine(line.start, where.middle, 1, 1)
             if any(abs(line.off(e)) < PASSES and abs(straight.off(e)) > 2 * PASSES for e in ends):
-                continue  # what goes to that end
+                continue  # leads to that end
             foot = where.middle - 1j * line.way * line.off(where.middle)
             found = self.ink.stroke(foot, line.way, where.reach)
             if found is not None:
@@ -488,13 +491,13 @@ class PointSearch:
         return None if any(lines) else self.marked(number, where)
 
     def marked_along(self, foot: complex, way: complex, reach: float) -> float | None:
-        """How far along a line, from a place on it, somebody marked a point; None: nowhere."""
+        """The distance along a line, from a place on it, of a hand's mark of a point, or None."""
         along = np.arange(-reach, reach + PITCH, PITCH)
         place = self.ink.spot(foot + along * way, way)
         return None if place is None else float(((place - foot) / way).real)
 
     def marked(self, number: int, where: ExpectedPlace) -> LinesCrossing | None:
-        """Where somebody marked a point to which no line leads, as on a printed guide."""
+        """A hand's mark of a point without lines, as on a printed guide, or None."""
         side = np.arange(-where.reach, where.reach + PITCH, PITCH)
         places = (where.middle + side[:, None] + 1j * side[None, :]).ravel()
         place = self.ink.spot(places, None)
@@ -503,7 +506,7 @@ class PointSearch:
         return LinesCrossing(place, np.eye(2) * SPOT**2, 2, 1.0)
 
     def is_own(self, number: int, place: complex, where: ExpectedPlace) -> bool:
-        """Whether a place is that of a point and of no other that is expected about there."""
+        """Whether a place belongs to a point and to no other point expected nearby."""
         steps = self.sheet.exact.program.steps
         far = abs(place - where.middle) + APART
         for other in {*self.sheet.points, *self.sheet.corners} - {number}:
@@ -516,7 +519,7 @@ class PointSearch:
         return True
 
     def lines_near(self, number: int, leading: Leading, where: ExpectedPlace) -> list[InkLine]:
-        """The drawn lines that may be what leads to a point."""
+        """The drawn lines that may lead to a point."""
         values = self.next
         if leading.given:
             return [self.printed_line(leading)]
@@ -533,26 +536,27 @@ class PointSearch:
         return self.ink.lines(far, target, beside, where.reach)
 
     def printed_line(self, leading: Leading) -> InkLine:
-        """A printed guide, up to where it begins."""
+        """A printed guide, up to its start."""
         start = self.far_place(leading, self.next)
         way = complex(np.ravel(self.next[leading.far].along)[0]).conjugate()
         return InkLine(start - LONGEST * way / abs(way), start, 1.0, PRINTED)
 
     def arcs_near(self, leading: Leading, where: ExpectedPlace) -> list[InkLine]:
-        """The arc of a compass near where a point is expected, as the line touching it there."""
+        """The arc of a compass near a point's expected place, as its tangent there."""
         circle = self.next[leading.far]
         field = self.sheet.field(leading.far)
         centre = complex(np.ravel(self.sheet.place(leading.far, circle.centre))[0])
         radius = float(np.ravel(circle.radius)[0]) * field.mm
         return self.ink.arcs(centre, radius, where.middle, where.reach)
 
-    # --- after a mistake --------------------------------------------------------------------------
+    # --- after a mistake---------------------------------------------------------------------------
 
     def best_far(
         self, number: int, where: ExpectedPlace, besides: complex = complex("inf")
     ) -> LinesCrossing | None:
-        """The best place of a point that is not where it is expected, by the rays that leave the
-        known ends of what leads to it, and by what would follow from it; but for one that is known.
+        """The best place of a point that is not where it is expected, except a known place.
+
+        It follows from the rays that leave the known ends of its lines, and from its consequences.
         """
         ends = self.known_ends(number)
         crossed = are_crossing(ends, where.middle)
@@ -586,7 +590,7 @@ class PointSearch:
         return max(tried, key=lambda each: each[0])[1] if tried else None
 
     def tried_points(self, number: int) -> list[complex]:
-        """Where the lettered points of trial plans follow: what leads there is drawn for them."""
+        """The places of the lettered points of trial plans, for which lines there are drawn."""
         steps, values = self.sheet.exact.program.steps, self.sheet.exact.trace.values
         return [
             complex(np.ravel(self.sheet.place(other, self.next[other]))[0])
@@ -598,28 +602,27 @@ class PointSearch:
         ]
 
     def follows(self, number: int, place: complex, ends: Sequence[complex]) -> float:
-        """How well what would follow from a place is drawn; a place to which all ways are drawn
-        needs none of that.
+        """How well the consequences of a place are drawn.
+
+        A place to which all paths are drawn needs none.
         """
         sure = len(ends) >= WAYS and self.agreement(number, place, read=True) >= SURELY
         return max(self.followed(number, place), ALONE * sure)
 
     def likely(self, number: int, place: complex, where: ExpectedPlace) -> float:
-        """How much of what leads to a place and of what would follow from it is drawn, and of all
-        ways to it from ends that are known.
-        """
+        """How much is drawn of a place's lines, consequences, and paths from known ends."""
         ends = self.known_ends(number)
         led = self.led_to(number, place, ends, are_crossing(ends, where.middle))
         return led + self.follows(number, place, ends) + self.agreement(number, place)
 
     def led_to(self, number: int, place: complex, ends: Sequence[complex], crossed: bool) -> float:
-        """How well what leads to a place is drawn, ends there, and runs as it should."""
+        """How well the lines to a place are drawn, end there, and have the right direction."""
         printed = [self.far_place(e, self.next) for e in self.sheet.leading[number] if e.given]
         support = self.supported(place, ends, crossed, printed)
         return support + self.stopped(number, place) + self.on_lines(number, place)
 
     def known_ends(self, number: int) -> list[complex]:
-        """The known ends of what leads to a point, apart from one another."""
+        """The known, distinct ends of the lines that lead to a point."""
         found: list[complex] = []
         for each in self.sheet.leading[number]:
             if self.is_known(each) and not (each.bow or each.after or each.light):
@@ -629,8 +632,10 @@ class PointSearch:
         return found
 
     def candidates(self, number: int, ends: Sequence[complex], crossed: bool) -> list[complex]:
-        """Where the rays that leave some ends end, and cross each other and printed lines; where
-        rays of one direction are all that is known, also where other lines leave them.
+        """The places where rays from some ends stop, or cross each other or printed lines.
+
+        Where only rays of one direction are known, places where other lines leave them are
+        included.
         """
         guides = [self.printed_line(each) for each in self.sheet.leading[number] if each.given]
         printed = {line.end for line in guides}
@@ -658,13 +663,13 @@ class PointSearch:
         return places
 
     def rays(self, start: complex) -> list[tuple[complex, float]]:
-        """The drawn lines that leave a place: unit direction, and how far each goes."""
+        """The drawn lines that leave a place: unit direction, and length of each."""
         if start not in self.fans:
             self.fans[start] = self.fan(start)
         return self.fans[start]
 
     def fan(self, start: complex) -> list[tuple[complex, float]]:
-        """The directions about a place in which something is drawn, and how far it goes there."""
+        """The directions about a place in which something is drawn, and the length of each."""
         angles = np.radians(np.arange(0, 360, TURN))
         radii = np.arange(BEGIN, 230.0, PACE)
         ways = np.exp(1j * angles)
@@ -690,8 +695,10 @@ class PointSearch:
     def supported(
         self, place: complex, ends: Sequence[complex], crossed: bool, printed: Sequence[complex]
     ) -> float:
-        """How well the ways from some ends to a place are drawn: the best two that cross there,
-        where such are expected, or all that lie in one line. Some are printed.
+        """How well the paths from some ends to a place are drawn.
+
+        It counts the best two that cross there, where crossings are expected, or all in one line.
+        Some ends are printed.
         """
         ways = [
             (
@@ -712,7 +719,7 @@ class PointSearch:
         return (cover + crossing[0]) / 2 if crossing else cover / 2
 
     def goes_on(self, end: complex, place: complex) -> bool:
-        """Whether what is drawn from an end to a place goes on to another point that is known."""
+        """Whether a line drawn from an end to a place continues to another known point."""
         far = abs(place - end)
         for other in self.own.values():
             along, beside = (z := (other - end) * (place - end).conjugate() / far).real, z.imag
@@ -721,7 +728,7 @@ class PointSearch:
         return False
 
     def on_lines(self, number: int, place: complex) -> float:
-        """How many of the lines that lead to a point pass through a place: a mistake turns one."""
+        """The share of a point's lines that pass through a place; a mistake turns one."""
         kept = []
         for each in self.sheet.leading[number]:
             line = self.next[each.far]
@@ -733,13 +740,14 @@ class PointSearch:
         return KEPT * float(np.mean(kept)) if kept else KEPT / 2
 
     def stopped(self, number: int, place: complex) -> float:
-        """How well the vectors that come to a place end there."""
+        """How well the vectors that reach a place end there."""
         beyond = self.beyond(number, place)
         return STOPS * (1 - float(np.mean(beyond))) if beyond else STOPS / 2
 
     def beyond(self, number: int, place: complex, to: complex | None = None) -> list[float]:
-        """How much is drawn beyond a place of each vector that comes to it from a known end, of
-        all or of those that run on to another place.
+        """The drawn share, beyond a place, of each vector that reaches it from a known end.
+
+        With ``to``, only the vectors that continue to that place.
         """
         found = []
         for each in self.sheet.leading[number]:
@@ -754,7 +762,7 @@ class PointSearch:
         return found
 
     def followed(self, number: int, place: complex) -> float:
-        """How well what would follow from a place is drawn."""
+        """How well the consequences of a place are drawn."""
         values = self.ahead({number: place})
         covers = [
             self.cover_after(each, place, values)
@@ -766,7 +774,7 @@ class PointSearch:
         return max(covers)
 
     def cover_after(self, leading: Leading, place: complex, values: Mapping[int, Any]) -> float:
-        """How much of what is drawn from a place is there; of a line that begins at it, one way."""
+        """The drawn share of a line from a place, in the better direction if it starts there."""
         far, line = self.far_place(leading, values), values[leading.far]
         if not isinstance(line, Line) or abs(far - place) > SHORT:
             return self.ink.cover(place, far, 0.8)
@@ -775,9 +783,7 @@ class PointSearch:
         return max(self.ink.cover(place, place + each, 0.8) for each in (ahead, -ahead))
 
     def settled(self, number: int, place: complex) -> LinesCrossing:
-        """A place that was found, where the lines that lead to it cross exactly; where they do not,
-        where one of them ends.
-        """
+        """A place moved to the exact crossing of its lines, or to the end of one of them."""
         values = self.ahead({number: place})
         lines = []
         for leading in self.sheet.leading[number]:
@@ -798,7 +804,7 @@ class PointSearch:
 
 
 def unbroken(drawn: Any) -> Any:
-    """How far each ray goes before nothing is drawn of it for a while."""
+    """How far each ray goes before a gap."""
     count = np.cumsum(drawn, axis=1)
     count[:, BREAK:] -= count[:, :-BREAK].copy()
     count[:, :BREAK] = 1
@@ -806,15 +812,13 @@ def unbroken(drawn: Any) -> Any:
 
 
 def is_parted(far: complex, way: complex, long: float) -> bool:
-    """Whether a ray that goes so far is another than one already found, and not its broad stroke
-    that it leaves.
-    """
+    """Whether a ray differs from one already found, and is not part of its broad stroke."""
     ratio = far / way
     same = abs(np.angle(ratio)) <= np.radians(PARTED)
     return not (same or (0 < ratio.real < long and abs(ratio.imag) < BROAD))
 
 
 def in_fields(places: Any) -> Any:
-    """Whether places lie where is drawn."""
+    """Whether places are in the drawing fields."""
     x, y = np.real(places), np.imag(places)
     return (AREA[0] < x) & (x < AREA[2]) & (AREA[1] < y) & (y < AREA[3])

@@ -1,4 +1,4 @@
-"""The crosses of a printed sheet in its picture: how far each lies off where the map puts it."""
+"""The crosses of a printed sheet in its picture, and their distances from the map's places."""
 
 from __future__ import annotations
 
@@ -12,18 +12,20 @@ from graphkin.reading.paper_map import PaperMap
 from graphkin.reading.paper_ripple import CROSSED, Offsets
 
 STEP = 0.1
-"""Distance of the points of what is looked at, in mm."""
+"""Distance of samples, in mm."""
 CROSS_REACH, CROSS_SIDE, CROSS_BLUR = 1.5, 1.6, 0.16
-"""How far off a cross is looked for, half the side of what is looked at, its blur, in mm."""
+"""Search range for a cross, half the side of its window, and its blur, in mm."""
 CROSS_ALIKE, LEAST_CROSSES = 0.7, 0.3
-"""How alike a cross must be to be one, and which share of them a sheet has that is printed with
-them: a drawing covers some.
+"""Least likeness of a cross, and the least share that a sheet printed with crosses shows.
+
+A drawing covers some of them.
 """
 
 
 def crosses_off(smooth: Any, over: PaperMap, places: Any) -> tuple[Offsets, float]:
-    """How far crosses lie off their places, right and down, where they are clearly seen; which
-    share of those that the picture holds is.
+    """The distances of clearly visible crosses from their places, and the share that is visible.
+
+    Distances are right and down. The share is relative to the crosses that the picture contains.
     """
     near = np.arange(-CROSS_REACH - CROSS_SIDE, CROSS_REACH + CROSS_SIDE + STEP / 2, STEP)
     window = np.stack(np.meshgrid(near, near), axis=-1)
@@ -53,7 +55,7 @@ def crosses_off(smooth: Any, over: PaperMap, places: Any) -> tuple[Offsets, floa
 
 
 def cross_model() -> Any:
-    """How light a blurred cross is about its middle."""
+    """The brightness of a blurred cross about its middle."""
     near = np.arange(-CROSS_SIDE, CROSS_SIDE + STEP / 2, STEP)
     along = np.clip((ARM + CROSS_BLUR / 2 - abs(near)) / CROSS_BLUR, 0, 1)
     across = np.exp(-((near / CROSS_BLUR) ** 2) / 2)
@@ -62,6 +64,6 @@ def cross_model() -> Any:
 
 
 def vertex(three: Any) -> float:
-    """Where a parabola through three values, one step apart, is highest, from the middle one."""
+    """The position of a parabola's maximum through three values, in steps from the middle one."""
     first, middle, last = (float(each) for each in three)
     return (first - last) / 2 / min(first - 2 * middle + last, -1e-9)

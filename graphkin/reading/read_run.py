@@ -1,7 +1,7 @@
 """A class of photographs read into a folder: resumable, on all cores, one run at a time.
 
-For each photograph the folder holds NAME.jpg, the flattened sheet, and NAME.reading.json, what was
-read; answers.csv holds the fields of the form that follow from it, as ``grade`` reads them.
+For each photograph the folder holds NAME.jpg, the flattened sheet, and NAME.reading.json, its
+reading. answers.csv holds the fields of the form that follow, in the format of ``grade``.
 """
 
 from __future__ import annotations
@@ -31,15 +31,16 @@ POINTS = ".points.json"
 FORMAT = 1
 """The format of points.json."""
 METHOD = 10
-"""Raised when the same photograph would be read otherwise: readings of before are made anew."""
+"""Version of the method; when it is raised, earlier readings are repeated."""
 FEWEST = 3
 """Photographs from which a worker process pays for itself."""
 Tell = Callable[[int, int], None]
 
 
 class ReadOutcome(Struct):
-    """What came of a run: all records in the order of the photographs, how many stood already;
-    ``refusals`` are students whose answers cannot be worked out from them.
+    """The outcome of a run: all records in the order of the photographs, and how many were kept.
+
+    ``refusals`` are students whose answers cannot be computed from them.
     """
 
     records: list[SheetRecord]
@@ -48,7 +49,7 @@ class ReadOutcome(Struct):
 
 
 def read_order(opened: Edition, grid: Grid, *, by_hand: bool = False) -> ReadOrder:
-    """What the reading of a class shares."""
+    """The data shared by the reading of a class."""
     order = PrintOrder(opened.lab, opened.scene, opened.words().language, "colour")
     takers = {each.code: each for each in opened.takers}
     return ReadOrder(order, takers, grid, by_hand, drawn_items(opened))
@@ -62,7 +63,7 @@ def read_class(
     jobs: int,
     tell: Tell,
 ) -> ReadOutcome:
-    """Read photographs of a class into a folder. What stands there of the same is kept."""
+    """Read photographs of a class into a folder, and keep existing readings of the same."""
     out.mkdir(parents=True, exist_ok=True)
     refused = {
         each.name: SheetRecord(each.name, each.path.name, "", refused=each.refused)
@@ -96,7 +97,7 @@ def read_class(
 
 
 def reading_key(order: ReadOrder, picture: Photograph) -> str:
-    """What decides a reading: the photograph, the student's data, how it is read."""
+    """The key of a reading: the photograph, the student's data, and the method."""
     students = {code: dict(each.settings) for code, each in order.takers.items()}
     marked = [each.field for each in order.marked] if order.by_hand else []
     how = msgspec.to_builtins(order.grid), order.by_hand, marked
@@ -112,13 +113,13 @@ def put(out: Path, one: SheetRead) -> None:
 
 
 def write_answers(opened: Edition, out: Path, refusals: Refusals) -> None:
-    """Write the answers that follow from all that was read and decided."""
+    """Write the answers that follow from all readings and decisions."""
     settle(out)
     put_in_place(out, {out / ANSWERS: answers_table(opened, out, refusals)})
 
 
 def points_file(record: SheetRecord) -> bytes:
-    """A record as other programs read it."""
+    """A record in the format for other programs."""
     points = [
         {
             "name": each.name,
@@ -140,7 +141,7 @@ def points_file(record: SheetRecord) -> bytes:
 
 
 def said(opened: Edition, outcome: ReadOutcome) -> Iterator[str]:
-    """What the terminal says of a run: a line for each photograph, then the sums."""
+    """The terminal output of a run: a line for each photograph, then the totals."""
     names = {each.code: each.student for each in opened.takers}
     yield from outcome.refusals.lines()
     for record in outcome.records:

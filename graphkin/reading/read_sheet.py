@@ -1,4 +1,4 @@
-"""One photograph read: whose it is, its map, its points; or why not."""
+"""The reading of one photograph: its owner, its map, its points; or the reason for refusal."""
 
 from __future__ import annotations
 
@@ -27,20 +27,20 @@ from graphkin.text.errors import problems_of
 WHOLE = (0.0, 0.0, 420.0, 297.0)
 """An A3 sheet, in mm."""
 SHOWN, QUALITY = 6.0, 82
-"""Pixels for each mm of the flattened picture that is kept, and its quality as JPEG."""
+"""Pixels per mm of the stored flattened picture, and its JPEG quality."""
 SURE_OF_SHEET = 0.9
-"""The share of a sheet's own lines from which no other language of its is tried."""
+"""The share of a sheet's own lines above which no other language is tried."""
 
 
 class Grid(Struct, frozen=True):
-    """Places of the paper in mm whose pixels are asked for: row after row, x running fastest."""
+    """Places of the paper in mm whose pixels are requested: row by row, x running fastest."""
 
     x: tuple[float, ...] = ()
     y: tuple[float, ...] = ()
 
 
 class SheetRecord(Struct, frozen=True):
-    """What was read of a photograph; ``refused`` says why it was not."""
+    """The reading of a photograph; ``refused`` is the reason if it was not read."""
 
     name: str
     file: str
@@ -57,25 +57,25 @@ class SheetRecord(Struct, frozen=True):
 
 
 class ReadOrder(Struct, frozen=True):
-    """What the reading of a class shares: its lab and scene, its students by code."""
+    """The data shared by the reading of a class: its lab and scene, its students by code."""
 
     order: PrintOrder
     takers: Mapping[str, Taker]
     grid: Grid = Grid()
     by_hand: bool = False
     marked: tuple[Item, ...] = ()
-    """The lengths and places that are marked: by hand only their points are asked."""
+    """The marked lengths and places; by hand, only their points are asked."""
 
 
 class SheetRead(Struct, frozen=True):
-    """A record, and the flattened picture as JPEG; none where the photograph was refused."""
+    """A record, and the flattened picture as JPEG; empty where the photograph was refused."""
 
     record: SheetRecord
     picture: bytes = b""
 
 
 class FoundSheet(Struct, frozen=True):
-    """A sheet that lies in a picture: whose, which, and where."""
+    """A sheet in a picture: its owner, its kind, and its position."""
 
     sheet: LetteredSheet
     map: PaperMap
@@ -84,7 +84,7 @@ class FoundSheet(Struct, frozen=True):
 
 
 def read_some(order: ReadOrder, wanted: Sequence[tuple[Photograph, str]]) -> list[SheetRead]:
-    """What is read of some photographs, each with the key under which it is kept."""
+    """The readings of some photographs, each with its key."""
     import cv2
 
     cv2.setNumThreads(1)
@@ -92,7 +92,7 @@ def read_some(order: ReadOrder, wanted: Sequence[tuple[Photograph, str]]) -> lis
 
 
 def read_one(order: ReadOrder, photograph: Photograph, key: str) -> SheetRead:
-    """What is read of one photograph; whatever is wrong with it is told of it alone."""
+    """The reading of one photograph; any error is reported for it alone."""
     record = SheetRecord(photograph.name, photograph.path.name, key)
     code = ""
     try:
@@ -125,7 +125,7 @@ def read_one(order: ReadOrder, photograph: Photograph, key: str) -> SheetRead:
 
 
 def student_label(order: ReadOrder, code: str) -> str:
-    """Whose sheet has a code: id and name of the student; nothing for a code that is not read."""
+    """The student of a code: id and name; empty for an unknown code."""
     taker = order.takers.get(code)
     return f"{taker.student.id} {taker.student.name}".strip() if taker is not None else ""
 
@@ -151,8 +151,9 @@ def known_code(grey: Any, takers: Mapping[str, Taker]) -> tuple[str, Any]:
 
 
 def code_of_halves(sheet: Any, takers: Mapping[str, Taker]) -> tuple[str, Any]:
-    """The code on a sheet that was put together of its halves, with its corners: it stands where
-    they meet, and scans may lack some of it. Raises Unreadable.
+    """The code on a sheet combined from halves, with its corners. Raises Unreadable.
+
+    The code is where the halves meet, and scans may lack a part of it.
     """
     from graphkin.reading.codes import code_among
     from graphkin.reading.halves import DENSITY
@@ -167,10 +168,10 @@ def code_of_halves(sheet: Any, takers: Mapping[str, Taker]) -> tuple[str, Any]:
 
 
 def found_sheet(grey: Any, order: ReadOrder, code: str, corners: Any) -> FoundSheet:
-    """The sheet of a student that lies in a picture: the one whose own lines are found, and those
-    of the others are not, since one sheet may have all lines of another and some more.
+    """The student's sheet in a picture: the one whose own lines are found, and not those of others.
 
-    Raises Unreadable where none can be flattened.
+    The test is needed because one sheet may have all lines of another and some more. Raises
+    Unreadable where none can be flattened.
     """
     from graphkin.reading.registration import SheetSearch
 
@@ -200,7 +201,7 @@ def found_sheet(grey: Any, order: ReadOrder, code: str, corners: Any) -> FoundSh
 
 
 def of_halves(left: Any, right: Any, order: ReadOrder) -> Any:
-    """The sheet of two pictures of its halves. Raises Unreadable where one of them is not found."""
+    """The sheet of two pictures of its halves. Raises Unreadable where one is not found."""
     from graphkin.reading.halves import put_together
 
     taker = next(iter(order.takers.values()))
@@ -215,7 +216,7 @@ def task_pages(sheets: Sheets) -> list[tuple[str, Page]]:
 
 @lru_cache(maxsize=8)
 def drawn_for(code: str, settings: Any, language: str, scene: str) -> dict[str, Sheets]:
-    """Where the sheets of a student are kept while several pictures of them are read."""
+    """The cache of a student's sheets while several pictures of them are read."""
     return {}
 
 
@@ -230,7 +231,7 @@ def sheets_of(order: PrintOrder, taker: Taker, language: str) -> Sheets:
 
 
 Points = tuple[tuple[PointReading, ...], dict[int, tuple[float, float]]]
-"""The lettered points of a sheet, and where its corners without letters lie, by their steps."""
+"""The lettered points of a sheet, and the positions of its corners without letters, by step."""
 
 
 def read_points(grey: Any, found: FoundSheet) -> Points:
@@ -246,8 +247,9 @@ def read_points(grey: Any, found: FoundSheet) -> Points:
 
 
 def points_to_click(found: FoundSheet, order: ReadOrder) -> Points:
-    """The points of a sheet that a person is to click, nothing of them read: those that a mark
-    needs are asked; where no length and no place is marked, all are.
+    """The points of a sheet that a person must click, with nothing read.
+
+    The points that a mark needs are asked, or all points if no length and no place is marked.
     """
     from graphkin.reading.point_reader import forecast_points
 
@@ -268,7 +270,7 @@ def mapped(over: PaperMap, grid: Grid) -> tuple[tuple[float, float], ...]:
 
 
 def flat_picture(grey: Any, over: PaperMap) -> bytes:
-    """The flattened sheet as a JPEG that holds nothing but its pixels."""
+    """The flattened sheet as a JPEG that contains only its pixels."""
     import cv2
 
     from graphkin.reading.drawn_ink import flattened

@@ -1,8 +1,8 @@
-"""Where a printed sheet lies in a picture, found by its own lines.
+"""The position of a printed sheet in a picture, found by its own lines.
 
-The square with the code says roughly where the sheet lies. From there the printed lines are
-followed outwards, ring by ring: each is looked for where the map found so far puts it, and the map
-is fitted anew to all that were found. Perspective, lens and bending are fitted together.
+The square with the code gives an approximate position. From there the printed lines are followed
+outwards, ring by ring. Each line is searched for where the map so far puts it, and the map is then
+fitted to all lines found. Perspective, lens and bending are fitted together.
 """
 
 from __future__ import annotations
@@ -37,64 +37,66 @@ from graphkin.reading.printed_crosses import LEAST_CROSSES, crosses_off
 LINES = ("frame", "border", "panel")
 """The classes of the printed lines that are followed."""
 SHARED = ("frame", "border")
-"""Those that all sheets of a student have alike."""
+"""The classes that are the same on all sheets of a student."""
 SHORTEST, SPACING, INSET = 4.5, 3.0, 0.8
-"""The shortest line that is followed, how far apart it is measured, and how far from its ends, in
-mm."""
+"""The shortest followed line, its sample distance, and the margin at its ends, in mm."""
 LEAST = 4
-"""Places at which a tick is measured: far from long lines ticks alone hold the paper."""
+"""Places at which a tick is measured; far from long lines only ticks determine the paper."""
 RINGS = (40.0, 52.0, 68.0, 88.0, 114.0, 148.0, 180.0, 215.0, 250.0, 290.0, 335.0, 380.0, 430.0)
-"""How far from the square lines are followed, in mm."""
+"""Distances from the square in which lines are followed in turn, in mm."""
 LENS_FROM, BENT_FROM = 80.0, 100.0
 """Rings from which lens and bending are fitted."""
 REACH, NEAR = 2.0, 1.1
-"""How far to both sides a line is looked for while rings grow, and at the end, in mm."""
+"""Search range on both sides of a line, while rings grow and at the end, in mm."""
 EDGE = (24.0, 14.0, 406.0, 283.0)
-"""Beyond these places of the paper (mm) lie frame and border: 5 mm apart, and alike."""
+"""The region (mm) outside which frame and border are: 5 mm apart, and similar."""
 FAR, CLEARLY, LEAST_ALONG = 9.0, 1.05, 20
-"""How far off such a side is looked for, in mm; how much better it must fit there, and at how many
-places.
-"""
+"""Search range for such a side in mm, the improvement required there, and the fewest places."""
 TRUSTED, LAST = 0.4, 0.15
-"""The same of how far off a line may be to be believed."""
+"""Distance in mm within which a line is believed, while rings grow and at the end."""
 FLATNESS, ALIKE = 0.4, 10.0
-"""Paper whose lines are farther off, in deviations, ripples; so many neighbours are then as one."""
+"""Deviations beyond which paper ripples, and the number of neighbours that then count as one."""
 STEP = 0.1
-"""Distance of the points of a profile across a line, in mm."""
+"""Distance of samples of a profile across a line, in mm."""
 ALONG = np.array([-1.0, -0.5, 0.0, 0.5, 1.0])
-"""Profiles so many mm along the line are one."""
+"""Offsets in mm along the line whose profiles are averaged."""
 DARK, FULL = 0.10, 0.5
-"""Part of the paper's light that a printed line takes at least; where blur has made lines faint,
-one finer than so many mm takes less in proportion.
+"""The least share of light that a printed line takes, and the width in mm for full darkness.
+
+Where blur has made lines faint, a finer line takes less in proportion.
 """
 NOISE, CORNER = 0.05, 0.25
 """Standard deviation of a measured line, and of a corner of the square, in mm."""
 BENT = 3.0
-"""What the simplest bending is expected to be, in mm."""
+"""The expected size of the simplest bending, in mm."""
 ROUNDS, NUDGE = 3, 1e-6
-"""Steps of Gauss and Newton for each fit, and of the differences that they use."""
+"""Gauss–Newton steps for each fit, and the step of its differences."""
 LEAST_FOUND, WORST = 0.45, 0.5
-"""The share of lines within the picture that is to be found, and how far off they may lie."""
+"""The share of lines within the picture that must be found, and their largest distance."""
 SIDES = ("left", "right", "upper", "lower")
 LEAST_SIDE = 0.25
-"""The same share on each half of the sheet."""
+"""The least share on each half of the sheet."""
 STRETCH, LEAST_STRETCH = 100.0, 0.35
-"""The same of frame and border along each stretch of so many mm that the picture holds: a thumb
-covers less, and a map that goes astray at a corner of the sheet loses more.
+"""The least share of frame and border along each stretch of STRETCH mm in the picture.
+
+A thumb covers less than that. A map that is wrong at a corner of the sheet loses more.
 """
 LOST = 0.8
-"""The share of such a stretch below which it is looked for farther off."""
+"""The share of such a stretch below which it is searched for further away."""
 LEAST_TICKS, FEW = 0.4, 12
-"""The same of the ticks of a side, of so many places of them at least: where frame or border was
-taken for the other, or the paper's edge for one of them, they are not where they should be.
+"""The least share of the ticks of a side, and the fewest places of them.
+
+Ticks are missing where frame and border were confused, or the paper's edge was taken for one.
 """
 BETWEEN = 5.0
-"""From the frame to the border, in mm."""
+"""The distance from the frame to the border, in mm."""
 
 
 class PrintedLines(Struct, frozen=True):
-    """Where printed lines are measured: places, normals (mm), widths; which all sheets have; how
-    much of the paper's light each takes at least.
+    """Measuring places of printed lines: positions, normals (mm), widths and darkness.
+
+    ``shared`` marks the lines of all sheets. ``dark`` is the least share of the paper's light that
+    each takes.
     """
 
     places: Any
@@ -104,12 +106,12 @@ class PrintedLines(Struct, frozen=True):
     dark: Any
 
     def some(self, which: Any) -> PrintedLines:
-        """Those that are picked."""
+        """A selection of them."""
         own = (self.places, self.normals, self.widths, self.shared, self.dark)
         return PrintedLines(*(each[which] for each in own))
 
     def beside(self, others: PrintedLines) -> PrintedLines:
-        """Those near which none of others runs the same way."""
+        """The places without a parallel line of the others nearby."""
         ours, theirs = self.places - MIDDLE, others.places - MIDDLE
         squares = (ours**2).sum(1)[:, None] + (theirs**2).sum(1) - 2 * ours @ theirs.T
         alike = abs(self.normals @ others.normals.T) > 0.5
@@ -117,9 +119,9 @@ class PrintedLines(Struct, frozen=True):
 
 
 class Registration(Struct, frozen=True):
-    """The map of a sheet; how much of its lines was found, and their residual in mm (95 of 100).
+    """The map of a sheet, the share of its lines found, and their residual in mm (95 of 100).
 
-    ``crossed`` tells that the crosses in its fields were found: older prints have none.
+    ``crossed`` means that the crosses in its fields were found; older prints have none.
     """
 
     map: PaperMap
@@ -132,7 +134,7 @@ class Registration(Struct, frozen=True):
 
 
 def printed_lines(page: Page, *, faint: bool = False) -> PrintedLines:
-    """The lines of a printed page that are followed in a picture of it, ``faint`` ones as well."""
+    """The lines of a printed page that are followed in a picture; ``faint`` ones on request."""
     rows: list[tuple[float, ...]] = []
     for x1, y1, x2, y2, cls in segments(page):
         long = float(np.hypot(x2 - x1, y2 - y1))
@@ -164,7 +166,7 @@ def segments(page: Page) -> Iterator[tuple[float, float, float, float, str]]:
 
 
 def square_of(page: Page) -> Any:
-    """The corners of the square with the code on a page, in mm; None where it has none."""
+    """The corners of the square with the code on a page, in mm, or None."""
     points = [
         point
         for mark in page.marks
@@ -178,10 +180,10 @@ def square_of(page: Page) -> Any:
 
 
 class SheetSearch:
-    """Where the sheets of a student may lie in a grey picture, whose square has its corners at some
-    pixels. The frame, which they have alike, is followed once.
+    """The search for a student's sheets in a grey picture, from the pixels of a square's corners.
 
-    Another square of the paper may stand for that of the code; of ``sides`` the frame must be seen.
+    The frame, which all sheets share, is followed once. Another square of the paper may replace
+    that of the code. ``sides`` are the sides of the frame that must be visible.
     """
 
     def __init__(
@@ -192,7 +194,7 @@ class SheetSearch:
         self.frames: dict[tuple[bytes, float, bool], PaperMap] = {}
 
     def registered(self, page: Page) -> Registration | None:
-        """The map of a page; None where it has no square to begin with."""
+        """The map of a page, or None without a square to start from."""
         first = self.fitted(page, BENT_FROM)
         if first is None or not first.refused:
             return first
@@ -203,7 +205,7 @@ class SheetSearch:
         return first
 
     def fitted(self, page: Page, bent: float, *, faint: bool = False) -> Registration | None:
-        """The map of a page by all of its lines, from that of its frame."""
+        """The map of a page by all of its lines, starting from the map of its frame."""
         over, lines = self.frame(page, bent, faint=faint), printed_lines(page, faint=faint)
         if over is None:
             return None
@@ -211,7 +213,7 @@ class SheetSearch:
         fit.refine(self.smooth, lines)
         last = measure(self.smooth, fit.map, lines, NEAR)
         found = judged(fit.map, last, lines, self.sides)
-        if found.refused or self.square is not None:  # a half of a sheet lies flat on its glass
+        if found.refused or self.square is not None:  # a half of a sheet is flat on its glass
             return found
         return rippled(found, last, self.smooth, page)
 
@@ -220,9 +222,7 @@ class SheetSearch:
         return square_of(page) if self.square is None else self.square
 
     def frame(self, page: Page, bent: float, *, faint: bool = False) -> PaperMap | None:
-        """The map by the lines that all sheets have, followed ring by ring; bending is fitted from
-        some ring on.
-        """
+        """The map by the lines of all sheets, followed ring by ring; bending from a ring on."""
         square = self.square_of(page)
         if square is None:
             return None
@@ -235,7 +235,7 @@ class SheetSearch:
         return self.frames[key]
 
     def likeness(self, page: Page, others: Iterable[Page]) -> float:
-        """The share that is found of the lines that only a page has, less that of another's."""
+        """The share found of the lines that only this page has, less that of another page."""
         over, ours = self.frame(page, BENT_FROM), printed_lines(page)
         if over is None:
             return -1.0
@@ -253,7 +253,7 @@ class SheetSearch:
 
 
 def followed(smooth: Any, lines: PrintedLines, square: Any, corners: Any, bent: float) -> PaperMap:
-    """The map that printed lines give, followed ring by ring, bending fitted from some ring on."""
+    """The map from printed lines followed ring by ring, with bending fitted from a ring on."""
     height, width = smooth.shape
     fit = MapFit(start(width, height, square, np.asarray(corners, dtype=float)), square, corners)
     far = np.hypot(*(lines.places - square.mean(axis=0)).T)
@@ -263,7 +263,7 @@ def followed(smooth: Any, lines: PrintedLines, square: Any, corners: Any, bent: 
             continue
         measured = measure(smooth, fit.map, near, REACH)
         about = sides_off(smooth, fit.map, measured)
-        if about.any():  # the frame was about to be taken for the border, which looks like it
+        if about.any():  # the frame was about to be confused with the similar border
             measured = measure(smooth, fit.map, near, REACH, about)
             fit.to(measured, float(abs(about).max()), lens=True, bent=True)
             measured = measure(smooth, fit.map, near, REACH)
@@ -274,8 +274,9 @@ def followed(smooth: Any, lines: PrintedLines, square: Any, corners: Any, bent: 
 def held_by_ticks(
     smooth: Any, over: PaperMap, lines: PrintedLines, square: Any, corners: Any
 ) -> PaperMap:
-    """A map by lines that all sheets have, or, where ticks of a side are not found, the one that
-    takes frame for border there, or border for frame, if more of these are found with it.
+    """A map corrected for a confusion of frame and border on a side, if its ticks are not found.
+
+    The correction is kept if it finds more of these ticks.
     """
     for along, ticks in edges(lines):
         most = ticks_found(measure(smooth, over, lines, NEAR), ticks)
@@ -293,9 +294,7 @@ def held_by_ticks(
 
 
 class MeasuredLines(Struct, frozen=True):
-    """What was found of some lines: how far from its place each lies along its normal (mm), whether
-    it was found, and whether it lies in the picture at all.
-    """
+    """The measurement of some lines: distance along the normal (mm), found, and visible."""
 
     lines: PrintedLines
     off: Any
@@ -306,7 +305,7 @@ class MeasuredLines(Struct, frozen=True):
 def measure(
     grey: Any, over: PaperMap, lines: PrintedLines, reach: float, about: Any = 0.0
 ) -> MeasuredLines:
-    """Where lines lie, looked for to both sides of where a map puts them, or so far (mm) off it."""
+    """The positions of lines, searched for about the map's places, or about an offset (mm)."""
     across = np.arange(-reach - 1.0, reach + 1.0 + STEP / 2, STEP)
     dark, inside = profiles(grey, over, lines, across, about)
     off, found = np.zeros(len(dark)), np.zeros(len(dark), bool)
@@ -320,7 +319,7 @@ def measure(
 def profiles(
     grey: Any, over: PaperMap, lines: PrintedLines, across: Any, about: Any = 0.0
 ) -> tuple[Any, Any]:
-    """How dark it is across lines, and whether the picture holds all of that."""
+    """The darkness across lines, and whether the picture contains all of it."""
     right, down = over.ways(lines.places)
     normal = lines.normals[:, :1] * right + lines.normals[:, 1:] * down
     tangent = lines.normals[:, :1] * down - lines.normals[:, 1:] * right
@@ -344,9 +343,10 @@ def profiles(
 
 
 def sides_off(grey: Any, over: PaperMap, measured: MeasuredLines) -> Any:
-    """How far off (mm) the lines along each side of the sheet lie, and along each stretch of it of
-    which little was found, where all of that are sought at once, frame and border together; zero
-    where that is less than lines are looked for anyway.
+    """The offset (mm) of the lines along each side of the sheet, and along poorly found stretches.
+
+    All lines of a side, frame and border, are searched for together. The offset is zero where it is
+    within the normal search range.
     """
     lines = measured.lines
     about = np.zeros(len(lines.places))
@@ -356,7 +356,7 @@ def sides_off(grey: Any, over: PaperMap, measured: MeasuredLines) -> Any:
         some = lines.some(side)
         widths = np.unique(some.widths)
         if len(widths) < 2 or min(np.sum(some.widths == w) for w in widths) < LEAST_ALONG:
-            continue  # frame and border, of which one alone tells nothing
+            continue  # frame and border, of which one alone shows nothing
         dark, _ = profiles(grey, over, some, across)
         likely = np.zeros(len(across))
         for width in widths:
@@ -372,8 +372,9 @@ def sides_off(grey: Any, over: PaperMap, measured: MeasuredLines) -> Any:
 
 
 def stretches(lines: PrintedLines) -> Iterator[Any]:
-    """Which lines run along each stretch of the sheet's sides: one begins in the midst of another,
-    so that what is off or covered somewhere fills one of them.
+    """The lines along each stretch of the sheet's sides; stretches overlap by half.
+
+    An offset or covered part therefore fills one of them.
     """
     x, y = lines.places.T
     for (side, _), along in zip(edges(lines), (y, y, x, x), strict=True):
@@ -382,7 +383,7 @@ def stretches(lines: PrintedLines) -> Iterator[Any]:
 
 
 def edges(lines: PrintedLines) -> list[tuple[Any, Any]]:
-    """Which lines run along each side of the sheet, and which are ticks on it, as ``SIDES``."""
+    """The lines along each side of the sheet, and the ticks on it, in the order of ``SIDES``."""
     (x, y), (left, top, right, bottom) = lines.places.T, EDGE
     level = abs(lines.normals[:, 1]) > abs(lines.normals[:, 0])
     return [
@@ -397,13 +398,13 @@ def edges(lines: PrintedLines) -> list[tuple[Any, Any]]:
 
 
 def ticks_found(measured: MeasuredLines, ticks: Any) -> float:
-    """The share found of the ticks of a side that the picture holds; 1 where these are too few."""
+    """The share found of the ticks of a side in the picture; 1 where there are too few."""
     seen = measured.seen & ticks
     return float((measured.found & seen).sum() / seen.sum()) if seen.sum() >= FEW else 1.0
 
 
 def standing(dark: Any, width: float) -> Any:
-    """How much a dark line of a width stands out at each place of profiles."""
+    """The prominence of a dark line of a width at each place of profiles."""
     half = max(round(width / 2 / STEP), 1)
     core, flank = 2 * half + 1, 4
     kernel = np.zeros(core + 2 * (flank + 2))
@@ -413,7 +414,7 @@ def standing(dark: Any, width: float) -> Any:
 
 
 def peaks(dark: Any, across: Any, width: float, reach: float) -> tuple[Any, Any]:
-    """Where a dark line of a width stands out most in profiles, and how much; 0 at their ends."""
+    """The place where a dark line of a width is most prominent, and how much; 0 at the ends."""
     half = max(round(width / 2 / STEP), 1)
     stands = standing(dark, width)
     stands[:, abs(across) > reach + STEP / 2] = -1.0
@@ -430,7 +431,7 @@ def peaks(dark: Any, across: Any, width: float, reach: float) -> tuple[Any, Any]
 
 
 class MapFit:
-    """A map that is fitted, again and again, to what was measured with it."""
+    """A map fitted repeatedly to what was measured with it."""
 
     def __init__(self, over: PaperMap, square: Any, corners: Any) -> None:
         self.width, self.height, self.parameters = over.width, over.height, over.array.copy()
@@ -440,16 +441,16 @@ class MapFit:
 
     @property
     def map(self) -> PaperMap:
-        """The map as it is fitted so far."""
+        """The map as fitted so far."""
         return PaperMap(self.width, self.height, tuple(self.parameters.tolist()))
 
     def refine(self, smooth: Any, lines: PrintedLines) -> None:
-        """Fit the map to lines near where it puts them, ever nearer."""
+        """Fit the map to lines near its own places, with a narrowing range."""
         for reach, trusted in ((REACH, TRUSTED), (NEAR, TRUSTED), (NEAR, LAST), (NEAR, LAST)):
             self.to(measure(smooth, self.map, lines, reach), trusted, lens=True, bent=True)
 
     def to(self, measured: MeasuredLines, trusted: float, *, lens: bool, bent: bool) -> None:
-        """Fit the map to what was measured with it, by least squares that forget outliers."""
+        """Fit the map to measurements, by least squares that discount outliers."""
         known = measured.found
         lines = measured.lines.some(known)
         there = lines.places + measured.off[known, None] * lines.normals
@@ -506,7 +507,7 @@ class MapFit:
 
 
 def start(width: int, height: int, square: Any, corners: Any) -> PaperMap:
-    """The plain map that takes the square's corners to some pixels."""
+    """The plain map that takes the square's corners to given pixels."""
     half = np.hypot(width, height) / 2
     goal = (corners - [(width - 1) / 2, (height - 1) / 2]) / half
     places = (square - MIDDLE) / HALF
@@ -518,7 +519,7 @@ def start(width: int, height: int, square: Any, corners: Any) -> PaperMap:
 
 
 def rippled(found: Registration, last: MeasuredLines, smooth: Any, page: Page) -> Registration:
-    """The map of a page with the ripples that its lines, and its crosses if it has some, tell."""
+    """The map of a page with the ripples from its lines, and from its crosses if it has some."""
     known, over = last.found, found.map
     lines = last.lines.some(known)
     across = Offsets(lines.places, lines.normals, last.off[known], np.full(known.sum(), ACROSS))
@@ -532,7 +533,7 @@ def rippled(found: Registration, last: MeasuredLines, smooth: Any, page: Page) -
 def judged(
     over: PaperMap, last: MeasuredLines, lines: PrintedLines, wanted: tuple[str, ...]
 ) -> Registration:
-    """A map with how well it holds; refused where lines are missing, or off."""
+    """A map with its quality; refused where lines are missing or off."""
     seen, found = last.seen, last.found
     share = float(found.sum() / max(seen.sum(), 1))
     off = abs(last.off[found])
@@ -563,11 +564,11 @@ def judged(
 
 
 def least_stretch(last: MeasuredLines, lines: PrintedLines) -> float:
-    """The least share of frame and border that is found along a stretch of the sheet's edge."""
+    """The least share of frame and border found along a stretch of the sheet's edge."""
     return min((held_along(last, stretch) for stretch in stretches(lines)), default=1.0)
 
 
 def held_along(measured: MeasuredLines, stretch: Any) -> float:
-    """The share found along a stretch of what the picture holds of it; 1 where that is too few."""
+    """The share found along a stretch in the picture; 1 where there is too little of it."""
     seen = measured.seen & stretch
     return float(measured.found[seen].mean()) if seen.sum() >= LEAST_ALONG else 1.0

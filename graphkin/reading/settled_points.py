@@ -1,7 +1,7 @@
-"""What a person decided of points, kept line by line: the last word on each, undone where undone.
+"""A person's decisions on points, stored line by line; the last one on each point counts.
 
-A line is written at once and nothing is ever written over, so that a page that is closed or a
-computer that stops loses no decision.
+A line is written at once and never overwritten. A closed page or an interrupted computer therefore
+loses no decision.
 """
 
 from __future__ import annotations
@@ -19,13 +19,13 @@ from graphkin.reading.read_sheet import SheetRecord
 
 SETTLED = "decisions.jsonl"
 LONGEST = 400
-"""Signs of a note."""
+"""The most characters of a note."""
 
 
 class PointDecision(Struct, frozen=True):
-    """What a person says of a point of a sheet: where it lies and what is right of it.
+    """A person's decision on a point of a sheet: its position and its verdict.
 
-    ``undo`` takes back the decision before it that stands.
+    ``undo`` takes back the previous decision that still counts.
     """
 
     sheet: str = ""
@@ -41,7 +41,7 @@ Standing = Mapping[tuple[str, int], PointDecision]
 
 
 class SettledPoints:
-    """The decisions of a folder of readings: read whole, then grown line by line."""
+    """The decisions of a folder of readings: read completely, then extended line by line."""
 
     def __init__(self, folder: Path) -> None:
         self.path = folder / SETTLED
@@ -55,16 +55,16 @@ class SettledPoints:
                 continue
 
     def take(self, decision: PointDecision) -> None:
-        """Let a decision stand, or take back the last that does."""
+        """Apply a decision, or take back the last one."""
         if not decision.undo:
             self.lines.append(decision)
         elif self.lines:
             self.lines.pop()
 
     def add(self, decision: PointDecision) -> None:
-        """Write a decision down, then let it stand."""
+        """Write a decision to the file, then apply it."""
         with self.path.open("ab") as stream:
-            stream.truncate(self.whole)  # what a run that was killed left of a line
+            stream.truncate(self.whole)  # the incomplete line of an interrupted run
             line = msgspec.json.encode(decision) + b"\n"
             stream.write(line)
             stream.flush()
@@ -79,7 +79,7 @@ class SettledPoints:
 
 
 def settled_points(record: SheetRecord, standing: Standing) -> tuple[PointReading, ...]:
-    """The points of a sheet with what was decided of them; what is decided asks no longer."""
+    """The points of a sheet with the decisions on them; a decided point is no longer asked."""
     found = []
     for point in record.points:
         decision = standing.get((record.name, point.step))
@@ -93,8 +93,9 @@ def settled_points(record: SheetRecord, standing: Standing) -> tuple[PointReadin
 def latest_of(
     records: Iterable[SheetRecord], standing: Standing
 ) -> dict[tuple[str, str], SheetRecord]:
-    """The record that counts of each sheet, by code and kind, where it was photographed more than
-    once: the one on which decisions were made, else that with the fewest questions.
+    """The record that counts for each sheet, by code and kind.
+
+    Of several photographs it is the one with decisions, else the one with the fewest questions.
     """
     decided = {sheet for sheet, _ in standing}
     found: dict[tuple[str, str], SheetRecord] = {}
