@@ -203,7 +203,7 @@ class Blots:
         return first, np.maximum(first, np.minimum(high / self.cell, most).astype(np.intp))
 
 
-# --- the distance of labels from the marks of a page, and the cost of their places (mm)------------
+# --- the distance of labels from the marks of a page, and the cost of their places (mm) -----------
 
 
 OWN = 0.4  # mm within which a drawn line counts as the subject itself
@@ -481,7 +481,7 @@ class Clearance:
         return np.asarray(toll)
 
 
-# --- the straight pieces of marks, for labels and details in search of free places-----------------
+# --- the straight pieces of marks, for labels and details in search of free places ----------------
 
 
 SAGITTA = 0.05

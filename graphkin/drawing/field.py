@@ -43,7 +43,7 @@ TABLES: Rect = (A3_TITLE_BLOCK[0], FOOT + 2, AREA[2], A3_TITLE_BLOCK[1] - 2)
 """The table above the title block."""
 
 
-# --- a field of the page with a drawing------------------------------------------------------------
+# --- a field of the page with a drawing -----------------------------------------------------------
 
 
 XY = tuple[float, float]

@@ -143,8 +143,11 @@ GAP = (
 )
 """Blanks at which a line may end.
 
-A line does not end before a unit or =, after ⊥, ∥ or ÷, between the dots of a blank to fill in, nor
-between a link, wheel or guide and its number.
+A line does not end at these places:
+
+- before a unit or =, and after ⊥, ∥ or ÷;
+- between the dots of a blank to fill in;
+- between a link, a wheel or a guide and its number.
 """
 EQUAL = "(?<= =) "
 """Blanks after =, at which a line ends only where there is no other place."""

@@ -1,9 +1,9 @@
 """Scale factors: kL from the preferred scales, and the enlargement of the plans.
 
-On the mechanism, a velocity is drawn as the distance travelled in a certain time, and an
-acceleration as twice the distance gained in that time. Each velocity is therefore the mean
-proportional of its bar and its component. With one turning driver that time is 1/omega, and the
-velocity of the crank's pin is as long as the crank. The plans are drawn m and m′ times as large.
+On the mechanism, a velocity is drawn as the distance travelled in a certain time. An acceleration
+is drawn as twice the distance gained in that time. Each velocity is therefore the mean proportional
+of its bar and its component. With one turning driver that time is 1/omega, and the velocity of the
+crank's pin is as long as the crank. The plans are drawn m and m′ times as large.
 """
 
 from __future__ import annotations

@@ -327,7 +327,7 @@ def angle_of(loops: Equations, link: str, unknowns: Reals) -> float:
     return round(float(turned % (2 * np.pi)), 6) % round(2 * np.pi, 6)
 
 
-# --- A mechanism assembled from nothing -----------------------------------------------------------
+# --- assembly without given positions -------------------------------------------------------------
 
 
 TRIES = 64

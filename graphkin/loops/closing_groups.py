@@ -2,9 +2,9 @@
 
 A set of links is ready when its joints and drivers remove at least 3 freedoms per link. Joints
 within the set and joints to known links count. Examples are a driven crank (1 link), a dyad (2
-links, 3 joints), groups of higher class (4 and 6, 6 and 9) and a wheel on an arm. The smallest such
-set comes first. Where the count may be misleading, the rank of the equations in a random position
-decides.
+links, 3 joints) and a wheel on an arm. Groups of higher class have 4 links and 6 joints, or 6 and
+9. The smallest such set comes first. Where the count may be misleading, the rank of the equations
+in a random position decides.
 """
 
 from __future__ import annotations
@@ -110,7 +110,7 @@ def stages(scene: Scene, loops: Equations) -> list[Group]:
     """All groups, single links included, in the order in which they become known.
 
     Links that nothing determines belong to no group. A set of one or two links is examined when a
-    neighbour has become known, so that the work is proportional to the number of joints.
+    neighbour has become known. The work is thus proportional to the number of joints.
     """
     net, known, found = Net(scene, loops), frozenset({FRAME}), list[Group]()
     waiting = net.sets_beside({FRAME}, known)

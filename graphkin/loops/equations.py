@@ -2,8 +2,8 @@
 
 The unknowns φ are the angle θ_k of every turning except the frame's (radians), then the coordinate
 s_j of every slide and track (metres). The equations are the two components of every closed chain
-(metres), the slips of wheels (metres), and for each driver its coordinate less its given value. The
-first axis of every array is the N settings of a batch.
+and the slips of wheels, in metres. Each driver adds its coordinate less its given value. The first
+axis of every array is the N settings of a batch.
 """
 
 from __future__ import annotations
@@ -283,7 +283,7 @@ def driven_slide(number: int, driver: Driver, guides: Sequence[Guide]) -> int:
     )
 
 
-# --- the loop equations f(φ, q) = 0----------------------------------------------------------------
+# --- the loop equations f(φ, q) = 0 ---------------------------------------------------------------
 
 
 class Linear(Struct, frozen=True, eq=False):

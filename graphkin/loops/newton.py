@@ -293,7 +293,7 @@ def slide_start(
     return np.asarray((way / (heading * guide.along)).real)
 
 
-# --- newton's method on the loop equations, velocity and acceleration ratios, and the motion ------
+# --- Newton's method, velocity and acceleration ratios, and the motion ----------------------------
 
 
 ITERATIONS = 60

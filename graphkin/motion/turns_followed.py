@@ -72,9 +72,9 @@ def led(
 ) -> Course:
     """The course with counted links, or some of them, followed from one u to another.
 
-    At the start they count as the course states. Where nothing closes, they keep their angles.
-    Between two positions of the grid, or of a coarser one with ``step``, a link is assumed to turn
-    by less than a turn minus the largest step.
+    At the start they count as the course states. Where nothing closes, they keep their angles. The
+    grid is coarser with ``step``. Between two of its positions, a link must turn by less than a
+    turn minus the largest step.
     """
     if not (course.counting if links is None else links) or start == stop:
         return course

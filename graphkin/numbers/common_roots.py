@@ -356,7 +356,7 @@ def solutions(slopes: Array, right: Array) -> Array:
     return np.where(good[:, None], found, np.nan)
 
 
-# --- roots near roots in doubles, in numbers of any other kind-------------------------------------
+# --- roots near roots in doubles, in numbers of any other kind ------------------------------------
 
 
 Misfit = Callable[[Any], Any]

@@ -200,7 +200,10 @@ def below_zero(value: Formal) -> Any:
 
 @lru_cache(maxsize=4096)
 def letter(name: Hashable, direction: bool = False) -> Formal:
-    """The letter of a real number or a direction; a letter long unused may get a successor."""
+    """The letter of a real number or a direction, cached by name.
+
+    A name that has left the cache gets a new letter.
+    """
     return Formal({frozenset({(Letter(next(COUNT), direction), 1)}): UNIT})
 
 

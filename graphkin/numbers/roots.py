@@ -230,7 +230,7 @@ def halved_in(
         start, end = np.where(beyond, start, middle), np.where(beyond, middle, end)
 
 
-# --- windows in which functions of one number are defined, their ends, and roots near these--------
+# --- windows in which functions of one number are defined, their ends, and roots near these -------
 
 
 BESIDE = 0.5
@@ -299,7 +299,7 @@ def ease(share: Any) -> Any:
     return (1 - np.cos(np.pi * share)) / 2
 
 
-# --- roots near a flat end-------------------------------------------------------------------------
+# --- roots near a flat end ------------------------------------------------------------------------
 
 
 def fits_beside(

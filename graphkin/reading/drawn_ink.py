@@ -19,9 +19,9 @@ DENSITY = 6.0
 OPEN = 4.0
 """Dark places broader than this, in mm, are shadow and not ink."""
 FINE, COARSE = 0.12, 0.5
-"""Widths of a line and of the surrounding paper, in mm, for the detection of contrast."""
+"""Widths, in mm, of the two blurs whose difference shows what is darker than its surroundings"""
 LINES = 98.0
-"""Percentile of the paper's darkness that is a usual line."""
+"""Percentile of the contrast in the fields that counts as a usual line."""
 FAINT = 0.012
 """The least share of light that a usual line takes; less is the grain of the paper."""
 MASK = 0.35

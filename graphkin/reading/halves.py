@@ -28,7 +28,7 @@ DENSITY = 9.0
 CORNERS = {"left": (8.0, 4.0, 68.0, 64.0), "right": (352.0, 4.0, 412.0, 64.0)}
 """The corner of each half that is searched for, in mm."""
 COARSE, ROOM = 3.0, 30.0
-"""Pixels per mm in the search, and the distance from the corner's place on the glass, in mm."""
+"""Pixels per mm in the search, and the corner's largest distance from its usual place in mm."""
 SCANNERS = (100, 150, 200, 240, 300, 400, 600)
 """Pixels per inch."""
 WHOLE = (0.0, 0.0, 420.0, 297.0)

@@ -109,7 +109,7 @@ def through(
     return LinesCrossing(place + complex(*shift), error, len(chosen), cover)
 
 
-# --- the expected place of a point, from the cloud of its drawings---------------------------------
+# --- the expected place of a point, from the cloud of its drawings --------------------------------
 
 
 CLOSE, ROOM, WIDEST = 0.7, 0.3, 10.0
@@ -171,7 +171,7 @@ def expected(cloud: Any) -> ExpectedPlace:
     return ExpectedPlace(middle, spread)
 
 
-# --- the search for points in a drawing------------------------------------------------------------
+# --- the search for points in a drawing -----------------------------------------------------------
 
 
 DRAWINGS, SEED = 300, 23
@@ -238,7 +238,7 @@ class PointSearch:
         self.drawings: Mapping[int, Any] = {}
         self.fans: dict[complex, list[tuple[complex, float]]] = {}
 
-    # --- expectations------------------------------------------------------------------------------
+    # --- expectations -----------------------------------------------------------------------------
 
     def drawn(self, number: int, found: Mapping[int, Any], count: int) -> Any:
         """The value of a step in ``count`` drawings; a single one is without errors."""
@@ -294,7 +294,7 @@ class PointSearch:
             return first in self.own or not steps[first].args
         return leading.far in self.own or not step.args
 
-    # --- the drawn share---------------------------------------------------------------------------
+    # --- the drawn share --------------------------------------------------------------------------
 
     def holds(self, number: int, best: LinesCrossing | None, where: ExpectedPlace) -> bool:
         """Whether a found place fits, and all lines that lead to it are drawn."""
@@ -414,7 +414,7 @@ class PointSearch:
         found = self.ink.lines(far, place, GUESSED, 0.5)
         return max((line.cover for line in found), default=0.0)
 
-    # --- near the expected place-------------------------------------------------------------------
+    # --- near the expected place ------------------------------------------------------------------
 
     def best_near(self, number: int, where: ExpectedPlace) -> LinesCrossing | None:
         """The best crossing of the lines that lead to a point, near its expected place."""
@@ -549,7 +549,7 @@ class PointSearch:
         radius = float(np.ravel(circle.radius)[0]) * field.mm
         return self.ink.arcs(centre, radius, where.middle, where.reach)
 
-    # --- after a mistake---------------------------------------------------------------------------
+    # --- after a mistake --------------------------------------------------------------------------
 
     def best_far(
         self, number: int, where: ExpectedPlace, besides: complex = complex("inf")

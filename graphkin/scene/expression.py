@@ -253,7 +253,7 @@ def names(tree: Tree) -> frozenset[str]:
             return names(left) | names(right)
 
 
-# --- the value and the derivative of an expression: exact where possible, else of a kind-----------
+# --- the value and the derivative of an expression: exact where possible, else of a kind ----------
 
 
 LARGEST_POWER = 64

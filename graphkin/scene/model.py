@@ -123,10 +123,11 @@ def lengths_of(placing: Placing) -> Lengths:
 class Slide(Struct, frozen=True):
     """A block on a straight guide of link ``on``.
 
-    The guide passes ``through`` a point of that link (a name, or coordinates) at an angle to its x
-    axis, or ``along`` two of its points. The coordinate is then zero at the first and positive
-    towards the second. The block's first point keeps the distance ``offset`` to the left of the
-    guide. ``rollers`` of one size, which keep a link parallel to their track, may replace a guide.
+    The guide passes ``through`` a point of that link, given by name or coordinates, at an angle to
+    its x axis. Or it runs ``along`` two of its points; the coordinate is then zero at the first and
+    positive towards the second. The block's first point keeps the distance ``offset`` to the left
+    of the guide. ``rollers`` of one size, which keep a link parallel to their track, may replace a
+    guide.
     """
 
     on: str

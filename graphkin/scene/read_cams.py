@@ -1,9 +1,9 @@
 """Cams by their law: how they are written, and the equivalent linkage of each.
 
 At an instant a cam moves its follower like the circle of its curvature. That circle acts through a
-bar from the centre of curvature to the roller's centre, or through a block at the centre on the
-follower's face. The follower slides on a guide of the link that carries the cam, or swings about a
-pin of it. That link is the frame, or an arm that turns about a cam at rest.
+bar from the centre of curvature to the roller's centre. For a flat face, it acts through a block at
+the centre of curvature on the face. The follower slides on a guide of the link that carries the
+cam, or swings about a pin of it. That link is the frame, or an arm that turns about a cam at rest.
 """
 
 from __future__ import annotations

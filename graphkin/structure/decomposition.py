@@ -429,7 +429,7 @@ def far_lever(scene: Scene, follower: str, cam: Cam) -> Problem | None:
     return Problem(place, found, expected)
 
 
-# --- groups of class III and higher: the link to try so that dyads do the rest---------------------
+# --- groups of class III and higher: the link to try so that dyads do the rest --------------------
 
 
 def at_instant(

@@ -163,8 +163,8 @@ class Geared(OneLink, frozen=True):
 class Spun(Struct, frozen=True):
     """A wheel or bar turned by a driver, on a ``holder`` that follows from its contact.
 
-    The holder, on a known pin, is the arm of a wheel (``held`` by a pin), or the block on which a
-    bar slides that rolls on a drum.
+    The holder, on a known pin, is the arm of a wheel (``held`` by a pin). For a bar that rolls on a
+    drum, it is the block on which the bar slides.
     """
 
     link: str
@@ -469,9 +469,9 @@ def rolled_by(group: Any) -> Iterator[Contact]:
 def next_coupled(joints: Joints, known: Collection[str], idle: bool = False) -> CoupledTrain | None:
     """The train of fewest links that closes once one link on a known pin is tried.
 
-    A train whose ratios cancel closes in every position of the link and so does not determine it,
-    such as two planets between one sun and one ring. With ``idle`` only these are found, otherwise
-    only others.
+    A train whose ratios cancel closes in every position of the link, and so does not determine it.
+    An example is two planets between one sun and one ring. With ``idle`` only these are found,
+    otherwise only others.
     """
     contacts = [*left_over(joints, known)]
     if not contacts:

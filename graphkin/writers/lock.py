@@ -30,9 +30,9 @@ class InUseError(PageError):
 
 @contextmanager
 def locked(folder: Path, patience: float = 0.0) -> Iterator[str]:
-    """Hold a folder while files are written into it; yields a last holder that was killed.
+    """Hold a folder while files are written into it; yields the last holder if it was killed.
 
-    The holder is empty after a run that ended normally. A killed process holds nothing: its lock is
+    The text is empty after a run that ended normally. A killed process holds nothing: its lock is
     stale and taken over. Raises InUseError, with the process and its age, if another run still
     holds the folder after ``patience`` seconds.
     """
@@ -52,10 +52,7 @@ def locked(folder: Path, patience: float = 0.0) -> Iterator[str]:
         note.write_text(json.dumps(sign), encoding="utf-8")
         yield holder(left) if left else ""
     finally:
-        for path in (
-            note,
-            folder / LOCK,
-        ):  # while the lock is held, so that a waiting run sees the removal
+        for path in (note, folder / LOCK):  # while held, so that a waiting run sees it
             with suppress(OSError):  # Windows keeps an open file
                 path.unlink()
         lock.release()

@@ -28,7 +28,7 @@ def tagged(piece: TextPiece) -> str:
     return f"<{tag}>{text}</{tag}>" if tag else text
 
 
-# --- browser markup from templates-----------------------------------------------------------------
+# --- browser markup from templates ----------------------------------------------------------------
 
 
 HOUSE = Path(__file__).resolve().parents[1]

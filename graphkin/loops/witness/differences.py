@@ -157,8 +157,8 @@ def bends_of(solved: LoopSolution, name: str) -> MotionField:
 def left_at(centre: Ratio, field: MotionField, length: Reals) -> Left:
     """The residual motion at a centre, shape (N,).
 
-    Far away, the residual is divided by the distance in lengths of the mechanism, so that a centre
-    near infinity is compared by its inverse distance. Where the centre is undefined (0/0), the
+    Far away, the residual is divided by the distance in lengths of the mechanism. A centre near
+    infinity is thus compared by its inverse distance. Where the centre is undefined (0/0), the
     whole motion must vanish. The centre itself comes from a motion with such errors, so the errors
     count twice.
     """

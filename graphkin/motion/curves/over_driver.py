@@ -154,7 +154,7 @@ def turning_links(scene: Scene, solution: Solution) -> list[str]:
     ]
 
 
-# --- the figures over the driver-------------------------------------------------------------------
+# --- the figures over the driver ------------------------------------------------------------------
 
 
 WIDTH = 8.0
