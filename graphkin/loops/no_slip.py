@@ -257,7 +257,7 @@ class CountedApart(Struct, frozen=True, eq=False):
     near: Reals
 
     def excess(self, unknowns: Reals) -> Reals:
-        """The share in the equation of whole turns that this link does not count: (N,)."""
+        """The contribution to the equation of whole turns that this link does not count: (N,)."""
         angle = unknowns[:, self.turning - 1] + self.lean
         return np.asarray(self.weight * (angle - within_half_a_turn(angle, self.near)))
 

@@ -277,10 +277,10 @@ def touching(loops: Equations, loaded: Reals, places: Reals) -> Reals:
 def lifted(
     loops: Equations, unknowns: Reals, off: Reals, motion: tuple[Reals, Reals | None, Reals | None]
 ) -> Reals:
-    """The share of errors ``off`` of cams' angles in the rates of their followers: (N, R + D).
+    """The contribution of errors ``off`` of cams' angles to their followers' rates: (N, R + D).
 
-    The share in the first rates comes from the rates of the unknowns. The share in the second ones
-    comes from these, the second rates and the bounds of the first.
+    The contribution to the first rates comes from the rates of the unknowns. That to the second
+    rates comes from these, the second rates and the bounds of the first.
     """
     found = np.zeros((len(unknowns), len(loops.slips.links) + len(loops.drives.turns)))
     rates, seconds, slower = motion
