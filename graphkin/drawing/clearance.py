@@ -44,7 +44,7 @@ class Subjects(NamedTuple):
     half: Array  # half extents of the label
     gap: Array
     radius: Array
-    lean: Array  # preferred direction times the cost of a place square to it
+    lean: Array  # preferred direction times the cost of a place perpendicular to it
     line: Mask  # the subject is a segment, not a point
 
     def take(self, which: Index) -> Subjects:

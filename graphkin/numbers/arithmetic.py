@@ -88,7 +88,7 @@ def nearest_quarter(degrees: Any) -> Any:
 
 
 def quarter_turns(quarter: Any) -> Any:
-    """The power of i that turns by so many quarters, exactly."""
+    """The power of i that turns by ``quarter`` quarter turns, exactly."""
     if hasattr(quarter, "shape"):
         left = quarter - 4 * np.rint(quarter / 4)
         size = abs(left)
