@@ -1,1 +1,1 @@
-"""Why a mechanism does not close, where it does, and which effects its motion has."""
+"""Why a mechanism does not close, where it closes, and which effects its motion contains."""

@@ -1,4 +1,4 @@
-"""Why a step cannot be drawn, by how much it misses, and for which positions it could be."""
+"""Why a step cannot be drawn, by how much its loci miss, and where the mechanism would close."""
 
 from __future__ import annotations
 
@@ -28,9 +28,9 @@ from graphkin.text.errors import ClosureError, Problem, Sought, Written
 
 
 def in_line(scene: Scene, program: Program, number: int, nearly: str = "") -> str:
-    """Which bars and guides are in line, parallel or square where a crossing fails or is flat.
+    """Words for bars and guides in line, parallel or square at a failed or flat crossing.
 
-    ``nearly`` is put before these words where the crossing is flat only.
+    ``nearly`` precedes these words where the crossing is only flat.
     """
     step = program.steps[number]
     kind = step.of
@@ -45,15 +45,15 @@ def in_line(scene: Scene, program: Program, number: int, nearly: str = "") -> st
 
 
 def closed_by(step: Step) -> tuple[str, ...]:
-    """The links of the group of higher class that a step helps to close."""
+    """The links of the higher-class group that a step helps to close."""
     kind = construction(step)
     return kind.closes if isinstance(kind, ClosesGroup) else ()
 
 
 def arms(scene: Scene, links: Sequence[str]) -> list[str]:
-    """The three bars that hold the middle link of a group of class III; empty for other groups.
+    """The three bars that hold the middle link of a class III group; empty for other groups.
 
-    That link can move although the driver stands where the three lines meet in one point.
+    Where the three lines meet in one point, that link can move while the driver is at rest.
     """
     for middle in links:
         points = set(scene.links[middle].points)
@@ -64,7 +64,7 @@ def arms(scene: Scene, links: Sequence[str]) -> list[str]:
 
 
 def parallel(program: Program, step: Step, nearly: str = "") -> str:
-    """Which lines of the mechanism are parallel, or square to one another, when a crossing fails.
+    """Words for the lines that are parallel, or perpendicular, when a crossing fails.
 
     Perpendiculars to two bars are parallel when the bars are.
     """
@@ -80,14 +80,14 @@ def parallel(program: Program, step: Step, nearly: str = "") -> str:
 
 
 def line_words(line: Step) -> tuple[str, bool]:
-    """The bar or guide that a line of a plan hangs on, and whether it is drawn square to it."""
+    """The bar or guide that a plan's line refers to, and whether the line is normal to it."""
     kind = construction(line)
     runs = kind.runs if kind is not None else None
     return (runs.what, runs.square) if runs is not None else ("", False)
 
 
 def beside_dead_point(scene: Scene, program: Program, number: int) -> str:
-    """What is nearly in line where a crossing is flat, and which driver positions to leave."""
+    """Words for what is nearly in line at a flat crossing, and the driver positions to change."""
     drivers = zip(scene.drivers, program.drives, strict=False)
     needed = set(program.behind((number,)))
     causes = [driver for driver, drive in drivers if drive.position in needed]
@@ -97,7 +97,7 @@ def beside_dead_point(scene: Scene, program: Program, number: int) -> str:
 
 
 def stands(scene: Scene, driver: Driver) -> str:
-    """A driver's position as the scene has it, with its unit."""
+    """A driver's position in the scene, with its unit."""
     number = float(driver.position.number(scene.values))
     unit = driver.position.unit
     return f"{number:.10g}°" if unit == "deg" else f"{number:.10g} {unit}"
@@ -107,11 +107,11 @@ def stands(scene: Scene, driver: Driver) -> str:
 
 
 TOUCH = 1e-9
-"""Share of its loci by which a crossing is missed beside a dead point."""
+"""Gap, relative to the size of the loci, below which loci that miss count as touching."""
 FLAT = 1e-6
-"""Sine of a crossing as flat as rounding makes one of loci that touch."""
+"""Sine of a crossing that rounding can make of loci that only touch."""
 BLIND = 2.0**-26
-"""Sine of a crossing, the root of eps, below which no digit of a velocity is right."""
+"""Sine of a crossing, the root of eps, below which no digit of a velocity is correct."""
 MOVING = (Part.POSITION, Part.VELOCITY, Part.ACCELERATION)
 DEAD = (
     "at this dead point, or so near to one that doubles cannot tell (solve --digits can), the "
@@ -119,7 +119,7 @@ DEAD = (
 )
 
 BY_DIGITS = "; solve --digits finds it where doubles cannot tell"
-"""What is added to a hint where numbers of more digits may find what doubles do not."""
+"""Addition to a hint where numbers with more digits may find what doubles do not."""
 
 AT_DEAD = "at this dead point the driver's speed determines no other: change the driver's position"
 
@@ -133,7 +133,7 @@ ALONE = "it closes at this dead point alone: change the lengths"
 def does_not_close(
     scene: Scene, program: Program, needed: Sequence[int], failed: StepFailed
 ) -> ClosureError:
-    """The error for a step that cannot be drawn: which, by how much, and where it could be."""
+    """The error for a step that cannot be drawn: which, by how much, where it would close."""
     step = failed.step
     if isinstance(failed.__cause__, ClosingError):
         return ClosureError(no_such_closure(scene, failed, failed.__cause__))
@@ -157,7 +157,7 @@ def does_not_close(
 
 
 def to_balls_too(problem: Problem) -> Problem:
-    """The problem where balls of many bits do not find the position either: nobody can tell it."""
+    """The problem, rewritten for a position that balls of many bits do not find either."""
     if problem.hint == DEAD:
         return replace(problem, hint=AT_DEAD)
     hint = problem.hint
@@ -165,7 +165,7 @@ def to_balls_too(problem: Problem) -> Problem:
 
 
 def missed(scene: Scene, program: Program, number: int, found: Meeting) -> Problem:
-    """The problem of two loci that miss each other, or touch and do not cross."""
+    """The problem of two loci that miss each other, or touch without crossing."""
     if found.lost:
         return lost(scene, program, number, found)
     hint, expected, kind = DEAD, LOCI, program.steps[number].of
@@ -178,7 +178,7 @@ def missed(scene: Scene, program: Program, number: int, found: Meeting) -> Probl
 
 
 def lost(scene: Scene, program: Program, number: int, found: Meeting) -> Problem:
-    """The problem of two loci that cross, but not where rounding has moved them to."""
+    """The problem of two loci that cross, but at a place that rounding has moved them away from."""
     step = program.steps[number]
     loci = step.of.loci if isinstance(step.of, Determined) else Determined.loci
     depth, moved = -found.missed, found.rounded - found.missed
@@ -195,7 +195,7 @@ def lost(scene: Scene, program: Program, number: int, found: Meeting) -> Problem
 def not_found(
     program: Program, number: int, reason: str, hint: str, expected: str = LOCI
 ) -> Problem:
-    """The problem of a step that finds nothing, for some reason."""
+    """The problem of a step that finds nothing, with the reason."""
     step = program.steps[number]
     words, names = sought(step)
     what = " of ".join(filter(None, (step.part.value, words)))
@@ -207,7 +207,7 @@ def not_found(
 
 
 def sought(step: Step) -> tuple[str, tuple[str, ...]]:
-    """What a step was to find, in words and by name: its letter, else the links or points."""
+    """The object of a step, in words and by name: its letter, else its links or points."""
     if links := closed_by(step):
         return f"links {', '.join(links)}", links
     kind = construction(step)
@@ -220,14 +220,16 @@ def sought(step: Step) -> tuple[str, tuple[str, ...]]:
 
 
 def undetermined(step: Step, args: Sequence[Any]) -> Problem | None:
-    """The problem of a step whose loci leave any place or direction open, as far as doubles tell;
-    None for others."""
+    """The problem of a step whose loci leave a position or direction open, as far as doubles show.
+
+    None for other steps.
+    """
     found = step.of.undetermined(args) if isinstance(step.of, Determined) else None
     return replace(found, hint=f"{found.hint}{BY_DIGITS}") if found else None
 
 
 def no_such_closure(scene: Scene, failed: StepFailed, error: ClosingError) -> Problem:
-    """The problem of a group of higher class that does not close, or not in so many ways."""
+    """The problem of a higher-class group without the stated closure, or without any."""
     closed = closed_by(failed.step)
     links = ", ".join(closed)
     if not error.ways:
@@ -249,7 +251,7 @@ def no_such_closure(scene: Scene, failed: StepFailed, error: ClosingError) -> Pr
 
 
 def merging(scene: Scene, step: Step, error: MergingError) -> Problem:
-    """The problem of a closure whose number is not decided, as two of its group merge here."""
+    """The problem of a closure number that is undecided because two closures merge."""
     closed = closed_by(step)
     links = ", ".join(closed)
     merge = f"closures {error.first} and {error.first + 1} of links {links} {MERGE}"
@@ -262,12 +264,12 @@ def merging(scene: Scene, step: Step, error: MergingError) -> Problem:
 
 
 def branch_of(scene: Scene, links: Sequence[str]) -> str:
-    """The link under which the closure of some links is written."""
+    """The link under which [branches] states the closure of some links."""
     return next((name for name in links if name in scene.branches), links[0])
 
 
 def least_miss(scene: Scene, failed: StepFailed) -> str:
-    """By how much a group of higher class fails to close, at the value that comes nearest."""
+    """Words for the smallest gap by which a higher-class group fails to close."""
     closer = closer_of(failed.step)
     assert closer is not None
     trying = closer.trying
@@ -287,7 +289,7 @@ def least_miss(scene: Scene, failed: StepFailed) -> str:
 
 
 def why(scene: Scene, program: Program, failed: StepFailed) -> str:
-    """Words for what hinders a step: loci that miss each other, or parallel lines."""
+    """Words for the reason of a failed step: loci that miss each other, or parallel lines."""
     if isinstance(failed.__cause__, MergingError):
         first = failed.__cause__.first
         return f"closures {first} and {first + 1} merge here as far as the ball tells"
@@ -297,7 +299,7 @@ def why(scene: Scene, program: Program, failed: StepFailed) -> str:
 
 
 def why_not(scene: Scene, program: Program, number: int, found: Meeting) -> str:
-    """Words for two loci that miss each other, or touch and do not cross."""
+    """Words for two loci that miss each other, or touch without crossing."""
     step = program.steps[number]
     if found.missed >= TOUCH * found.size:
         return miss_words(scene, step, found.missed)
@@ -306,7 +308,7 @@ def why_not(scene: Scene, program: Program, number: int, found: Meeting) -> str:
 
 
 def miss_words(scene: Scene, step: Step, missed: float) -> str:
-    """By how much the loci of a step miss each other."""
+    """Words for the gap between the loci of a step."""
     apart = step.of.apart if isinstance(step.of, Determined) else Determined.apart
     return f"{apart} by {measured(scene, missed)}"
 
@@ -327,7 +329,7 @@ def run_before(
 def doubtful(
     scene: Scene, program: Program, values: Mapping[int, Any]
 ) -> Iterator[tuple[int, Meeting]]:
-    """The steps that cross two loci as flatly as rounding does, with what is true of these."""
+    """The steps whose loci cross as flatly as rounding, with the exact state of these loci."""
     for number in values:
         step = program.steps[number]
         if step.part is not Part.POSITION or step.hand or step.action is None:
@@ -339,10 +341,10 @@ def doubtful(
 
 
 def refuse_touching(scene: Scene, trace: Trace) -> None:
-    """Raise ClosureError where rounded numbers cross two loci that in truth touch or miss.
+    """Raise ClosureError where rounded numbers cross two loci that really touch or miss.
 
-    What the scene states in rational numbers is decided by these. Where loci touch, or cross more
-    flatly than rounding tells, positions may be drawn, and velocities may not.
+    Loci that the scene states in rational numbers are decided exactly. Where loci touch, or cross
+    too flatly for rounding to tell, positions may be drawn but velocities may not.
     """
     program = trace.program
     moving = any(program.steps[number].part is Part.VELOCITY for number in trace.values)
@@ -354,10 +356,10 @@ def refuse_touching(scene: Scene, trace: Trace) -> None:
 
 
 def refuse_blind(scene: Scene, trace: Trace) -> None:
-    """Raise ClosureError where two loci cross so flatly that rounding makes their crossing up.
+    """Raise ClosureError where two loci cross so flatly that their crossing is only rounding.
 
-    The error of a velocity is eps over the square of the sine: below the root of eps nothing of it
-    is known.
+    The error of a velocity is eps over the square of the sine. Below the root of eps nothing of the
+    velocity is known.
     """
     program = trace.program
     for number, margin in trace.margins.items():

@@ -1,4 +1,4 @@
-"""The closures of each group: where its points lie in each, and whether the rest follows."""
+"""The closures of each group: its points' positions in each, and whether the rest can be drawn."""
 
 from __future__ import annotations
 
@@ -26,12 +26,12 @@ from graphkin.structure.pairs import Pin
 
 
 class GroupClosure(Struct, frozen=True):
-    """One way in which a group closes: its words in [branches], and its point's place (m).
+    """One closure of a group: its statement in [branches] and the position of its point (m).
 
-    ``fails`` names what cannot be drawn then, and ``unfit`` an idle link that has no room. Both are
-    empty when all the rest closes too: ``points`` are then the places of all points (m), but of the
-    picked closure. ``stands`` are the places of the group's points and the directions of its links,
-    as far as they are found.
+    ``fails`` names what cannot be drawn in this closure, and ``unfit`` an idle link that does not
+    fit. Both are empty when everything else closes. Then ``points`` holds the positions of all
+    points (m), except for the selected closure. ``stands`` holds the positions of the group's
+    points and the directions of its links, as far as they are known.
     """
 
     words: str
@@ -44,7 +44,7 @@ class GroupClosure(Struct, frozen=True):
 
 
 class Choice(Struct, frozen=True):
-    """A group, one of its points, and its closures: of a dyad the picked one first.
+    """A group, one of its points, and its closures; for a dyad, the selected one is first.
 
     Where no point of it tells them apart, ``pin`` is a link of it, ``is_turned``, and the places
     are unit vectors along that link's x axis. [branches] states the closure under ``key``.
@@ -60,21 +60,23 @@ class Choice(Struct, frozen=True):
 
 
 class IdleBar(Struct, frozen=True):
-    """An idle link between two points that stand without it, and its length (m)."""
+    """An idle link between two points that are located without it, and its length (m)."""
 
     link: str
     ends: tuple[str, str]
     length: float
 
     def fits(self, places: Mapping[str, complex]) -> bool:
-        """Whether its pins stand as far apart as it is long, where both are known."""
+        """Whether the distance of its pins equals its length; True where one pin is unknown."""
         known = [places[end] for end in self.ends if end in places]
         return len(known) < 2 or abs(abs(known[1] - known[0]) - self.length) <= FITS * self.length
 
 
 class Positions(Struct, frozen=True):
-    """A program of positions: the steps that place ``every`` point and turn every link, in order,
-    their values as the scene states its branches, and the bars that must fit besides."""
+    """A program of positions, with its values in the stated branches and the bars that must fit.
+
+    ``every`` lists, in order, the steps that locate all points and the directions of all links.
+    """
 
     scene: Scene
     program: Program
@@ -83,7 +85,7 @@ class Positions(Struct, frozen=True):
     idle: tuple[IdleBar, ...]
 
     def unfit(self, values: Mapping[int, Any]) -> str:
-        """The first idle link that has no room; empty where all have."""
+        """The first idle link that does not fit; empty if all fit."""
         if not self.idle:
             return ""
         known = found_of(self.program, positions_of(self.program), values)
@@ -92,7 +94,7 @@ class Positions(Struct, frozen=True):
 
 
 APART = 1e-6
-"""Distance of two places, in parts of the largest coordinate, that a reader sees as two."""
+"""Distance, relative to the largest coordinate, above which a reader sees two positions."""
 
 
 def choices(
@@ -126,7 +128,7 @@ def choices(
 
 
 def idle_bars(scene: Scene, groups: tuple[Group, ...]) -> Iterator[IdleBar]:
-    """The links that join two pins of what moves without them."""
+    """The idle links: each joins two pins of a mechanism that moves without it."""
     for group in groups:
         match group:
             case Tie(link=link, first=Pin(point=p), second=Pin(point=q)):
@@ -135,7 +137,7 @@ def idle_bars(scene: Scene, groups: tuple[Group, ...]) -> Iterator[IdleBar]:
 
 
 def told_by(scene: Scene, group: Group, program: Program) -> tuple[Target, ...]:
-    """What may tell the closures of a group apart: a point, its other points, then its links."""
+    """Targets that may distinguish a group's closures: a point, other points, then links."""
     turned = [group.rail] if isinstance(group, OnTwoPins) else list(group.links)
     own = (p for link in group.links for p in scene.links[link].points)
     points = dict.fromkeys((shown_point(scene, group, program), *own))
@@ -149,7 +151,7 @@ def told_apart(
     closures: tuple[GroupClosure, ...],
     key: str,
 ) -> Choice:
-    """The closures of a group by the first point that differs between all of them, or link."""
+    """The closures of a group, shown by the first point or link that differs in all."""
     drawn = [each.stands for each in closures if each.place is not None]
     shared = [target for target in told if all(target in stands for stands in drawn)]
     clear = [target for target in shared if are_apart([stands[target] for stands in drawn])]
@@ -162,7 +164,7 @@ def told_apart(
 
 
 def are_apart(places: Sequence[complex]) -> bool:
-    """Whether no two of some places are the same."""
+    """Whether no two positions coincide."""
     least = APART * max(map(abs, places), default=0.0)
     return all(abs(one - other) > least for one, other in combinations(places, 2))
 
@@ -170,9 +172,9 @@ def are_apart(places: Sequence[complex]) -> bool:
 def choosing_step(
     scene: Scene, group: Group, program: Program, taken: Collection[int]
 ) -> int | None:
-    """The step that picks one of the ways in which a group closes; None where there is one.
+    """The step that selects one closure of a group; None where there is only one.
 
-    The groups before it have ``taken`` theirs.
+    ``taken`` are the steps of earlier groups.
     """
     if isinstance(group, Dyad) and (group.type == "RRR" or has_two_ways(group)):
         closing = False
@@ -190,7 +192,7 @@ def choosing_step(
 
 
 def picks(program: Program, number: int, *, closing: bool) -> bool:
-    """True for a step of a position that picks one of several crossings."""
+    """Whether a step of a position selects one of several crossings."""
     step = program.steps[number]
     if step.part is not Part.POSITION or step.hand or step.action is None:
         return False
@@ -200,7 +202,7 @@ def picks(program: Program, number: int, *, closing: bool) -> bool:
 
 
 def shown_point(scene: Scene, group: Group, program: Program) -> str:
-    """The point by which the closures of a group are told apart."""
+    """The point that distinguishes the closures of a group."""
     if isinstance(group, Dyad) and isinstance(group.inner, Pin):
         return group.inner.point
     outside = {
@@ -209,7 +211,7 @@ def shown_point(scene: Scene, group: Group, program: Program) -> str:
     points = [p for link in group.links for p in scene.links[link].points]
     free = [p for p in points if p not in outside]
     outer = (group.left, group.right) if isinstance(group, Dyad) else ()
-    known = {pair.point for pair in outer if isinstance(pair, Pin)}  # the same in every closure
+    known = {pair.point for pair in outer if isinstance(pair, Pin)}  # |the same in every closure
     led = [p for p in points if p not in known]
     kept = [p for p in kept_touches(scene, group.links) if ("position", p) in program.targets]
     return next(iter((*free, *led, *kept, *points)))
@@ -218,7 +220,7 @@ def shown_point(scene: Scene, group: Group, program: Program) -> str:
 def dyad_closure(
     positions: Positions, number: int, dyad: Dyad, told: tuple[Target, ...], way: int
 ) -> GroupClosure:
-    """One closure of a dyad: the picked crossing (way +1) or the other one (-1)."""
+    """One closure of a dyad: the selected crossing (way +1) or the other one (-1)."""
     scene, program, stated = positions.scene, positions.program, positions.stated
     words = words_of(scene, dyad, way)
     if way > 0 and stated:
@@ -255,14 +257,14 @@ def numbered(
 
 
 def replaced(program: Program, number: int, step: Step) -> Program:
-    """The program with another step in place of one."""
+    """The program with one step replaced."""
     steps = list(program.steps)
     steps[number] = step
     return replace(program, steps=tuple(steps))
 
 
 def values_as_stated(scene: Scene, program: Program, every: tuple[int, ...]) -> Mapping[int, Any]:
-    """The values of the positions as the scene states its branches; none where these fail."""
+    """The values of the positions in the stated branches; empty where these fail."""
     try:
         return run_settled(scene, program, every).values
     except StepFailed:
@@ -270,7 +272,7 @@ def values_as_stated(scene: Scene, program: Program, every: tuple[int, ...]) -> 
 
 
 def positions_of(program: Program) -> list[Target]:
-    """The places of all points."""
+    """The position targets of all points."""
     return [target for target in program.targets if target[0] == "position"]
 
 
@@ -283,9 +285,10 @@ def closure(
     chosen: bool,
     before: Mapping[int, Any] = MappingProxyType({}),
 ) -> GroupClosure:
-    """A closure in words: where it puts what tells it apart, and what then cannot be drawn.
+    """A closure with the position that distinguishes it, and what cannot be drawn in it.
 
-    ``number`` is the step that picks it: what does not depend on that is as ``before``.
+    ``number`` is the step that selects it. Steps that do not depend on it keep their values from
+    ``before``.
     """
     scene, program, every = positions.scene, positions.program, positions.every
     later = every[bisect_left(every, number) :]
@@ -312,7 +315,7 @@ def closure(
 def found_of(
     program: Program, targets: Iterable[Target], values: Mapping[int, Any]
 ) -> Iterator[tuple[Target, complex]]:
-    """The places and directions of some targets, as far as they are known."""
+    """The positions and directions of some targets, as far as they are known."""
     for target in targets:
         place = values.get(program.targets[target])
         if isinstance(place, complex):
@@ -330,7 +333,7 @@ def words_of(scene: Scene, dyad: Dyad, way: int) -> str:
 
 
 def branch_of(scene: Scene, dyad: Dyad) -> Branch | None:
-    """What the scene says of a dyad: of its inner pin, or of its block."""
+    """The scene's branch statement for a dyad, under its inner pin or its block."""
     names = [key_of(scene, dyad)]
     if has_two_ways(dyad):
         names.append(block_of(dyad))

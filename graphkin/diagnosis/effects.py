@@ -1,7 +1,7 @@
-"""Which effects of the motion are in a construction and which are out, by counting its steps.
+"""The effects of the motion in a construction, and the absent ones, by a count of its steps.
 
-Every step is drawn for exactly one effect (``Step.effect``, or what its part of the work says), so
-that the numbers of an explanation add up to the steps that what is asked needs.
+Every step is drawn for exactly one effect (``Step.effect``, or the effect of its part). The numbers
+of an explanation therefore add up to the steps that the requested quantities need.
 """
 
 from __future__ import annotations
@@ -24,16 +24,16 @@ BY_HAND = "by-hand marks"
 PENCIL = "pencil"
 CERTIFICATION = "certification"
 EFFECTS: tuple[Effect, ...] = get_args(Effect)
-"""The effects whose steps add up to those of what is asked."""
+"""The effects whose steps add up to the requested ones."""
 BY_COMMAND = {
     PENCIL: "only `solve --pencil MM` asks what a pencil makes of each step",
     CERTIFICATION: "only `solve --digits N` asks for digits that are proved",
 }
-"""Effects that no scene calls for: they run the same steps on other numbers."""
+"""Effects that no scene requests: they run the same steps on other numbers."""
 
 
 class EffectRow(Struct, frozen=True):
-    """One effect: whether it is in, the steps drawn for it, why, and what those steps cost.
+    """One effect: whether it is present, its steps, the reason, and the cost of the steps.
 
     ``time`` is None where nothing is run, and before it is measured.
     """
@@ -46,7 +46,7 @@ class EffectRow(Struct, frozen=True):
 
 
 def effects(mechanism: Mechanism) -> tuple[EffectRow, ...]:
-    """All effects of what [ask] asks, then what only a hand's drawing or a command adds."""
+    """All effects of the requests in [ask], then those of drawing by hand or of commands."""
     program, asked = mechanism.program, mechanism.asked()
     counts = Counter(parted(mechanism).values())
     wants, ask = wanted_by(mechanism), mechanism.scene.ask  # centrodes share steps of centres
@@ -84,7 +84,7 @@ def measured(
 
 
 def parted(mechanism: Mechanism) -> dict[int, Effect]:
-    """The steps that what is asked needs, in order, each with the one effect it is drawn for."""
+    """The steps that the requests need, in order, each with the one effect it is drawn for."""
     program, asked = mechanism.program, mechanism.asked()
     found = {number: effect_of(program.steps[number]) for number in program.needed(asked)}
     for number in own_to_centrodes(mechanism.scene, program, asked):
@@ -93,7 +93,6 @@ def parted(mechanism: Mechanism) -> dict[int, Effect]:
 
 
 def effect_of(step: Step) -> Effect:
-    """The one effect that a step is drawn for."""
     if step.given is not None:
         is_timed = any(TIME in quantity.uses() for quantity in step.given.quantities)
         return "laws of time" if is_timed else "data and shapes"
@@ -101,7 +100,7 @@ def effect_of(step: Step) -> Effect:
 
 
 def own_to_centrodes(scene: Scene, program: Program, asked: tuple[Target, ...]) -> tuple[int, ...]:
-    """The steps of centres that nothing but centrodes asks for."""
+    """The steps of centres that only centrodes need."""
     links = set(scene.ask.centrodes) - set(scene.ask.centres)
     others = [target for target in asked if not (target[0] == "centre" and target[1] in links)]
     shared = set(program.needed(others))
@@ -113,7 +112,7 @@ def own_to_centrodes(scene: Scene, program: Program, asked: tuple[Target, ...]) 
 
 
 def wanted_by(mechanism: Mechanism) -> Mapping[Effect, list[Target]]:
-    """For each effect the targets whose own construction contains it."""
+    """For each effect, the requested targets whose construction contains it."""
     program, whole = mechanism.program, parted(mechanism)
     wants: dict[Effect, list[Target]] = {}
     for target in dict.fromkeys(mechanism.asked()):
@@ -129,7 +128,7 @@ def hand_steps(program: Program, asked: Iterable[Target]) -> list[int]:
 
 
 def by_hand(program: Program, asked: tuple[Target, ...]) -> EffectRow:
-    """The steps that only the drawing by hand adds: figures, arcs, rays and arrows."""
+    """The effect row of drawing by hand: figures, arcs, rays and arrows."""
     extra = len(hand_steps(program, asked))
     if not extra:
         return EffectRow(BY_HAND, 0, "nothing that is asked has a construction to show", False)
@@ -141,7 +140,7 @@ def by_hand(program: Program, asked: tuple[Target, ...]) -> EffectRow:
 
 
 def reason(scene: Scene, effect: Effect, wants: list[Target], asked: tuple[Target, ...]) -> str:
-    """Why an effect is in or out, in one sentence that names what in the scene decides it."""
+    """Why an effect is present or absent, in one sentence that names the cause in the scene."""
     if wants:
         cause = cause_of(scene, effect)
         every = len(wants) == len(set(asked))
@@ -153,7 +152,7 @@ def reason(scene: Scene, effect: Effect, wants: list[Target], asked: tuple[Targe
 
 
 def targets_words(targets: Sequence[Target]) -> str:
-    """Targets in words, those of one quantity together: velocity of D; pole of 3, 4."""
+    """Targets in words, grouped by quantity: velocity of D; pole of 3, 4."""
     of: dict[str, list[str]] = {}
     for quantity, name in dict.fromkeys(targets):
         of.setdefault(quantity, []).append(name)
@@ -161,7 +160,7 @@ def targets_words(targets: Sequence[Target]) -> str:
 
 
 def cause_of(scene: Scene, effect: Effect) -> str:
-    """What in the scene brings an effect in; empty where only what is asked does."""
+    """The cause of an effect in the scene; empty where only a request is the cause."""
     match effect:
         case "laws of time":
             return f"{drivers_words(timed_drivers(scene))} a law of time"
@@ -177,7 +176,7 @@ def cause_of(scene: Scene, effect: Effect) -> str:
 
 
 def absence_of(scene: Scene, effect: Effect) -> str:
-    """What in the scene keeps an effect out; empty where only what is asked does."""
+    """The cause in the scene of an effect's absence; empty where only missing requests are."""
     ask = scene.ask
     match effect:
         case "laws of time" if not timed_drivers(scene):
@@ -194,17 +193,17 @@ def absence_of(scene: Scene, effect: Effect) -> str:
 
 
 def drivers_words(numbers: list[int]) -> str:
-    """Driver 1 has, or drivers 1, 2 have, counted from one as they are written."""
+    """ "Driver 1 has" or "drivers 1, 2 have", counted from one in written order."""
     return f"driver{'s' if len(numbers) > 1 else ''} {', '.join(map(str, numbers))} " + (
         "have" if len(numbers) > 1 else "has"
     )
 
 
 def timed_drivers(scene: Scene) -> list[int]:
-    """Drivers whose position is written in t."""
+    """The numbers of drivers whose position is a function of t."""
     return [i for i, driver in enumerate(scene.drivers, 1) if TIME in driver.position.uses()]
 
 
 def accelerated_drivers(scene: Scene) -> list[int]:
-    """Drivers that do not run at constant speed."""
+    """The numbers of drivers with an acceleration."""
     return [i for i, driver in enumerate(scene.drivers, 1) if not driver.acceleration.is_zero()]

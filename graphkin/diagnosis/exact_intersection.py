@@ -1,9 +1,9 @@
-"""Do two loci meet? Decided without rounding, apart from the construction of where they meet.
+"""The exact decision whether two loci meet, independent of the construction of their meeting.
 
-Floating-point numbers and the numbers of a scene are rational, and whether a circle meets a circle
-or a line is the sign of a polynomial in rational numbers: of (r1 + r2)² - d² and d² - (r1 - r2)²,
-whose product is four times the square of r1·r2 less the square of d² - r1² - r2². Rounded, they
-misjudge one pair in four of circles that touch or nearly touch; as fractions they misjudge none.
+Floating-point numbers and the numbers of a scene are rational. Whether a circle meets a circle or a
+line is the sign of a polynomial in them: of (r1 + r2)² - d² and d² - (r1 - r2)². The product of
+these is four times the square of r1·r2 less the square of d² - r1² - r2². In rounded numbers, one
+in four pairs of circles that touch or nearly touch is misjudged; in fractions, none is.
 """
 
 from __future__ import annotations
@@ -28,27 +28,27 @@ Loci = tuple[Locus, Locus]
 
 EPS = 2.0**-52
 ROUNDING = 16 * EPS
-"""Share of their size within which two loci found in floats may cross or not."""
+"""Share of their size within which the crossing of two loci in floats is undecided."""
 BITS = (128, 512, 2048)
-"""Bits of the balls that decide one after the other whether loci meet."""
+"""Bits of the balls that decide, in turn, whether loci meet."""
 
 
 # --- the decision --------------------------------------------------------------------------------
 
 
 def meet(first: Locus, second: Locus) -> int:
-    """Whether two circles, or a line and a circle, cross: 1; touch: 0; or miss each other: -1.
+    """Whether two circles, or a line and a circle, cross (1), touch (0), or miss each other (-1).
 
-    Never wrong for the numbers it is given, floats included.
+    The result is exact for the given numbers, floats included.
     """
     power, _, _, _ = powers(first, second)
     return (power > 0) - (power < 0)
 
 
 def clearance(first: Locus, second: Locus) -> float:
-    """By how much two loci miss each other (m): nought where they touch, negative where they cross.
+    """The gap between two loci (m): zero where they touch, negative where they cross.
 
-    It is found without cancellation, so that its sign is right and its digits are, to 1e-15.
+    It is computed without cancellation, so that its sign is correct and its digits are, to 1e-15.
     """
     power, other, near, far = powers(first, second)
     if power == 0:
@@ -57,10 +57,10 @@ def clearance(first: Locus, second: Locus) -> float:
 
 
 def powers(first: Locus, second: Locus) -> tuple[Fraction, Fraction, Fraction, Fraction]:
-    """What decides, a factor of it that does not vanish, and two lengths that are alike at a touch.
+    """The deciding power, a nonzero factor of it, and two lengths that are equal at a contact.
 
-    The power is positive where the loci cross. Over the factor it is the difference of the squares
-    of the two lengths: of the reach of the radii and the distance.
+    The power is positive where the loci cross. Divided by the factor, it is the difference of the
+    squares of the two lengths: the reach of the radii and the distance.
     """
     if isinstance(first, Circle) and isinstance(second, Circle):
         a, b = (Exact.of(each.radius).square() for each in (first, second))
@@ -78,7 +78,7 @@ def powers(first: Locus, second: Locus) -> tuple[Fraction, Fraction, Fraction, F
 
 
 def length(square: Fraction) -> Fraction:
-    """The root of a fraction, to 64 digits in binary and more."""
+    """The square root of a fraction, to at least 64 binary digits."""
     if not square:
         return square
     power = (square.denominator.bit_length() - square.numerator.bit_length()) // 2 + 64
@@ -89,11 +89,11 @@ def length(square: Fraction) -> Fraction:
 
 
 class Meeting(Struct, frozen=True):
-    """By how much two loci miss each other (m), negative where they cross.
+    """The gap between two loci (m), negative where they cross.
 
-    ``exactly`` tells that it is so for the rational numbers that the scene states, ``proved`` that
-    it is so for what follows from them, by balls; else it is so for the loci found in floats, by
-    which it is ``rounded`` and whose largest length is ``size``.
+    ``exactly`` means that it holds for the rational numbers in the scene. ``proved`` means that
+    balls prove it for what follows from them. Otherwise it is the gap of the loci in floats.
+    ``rounded`` is that gap, and ``size`` the largest length of the loci.
     """
 
     missed: float
@@ -104,28 +104,30 @@ class Meeting(Struct, frozen=True):
 
     @property
     def slack(self) -> float:
-        """How far rounding may have moved the loci (m)."""
+        """The distance by which rounding may have moved the loci (m)."""
         return 0.0 if self.proved else ROUNDING * self.size
 
     @property
     def apart(self) -> bool:
-        """They miss each other."""
+        """Whether they miss each other."""
         return self.missed > self.slack
 
     @property
     def lost(self) -> bool:
-        """They cross, and farther than their own rounding explains floats miss each other."""
+        """Whether they cross although, beyond their own rounding, floats miss each other."""
         return self.proved and self.missed < 0 and self.rounded > ROUNDING * self.size
 
     @property
     def barely(self) -> bool:
-        """They cross, if at all, by less than rounding, as the scene states it."""
+        """Whether, as the scene states them, they cross by less than rounding or not at all."""
         return self.exactly and self.missed > -EPS * self.size
 
 
 def meeting(scene: Scene, program: Program, number: int, loci: Loci) -> Meeting:
-    """Whether the loci of a step meet, by the scene's own numbers: as fractions where these are
-    rational, else in balls of more and more bits."""
+    """The gap of the loci of a step, by the scene's own numbers.
+
+    Rational numbers are decided as fractions, others in balls of increasing precision.
+    """
     stated = stated_loci(program, number, scene.values)
     found = clearance(rounded(loci[0]), rounded(loci[1]))
     if stated is not None:
@@ -136,7 +138,7 @@ def meeting(scene: Scene, program: Program, number: int, loci: Loci) -> Meeting:
 
 
 def loci_of(args: Sequence[Any]) -> Loci | None:
-    """The two loci, not both straight, among the values that a step is drawn from."""
+    """The two loci, not both straight, among the inputs of a step."""
     match args:
         case [Circle() | Line() as first, Circle() as second, *_]:
             return first, second
@@ -156,10 +158,10 @@ def size_of(loci: Loci) -> float:
 
 
 def stated_loci(program: Program, number: int, values: Mapping[str, Any]) -> Loci | None:
-    """The two loci that a step crosses, exactly as the scene states them; None where it does not.
+    """The two loci that a step crosses, exactly as stated in the scene; None where it does not.
 
-    It does where they hang on frame points, on cranks at whole quarters of a turn, and on nothing
-    that had to be constructed before.
+    They are stated where they depend on frame points, on cranks at whole quarter turns, and on
+    nothing constructed before.
     """
     found: dict[int, Any] = {}
     step = program.steps[number]
@@ -172,8 +174,10 @@ def stated_loci(program: Program, number: int, values: Mapping[str, Any]) -> Loc
 
 
 def proved_clearance(scene: Scene, program: Program, number: int) -> float | None:
-    """By how much the loci of a step miss each other (m), of a sign that balls prove; None where
-    they do not, as at a touch, and behind a group of higher class."""
+    """The gap of the loci of a step (m), with a sign that balls prove.
+
+    None where they do not, as at a contact, and after a group of higher class.
+    """
     step = program.steps[number]
     needed = program.behind(step.args)
     if any(closer_of(program.steps[n]) is not None for n in needed):
@@ -197,7 +201,7 @@ def proved_clearance(scene: Scene, program: Program, number: int) -> float | Non
 
 
 def gap_of(first: Locus, second: Locus) -> Any:
-    """By how much two loci of balls miss each other, negative where they cross."""
+    """The gap of two loci of balls, negative where they cross."""
     if isinstance(first, Circle) and isinstance(second, Circle):
         apart = abs(second.centre - first.centre)
         within = abs(first.radius - second.radius) - apart
@@ -211,7 +215,7 @@ def gap_of(first: Locus, second: Locus) -> Any:
 def exact_value(
     program: Program, number: int, found: Mapping[int, Any], values: Mapping[str, Any]
 ) -> Any:
-    """The value of a step in rational numbers; IrrationalError for a crossing that is none."""
+    """The value of a step in rational numbers. Raises IrrationalError for a crossing."""
     step = program.steps[number]
     if step.given is not None:
         return step.given.value(values, RATIONAL)

@@ -1,4 +1,4 @@
-"""For which positions of a driver a mechanism closes, while the other drivers stand."""
+"""The positions of a driver at which a mechanism closes, with the other drivers at rest."""
 
 from __future__ import annotations
 
@@ -17,37 +17,37 @@ if TYPE_CHECKING:
     from graphkin.motion.sweep import Sweep
 
 WORK = 60_000_000
-"""Steps that close groups, within which positions are searched: about a second."""
+"""Steps of closing groups that a search may take: about a second."""
 FEWEST = 180
-"""Positions that are searched whatever they cost."""
+"""Positions that are always searched, at any cost."""
 NARROWINGS = 5
-"""How often the last step at the end of a range is cut into parts."""
+"""How many times the last step at the end of a range is cut into parts."""
 PARTS = 16
-"""Parts into which it is cut, all at once."""
+"""Parts of each such cut, all tried at once."""
 FEWER, FEWER_PARTS = 36, 4
-"""The same where several links are tried at once: each position costs as much as a hundred."""
+"""FEWEST and PARTS for groups that try several links at once; a position costs a hundredfold."""
 SOUGHT = 2
-"""Links tried at once with which positions are searched at all."""
+"""The most links tried at once for which positions are searched at all."""
 MOST = 3
-"""Drivers told with their ranges."""
+"""The most drivers whose ranges are reported."""
 LISTED = 6
-"""Ranges told of one driver."""
+"""The most ranges reported for one driver."""
 FREE = {
     (False, False): "{0} to {1} {2}",
     (True, False): "up to {1} {2}",
     (False, True): "{0} {2} and more",
     (True, True): "of any size",
 }
-"""Words for a range of a sliding driver, by whether it reaches below and above what was tried."""
+"""Words for a range of a sliding driver, by whether it exceeds the search below and above."""
 Range = tuple[float, float]
 
 
 class ClosingRanges(Struct, frozen=True):
-    """Where a mechanism closes while one driver moves: ranges of its position (degrees or m).
+    """The ranges of one driver's position (degrees or m) in which a mechanism closes.
 
-    ``searched`` counts the positions that were looked at, where a bound on the work left out some;
-    it is 0 elsewhere. ``tried`` counts the links tried at once where these are too many for any
-    search; there are no ranges then.
+    ``searched`` counts the positions searched where a bound on the work left some out, else it is
+    0. ``tried`` counts the links tried at once where these are too many for a search; there are no
+    ranges then.
     """
 
     ranges: list[Range]
@@ -56,7 +56,7 @@ class ClosingRanges(Struct, frozen=True):
 
     @property
     def bound(self) -> str:
-        """Words for a search that was bounded, or left out; empty elsewhere."""
+        """Words for a search that was bounded or left out; empty otherwise."""
         if self.tried:
             return (
                 f"not searched: {self.tried} links are tried at once, which takes seconds for "
@@ -71,17 +71,17 @@ class ClosingRanges(Struct, frozen=True):
 
 
 def where_it_closes(scene: Scene) -> str:
-    """Words for the positions of each driver at which every position can be drawn."""
+    """Words for the positions of each driver at which the whole mechanism can be drawn."""
     return closes_where(scene, closings(scene))
 
 
 def closings(scene: Scene) -> list[ClosingRanges]:
-    """Where each driver closes a mechanism, the other drivers as they stand."""
+    """The ranges of each driver, with the other drivers at their stated positions."""
     return [closing(scene, n) for n in range(1, len(scene.drivers[:MOST]) + 1)]
 
 
 def closes_where(scene: Scene, known: Sequence[ClosingRanges]) -> str:
-    """Words for where each driver closes a mechanism."""
+    """Words for the ranges of each driver."""
     if left_out := next((found.bound for found in known if found.tried), ""):
         return f"where it closes is {left_out}"
     bound = next((f" ({found.bound})" for found in known if found.bound), "")
@@ -112,7 +112,7 @@ def reached_words(scene: Scene, found: Sequence[Range], number: int = 1) -> str:
 
 
 def slid_words(scene: Scene, found: Range, number: int) -> str:
-    """One range of a driver that does not turn."""
+    """Words for one range of a sliding driver."""
     from graphkin.motion.driving import GRID
 
     sweep, unit = swept(scene, number), scene.units["length"]
@@ -124,11 +124,11 @@ def slid_words(scene: Scene, found: Range, number: int) -> str:
 
 
 def closing(scene: Scene, number: int = 1) -> ClosingRanges:
-    """For which positions of a driver all positions can be drawn.
+    """The positions of one driver at which the whole mechanism can be drawn.
 
-    The closures are those that the scene picks, the other drivers stand. One turn is looked at, or
-    as far as all lengths together reach; [(0, 360)] is a whole turn. Where groups are closed by
-    trying so many positions are searched as the work allows, which the result says.
+    The closures are those of the scene, and the other drivers are at rest. The search covers one
+    turn, or the reach of all lengths together; [(0, 360)] is a whole turn. Where groups are closed
+    by trial, the number of positions depends on the work, and the result states it.
     """
     from graphkin.motion.course import Course
     from graphkin.motion.driving import GRID
@@ -150,7 +150,7 @@ def closing(scene: Scene, number: int = 1) -> ClosingRanges:
 
 
 def ranges_of(course: Course, count: int) -> list[Range]:
-    """The ranges in which a course closes, from so many positions, evenly spread."""
+    """The ranges in which a course closes, from ``count`` evenly spread positions."""
     from graphkin.motion.course import closing_columns
     from graphkin.motion.driving import TURN
     from graphkin.motion.turns_followed import led_both
@@ -185,13 +185,13 @@ def ranges_of(course: Course, count: int) -> list[Range]:
 
 
 def touched(margins: Any, closed: Any, whole: bool) -> Any:
-    """Single positions between two that close at which loci only touch: change points."""
+    """Single positions, between two that close, at which loci only touch: change points."""
     about = np.pad(closed, 1, mode="wrap" if whole else "constant")
     return np.isfinite(margins).all(axis=0) & about[:-2] & about[2:]
 
 
 def ranges_followed(course: Course) -> list[Range]:
-    """The same of a driver after whose turn wheels stand otherwise: as far as the motion leads."""
+    """The ranges that the motion reaches, for wheels that differ after the driver's turn."""
     from graphkin.motion.driving import TURN
     from graphkin.motion.pieces import reachable_ranges
 
@@ -202,7 +202,7 @@ def ranges_followed(course: Course) -> list[Range]:
 
 
 def swept(scene: Scene, number: int) -> Sweep:
-    """One turn of a driver, or as far to both sides of nought as all lengths together reach."""
+    """One turn of a driver, or a slide on both sides of zero as far as all lengths reach."""
     from graphkin.motion.driving import reach_of, stated_motion
     from graphkin.motion.sweep import sweep_of
 
@@ -214,12 +214,12 @@ def swept(scene: Scene, number: int) -> Sweep:
 
 
 def refined(course: Course, at: Any, steps: Any) -> Any:
-    """The ends of closing ranges, each between a position that closes and one a step further."""
+    """The ends of closing ranges, each between a closing position and one a step further."""
     count = FEWER_PARTS if course.tries_several else PARTS
     share = np.arange(1, count) / count
     for _ in range(NARROWINGS):
         between = at[:, None] + steps[:, None] * share
-        turn = course.sweep.start // 360 * 360  # in which a driver stands that turns fully
+        turn = course.sweep.start // 360 * 360  # |the full turn of the driver's position
         tried = turn + between % 360 if course.sweep.whole else between
         closes = course.closes(tried.ravel()).reshape(between.shape)
         passed = np.cumprod(closes, axis=1).sum(axis=1)

@@ -1,4 +1,4 @@
-"""Labels of a drawing: wished for while its marks are made, placed together at the end."""
+"""Labels of a drawing: collected while its marks are made, and placed together at the end."""
 
 from __future__ import annotations
 
@@ -39,18 +39,20 @@ NUMBER = 2.3
 SMALL = 1.8
 """Height of the smallest lettering in mm."""
 EDGE = 0.3
-"""How far what stands in that circle stays from it, in mm; longer names draw it out in width."""
+"""Clearance of the text inside that circle, in mm; longer names widen the circle."""
 GAP, LED = 0.9, 3.4
-"""Clear distance of a label from its subject, and of one that always has a leader, in mm."""
+"""Distance of a label from its subject, and of a label that always has a leader, in mm."""
 
 
 class Label(Struct, frozen=True):
-    """A text that wants a place at a subject.
+    """A text to be placed at a subject.
 
-    ``ring`` puts it into a circle (a link's number), ``led`` always gives it a leader; ``spare``
-    may be left out in a crowd, for the construction and the tables name it too; ``optional`` is
-    drawn only where there is a place for it at once. ``letters`` are those of the points of a plan
-    that it names, ``shows`` is what of a link no step draws.
+    - ``ring`` puts the text into a circle (a link's number); ``led`` always gives it a leader.
+    - ``spare`` labels may be left out in a crowd, because the construction and the tables name
+      them, too.
+    - ``optional`` labels are drawn only where there is a place for them at once.
+    - ``letters`` are the letters of the points of a plan that the label names.
+    - ``shows`` is the part of a link that no step draws.
     """
 
     markup: str
@@ -71,7 +73,7 @@ class Label(Struct, frozen=True):
     shows: Shown | None = None
 
     def of_letters(self, letters: tuple[SharedLetter, ...]) -> Label:
-        """The same for points that fall together, which share it."""
+        """The label for coinciding points that share it."""
         names = " ".join(letter.name for letter in letters)
         markup = "".join(letter.joined for letter in letters)
         return replace(self, name=names, markup=markup, letters=letters)
@@ -86,7 +88,7 @@ class Label(Struct, frozen=True):
 
     @property
     def shrinks(self) -> bool:
-        """True for a letter of the construction that may still be made smaller."""
+        """Whether the label is a letter of the construction that may still be made smaller."""
         return self.cls == "construction" and self.height > SMALL
 
     @property
@@ -100,7 +102,7 @@ class Label(Struct, frozen=True):
         return f"leader {self.cls}".strip()
 
     def wish(self) -> Wish:
-        """The box that the label needs, and where."""
+        """The box that the label needs, with its preferred place."""
         gap = LED if self.led else GAP
         width, height = self.size()
         return Wish(
@@ -119,7 +121,7 @@ class Label(Struct, frozen=True):
         yield self.text(spot)
 
     def balloon(self, spot: Spot) -> Mark:
-        """The circle around a link's number, which is drawn out in width for a longer name."""
+        """The circle around a link's number, widened for a longer name."""
         width, height = self.size()
         style = f"number {self.cls}".strip()
         if width <= height:
@@ -127,31 +129,31 @@ class Label(Struct, frozen=True):
         return drawn_out(spot.x, spot.y, NUMBER, width, style)
 
     def text(self, spot: Spot) -> Text:
-        """The label's text with the middle of its ink at a place."""
+        """The label's text, with the middle of its ink at a place."""
         width, top, bottom = extent(self.markup, self.height)
         x, y = spot.x - width / 2, spot.y - (top + bottom) / 2
         own = self.name, self.step, 0.0, self.part, self.letters, self.shows
         return Text(x, y, self.markup, self.look, self.height, "start", *own)
 
     def area(self, spot: Spot) -> Rect:
-        """The box that the text's ink takes up at a place."""
+        """The box of the text's ink at a place."""
         width, top, bottom = extent(self.markup, self.height)
         high = (bottom - top) / 2
         return spot.x - width / 2, spot.y - high, spot.x + width / 2, spot.y + high
 
     @property
     def point(self) -> XY:
-        """The point that it names, where that is no segment."""
+        """The point that the label names, if its subject is not a segment."""
         x, y = self.subject
         assert isinstance(x, float) and isinstance(y, float)
         return x, y
 
     def short_leader(self, spot: Spot) -> tuple[XY, XY]:
-        """From the nearest side of the label's box to the point it names."""
+        """The line from the nearest side of the label's box to the point it names."""
         return self.side(spot, *self.point)
 
     def side(self, spot: Spot, x: float, y: float) -> tuple[XY, XY]:
-        """From the nearest side of the label's box, a little off it, to a place."""
+        """The line from a little off the nearest side of the label's box to a place."""
         half_width, half_height = (side / 2 + 0.3 for side in self.size())
         near_x = min(max(x, spot.x - half_width), spot.x + half_width)
         near_y = min(max(y, spot.y - half_height), spot.y + half_height)
@@ -172,20 +174,20 @@ def segment_of(label: Label) -> tuple[XY, XY] | None:
 STRONG = (*VECTORS, "link", "outline", "guide", "guide-bar")
 """Classes of the lines that leaders should not cross."""
 BARS, DIRECTIONS = ("link",), ("construction", OWN_LINES)
-"""Classes of the bars of a mechanism, and of the lines that a plan is constructed by."""
+"""Classes of the bars of a mechanism, and of the construction lines of a plan."""
 KINDS = {cls: kinds for kinds in (BARS, VECTORS, DIRECTIONS) for cls in kinds}
 MARGIN = 0.3
 """How much nearer a neighbour may be, in mm, before a label gets a leader."""
 SHARES = (0.5, 0.3, 0.7, 0.15, 0.85)
-"""Where else on its segment a leader may end."""
+"""Other shares of its segment at which a leader may end."""
 LEAST = MARGIN + CLEAR - 0.1
-"""A label no farther from its own segment, in mm, is nearest to it: none is so near to a line."""
+"""Distance in mm within which a label's own segment is certainly its nearest line."""
 
 
 def with_leaders(
     labels: Sequence[Label], spots: Sequence[Spot], marks: Sequence[Mark]
 ) -> list[Spot]:
-    """The places of labels, with a leader for each doubtful one that can have one."""
+    """The places of labels, with a leader for each ambiguous label that can have one."""
     found = list(spots)
     doubtful = [*doubtful_ones(labels, spots, marks), *doubtful_letters(labels, spots)]
     if not doubtful:
@@ -226,8 +228,8 @@ def doubtful_ones(
 ) -> list[int]:
     """The labels without a leader that are nearer to another line than to their own.
 
-    Numbers of links are held against bars and plates, directions against the construction's lines,
-    other names against vectors.
+    Numbers of links are compared with bars and plates, directions with construction lines, and
+    other names with vectors.
     """
     import shapely
 
@@ -255,14 +257,14 @@ def doubtful_ones(
 
 
 def kinds_of(label: Label) -> tuple[str, ...]:
-    """What a label could seem to name: the first class of such marks."""
+    """The kind of marks that a label could seem to name."""
     if label.ring:
         return BARS
     return DIRECTIONS if label.cls in DIRECTIONS else VECTORS
 
 
 def rivals(marks: Sequence[Mark]) -> dict[tuple[str, ...], dict[str, Any]]:
-    """The bars and plates, the vectors, and the construction's lines of a drawing, by name."""
+    """The bars and plates, the vectors, and the construction lines of a drawing, by name."""
     import shapely
 
     lines: dict[tuple[str, ...], dict[str, list[tuple[XY, XY]]]] = {}
@@ -287,8 +289,11 @@ def rivals(marks: Sequence[Mark]) -> dict[tuple[str, ...], dict[str, Any]]:
 
 
 def leaders_to(label: Label, spot: Spot) -> Iterator[tuple[XY, XY]]:
-    """From the side of a label's box to the nearest point in the middle part of its segment and to
-    others, or to the circle that its point is drawn as."""
+    """Possible leaders from the side of a label's box, best first.
+
+    They end at the nearest point in the middle part of its segment, at other points of it, or at
+    the circle of its point.
+    """
     ends = segment_of(label)
     if ends is None:
         start, (x, y) = label.short_leader(spot)
@@ -303,48 +308,49 @@ def leaders_to(label: Label, spot: Spot) -> Iterator[tuple[XY, XY]]:
         yield label.side(spot, x0 + share * dx, y0 + share * dy)
 
 
-# --- labels of a drawing: wished for while its marks are made, placed together at the end ---------
+# --- the labels of one field ----------------------------------------------------------------------
 
 
 ROUNDS = 4
-"""How often labels are placed anew with more key numbers before a field counts as full."""
+"""Rounds of placing with more key numbers before a field counts as full."""
 ASIDE = 15
-"""How far a note is moved aside at a time, in mm, where it would stand on lines."""
+"""Step in mm by which a note is moved sideways off drawn lines."""
 LEADING = 4.6
-"""Distance of lines of notes in mm, so that indices above and below do not meet."""
+"""Distance of lines of notes in mm, so that indices above and below do not touch."""
 FOOT = 0.22
-"""The part of a field that notes at its foot may take up; beyond it no key numbers are given."""
+"""Share of a field that notes at its foot may take; beyond it no key numbers are used."""
 LEFT_OUT = "…"
-"""What stands for the notes that have no room there."""
+"""Replacement for notes that do not fit there."""
 KEY = 4
 """Priority of a key number."""
 NEAR = 0.6
-"""How near to a note a label may stand, in mm."""
+"""Least distance of a label from a note, in mm."""
 HELPERS = ("construction", OWN_LINES)
-"""Classes of letters that a drawing can do without where there is no room for them."""
+"""Classes of letters that may be left out where there is no room for them."""
 
 
 NOTE = "note"
 """The name of the lines at the foot of a field."""
 BETWEEN = "; "
-"""What stands between the notes at the foot of a field."""
+"""Separator of the notes at the foot of a field."""
 
 
 class FootNote(Struct, frozen=True):
-    """What is said at the foot of a field, ``of`` a symbol, or of a key number, in its markup."""
+    """A note at the foot of a field, ``of`` a symbol or of a key number, as markup."""
 
     markup: str
     of: str = ""
 
 
 class FieldContent(Struct):
-    """One field of the page while it is drawn: its marks, and the labels still to be placed.
+    """One field of the page during drawing: its marks, and the labels still to be placed.
 
-    ``taken`` are boxes that labels keep clear of, ``notes`` what is said at the field's foot,
-    ``lettered`` the places of the labels that are letters of points; ``unnamed`` begins the note
-    that lists the vectors for whose names there is no room. At ``crowds`` so much meets that it is
-    shown enlarged. Labels that are ``dispensable`` are drawn where the others leave room near.
-    ``unplaced`` are letters and numbers of a finished field that are only noted at its foot.
+    - ``taken`` are boxes that labels avoid; ``notes`` are the notes at the field's foot.
+    - ``lettered`` are the places of labels that are letters of points.
+    - ``unnamed`` is the start of the note that lists vectors without room for their names.
+    - ``crowds`` are places where so much meets that they are shown enlarged.
+    - ``dispensable`` labels are drawn where the others leave room nearby.
+    - ``unplaced`` are letters and numbers of a finished field that only its foot notes.
     """
 
     rect: Rect
@@ -360,7 +366,7 @@ class FieldContent(Struct):
 
     @property
     def lettering(self) -> Rect:
-        """The part of the field in which labels stand: clear of the lines around it."""
+        """The part of the field for labels: clear of the lines around it."""
         left, top, right, low = self.rect
         return left + EDGE, top + EDGE, right - EDGE, low - EDGE
 
@@ -371,17 +377,17 @@ class FieldContent(Struct):
 
     @property
     def most_notes(self) -> int:
-        """How many lines of notes may stand at its foot; of a small field, as many as there are."""
+        """The most lines of notes at its foot; unlimited for a small field."""
         lines = int(FOOT * (self.rect[3] - self.rect[1]) / LEADING)
         return lines if lines > 1 else sys.maxsize
 
     def finish(self, made: tuple[list[Mark], list[Spot]] | None = None) -> list[Mark]:
         """The marks with every label at a free place; in a crowd, key numbers with a legend.
 
-        ``made`` are the field's foot and the places of all labels if these were sought before,
-        with other boards'. In a worse crowd letters of the construction are left out, then names
-        of vectors, at last other letters, and a note says which. Where more than HOPELESS find
-        none, key numbers would not help either.
+        ``made`` holds the field's foot and the places of all labels, if these were found with other
+        fields. In a worse crowd, letters of the construction are left out, then names of vectors,
+        and finally other letters. A note lists them. Where more than HOPELESS labels have no place,
+        key numbers would not help either.
         """
         meanings: list[FootNote] = []
         wished = list(self.labels)
@@ -415,7 +421,7 @@ class FieldContent(Struct):
         return [*self.marks, *foot, *named, *self.beside([*foot, *named])]
 
     def beside(self, named: Sequence[Mark]) -> list[Mark]:
-        """The dispensable labels that have a place near what they name, clear of the rest."""
+        """The dispensable labels that have a place near their subject, clear of the rest."""
         if not self.dispensable:
             return []
         some = [replace(label, optional=True) for label in self.dispensable]
@@ -423,7 +429,7 @@ class FieldContent(Struct):
         return [mark for label, spot in both if spot.free for mark in label.marks(spot)]
 
     def without_helpers(self, spots: Sequence[Spot]) -> list[Spot]:
-        """Leave out the letters of the construction that find no place; the rest is drawn."""
+        """Leave out construction letters without a place; the rest is drawn."""
         kept = [
             (label, spot)
             for label, spot in zip(self.labels, spots, strict=True)
@@ -433,7 +439,7 @@ class FieldContent(Struct):
         return [spot for _, spot in kept]
 
     def unled(self, spots: Sequence[Spot]) -> bool:
-        """Bring labels nearer whose leaders would cross others; true when there were any."""
+        """Bring labels nearer whose leaders would cross others; return whether there were any."""
         both = [*zip(self.labels, spots, strict=True)]
         led = [i for i, (label, spot) in enumerate(both) if label.led and not spot.leader]
         areas = [(label.name, label.area(spot)) for label, spot in both] if led else []
@@ -443,9 +449,9 @@ class FieldContent(Struct):
         return bool(blocked)
 
     def shorten(self, free: Sequence[bool], meanings: list[FootNote]) -> None:
-        """Make crowded triangles' letters smaller, all at one pin, and give others key numbers.
+        """Make crowded construction letters smaller, all at one pin, and give others key numbers.
 
-        What key numbers mean is for the foot of the field.
+        The meanings of the key numbers go to the foot of the field.
         """
         crowded = [i for i, spot_is_free in enumerate(free) if not spot_is_free]
         letters = {self.labels[i].name[:1] for i in crowded if self.labels[i].shrinks}
@@ -460,7 +466,7 @@ class FieldContent(Struct):
     def spots_of_new(
         self, foot: Sequence[Mark], before: Sequence[Label], spots: Sequence[Spot]
     ) -> list[Spot]:
-        """The places after some labels have changed, if all others can keep theirs; else none."""
+        """The places after some labels have changed, if all others keep theirs; else none."""
         boxes = [reach(mark) for mark in foot]
         kept = {
             i: spot
@@ -479,9 +485,9 @@ class FieldContent(Struct):
         return [spot for _, spot in sorted((kept | found).items())]
 
     def footed(self, notes: Sequence[FootNote]) -> list[Mark]:
-        """Notes at the foot of the field, where they cross the fewest lines.
+        """The notes at the foot of the field, where they cross the fewest lines.
 
-        Where whole lines would stand on something drawn, shorter ones beside it are tried.
+        Where full lines would cross something drawn, shorter lines next to it are tried.
         """
         if not notes:
             return []
@@ -500,13 +506,13 @@ class FieldContent(Struct):
         return [*next(texts for crossed, texts in found if crossed == fewest)]
 
     def lines_crossed(self, places: Sequence[Sequence[Text]]) -> list[int]:
-        """How many drawn lines texts would cross in each of some places for them."""
+        """How many drawn lines the texts would cross at each possible place."""
         boxes = [reach(text) for texts in places for text in texts]
         crossed = shapes.met(boxes, shapes.segments(pieces_of(self.marks)))
         return [int(of_one) for of_one in crossed.reshape(len(places), -1).sum(axis=1)]
 
     def foot_places(self, lines: Sequence[NoteLine]) -> Iterator[list[Text]]:
-        """The places, from left to right, in which lines may stand at the foot of the field."""
+        """The places, from left to right, for lines at the foot of the field."""
         y = self.rect[3] - 2.5 - LEADING * (len(lines) - 1)
         widest = max(extent(line.markup, 2.5)[0] for line in lines)
         room = self.across - widest
@@ -528,21 +534,21 @@ class FieldContent(Struct):
         return place(wishes, lines, boxes, self.lettering, strong=strong_lines(self.marks))
 
     def obstacles(self, more: Sequence[Mark] = ()) -> tuple[Array, list[Box]]:
-        """The lines and the boxes that labels keep clear of: of the marks, and of some more."""
+        """The lines and boxes that labels avoid: those of the marks, and of some more marks."""
         marks = [*self.marks, *more]
         boxes = [*self.taken, *(reach(mark) for mark in marks if isinstance(mark, Text))]
         return pieces_of(marks), boxes
 
 
 class NoteLine(NamedTuple):
-    """A line at the foot of a field, and what of each of its notes stands in it."""
+    """A line at the foot of a field, and the part of each note in it."""
 
     markup: str
     parts: tuple[SharedLetter, ...] = ()
 
 
 def note_lines(notes: Sequence[FootNote], width: float) -> list[NoteLine]:
-    """Notes in lines of a width in mm, cut between notes if that will do, else between words."""
+    """Notes in lines of a width in mm, broken between notes if possible, else between words."""
     lines = flowed_pieces([note.markup for note in notes], BETWEEN, width, 2.5)
     if max((extent(line, 2.5)[0] for line, _ in lines), default=0.0) <= width:
         owners, pieces = [*range(len(notes))], [note.markup for note in notes]
@@ -557,20 +563,20 @@ def note_lines(notes: Sequence[FootNote], width: float) -> list[NoteLine]:
 def parts(
     notes: Sequence[FootNote], owners: Sequence[int], pieces: Sequence[str], held: Sequence[int]
 ) -> Iterator[SharedLetter]:
-    """What of each note stands in a line that holds some pieces, by what the note is of."""
+    """The parts of the notes in a line of some pieces, by the notes' subjects."""
     for nth, (owner, run) in enumerate(groupby(held, lambda k: owners[k])):
         said = " ".join(pieces[k] for k in run).removesuffix(BETWEEN.rstrip())
         yield SharedLetter(notes[owner].of, said, BETWEEN if nth else "")
 
 
 def free_ones(board: FieldContent, spots: Sequence[Spot]) -> list[Mark]:
-    """The labels of a board that have a free place."""
+    """The labels of a field that have a free place."""
     free = [(label, spot) for label, spot in zip(board.labels, spots, strict=True) if spot.free]
     return marks_of([label for label, _ in free], [spot for _, spot in free])
 
 
 def stays(label: Label, spot: Spot, boxes: Sequence[Rect]) -> bool:
-    """True when a label with its leader is clear of boxes that are to be taken."""
+    """Whether a label with its leader is clear of newly taken boxes."""
     taken = [(b[0] - NEAR, b[1] - NEAR, b[2] + NEAR, b[3] + NEAR) for b in boxes]
     return not any(
         left < b[2] and b[0] < right and top < b[3] and b[1] < bottom
@@ -585,29 +591,29 @@ def marks_of(labels: Sequence[Label], spots: Sequence[Spot]) -> list[Mark]:
 
 
 def is_clear(label: Label, spot: Spot, areas: Sequence[tuple[str, Rect]]) -> bool:
-    """True when a leader from a label's box to its point crosses no label of another name."""
+    """Whether a leader from a label's box to its point crosses no label of another name."""
     start, end = label.short_leader(spot)
     others = [box for name, box in areas if name != label.name and near(box, *start)]
     return not any(clipped(start, end, box) for box in others)
 
 
 def near(box: Rect, x: float, y: float) -> bool:
-    """True when a box lies within reach of a short leader that starts at a place."""
+    """Whether a box lies within reach of a short leader that starts at a place."""
     far = 2 * LED
     return box[0] - far < x < box[2] + far and box[1] - far < y < box[3] + far
 
 
-# --- a field that is too full: what must be named comes first ------------------------------------
+# --- a field that is too full: essential labels come first ----------------------------------------
 
 
 def by_need(
     board: FieldContent, wished: Sequence[Label], meanings: Sequence[FootNote]
 ) -> tuple[list[Mark], list[Spot]]:
-    """Place letters of points and numbers first, then names of vectors, helping letters last.
+    """Place letters of points and numbers first, then names of vectors, construction letters last.
 
-    First the labels as they were wished, then as they stand, with what their key numbers mean.
-    The foot of the field is returned with the places. Where a letter or a number of a link finds
-    no place even so, it is noted there.
+    The labels are tried as requested, and then as shortened, with their key numbers explained.
+    Returns the field's foot and the places. A letter or number of a link that still has no place is
+    noted in the foot.
     """
     shortened = board.labels
     try:
@@ -630,11 +636,10 @@ def must_be_named(label: Label) -> bool:
 def in_turn(
     board: FieldContent, notes: Sequence[FootNote], noted: Sequence[Label] = ()
 ) -> tuple[list[Mark], list[Spot]]:
-    """Place what must be named before what may be left out.
+    """Place essential labels before dispensable ones.
 
-    What finds no place is taken off the board; vectors that stay without a name are noted at the
-    foot. So are letters and numbers, as they are ``noted``; without these PageError is raised where
-    one finds none.
+    Labels without a place are removed; vectors without a name are noted in the foot. Letters and
+    numbers are noted in the form ``noted``. Without it, PageError is raised where one has no place.
     """
     labels = board.labels
     vectors = [i for i, label in enumerate(labels) if label.spare]
@@ -665,7 +670,7 @@ def in_turn(
 def placed_after(
     board: FieldContent, foot: Sequence[Mark], found: Mapping[int, Spot], which: Sequence[int]
 ) -> dict[int, Spot]:
-    """The places of some labels, clear of those that have theirs."""
+    """The places of some labels, clear of those already placed."""
     taken = [m for i, spot in found.items() if spot.free for m in board.labels[i].marks(spot)]
     spots = board.spots([*foot, *taken], [board.labels[i] for i in which])
     return dict(zip(which, spots, strict=True))
@@ -689,19 +694,19 @@ def no_place_for(labels: Sequence[Label]) -> Problem:
     )
 
 
-# --- fields of a page that do not overlap, finished together: all their labels placed in one go ---
+# --- fields of a page that do not overlap, with all their labels placed at once -------------------
 
 
 KEPT = 2**24
-"""Bytes of a block after whose release the C library of Linux keeps what it hands out."""
+"""Bytes of a block after whose release the C library of Linux keeps memory for reuse."""
 
 
 def finished(
     boards: Sequence[FieldContent], details: Sequence[FieldContent] = ()
 ) -> tuple[list[list[Mark]], list[list[Spot]]]:
-    """The marks of boards, finished, and the places of the labels of details that lie elsewhere.
+    """The marks of finished fields, and the places of the labels of details drawn elsewhere.
 
-    The labels of all are placed in one go; none of the boards and details overlap.
+    All labels are placed at once; none of the fields and details overlap.
     """
     feet = [board.footed(board.notes) for board in boards]
     found = spots_on([*boards, *details], [*feet, *([] for _ in details)])
@@ -711,9 +716,9 @@ def finished(
 
 
 def spots_on(boards: Sequence[FieldContent], more: Sequence[Sequence[Mark]]) -> list[list[Spot]]:
-    """The places of all labels of boards that do not overlap, sought in one go.
+    """The places of all labels of fields that do not overlap, found at once.
 
-    ``more`` are marks for each board that its labels keep clear of, beside its own.
+    ``more`` are further marks of each field that its labels avoid.
     """
     keep_memory()
     obstacles = [board.obstacles(marks) for board, marks in zip(boards, more, strict=True)]
@@ -728,7 +733,7 @@ def spots_on(boards: Sequence[FieldContent], more: Sequence[Sequence[Mark]]) -> 
 
 @lru_cache(maxsize=1)
 def keep_memory() -> None:
-    """Keep the memory of arrays for the next ones: handed back, it takes a tenth of a page's time.
+    """Keep the memory of arrays for later ones; returning it takes a tenth of a page's time.
 
     Processor time of the layout and SVG of two pages with it and without, in ms: stephenson-3 30.2
     and 34.9, gears-ring 21.3 and 26.2.
@@ -736,21 +741,21 @@ def keep_memory() -> None:
     np.empty(KEPT, dtype=np.uint8)
 
 
-# --- where vectors lie along one another ----------------------------------------------------------
+# --- vectors that lie along one another -----------------------------------------------------------
 
 
 BESIDE_LINE = 0.1
-"""How far from a line both ends of another lie at most that lies along it, in mm."""
+"""Largest distance in mm of both ends of a line from another that it lies along."""
 WHOLE = 0.999
-"""A vector that lies along so much of another lies along all of it, and leaves none of it bare."""
+"""Share of a vector above which another covers all of it and leaves nothing bare."""
 LEAST_STRETCH = 8.0
-"""Length in mm of a stretch that is long enough for a name."""
+"""Length in mm of a stretch that has room for a name."""
 
 
 def at_bare_stretches(labels: Sequence[Label], marks: Sequence[Mark]) -> list[Label]:
-    """The labels, those of vectors at the longest stretch that no other vector covers.
+    """The labels, with those of vectors at the longest stretch that no other vector covers.
 
-    Where no such stretch is long enough, or nothing is covered, they name the whole vector.
+    Where no stretch is long enough, or nothing is covered, they name the whole vector.
     """
     drawn = [m for m in marks if isinstance(m, LineMark) and style_class(m) in VECTORS]
     return [
@@ -762,7 +767,7 @@ def at_bare_stretches(labels: Sequence[Label], marks: Sequence[Mark]) -> list[La
 
 
 def bare_stretch(label: Label, drawn: Sequence[LineMark]) -> tuple[XY, XY] | XY:
-    """The longest stretch of a label's vector that no other covers, or all of it."""
+    """The longest stretch of a label's vector that no other covers, or the whole vector."""
     ends = segment_of(label)
     if ends is None or not (covered := sorted(laps(label.name, ends, drawn))):
         return label.subject
@@ -782,7 +787,7 @@ def bare_stretch(label: Label, drawn: Sequence[LineMark]) -> tuple[XY, XY] | XY:
 def laps(
     name: str, ends: tuple[XY, XY], drawn: Sequence[LineMark]
 ) -> Iterator[tuple[float, float]]:
-    """From which share of a vector to which each other one lies along it; not those along all."""
+    """The shares of a vector along which another lies, from and to, except full covers."""
     (x0, y0), (x1, y1) = ends
     dx, dy = x1 - x0, y1 - y0
     square = dx * dx + dy * dy

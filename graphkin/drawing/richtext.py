@@ -1,9 +1,10 @@
-"""A tiny markup for formulas and labels, laid out into runs at absolute places.
+"""A small markup for formulas and labels, laid out into runs at absolute places.
 
-``*v*`` is italic, ``_{BA}`` or ``_2`` a subscript, ``^{ν}`` or ``^2`` a superscript; a subscript
-and a superscript directly after one another start at the same place, but an exponent stands after
-an index of more than two signs; an index after a prime stands below it. A backslash takes the next
-sign as it is.
+- ``*v*`` is italic, ``_{BA}`` or ``_2`` a subscript, ``^{ν}`` or ``^2`` a superscript.
+- An adjacent subscript and superscript start at the same place.
+- An exponent follows an index of more than two characters.
+- An index after a prime is placed below the prime.
+- A backslash takes the next character literally.
 """
 
 from __future__ import annotations
@@ -32,7 +33,7 @@ Measure = tuple[float, float, float]
 
 @lru_cache(maxsize=1)
 def table() -> dict[str, Any]:
-    """Read the font's metrics once."""
+    """The font's metrics, read once."""
     import json
     from pathlib import Path
 
@@ -43,25 +44,25 @@ def table() -> dict[str, Any]:
 
 @lru_cache(maxsize=1)
 def capital() -> float:
-    """Tell the height of capitals in em (0.729)."""
+    """The height of capitals in em (0.729)."""
     return float(table()["capHeight"] / table()["unitsPerEm"])
 
 
 def size_for(height: float) -> float:
-    """Tell the font size in mm whose capitals are ``height`` mm high."""
+    """The font size in mm whose capitals are ``height`` mm high."""
     return height / capital()
 
 
 @lru_cache(maxsize=2)
 def measures(italic: bool) -> dict[str, Measure]:
-    """Tell advance, lowest and highest ink of each sign of a face, in em, y up."""
+    """Advance, lowest and highest ink of each character of a face, in em, y up."""
     em = table()["unitsPerEm"]
     signs = table()["italic" if italic else "upright"].items()
     return {chr(int(code)): (a / em, low / em, high / em) for code, (a, low, high) in signs}
 
 
 def missing(text: str, italic: bool) -> PageError:
-    """Name the signs of a text that the font does not have."""
+    """The error that names the characters of a text that the font does not have."""
     signs = sorted(set(text) - measures(italic).keys())
     names = ", ".join(f"“{sign}” (U+{ord(sign):04X})" for sign in signs)
     return PageError(
@@ -70,7 +71,7 @@ def missing(text: str, italic: bool) -> PageError:
 
 
 def advance(text: str, italic: bool) -> float:
-    """Tell how far the pen moves over a text, in em; refuse signs that are not in the font."""
+    """The advance width of a text in em. Raises PageError for characters not in the font."""
     face = measures(italic)
     try:
         return sum(face[sign][0] for sign in text)
@@ -79,7 +80,7 @@ def advance(text: str, italic: bool) -> float:
 
 
 def ink(text: str, italic: bool) -> tuple[float, float] | None:
-    """Tell the lowest and the highest ink of a text in em, y up; None if it is blank."""
+    """The lowest and the highest ink of a text in em, y up; None if it is blank."""
     face = measures(italic)
     found = [face[sign] for sign in text if sign not in BLANKS]
     if not found:
@@ -88,12 +89,12 @@ def ink(text: str, italic: bool) -> tuple[float, float] | None:
 
 
 def known(text: str) -> str:
-    """Replace signs the font has under another code: ⟂ by ⊥, thin blanks by fixed ones."""
+    """Replace characters that the font has under another code: ⟂ by ⊥, thin blanks."""
     return text if text.isascii() and text.isprintable() else text.translate(ALIKE)
 
 
 def font_file(italic: bool) -> Path:
-    """Give the TrueType file of a face."""
+    """The TrueType file of a face."""
     from pathlib import Path
 
     return Path(FOLDER, f"{FILES[italic]}.ttf")
@@ -101,7 +102,7 @@ def font_file(italic: bool) -> Path:
 
 @lru_cache(maxsize=2)
 def font_face(italic: bool) -> str:
-    """Write the @font-face rule that carries a whole face inside a style sheet."""
+    """The @font-face rule that embeds a whole face in a style sheet."""
     from base64 import b64encode
     from pathlib import Path
 
@@ -113,18 +114,18 @@ def font_face(italic: bool) -> str:
     )
 
 
-# --- A tiny markup for formulas and labels, laid out into runs at absolute places -----------------
+# --- the markup, laid out into runs at absolute places --------------------------------------------
 
 
 SUB, SUP, SMALL = 0.24, -0.48, 0.70  # em: shifts (y down) and size of scripts
 OVERHANG = {"f": 0.14}
-"""How far, in em, slanted letters reach over an upright sign or an exponent after them."""
+"""Overhang in em of slanted letters over an upright character or exponent after them."""
 CLEAR = 0.1
-"""The least room, in mm, between signs of lines above one another."""
+"""Least distance in mm between characters of adjacent lines."""
 PRIMES = "′″‴"
-"""Signs after a letter below which its index stands."""
+"""Characters after a letter below which its index is placed."""
 STACKED = 2
-"""Signs of the longest index above which an exponent may stand."""
+"""Length of the longest index above which an exponent may be placed."""
 TOKEN = r"(?s)[_^](?:\{|\\.|.|$)|\\.|[^\\*_^}]+|."
 UNITS = r"(?:mm|cm|m|in|s|rad|deg|rev/min|rot/min)\b|\(m/s"
 NUMBERED = (
@@ -134,17 +135,22 @@ NUMBERED = (
     *("ghidajul", "ghidajului", "cremaliera", "cama"),
     *("membro", "membri", "ruota", "ruote", "dentata", "guida", "piastra", "dentiera", "camma"),
 )
-"""Words with which the number or the one letter after them stays in a line, in all languages."""
+"""Words, in all languages, that stay in one line with the number or single letter after them."""
 AFTER_WORD = "".join(rf"(?<!\b{word} )" for word in NUMBERED)
 GAP = (
     rf"(?<![=⊥∥÷]) (?![=.])(?!(?:(?<=[\d}}] )|(?<=\d\) )|(?<= \. ))(?:{UNITS}))"
     rf"(?:{AFTER_WORD}|(?!\d|[^\W_]\b))"
 )
-"""Blanks at which a line may end: not before a unit of a number or a place, nor beside =, nor after
-⊥, ∥ and ÷, nor between the dots of room to write in, nor between a link, a wheel or a guide and its
-number."""
+"""Blanks at which a line may end.
+
+A line does not end at these places:
+
+- before a unit or =, and after ⊥, ∥ or ÷;
+- between the dots of a blank to fill in;
+- between a link, a wheel or a guide and its number.
+"""
 EQUAL = "(?<= =) "
-"""Blanks behind =, at which a line of what is equal ends where nothing else will do."""
+"""Blanks after =, at which a line ends only where there is no other place."""
 WORDS = "[^ ]+(?: [^ ]+)* ?"
 
 
@@ -159,7 +165,7 @@ class TextRun(NamedTuple):
 
 
 class TextPiece(NamedTuple):
-    """A piece of marked-up text before it is placed; level −1 subscript, 1 superscript."""
+    """A piece of marked-up text before it is placed; level −1 is a subscript, 1 a superscript."""
 
     text: str
     italic: bool
@@ -167,18 +173,18 @@ class TextPiece(NamedTuple):
 
 
 def plain(markup: str) -> str:
-    """Give the words of a markup without its signs."""
+    """The text of a markup without its control characters."""
     return "".join(piece.text for piece in pieces(markup))
 
 
 def broken(markup: str, found: str) -> PageError:
-    """Tell that a markup cannot be read."""
+    """The error for a markup that cannot be read."""
     hint = "write \\* \\_ \\^ \\{ \\} for the signs themselves"
     return PageError(Problem(f"markup “{markup}”", found, hint=hint))
 
 
 def pieces(markup: str) -> list[TextPiece]:
-    """Cut a markup into pieces of one face and one level."""
+    """The pieces of a markup, each of one face and one level."""
     found: list[TextPiece] = []
     italic, level = False, 0
     for token in re.findall(TOKEN, markup):
@@ -201,7 +207,7 @@ def pieces(markup: str) -> list[TextPiece]:
 
 
 def literal(markup: str, token: str) -> str:
-    """Give the signs that a token stands for."""
+    """The characters of a token."""
     if token in ("", "*", "_", "^", "\\"):
         raise broken(markup, "a sign of the markup that stands alone")
     return known(token[1:] if token[0] == "\\" else token)
@@ -216,14 +222,14 @@ def add(found: list[TextPiece], piece: TextPiece) -> None:
 
 @lru_cache(maxsize=4096)
 def laid(markup: str, height: float) -> tuple[tuple[TextRun, ...], float]:
-    """Place the pieces of a markup one after another; give the runs and the whole width in mm."""
+    """The pieces of a markup placed one after another: the runs and the total width in mm."""
     full = size_for(height)
     shift = {0: 0.0, -1: SUB * full, 1: SUP * full}
-    x = 0.0  # where the next piece on the line starts
-    ends = {-1: 0.0, 1: 0.0}  # where each script ends
-    start = 0.0  # where scripts start
-    index = ""  # the subscript that they begin with
-    lean = 0.0  # how far a slanted letter hangs over what comes above or upright after it
+    x = 0.0  # start of the next piece on the line
+    ends = {-1: 0.0, 1: 0.0}  # end of each script
+    start = 0.0  # start of scripts
+    index = ""  # the subscript with which they begin
+    lean = 0.0  # overhang of a slanted letter over an upright character or exponent after it
     found: list[TextRun] = []
     for text, italic, level in pieces(markup):
         size = full * SMALL if level else full
@@ -245,7 +251,7 @@ def laid(markup: str, height: float) -> tuple[tuple[TextRun, ...], float]:
 
 @lru_cache(maxsize=4096)
 def spaced_runs(markup: str, height: float) -> tuple[TextRun, ...]:
-    """Give the runs with at most one blank at an end, so that words stay apart when searched."""
+    """The runs with at most one blank at an end, so that words stay separate in a search."""
     found: list[TextRun] = []
     for run in laid(markup, height)[0]:
         if run.text[0] == " " and found and not found[-1].text.endswith(" "):
@@ -258,7 +264,7 @@ def spaced_runs(markup: str, height: float) -> tuple[TextRun, ...]:
 
 
 def split(run: TextRun) -> Iterator[TextRun]:
-    """Split a run at double blanks and drop leading ones; what is left stays in its place."""
+    """Split a run at double blanks and drop leading ones; the rest keeps its place."""
     for match in re.finditer(WORDS, run.text):
         skipped = advance(run.text[: match.start()], run.italic) * run.size
         yield TextRun(match[0], run.x + skipped, run.y, run.size, run.italic)
@@ -266,14 +272,14 @@ def split(run: TextRun) -> Iterator[TextRun]:
 
 @lru_cache(maxsize=4096)
 def runs(markup: str, height: float) -> tuple[TextRun, ...]:
-    """Give the runs of a markup for capitals ``height`` mm high, without blanks at their ends."""
+    """The runs of a markup for capitals ``height`` mm high, without blanks at their ends."""
     stripped = (run._replace(text=run.text.rstrip(" ")) for run in spaced_runs(markup, height))
     return tuple(run for run in stripped if run.text)
 
 
 @lru_cache(maxsize=4096)
 def extent(markup: str, height: float) -> tuple[float, float, float]:
-    """Tell the width, top and bottom of the ink in mm from the baseline's start (y down)."""
+    """The width, top and bottom of the ink in mm from the baseline's start (y down)."""
     placed, width = laid(markup, height)
     tops, bottoms = [], []
     for run in placed:
@@ -285,7 +291,7 @@ def extent(markup: str, height: float) -> tuple[float, float, float]:
 
 
 def are_clear(lines: Sequence[str], height: float, leading: float) -> bool:
-    """Whether no sign of a line comes near one of the line above it, set so many mm apart."""
+    """Whether no character of a line comes near one of the line above, at a given leading in mm."""
     return all(
         extent(above, height)[2] + CLEAR - extent(below, height)[1] <= leading
         or not nearer(above, below, height, leading)
@@ -294,7 +300,7 @@ def are_clear(lines: Sequence[str], height: float, leading: float) -> bool:
 
 
 def nearer(above: str, below: str, height: float, leading: float) -> bool:
-    """Whether a sign of a line stands less than clear above one of the line below."""
+    """Whether a character of a line is less than CLEAR above one of the line below."""
     reached = extent(below, height)[1] + leading - CLEAR
     low = [box for box in signs(above, height) if box[3] > reached]
     return any(
@@ -306,7 +312,7 @@ def nearer(above: str, below: str, height: float, leading: float) -> bool:
 
 @lru_cache(maxsize=1024)
 def signs(markup: str, height: float) -> tuple[tuple[float, float, float, float], ...]:
-    """Give the left, right, top and bottom of the ink of each sign, from the baseline's start."""
+    """Left, right, top and bottom of the ink of each character, from the baseline's start."""
     boxes: list[tuple[float, float, float, float]] = []
     for run in laid(markup, height)[0]:
         x = run.x
@@ -324,7 +330,7 @@ def words_of(markup: str) -> list[str]:
 
 
 def narrow_words(markup: str, width: float, height: float) -> list[str]:
-    """The same; a piece wider than a width in mm, of what is equal, may end after = as well."""
+    """The words of a markup; one wider than a width in mm may also be split after =."""
     return [
         part
         for word in words_of(markup)
@@ -340,10 +346,10 @@ def flowed(pieces: Sequence[str], mark: str, width: float, height: float) -> lis
 def flowed_pieces(
     pieces: Sequence[str], mark: str, width: float, height: float
 ) -> list[tuple[str, list[int]]]:
-    """The same lines, each with the numbers of its pieces."""
+    """The lines of ``flowed``, each with the numbers of its pieces."""
     lines: list[tuple[str, list[int]]] = []
     blank = laid(" ", height)[1]
-    reached: float | None = None  # how far the last line goes, where that is known
+    reached: float | None = None  # width of the last line, where it is known
     for i, piece in enumerate(pieces):
         text = piece + (mark.rstrip() if i < len(pieces) - 1 else "")
         alone = width_alone(text, height)
@@ -364,7 +370,7 @@ def flowed_pieces(
 
 @lru_cache(maxsize=4096)
 def width_alone(markup: str, height: float) -> float | None:
-    """Tell the width of a piece of markup; None where only those beside it make it whole."""
+    """The width of a piece of markup; None where it is complete only with its neighbours."""
     try:
         return laid(markup, height)[1]
     except PageError:

@@ -1,7 +1,8 @@
-"""A mechanism assembled from nothing: group after group, each in the closure that the scene states.
+"""Assembly of a mechanism without given positions.
 
-No position is given. Each group's closures are found from many starts with the links before it
-held; sides, ways and numbers of closures leave one of them, or the scene says too little.
+Group after group takes the closure that the scene states. For each group, Newton's method searches
+for all closures from many starts, with the links before the group held fixed. The sides, ways and
+closure numbers in the scene select one of them; if they do not, the scene is refused as ambiguous.
 """
 
 from __future__ import annotations
@@ -45,27 +46,30 @@ from graphkin.scene.model import FRAME, Closure, Scene, Side, Way
 from graphkin.text.errors import GraphkinError, Problem, Sought, StructureError, WitnessError
 
 STARTS = {1: 12, 2: 48}
-"""Random starts from which the closures of a group of so many links are looked for."""
+"""Random starts in the search for closures, by the number of links in the group."""
 MOST_STARTS = 256
 """Random starts of one round for larger groups."""
 A_TURN, MOST_IN_ALL = 24, 8192
-"""Starts for each turn that a wheel may make on its track, each turn having its own closures."""
+"""Starts for each turn that a wheel can make on its track, and the most starts in all.
+
+Each turn has its own closures.
+"""
 ROUNDS, ENOUGH = 10, 2
-"""Most rounds, and how many in a row that bring nothing new end the search."""
+"""The most rounds, and how many in a row without a new closure end the search."""
 SHORT = 14
-"""Iterations after which most starts have closed, if they ever do."""
+"""Iterations after which most starts that close at all have closed."""
 LAST, NEARBY = 40, 1e-3
-"""Most steps from where the loops nearly close to where they do, and the longest of them."""
+"""The most steps from nearly closed loops to closed ones, and the longest of these steps."""
 SAME = 1e-6
-"""Distance, in radians or the sizes of slides, below which rounding may make two closures one."""
+"""Distance (radians, or sizes of slides) below which rounding may make two closures one."""
 LEVEL, EITHER = 1e-9, 8
-"""Least such distance, and how many bounds of an error lie between two ways to one closure."""
+"""The least such distance, and how many error bounds may lie between two ways to one closure."""
 ON_LINE = 1e-9
-"""Sine within which a pin on the line between two others is on either side."""
+"""Sine below which a pin counts as on the line through two others, and so on either side."""
 
 
 def other_closure(loops: Equations, motion: Motion, dyad: Group) -> tuple[Reals, Reals]:
-    """Slide coordinate (m) of a dyad with one slide as it stands, and in its other closure."""
+    """The slide coordinate (m) of a dyad with one slide, now and in its other closure."""
     (slide,) = dyad.slides
     guide = loops.guides[slide.slide]
     heading = motion.heading[:, motion.index[guide.on]] * guide.along
@@ -75,7 +79,7 @@ def other_closure(loops: Equations, motion: Motion, dyad: Group) -> tuple[Reals,
 
 
 def span(motion: Motion, dyad: Group, slide: Joint, block: str) -> Complexes:
-    """From the pin on the guide's side of the slide to the pin on the block's side."""
+    """The vector from the pin on the guide's side of the slide to the pin on the block's side."""
     (inner,) = dyad.inner
     left, right = sorted(dyad.outer, key=lambda joint: dyad.links[0] not in joint.links)
     if slide is inner:
@@ -88,18 +92,18 @@ def span(motion: Motion, dyad: Group, slide: Joint, block: str) -> Complexes:
 
 
 def turned_side(motion: Motion, first: str, second: str, pin: str) -> Reals:
-    """Sine-like measure of the side of a pin: positive to the left of the way first → second."""
+    """The sine that gives the side of a pin: positive to the left of the line first → second."""
     start, end, place = (motion.place(name) for name in (first, second, pin))
     line, arm = end - start, place - start
     return np.asarray((line.conj() * arm).imag / (abs(line) * abs(arm)))
 
 
 def led_both(loops: Equations, name: str) -> tuple[str, Guide, str, str] | None:
-    """The link that two pins guide, of which a scene says under a name which way round it lies.
+    """The link guided by two pins whose direction a scene states under ``name``.
 
-    With it the guide of the first written of its two blocks, and the pins of both. None where no
-    two blocks slide along it in one direction, pinned apart. The name of a block on it means it
-    only where it is itself a block on the other.
+    Returns that link, the guide of the block written first, and the pins of both blocks. None where
+    no two blocks with different pins slide along the link in one direction. The name of a block
+    means the link only if that block is one of the two.
     """
     guides = [guide for guide in loops.guides if guide.turns_alike]
     rails = [guide.on for guide in guides if guide.block == name]
@@ -117,24 +121,25 @@ def led_both(loops: Equations, name: str) -> tuple[str, Guide, str, str] | None:
 
 
 def other_of(guide: Guide, link: str) -> str:
-    """The other of the two links of a guide."""
     return guide.on if guide.block == link else guide.block
 
 
 def way_on(guide: Guide, link: str) -> Complexes:
-    """The direction of a guide in the axes of one of its links."""
+    """The direction of a guide in the axes of one of its two links."""
     return np.asarray(guide.along if guide.on == link else 1 + 0j)
 
 
 def pin_of(loops: Equations, block: str, rail: str) -> str | None:
-    """The first point that a block shares with a link other than that along which it slides."""
+    """The first point that a block shares with a link other than the one it slides along."""
     others = [body for name, body in loops.bodies.items() if name not in (block, rail)]
     return next((p for p in loops.bodies[block] if any(p in body for body in others)), None)
 
 
 def facing(loops: Equations, motion: Motion, name: str) -> Reals | None:
-    """How far (m) the pin of the later written block is ahead of the other along the link that both
-    guide; None for a name that is of no such link."""
+    """How far (m) the pin of the later block is ahead of the other, along the link they guide.
+
+    None where ``name`` belongs to no link guided by two pins.
+    """
     found = led_both(loops, name)
     if found is None:
         return None
@@ -145,7 +150,7 @@ def facing(loops: Equations, motion: Motion, name: str) -> Reals | None:
 
 
 def facing_alike(part: Equations, stands: Reals, rows: Reals, group: Group) -> Mask:
-    """Which closures of a group have the links that two pins guide the way round they ``stand``."""
+    """The closures of a group in which links guided by two pins face as they do in ``stands``."""
     alike = np.ones(len(rows), dtype=np.bool_)
     now, others = places_of(part, stands), places_of(part, rows)
     for link in group.links:
@@ -156,17 +161,18 @@ def facing_alike(part: Equations, stands: Reals, rows: Reals, group: Group) -> M
 
 
 def places_of(part: Equations, found: Reals) -> Motion:
-    """Where points stand in each closure; nothing moves."""
+    """The positions of points in each closure, at rest."""
     many = replace(part, home=np.repeat(part.home, len(found)))
     still = np.zeros_like(found)
     return Motion.of(many, found, still, still)
 
 
 def closure_numbers(loops: Equations, group: Group, row: Reals, setting: int) -> range:
-    """Which closure of a group the unknowns ``row`` (K + m,) of a setting may be; empty if none.
+    """The number that a group's closure with the unknowns ``row`` (K + m,) may have.
 
-    One number, 1, 2, …, unless rounding hides whether others, before it, are one closure, two or
-    none. The links known before are held in place, and those that come after left out.
+    The range holds one number, counted from 1, unless rounding hides whether earlier closures are
+    one, two or none. It is empty where no closure matches. Links known before the group are held
+    fixed; later links are left out.
     """
     values = setting_of(loops, setting)
     part = part_of(loops, group.known | set(group.links), values)
@@ -186,12 +192,12 @@ def closure_numbers(loops: Equations, group: Group, row: Reals, setting: int) ->
 
 
 def closures(part: Equations, stands: Reals, group: Group) -> Reals:
-    """All ways in which a group closes, one scene: (closures, K + m), in order.
+    """All closures of a group in one scene: (closures, K + m), in order.
 
-    They are looked for by Newton's method from many starts with all but the group held as it
-    ``stands`` (1, K + m), and ordered by the angle, from 0 to 360°, of the group's first-written
-    link, ties by the next, wheels that only follow last. Where wheels count turns, an angle that
-    only pins tell is counted within half a turn of its start.
+    Newton's method searches from many starts with everything but the group held as in ``stands``
+    (1, K + m). The order is by the angle, from 0 to 360°, of the link written first; the next link
+    breaks ties. Wheels that only follow come last. Where wheels count turns, an angle that only
+    pins determine is counted within half a turn of its start.
     """
     moving = moved_by(part, group)
     size, turned = len(group.links), turns_of_wheels(part, moving)
@@ -220,22 +226,22 @@ def closures(part: Equations, stands: Reals, group: Group) -> Reals:
 
 
 def slack_of(part: Equations, rows: Reals) -> Reals:
-    """How far apart two ways to one closed position may end, in the sizes of unknowns: (N,)."""
+    """The largest distance between two ends of the search that are one closure, in sizes: (N,)."""
     with np.errstate(all="ignore"):
         off = largest(PositionBounds.of(part, rows).off / part.columns)
     return np.asarray(np.clip(EITHER * off, LEVEL, SAME))
 
 
 def apart(part: Equations, rows: Reals, other: Reals, slack: Reals) -> Mask:
-    """Which of some closed positions are not the other one: (N,)."""
+    """Where a closed position differs from another one: (N,)."""
     return np.asarray(largest(wrapped(part, rows - other)) > slack)
 
 
 def closed_of(part: Equations, thrown: Reals, moving: Mask) -> Reals:
-    """The closed positions to which Newton's method leads; stragglers alone go on to its end.
+    """The closed positions that Newton's method reaches; only slow starts take all iterations.
 
-    Beside a dead point the loops nearly close long before they do: only where steps have come down
-    to rounding has anything closed.
+    Near a dead point the loops nearly close long before they close. A position therefore counts as
+    closed only when the steps have shrunk to rounding.
     """
     with np.errstate(all="ignore"):
         found, _ = newton(part, thrown, moving, SHORT)
@@ -248,7 +254,7 @@ def closed_of(part: Equations, thrown: Reals, moving: Mask) -> Reals:
 
 
 def settled_of(part: Equations, found: Reals, moving: Mask) -> Reals:
-    """Nearly closed positions led on until rounding moves them; without those that never come."""
+    """Nearly closed positions, iterated until the steps are rounding; others are dropped."""
     slack = slack_of(part, found)
     for _ in range(LAST):
         residual, jacobian = scaled(part, found)
@@ -264,9 +270,9 @@ def settled_of(part: Equations, found: Reals, moving: Mask) -> Reals:
 
 
 def scattered(loops: Equations, stands: Reals, moving: Mask, count: int, seed: int = 0) -> Reals:
-    """The position as it stands, and many with the group's unknowns thrown anywhere.
+    """The given position, and ``count`` more with the group's unknowns at random values.
 
-    The equations that are linear in them hold at once: steps of Newton's method keep them.
+    All of them satisfy the linear equations, which the steps of Newton's method preserve.
     """
     thrown = np.random.default_rng(seed).uniform(-1, 1, (count, stands.shape[1]))
     thrown[:, : loops.turning_count] *= np.pi
@@ -279,26 +285,26 @@ def scattered(loops: Equations, stands: Reals, moving: Mask, count: int, seed: i
 
 
 def tracks(loops: Equations, moving: Mask) -> list[int]:
-    """The straight tracks along which a group's wheels move."""
+    """The numbers of the straight tracks along which a group's wheels move."""
     guides = zip(loops.guides, moving[loops.turning_count :], strict=True)
     return [j for j, (guide, moves) in enumerate(guides) if moves and not guide.turns_alike]
 
 
 def turns_of_wheels(loops: Equations, moving: Mask) -> float:
-    """How often the wheels of a group turn, the smallest of them, as far as they may have come."""
+    """The most turns that the smallest wheel of a group can make within reach."""
     radii = [abs(float(loops.guides[j].offset)) for j in tracks(loops, moving)]
     return 4 * reach(loops) / (2 * np.pi * min(radii)) if radii else 0.0
 
 
 def led(loops: Equations, unknowns: Reals, moving: Mask) -> Reals:
-    """Unknowns moved as little as the linear equations ask, by least squares."""
+    """The unknowns moved least, by least squares, to satisfy the linear equations."""
     scale = np.where(moving, loops.columns[0], 0.0)
     step = np.linalg.pinv(loops.linear_rows[0] * scale) @ loops.linear(unknowns).T
     return np.asarray(unknowns - step.T * scale)
 
 
 def reach(loops: Equations) -> float:
-    """How far (m) a block may stand from the zero of its guide, as a rough size."""
+    """A rough bound (m) on the distance of a block from the zero of its guide."""
     far = [abs(complex(guide.through)) + abs(float(guide.offset)) for guide in loops.guides]
     driven = np.where(loops.drives.turns, 0, np.abs(loops.drives.aim))
     ends = np.abs(loops.owners[1]).max(initial=0)
@@ -306,7 +312,7 @@ def reach(loops: Equations) -> float:
 
 
 def wrapped(loops: Equations, change: Reals) -> Reals:
-    """A change of unknowns in their sizes, angles within half a turn where no wheel counts them."""
+    """A change of unknowns in their sizes; angles that no wheel counts are within half a turn."""
     turns = change[:, : loops.turning_count]
     angles = np.angle(np.exp(1j * turns))
     for k in loops.slips.counted:
@@ -315,25 +321,25 @@ def wrapped(loops: Equations, change: Reals) -> Reals:
 
 
 def angle_of(loops: Equations, link: str, unknowns: Reals) -> float:
-    """Angle of a link's x axis, from 0 to 2π, rounded so that equal angles tie."""
+    """The angle of a link's x axis, from 0 to 2π, rounded so that equal angles tie."""
     angles = np.concatenate([[0.0], unknowns])
     turned = np.angle(np.exp(1j * angles[loops.turned.of[link]]) * loops.turned.lean[link])
     return round(float(turned % (2 * np.pi)), 6) % round(2 * np.pi, 6)
 
 
-# --- A mechanism assembled from nothing -----------------------------------------------------------
+# --- assembly without given positions -------------------------------------------------------------
 
 
 TRIES = 64
-"""Random starts from which some closed position is looked for."""
+"""Random starts in the search for any closed position."""
 
 
 def assemble(scene: Scene, values: Mapping[str, Any] | None = None) -> LoopSolution:
-    """The whole motion of a scene without a construction and without any position given.
+    """The motion of a scene that has no construction and no given position.
 
-    ``values`` may hold arrays of shape (N,): each setting is assembled for itself, NaN where it
-    cannot be. Raises WitnessError where one scene does not close, StructureError where a group
-    could close in several ways and the scene does not say which, or where drivers are missing.
+    ``values`` may hold arrays of shape (N,). Each setting is assembled separately and is NaN where
+    it cannot be assembled. Raises WitnessError where a single scene does not close. Raises
+    StructureError where drivers are missing, or where several closures of a group fit the scene.
     """
     scene = by_law(scene)
     loops = counted_in_order(equations(scene, values))
@@ -341,7 +347,7 @@ def assemble(scene: Scene, values: Mapping[str, Any] | None = None) -> LoopSolut
 
 
 def starting(scene: Scene, loops: Equations) -> Reals:
-    """The unknowns (N, K + m) of every setting, assembled from nothing."""
+    """The unknowns (N, K + m) of every setting, assembled without given positions."""
     if loops.numbers.single:
         return assembled(scene, loops)
     rows = np.full((loops.numbers.count, loops.unknown_count), np.nan)
@@ -355,9 +361,9 @@ def starting(scene: Scene, loops: Equations) -> Reals:
 
 
 def completed_start(scene: Scene, loops: Equations, start: Start) -> Reals:
-    """Start values with what no position told taken from the loops' own assembly.
+    """Start values in which the loops' own assembly fills what no position determines.
 
-    Left at zero where they cannot be assembled.
+    These unknowns stay zero where the loops cannot be assembled.
     """
     if start.told.all():
         return start.unknowns
@@ -370,9 +376,9 @@ def completed_start(scene: Scene, loops: Equations, start: Start) -> Reals:
 
 
 def anywhere(loops: Equations) -> Reals:
-    """Unknowns (positions, K + m) of closed positions of one scene, wherever its drivers stand.
+    """Unknowns (positions, K + m) of closed positions of one scene, for any driver positions.
 
-    Raises WitnessError where none is found from many starts.
+    Raises WitnessError where no start leads to a closed position.
     """
     free = undriven(loops)
     everything = np.ones(free.unknown_count, dtype=np.bool_)
@@ -392,7 +398,6 @@ def anywhere(loops: Equations) -> Reals:
 
 
 def assembled(scene: Scene, loops: Equations) -> Reals:
-    """The unknowns (1, K + m) of one scene."""
     pose = Pose({FRAME: 0.0}, {})
     order = stages(scene, loops)
     refuse_undetermined(loops, order)
@@ -405,7 +410,7 @@ def assembled(scene: Scene, loops: Equations) -> Reals:
 
 
 def refuse_undetermined(loops: Equations, order: list[Group]) -> None:
-    """Every link must belong to a group."""
+    """Raise StructureError if a link belongs to no group."""
     placed = {link for group in order for link in group.links}
     left = [link for link in loops.links if link not in placed and link != FRAME]
     if left:
@@ -419,9 +424,10 @@ def refuse_undetermined(loops: Equations, order: list[Group]) -> None:
 
 
 def picked(scene: Scene, loops: Equations, part: Equations, group: Group, found: Reals) -> Reals:
-    """The closure (K + m,) that the scene states, of all those of a group.
+    """The one closure (K + m,) of a group that the scene states.
 
-    ``part`` are the equations up to and with the group, ``loops`` all of them.
+    ``part`` holds the equations up to and including the group, ``loops`` all equations. Raises
+    WitnessError if no closure fits the statements, StructureError if several do.
     """
     if not len(found):
         raise WitnessError(
@@ -462,9 +468,10 @@ def stated(
     loops: Equations,
     facing_so: Mask,
 ) -> Mask:
-    """Which closures of a group fit one statement of the scene; all where it means another.
+    """The closures of a group that fit one branch statement; all if it is about another group.
 
-    Of those that have links which two pins guide the right way round (``facing_so``).
+    ``facing_so`` marks the closures whose links guided by two pins face the stated way. Only these
+    compete for the largest or smallest slide coordinate.
     """
     part = motion.loops
     everything = np.ones(len(found), dtype=np.bool_)
@@ -489,8 +496,11 @@ def stated(
 
 
 def led_by(link: str, group: Group, loops: Equations, part: Equations) -> int | None:
-    """The guide of ``part`` whose coordinate tells forward from backward: that of the link, or of
-    one that a pin of this name joins; or any."""
+    """The guide of ``part`` whose coordinate separates "forward" from "backward", as its number.
+
+    A guide of ``link``, or of links that a pin of this name joins, comes before any other of the
+    group.
+    """
     inside = [loops.guides[joint.slide] for joint in group.slides]
     own = [
         g
@@ -502,7 +512,7 @@ def led_by(link: str, group: Group, loops: Equations, part: Equations) -> int | 
 
 
 def suggestion(group: Group, loops: Equations) -> str:
-    """Words in [branches] that would pick one closure."""
+    """A statement for [branches] that would select one closure."""
     first = next(link for link in loops.links if link in group.links)
     if group.slides and len(group.links) <= 2:
         block = loops.guides[group.slides[0].slide].block
@@ -515,7 +525,7 @@ def suggestion(group: Group, loops: Equations) -> str:
 
 
 def described(part: Equations, group: Group, found: Reals, motion: Motion) -> list[str]:
-    """Each closure by the place of the pins that it moves (m)."""
+    """A line for each closure with the positions (m) of the pins that the group places."""
     mine = {point for link in group.links for point in part.bodies[link]}
     before = {point for link in group.known for point in part.bodies.get(link, ())}
     pins = sorted(mine - before)[:3]
@@ -530,5 +540,4 @@ def described(part: Equations, group: Group, found: Reals, motion: Motion) -> li
 
 
 def words(noun: str, names: list[str] | tuple[str, ...]) -> str:
-    """One or several things by name."""
     return f"{noun}{'s' if len(names) > 1 else ''} {', '.join(names)}"

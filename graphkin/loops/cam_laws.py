@@ -1,8 +1,8 @@
-"""Cams in the loops: a follower's coordinate, or its angle, less what the law of its cam gives.
+"""Cams in the loops: a follower's coordinate or angle equals the value of its cam's law.
 
-The equivalent linkage is taken out: the loops know nothing of centres of curvature. The law is an
-equation between the follower's unknown and the cam's angle or coordinate, all as the link sees it
-that carries both, whatever moves the cam.
+The equivalent linkage is removed, and the loops contain no centres of curvature. The law is an
+equation between the follower's unknown and the cam's angle or coordinate. All are relative to the
+link that carries both, whatever moves the cam.
 """
 
 from __future__ import annotations
@@ -25,16 +25,14 @@ if TYPE_CHECKING:
 
 
 class ByLaw(Quantity, frozen=True, eq=False):
-    """The coordinate or the angle of a follower, which its cam's angle gives; its rates are none
-    of their own.
-    """
+    """The coordinate or angle of a follower, given by its cam; it has no rates of its own."""
 
     scene: Scene | None = None
     follower: str = ""
 
     @property
     def key(self) -> tuple[object, ...]:
-        """By what it is told from others."""
+        """The key that distinguishes it from other quantities."""
         return *super().key, self.scene, self.follower
 
     @property
@@ -44,13 +42,16 @@ class ByLaw(Quantity, frozen=True, eq=False):
         return self.scene.cams[self.follower]
 
     def start(self, numbers: Numbers) -> Point:
-        """Where the follower rests on the base circle: its coordinate, or a lever's direction."""
+        """The follower's rest on the base circle: its coordinate, or a lever's direction."""
         return self.resting(numbers) if self.cam.lever else self.least(numbers)
 
     def at(self, place: Point, numbers: Numbers, start: Point) -> Rise:
-        """By the direction of the cam's x axis as its carrier sees it, or by the coordinate (m) of
-        a plate: the follower's coordinate (m) or the direction of a lever's bar, then its first and
-        second derivative by the cam's angle or coordinate, of the lever's angle."""
+        """The follower's position with two derivatives by the cam's angle or coordinate.
+
+        ``place`` is the direction of the cam's x axis relative to its carrier, or the coordinate
+        (m) of a plate. The position is the follower's coordinate (m), or the direction of a lever's
+        bar; the derivatives are those of the coordinate or of the lever's angle.
+        """
         cam = self.cam
         rise = cam.displacement(place, numbers.values, numbers.kind)
         if cam.lever is None:
@@ -60,7 +61,7 @@ class ByLaw(Quantity, frozen=True, eq=False):
         return rise._replace(at=turned, rate=away * rise.rate, bend=away * rise.bend)
 
     def resting(self, numbers: Numbers) -> Point:
-        """The direction of a lever on the base circle, by half angles; on a level plate."""
+        """The direction of a lever at rest, by half angles: on the base circle or a plate."""
         cam, lever = self.cam, self.cam.lever
         assert lever is not None
         bodies, starts = bodies_of(self.seen(follower=True), numbers)
@@ -87,7 +88,7 @@ class ByLaw(Quantity, frozen=True, eq=False):
         return bar / near * (1 - lever.side * half * 1j) ** 2 / (1 + half * half)
 
     def least(self, numbers: Numbers) -> Real:
-        """The coordinate of a sliding follower on the base circle, or on a level plate."""
+        """The coordinate of a sliding follower at rest: on the base circle or on a level plate."""
         assert self.scene is not None
         cam, slide = self.cam, self.scene.link(self.follower).slides[0]
         bodies, starts = bodies_of(self.seen(), numbers)
@@ -114,14 +115,14 @@ class ByLaw(Quantity, frozen=True, eq=False):
         return through + 1j * along * numbers.si(slide.offset), along
 
     def seen(self, *, follower: bool = False) -> Scene:
-        """The frame and the carrier, with the ``follower`` alone."""
+        """The scene reduced to the frame and the carrier, with the ``follower`` on request."""
         assert self.scene is not None
         names = {self.cam.carrier, self.follower if follower else self.cam.carrier} - {FRAME}
         return replace(self.scene, links={name: self.scene.links[name] for name in sorted(names)})
 
 
 def by_law(scene: Scene) -> Scene:
-    """The scene with its followers driven by their laws, and no equivalent linkages."""
+    """The scene with its followers driven by their laws, and without equivalent linkages."""
     if not scene.cams:
         return scene
     centres, out = scene.cam_centres, scene.cam_links
@@ -143,7 +144,7 @@ def by_law(scene: Scene) -> Scene:
 
 
 def without_linkages(scene: Scene, solution: Solution) -> Solution:
-    """What a solution says of all but the equivalent linkages."""
+    """A solution without the quantities of equivalent linkages."""
     if not scene.cams:
         return solution
     centres, out = scene.cam_centres, scene.cam_links

@@ -1,9 +1,10 @@
-"""Which links close together: the groups, taken from the joints alone, in order of knowing.
+"""The groups of links that close together, from the joints alone, in the order of their solution.
 
-A set of links is ready when its joints among themselves and to known links, with the drivers on
-them, take at least its 3 freedoms a link: a driven crank (1 link), a dyad (2 links and 3 joints),
-groups of higher class (4 and 6, 6 and 9), a wheel on an arm. The smallest such set comes first.
-Where the count may deceive, the rank of its equations in some position decides.
+A set of links is ready when its joints and drivers remove at least 3 freedoms per link. Joints
+within the set and joints to known links count. Examples are a driven crank (1 link), a dyad (2
+links, 3 joints) and a wheel on an arm. Groups of higher class have 4 links and 6 joints, or 6 and
+9. The smallest such set comes first. Where the count may be misleading, the rank of the equations
+in a random position decides.
 """
 
 from __future__ import annotations
@@ -24,19 +25,19 @@ from graphkin.text.errors import StructureError
 
 LARGEST = 6
 MOST = 20_000
-"""Sets of links that are looked through for a group of higher class."""
+"""The most sets of links that are examined for a group of higher class."""
 FULL = 1e-9
-"""Smallest over largest singular value above which equations determine a group."""
+"""Ratio of the smallest to the largest singular value above which equations determine a group."""
 
 Set = tuple[int, tuple[int, ...]]
-"""How many links a set has, and which, by their number."""
+"""The size of a set of links, and the links by their numbers."""
 Mask = np.ndarray[tuple[int], np.dtype[np.bool_]]
 
 
 class Joint(Struct, frozen=True):
-    """A pair: a pin by its point, a slide or track by its number among the guides.
+    """A pair: a pin, named by its point, or a slide or track, named by its guide's number.
 
-    Without both it ties coordinates of its links alone: two wheels, or a driver (``drives``).
+    Without either it only ties coordinates of its links: two wheels, or a driver (``drives``).
     """
 
     links: tuple[str, ...]
@@ -47,14 +48,14 @@ class Joint(Struct, frozen=True):
 
     @property
     def takes(self) -> int:
-        """Freedoms that it takes."""
+        """The freedoms that the joint removes."""
         return 2 if self.pin or self.slide >= 0 else 1
 
 
 class Group(Struct, frozen=True):
-    """Links that close together, the joints between them and those to links known before.
+    """Links that close together, the joints between them and the joints to links known before.
 
-    ``ties`` are the wheels that touch and the drivers that close it.
+    ``ties`` are the wheel contacts and the drivers of the group.
     """
 
     links: tuple[str, ...]
@@ -65,12 +66,11 @@ class Group(Struct, frozen=True):
 
     @property
     def slides(self) -> tuple[Joint, ...]:
-        """Its sliding joints."""
         return tuple(joint for joint in (*self.inner, *self.outer) if joint.slide >= 0)
 
     @property
     def is_dyad(self) -> bool:
-        """Two links, one pin or slide between them and one from each outwards, and no more."""
+        """Whether the group is two links with one joint between them and one outward from each."""
         pairs = (*self.inner, *self.outer)
         ends = [joint for joint in self.outer if self.links[0] in joint.links]
         plain = not self.ties and all(joint.pin or joint.turns_alike for joint in pairs)
@@ -79,7 +79,7 @@ class Group(Struct, frozen=True):
 
     @property
     def is_driven(self) -> bool:
-        """One link that turns about a known pin, or slides along a known guide, as driven."""
+        """Whether the group is one driven link on a known pin or a known guide."""
         return (
             len(self.links) == len(self.outer) == len(self.ties) == 1
             and self.ties[0].drives
@@ -87,7 +87,7 @@ class Group(Struct, frozen=True):
         )
 
     def only_follows(self, link: str) -> bool:
-        """Whether a link is a wheel on a known pin that one other link of the group turns."""
+        """Whether a link is a wheel on a known pin, turned by one other link of the group."""
         mine = [j for j in (*self.inner, *self.outer, *self.ties) if link in j.links]
         pins = [joint for joint in mine if joint.pin]
         turned = not any(joint.turns_alike or joint.drives for joint in mine)
@@ -95,22 +95,22 @@ class Group(Struct, frozen=True):
 
     @property
     def is_geared(self) -> bool:
-        """One wheel that turns about a known pin, as one other wheel or belt leads its rim."""
+        """Whether the group is one wheel on a known pin, turned by one other wheel or belt."""
         if not (len(self.links) == len(self.outer) == len(self.ties) == 1 and self.outer[0].pin):
             return False
         return not self.ties[0].drives and self.links[0] in self.ties[0].links[:2]
 
 
 def groups(scene: Scene, loops: Equations) -> list[Group]:
-    """The groups of two links and more, in the order in which one after the other is known."""
+    """The groups of two or more links, in the order in which they become known."""
     return [group for group in stages(scene, loops) if len(group.links) > 1]
 
 
 def stages(scene: Scene, loops: Equations) -> list[Group]:
-    """All groups, single links too, in the order in which one after the other is known.
+    """All groups, single links included, in the order in which they become known.
 
-    Links that nothing determines are in none of them. A set of one or two links is looked at when
-    one of its neighbours has become known, so that the work grows with the number of joints.
+    Links that nothing determines belong to no group. A set of one or two links is examined when a
+    neighbour has become known. The work is thus proportional to the number of joints.
     """
     net, known, found = Net(scene, loops), frozenset({FRAME}), list[Group]()
     waiting = net.sets_beside({FRAME}, known)
@@ -124,7 +124,7 @@ def stages(scene: Scene, loops: Equations) -> list[Group]:
 
 
 def counted_in_order(loops: Equations) -> Equations:
-    """The same equations, whole turns counted in the order in which groups of links are known."""
+    """The equations with whole turns counted in the order in which groups become known."""
     if not loops.doubtful:
         return loops
     order = enumerate(stages(loops.scene, loops), 1)
@@ -133,12 +133,15 @@ def counted_in_order(loops: Equations) -> Equations:
 
 
 def speaks_of(name: str, branch: Side | Way | Closure, group: Group, loops: Equations) -> bool:
-    """Whether a way or a number stated under the name of a link means a group.
+    """Whether a way or a closure number stated under a name refers to a group.
 
-    A number means the group of the link. A way means the group of the slide whose block it names;
-    the block itself may be known before, having closed with another group. Of a wheel on a straight
-    track it means the group of the wheel: a track that lies on a known wheel has no way of its own.
-    A way under the name of a pin means the group that the pin joins, whatever its block says.
+    - A number refers to the group of the named link.
+    - A way under a block's name refers to the group of its slide. The block itself may be known
+      before, as part of another group.
+    - A way under the name of a wheel on a straight track refers to the wheel's group: a track on a
+      known wheel has no way of its own.
+    - A way under a pin's name refers to the group that the pin joins, whatever is stated for its
+      block.
     """
     if isinstance(branch, Way) and name not in loops.bodies:
         return bool(group.slides) and any(joint.pin == name for joint in group.inner)
@@ -153,7 +156,7 @@ def speaks_of(name: str, branch: Side | Way | Closure, group: Group, loops: Equa
 
 
 def joints(loops: Equations) -> tuple[Joint, ...]:
-    """Every two links that share a point, a guide or a straight track."""
+    """The pins, slides and straight tracks, each between two links."""
     bodies, order = loops.bodies, [*loops.bodies]
     owners = defaultdict[str, list[int]](list)
     for number, body in enumerate(bodies.values()):
@@ -174,17 +177,16 @@ def joints(loops: Equations) -> tuple[Joint, ...]:
 
 
 def tied(scene: Scene, loops: Equations) -> tuple[Joint, ...]:
-    """Wheels that touch with their arm, and drivers: they tie coordinates of links alone."""
+    """The wheel contacts with their arms, and the drivers; they only tie coordinates of links."""
     wheels = [Joint((*gear.links, gear.arm)) for gear in loops.gears]
     drivers = [Joint(tied_by(each), drives=True) for each in scene.drivers]
     return (*wheels, *drivers)
 
 
 class Net:
-    """The joints and ties of a scene by the links that they join.
+    """The joints and ties of a scene, by the links that they join.
 
-    Links are counted in the order written; sets of them are kept with their size first, so that
-    the smallest set comes first, and of sets of one size the one that is written first.
+    Links are numbered in the order written. Sets sort by size, then by the order written.
     """
 
     def __init__(self, scene: Scene, loops: Equations) -> None:
@@ -194,7 +196,7 @@ class Net:
         self.ties = by_link(tied(scene, loops))
 
     def near(self, links: Iterable[str]) -> tuple[tuple[Joint, ...], tuple[Joint, ...]]:
-        """The joints and the ties that some links have, in order."""
+        """The joints and the ties of some links, in order."""
         chosen = tuple(links)
         first, second = (
             {n: joint for link in chosen for n, joint in table[link]}
@@ -203,10 +205,10 @@ class Net:
         return tuple(first[n] for n in sorted(first)), tuple(second[n] for n in sorted(second))
 
     def sets_beside(self, links: Iterable[str], known: frozenset[str]) -> list[Set]:
-        """The sets of one and of two unknown links, joined together, beside some known links.
+        """The sets of one and of two joined unknown links that adjoin the given known links.
 
-        What a pin joins to links that were known before is beside these already, and no pin that
-        is known joins two unknown links.
+        A pin shared with links known earlier is left out, because its links adjoined those already.
+        A pin that is known joins no two unknown links.
         """
         chosen = tuple(links)
         every, ties = self.near(chosen)
@@ -225,11 +227,10 @@ class Net:
         return sorted(found)
 
     def pins_of(self, links: Iterable[str]) -> set[str]:
-        """The points of some links."""
         return {point for link in links for point in self.loops.bodies[link]}
 
     def ready(self, links: tuple[str, ...], known: frozenset[str]) -> Group | None:
-        """The group that some links make, if it is determined."""
+        """The group that the links form, or None if they are not determined."""
         group = group_of(links, known, *self.near(links))
         taken = sum(joint.takes for joint in (*group.inner, *group.outer, *group.ties))
         if taken >= 3 * len(links) and determined(self.scene, self.loops, group, taken):
@@ -247,9 +248,9 @@ def by_link(every: tuple[Joint, ...]) -> dict[str, list[tuple[int, Joint]]]:
 
 
 def first_ready(net: Net, known: frozenset[str], waiting: list[Set]) -> Group | None:
-    """The first of the sets that wait, in order, that the known links determine.
+    """The first of the waiting sets that the known links determine.
 
-    Those that they do not are dropped until a neighbour of theirs is known.
+    Sets that are not determined are dropped until one of their neighbours becomes known.
     """
     while waiting:
         _, numbers = waiting.pop(0)
@@ -260,9 +261,9 @@ def first_ready(net: Net, known: frozenset[str], waiting: list[Set]) -> Group | 
 
 
 def larger(net: Net, known: frozenset[str]) -> Group | None:
-    """The smallest group of three links and more that the known links determine, as written first.
+    """The smallest group of three or more links that the known links determine, in written order.
 
-    None beyond so many sets.
+    None where there are more than ``MOST`` sets of one size.
     """
     unknown = [link for link in net.loops.links if link not in known]
     for size in range(3, min(LARGEST, len(unknown)) + 1):
@@ -280,7 +281,7 @@ def group_of(
     every: tuple[Joint, ...],
     ties: tuple[Joint, ...],
 ) -> Group:
-    """A set of links with its joints, of those that its links have."""
+    """The group of some links, with those of their joints that belong to it."""
     mine = set(links)
     outer = between(mine, known, every)
     inner = among(mine, every, {joint.pin for joint in outer})
@@ -289,7 +290,7 @@ def group_of(
 
 
 def between(links: set[str], others: frozenset[str], every: tuple[Joint, ...]) -> tuple[Joint, ...]:
-    """The joints from links to others; a pin that several of the others share counts once."""
+    """The joints from links to others; a pin shared by several of the others counts once."""
     found: dict[tuple[str, str, int], Joint] = {}
     for joint in every:
         for mine, other in (joint.links, joint.links[::-1]):
@@ -299,9 +300,9 @@ def between(links: set[str], others: frozenset[str], every: tuple[Joint, ...]) -
 
 
 def among(links: set[str], every: tuple[Joint, ...], met: set[str]) -> tuple[Joint, ...]:
-    """The joints within a set of links, pins that join it to others left out.
+    """The joints within a set of links, without pins that join the set to others.
 
-    A pin of k of its links counts k - 1 times.
+    A pin of k links of the set counts k - 1 times.
     """
     inside = [j for j in every if links >= set(j.links) and (not j.pin or j.pin not in met)]
     first = {joint.pin: joint.links[0] for joint in reversed(inside) if joint.pin}
@@ -309,10 +310,11 @@ def among(links: set[str], every: tuple[Joint, ...], met: set[str]) -> tuple[Joi
 
 
 def determined(scene: Scene, loops: Equations, group: Group, taken: int) -> bool:
-    """Whether the equations up to a group determine it, by their rank in some open position.
+    """Whether the equations up to a group determine it, by their rank in a random open position.
 
-    What leads one point twice along one link stands together there, as it does when closed: a block
-    that keeps a wheel from its track would else seem to hold the track's link, too.
+    Guides that lead one point of a link are first made to agree on its place, as in a closed
+    position. Otherwise a block that keeps a wheel from its track would seem to hold the track's
+    link, too.
     """
     exact = taken == 3 * len(group.links)
     if exact and ((group.is_dyad and len(group.slides) < 3) or is_sure(scene, group)):
@@ -333,16 +335,16 @@ def determined(scene: Scene, loops: Equations, group: Group, taken: int) -> bool
 
 
 def led_together(part: Equations, unknowns: Reals) -> Reals:
-    """Unknowns (1, K + m) where guides that lead one point have it in one place.
+    """The unknowns (1, K + m), changed so that guides that lead one point agree on its place.
 
-    They are guides of one link and of the blocks that slide along it, as of a plank on rollers or
-    of racks on which one wheel rolls. Where the link itself has the point, that is the place.
+    The guides belong to one link and to the blocks that slide along it, as for a plank on rollers
+    or racks on one wheel. If the link itself has the point, the link gives its place.
     """
     found, places = unknowns.copy(), dict[tuple[str, str], Complexes]()
     blocks = {g.block: j for j, g in enumerate(part.guides) if g.turns_alike and g.first}
 
     def carriers(link: str) -> list[int]:
-        """The guides along which a link slides, and what it slides on, as far as these lead."""
+        """The guides along which a link slides, and those below it, one after the other."""
         under: list[int] = []
         while link in blocks and blocks[link] not in under:
             under.append(blocks[link])
@@ -370,28 +372,30 @@ def led_together(part: Equations, unknowns: Reals) -> Reals:
 
 
 def own(part: Equations, j: int) -> Complexes:
-    """Where a guide's block has the point that it leads, in its own axes."""
+    """The point that a guide leads, in the axes of the guide's block."""
     guide = part.guides[j]
     return np.ravel(part.bodies[guide.block][guide.point])
 
 
 def foot_of(part: Equations, unknowns: Reals, j: int) -> Complexes:
-    """Where a guide has its block's point, in the axes of the link that it lies on."""
+    """The place of the block's point on a guide, in the axes of the guide's link."""
     guide = part.guides[j]
     here = unknowns[0, part.turning_count + j] + 1j * guide.offset
     return np.ravel(guide.through + here * guide.along)
 
 
 def slide_to(part: Equations, unknowns: Reals, j: int, foot: Complexes) -> None:
-    """A block slides along its guide to where its point is nearest to a place."""
+    """Slide a block along its guide until its point is nearest to a place."""
     guide = part.guides[j]
     way = (foot - guide.through) * np.conj(guide.along)
     unknowns[0, part.turning_count + j] = np.ravel(way.real)[0]
 
 
 def is_sure(scene: Scene, group: Group) -> bool:
-    """Whether a group is one link turned about a pin, by a driver or by a wheel that it touches, or
-    slid along its guide."""
+    """Whether a group is surely determined: one link driven about a pin or along a guide.
+
+    A link turned about a pin by another wheel counts, too.
+    """
     if not group.is_driven:
         return group.is_geared
     wanted = {tuple(sorted(joint.links[:2])) for joint in group.ties}
@@ -400,7 +404,7 @@ def is_sure(scene: Scene, group: Group) -> bool:
 
 
 def moved_by(loops: Equations, group: Group) -> Mask:
-    """Which unknowns belong to a group."""
+    """The unknowns that belong to a group."""
     turned = loops.turned.of
     fixed = {turned[link] for link in group.known if link in turned}
     mine = {turned[link] for link in group.links} - fixed

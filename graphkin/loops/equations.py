@@ -1,9 +1,9 @@
 """The loop equations f(φ, q) = 0 of a planar mechanism, with exact derivatives, chain by chain.
 
-Unknowns φ: the angle θ_k of every turning but the frame's (radians), then the coordinate s_j of
-every slide and track (metres). Equations: the two components of every closed chain (metres), the
-ways that wheels slip (metres), then for each driver its coordinate less its given value. All arrays
-carry the N settings of a batch first.
+The unknowns φ are the angle θ_k of every turning except the frame's (radians), then the coordinate
+s_j of every slide and track (metres). The equations are the two components of every closed chain
+and the slips of wheels, in metres. Each driver adds its coordinate less its given value. The first
+axis of every array is the N settings of a batch.
 """
 
 from __future__ import annotations
@@ -61,10 +61,11 @@ if TYPE_CHECKING:
 
 
 class Lift(Struct, frozen=True, eq=False):
-    """A follower whose coordinate, driver ``row``, its cam's angle gives by a ``law``.
+    """A follower whose coordinate, driver ``row``, a cam's angle gives by a ``law``.
 
-    ``way`` (K + m,) picks the cam's angle against its carrier, or its coordinate there; ``lean``
-    (N,) is the direction of its x axis where that angle is 0; the follower rests at ``start``.
+    ``way`` (K + m,) selects the cam's angle relative to its carrier, or its coordinate there.
+    ``lean`` (N,) is the direction of the cam's x axis where that angle is 0. ``start`` is the
+    follower's rest.
     """
 
     row: int
@@ -75,12 +76,12 @@ class Lift(Struct, frozen=True, eq=False):
     numbers: Numbers
 
     def of(self, values: Reals, way: Reals | None = None) -> Reals:
-        """What the cam's angle or coordinate has of values of the unknowns, those alone: (N,)."""
+        """The cam's angle or coordinate in values of the unknowns: (N,)."""
         own = np.flatnonzero(self.way)
         return np.asarray(values[:, own] @ (self.way if way is None else way)[own])
 
     def at(self, unknowns: Reals) -> Rise:
-        """What the law gives at some unknowns, with its derivatives by the cam's angle."""
+        """The value of the law at some unknowns, with its derivatives by the cam's angle."""
         place = self.of(unknowns)
         if not self.law.cam.slides:
             place = np.exp(1j * place) * self.lean
@@ -88,13 +89,13 @@ class Lift(Struct, frozen=True, eq=False):
 
 
 class Drives(Struct, frozen=True, eq=False):
-    """The given motions: row d of ``selects`` (D, K + m) picks the driven coordinate.
+    """The given motions: row d of ``selects`` (D, K + m) selects the driven coordinate.
 
-    A turning driver compares the unit vector e^{i(selected angle)}·``lean`` with ``aim``, a
-    sliding one its coordinate with ``aim``; all (N, D). ``whole`` counts full turns, too, from the
-    angle ``given`` (radians), ``leaning`` being the angle of ``lean``, not reduced: a wheel's place
-    depends on them. Rates are in SI units. ``errors`` (3, N, D) bound what the rounding of a law of
-    time adds to the given value and to its rates.
+    A turning driver compares the unit vector e^{i(selected angle)}·``lean`` with ``aim``; a sliding
+    one compares its coordinate with ``aim``. All have shape (N, D). ``whole`` counts full turns,
+    too, from the angle ``given`` (radians), because the position of a wheel depends on them.
+    ``leaning`` is then the angle of ``lean``, not reduced. Rates are in SI units. ``errors`` (3, N,
+    D) bound the rounding of a law of time, in the given value and in its rates.
     """
 
     selects: Reals
@@ -111,7 +112,7 @@ class Drives(Struct, frozen=True, eq=False):
     bases: tuple[CountedApart, ...] = ()
 
     def residual(self, unknowns: Reals) -> Reals:
-        """Driven coordinate less given value, angles within half a turn unless whole: (N, D)."""
+        """Driven coordinates less given values; angles within half a turn unless whole: (N, D)."""
         coordinate = unknowns @ self.selects.T
         aim, given = self.aimed(unknowns)
         angle = np.angle(np.exp(1j * coordinate) * self.lean * aim.conj())
@@ -123,7 +124,7 @@ class Drives(Struct, frozen=True, eq=False):
         return np.where(self.turns, angle, coordinate - aim.real)
 
     def aimed(self, unknowns: Reals) -> tuple[Complexes, Reals]:
-        """The given values, those of followers by their cams: (N, D)."""
+        """The given values, with those of followers from their cams: (N, D)."""
         if not self.lifts:
             return self.aim, self.given
         shape = len(unknowns), len(self.turns)
@@ -147,7 +148,7 @@ class Drives(Struct, frozen=True, eq=False):
         return rows
 
     def second(self, unknowns: Reals, u: Reals, v: Reals) -> Reals:
-        """Second derivative in two directions, which laws alone have: (N, D)."""
+        """Second derivative of the residual in two directions, nonzero only for laws: (N, D)."""
         found = np.zeros((len(unknowns), len(self.turns)))
         for lift in self.lifts:
             found[:, lift.row] -= lift.at(unknowns).bend * lift.of(u) * lift.of(v)
@@ -155,14 +156,14 @@ class Drives(Struct, frozen=True, eq=False):
 
     @property
     def waits(self) -> Reals:
-        """The unknowns to be known before an equation tells its coordinate: (D, K + m)."""
+        """The unknowns known before an equation determines its coordinate: (D, K + m)."""
         found = waiting(self.bases, self.selects.shape)
         for lift in self.lifts:
             found[lift.row] = abs(lift.way)
         return found
 
     def none(self) -> Drives:
-        """No driver of them."""
+        """The same structure without drivers."""
         lean, leaning, aim = self.lean[:, :0], self.leaning[:, :0], self.aim[:, :0]
         given, rates = self.given[:, :0], (self.speed[:, :0], self.acceleration[:, :0])
         left = lean, leaning, aim, given
@@ -180,7 +181,7 @@ def drives_of(
     known: Mapping[str, int],
     whole: bool,
 ) -> Drives:
-    """The drivers' equations; ``whole`` counts full turns, on which places of wheels depend."""
+    """The drivers' equations; ``whole`` counts full turns, on which positions of wheels depend."""
     count = len(scene.drivers)
     selects = np.zeros((count, turned.count + len(guides)))
     lean = np.ones((numbers.count, count), dtype=np.complex128)
@@ -225,7 +226,7 @@ def bases_of(
 ) -> tuple[CountedApart, ...]:
     """The links that drivers turn others from, where these turn as one with further links.
 
-    Those that a driver turns count with it.
+    Links that a driver turns are counted with the driver.
     """
     found = list[CountedApart]()
     for d, base in turned_from(scene, turned, known).items():
@@ -256,7 +257,7 @@ def lifts_of(
 
 
 def guide_on(block: str, on: str, guides: Sequence[Guide]) -> int:
-    """Which slide coordinate is that of a block on a link."""
+    """The number of the slide coordinate of a block on a link."""
     ends = (block, on)
     return next(
         number
@@ -274,7 +275,7 @@ def driven_line(driver: Driver, bodies: Mapping[str, Body]) -> Any:
 
 
 def driven_slide(number: int, driver: Driver, guides: Sequence[Guide]) -> int:
-    """Which slide or track coordinate is driven."""
+    """The number of the driven slide or track coordinate. Raises StructureError if none."""
     for index, guide in enumerate(guides):
         if (guide.block, guide.on, guide.moved_by) == (driver.link, driver.against, driver.kind):
             return index
@@ -289,14 +290,15 @@ def driven_slide(number: int, driver: Driver, guides: Sequence[Guide]) -> int:
     )
 
 
-# --- the loop equations f(φ -----------------------------------------------------------------------
+# --- the loop equations f(φ, q) = 0 ---------------------------------------------------------------
 
 
 class Linear(Struct, frozen=True, eq=False):
-    """The vectors of all chains in one position, split by the unknown that moves them.
+    """The vectors of all chains in one position, separated by the unknown that moves them.
 
-    ``turned`` (N, R, K) is the part of each chain that turns with θ_k, ``along`` (N, R, m) its
-    derivative by s_j, ``place`` (N, R) its end, ``unknowns`` (N, K + m) those of the position.
+    ``turned`` (N, R, K) is the part of each chain that turns with θ_k. ``along`` (N, R, m) is its
+    derivative by s_j. ``place`` (N, R) is its end, and ``unknowns`` (N, K + m) are those of the
+    position.
     """
 
     place: Complexes
@@ -327,7 +329,7 @@ class Chains(Struct, frozen=True, eq=False):
         return Linear(turned.sum(axis=-1), turned[:, :, 1:], along, unknowns)
 
     def split(self, unknowns: Reals) -> tuple[Reals, Reals]:
-        """Angles of all turnings, the frame's zero first, and slide coordinates."""
+        """Angles of all turnings, with the frame's zero first, and slide coordinates."""
         moving = self.fixed.shape[-1] - 1
         frame = np.zeros((*unknowns.shape[:-1], 1))
         return np.concatenate([frame, unknowns[..., :moving]], axis=-1), unknowns[..., moving:]
@@ -335,8 +337,8 @@ class Chains(Struct, frozen=True, eq=False):
     def second(self, linear: Linear, u: Reals, v: Reals) -> Complexes:
         """Second derivative of every chain in two directions of the unknowns: shape (N, R).
 
-        Vectors that turn give -θ̇_u θ̇_v times themselves; a slide on a turning guide gives
-        i(ṡ_u θ̇_v + ṡ_v θ̇_u) along itself, which for u = v comes of sliding on what turns.
+        Vectors that turn contribute -θ̇_u θ̇_v times themselves. A slide on a turning guide
+        contributes i(ṡ_u θ̇_v + ṡ_v θ̇_u) along itself; for u = v this is the Coriolis term.
         """
         (turn_u, slide_u), (turn_v, slide_v) = self.split(u), self.split(v)
         centripetal = linear.turned @ (turn_u * turn_v)[:, 1:, None]
@@ -368,14 +370,14 @@ Bar = tuple[str, str, Complexes]
 """A bar by its ends and as a vector (N,) in the axes of its turning."""
 
 UNIT = 4 * 2.0**-52
-"""Share of its terms by which a sound computation in doubles misses an equation at most."""
+"""Largest residual, as a share of its terms, of an equation computed correctly in doubles."""
 
 CANCELLED = 2.0**-48
 """Length, as a share of the mechanism's, that rounding may leave of bars that cancel."""
 
 
 class Parts(Struct, frozen=True, eq=False):
-    """What the loops of a scene are made of, whatever drives them: bodies, guides and wheels."""
+    """The parts of a scene's loops, independent of the drivers: bodies, guides and wheels."""
 
     numbers: Numbers
     bodies: Mapping[str, Body]
@@ -390,11 +392,11 @@ class Parts(Struct, frozen=True, eq=False):
 class Equations(Struct, frozen=True, eq=False, dict=True):
     """The vector loops of a scene: chains to every link's origin, and the chains that close.
 
-    ``bodies`` place each link's points about its origin; ``owners`` gives the first link of each of
-    the ``points`` and the point's local coordinates (N, points); ``closing`` names what each
-    closed chain closes; ``home`` (N,) is the frame's first point; ``size`` (N,) is the longest bar
-    in metres. ``known`` numbers the groups of links in the order in which they are known, as far as
-    whole turns depend on that, and ``doubtful`` says that they do.
+    ``bodies`` hold each link's points relative to its origin. ``owners`` gives the first link of
+    each of the ``points`` and the point's local coordinates (N, points). ``closing`` names the
+    joint that each closed chain closes. ``home`` (N,) is the frame's first point, and ``size`` (N,)
+    the longest bar in metres. ``known`` numbers the groups of links in the order in which they
+    become known, as far as whole turns depend on it; ``doubtful`` means that they do.
     """
 
     scene: Scene
@@ -418,24 +420,24 @@ class Equations(Struct, frozen=True, eq=False, dict=True):
 
     @property
     def turning_count(self) -> int:
-        """How many unknown angles there are."""
+        """The number of unknown angles."""
         return int(self.turned.count) - 1
 
     @property
     def unknown_count(self) -> int:
-        """How many unknowns there are."""
+        """The number of unknowns."""
         return self.turning_count + len(self.guides)
 
     @property
     def equation_count(self) -> int:
-        """How many equations there are: two a closed chain, one a row of no slip or a driver."""
+        """The number of equations: two per closed chain, one per row of no slip or driver."""
         return 2 * len(self.closing) + len(self.slips.links) + len(self.drives.turns)
 
     @cached_property
     def around(self) -> Reals:
-        """How long each closed chain is without its slides (m): (N, closed chains).
+        """The length of each closed chain without its slides (m): (N, closed chains).
 
-        One whose bars cancel, but for rounding, is as long as the mechanism.
+        A chain whose bars cancel, but for rounding, has the length of the mechanism.
         """
         length = abs(self.chains.fixed[:, len(self.links) :]).sum(axis=2)
         return np.where(length > CANCELLED * self.size[:, None], length, self.size[:, None])
@@ -450,7 +452,7 @@ class Equations(Struct, frozen=True, eq=False, dict=True):
 
     @cached_property
     def rows(self) -> Reals:
-        """The size of each equation: of its chain, of its wheels or of the driven unknown."""
+        """The size of each equation: of its chain, its wheels or its driven unknown."""
         wheels = abs(self.slips.rows[:, :, : self.turning_count]).max(axis=2, initial=0)
         wheels = np.where(wheels > 0, wheels, self.size[:, None])
         driven = np.where(self.drives.turns, 1, self.columns @ abs(self.drives.selects).T)
@@ -463,17 +465,15 @@ class Equations(Struct, frozen=True, eq=False, dict=True):
 
     @cached_property
     def leans(self) -> Complexes:
-        """How each link leans against its turning, as unit vectors: (N, links)."""
+        """The lean of each link relative to its turning, as unit vectors: (N, links)."""
         return self.numbers.columns([self.turned.lean[link] for link in self.links])
 
     @cached_property
     def link_index(self) -> dict[str, int]:
-        """The number of each link."""
         return {link: number for number, link in enumerate(self.links)}
 
     @cached_property
     def point_index(self) -> dict[str, int]:
-        """The number of each point."""
         return {name: number for number, name in enumerate(self.points)}
 
     @cached_property
@@ -482,7 +482,7 @@ class Equations(Struct, frozen=True, eq=False, dict=True):
         return self.bars_among(self.points)
 
     def bars_among(self, known: Container[str]) -> dict[int, Bar]:
-        """The longest bar of each turning between two points that are known."""
+        """The longest bar of each turning between two known points."""
         found: dict[int, tuple[float, Bar]] = {}
         for link, body in self.bodies.items():
             k, names = self.turned.of[link], [name for name in body if name in known]
@@ -507,7 +507,7 @@ class Equations(Struct, frozen=True, eq=False, dict=True):
 
     @cached_property
     def carries(self) -> Flags:
-        """What each turning carries: (K + 1, links, then points)."""
+        """Which links, then points, each turning carries: (K + 1, links + points)."""
         found = np.zeros((self.turned.count, len(self.links) + len(self.points)), dtype=np.bool_)
         for link, body in self.bodies.items():
             k = self.turned.of[link]
@@ -517,8 +517,10 @@ class Equations(Struct, frozen=True, eq=False, dict=True):
 
     @cached_property
     def magnitudes(self) -> Reals:
-        """Lengths of the vectors of the chains, then of those to every point, without what slides:
-        (N, R + points, K + 1 + m) by turning, then 1 for each slide that they pass.
+        """Magnitudes of the vectors of the chains, then of those to every point.
+
+        The shape is (N, R + points, K + 1 + m). The columns are the turnings, without sliding
+        parts, then 1 for each slide in the chain.
         """
         owners, arms = self.owners
         turned, along = np.abs(self.chains.fixed), np.abs(self.chains.slid)
@@ -547,8 +549,10 @@ class Equations(Struct, frozen=True, eq=False, dict=True):
 
     @cached_property
     def whole_turns(self) -> Reals:
-        """What rounding adds to the linear equations (N, R + D): angles count from a start, or from
-        a quarter, and a law of time rounds its value."""
+        """The rounding of constants in the linear equations (N, R + D).
+
+        Angles are counted from a start or from a quarter turn, and a law of time rounds its value.
+        """
         drives = np.where(self.drives.turns, UNIT, 0.0) + self.drives.errors[0]
         return np.concatenate([UNIT * np.abs(self.slips.constant), drives], axis=1)
 
@@ -562,7 +566,7 @@ class Equations(Struct, frozen=True, eq=False, dict=True):
         return np.concatenate([self.closures(linear.place), self.linear(unknowns)], axis=1)
 
     def linear(self, unknowns: Reals) -> Reals:
-        """The equations that are linear in the unknowns, of no slip and of drivers: (N, R + D)."""
+        """The equations linear in the unknowns, those of no slip and of drivers: (N, R + D)."""
         slipped = self.slips.residual(unknowns)
         return np.concatenate([slipped, self.drives.residual(unknowns)], axis=1)
 
@@ -570,7 +574,7 @@ class Equations(Struct, frozen=True, eq=False, dict=True):
     def linear_rows(self) -> Reals:
         """Derivative of the linear equations: shape (N, R + D, K + m).
 
-        Of a follower that a cam lifts that by its own coordinate.
+        For a follower that a cam lifts, it is the derivative by the follower's own coordinate.
         """
         shape = (self.numbers.count, *self.drives.selects.shape)
         return np.concatenate(
@@ -578,7 +582,7 @@ class Equations(Struct, frozen=True, eq=False, dict=True):
         )
 
     def jacobian(self, linear: Linear, driven: bool = True) -> Reals:
-        """∂f/∂φ: shape (N, equations, K + m); without the drivers' rows on request."""
+        """∂f/∂φ: shape (N, equations, K + m), with or without the drivers' rows."""
         rows = np.concatenate([1j * linear.turned, linear.along], axis=-1)
         closed, slips = self.closures(rows), self.slips.rows
         if len(slips) != len(closed):
@@ -587,17 +591,17 @@ class Equations(Struct, frozen=True, eq=False, dict=True):
         return np.concatenate([closed, slips, *own], axis=1)
 
     def scaled_jacobian(self, linear: Linear) -> Reals:
-        """The same, each equation and unknown over its own size."""
+        """The Jacobian with each equation and unknown divided by its own size."""
         return self.jacobian(linear) * self.columns[:, None, :] / self.rows[:, :, None]
 
     def second(self, linear: Linear, u: Reals, v: Reals) -> Reals:
-        """Second derivative of f in two directions: linear equations give none."""
+        """Second derivative of f in two directions; linear equations contribute nothing."""
         closed = self.closures(self.chains.second(linear, u, v))
         slips = np.zeros((len(closed), len(self.slips.links)))
         return np.concatenate([closed, slips, self.drives.second(linear.unknowns, u, v)], axis=1)
 
     def guide_index(self, block: str) -> int | None:
-        """The slide or track that a link names first."""
+        """The first slide or track of a link, or None."""
         for index, guide in enumerate(self.guides):
             if guide.block == block and guide.first:
                 return index
@@ -627,10 +631,10 @@ def equations(
 ) -> Equations:
     """Write the loop equations of a scene, for its own parameter values or for a batch of them.
 
-    ``within`` keeps to some of its links, with the joints and drivers among them; ``known`` numbers
-    the groups of links, where whole turns depend on which is known first. Raises
+    ``within`` restricts them to some links, with the joints and drivers among these. ``known``
+    numbers the groups of links, where whole turns depend on which becomes known first. Raises
     StructureError for links that nothing joins, wheels that do not touch, and a block whose angle
-    on a further guide is not told.
+    on a further guide is not stated.
     """
     scene = by_law(scene)
     return joined(scene, parts_of(scene, values), within, known)
@@ -639,7 +643,7 @@ def equations(
 def joined(
     scene: Scene, parts: Parts, within: Collection[str] | None, known: Mapping[str, int]
 ) -> Equations:
-    """The equations of a scene's parts, of all of them or of those ``within`` some links."""
+    """The equations of a scene's parts: of all links, or of those ``within``."""
     numbers, every, written, near = parts.numbers, parts.slips, scene, parts.near
     bodies, gears, guides, turned = parts.bodies, parts.gears, parts.guides, parts.turned
     own_turns = own_turns_of(written, every, turned, near, known)
@@ -695,19 +699,19 @@ def part_of(
 
 
 def tied_by(driver: Driver) -> tuple[str, ...]:
-    """The links whose coordinates a driver ties: the driven one, the other, the cam that lifts."""
+    """The links that a driver ties: the driven link, its reference, and a lifting cam."""
     law = driver.position
     cams = (law.cam.on, law.cam.carrier) if isinstance(law, ByLaw) else ()
     return (driver.link, driver.against, *cams)
 
 
 def undriven(loops: Equations) -> Equations:
-    """The same equations without those of the drivers."""
+    """The equations without those of the drivers."""
     return replace(loops, drives=loops.drives.none())
 
 
 def refuse_loose(links: Sequence[str], tree: Tree) -> None:
-    """Every link must hang on the frame through pins and guides."""
+    """Raise StructureError if a link is not connected to the frame by pins and guides."""
     loose = [name for name in links if name not in tree.origins]
     if loose:
         raise StructureError(

@@ -1,4 +1,4 @@
-"""True mobility: the freedom that the constraints leave at a position, whatever a count says."""
+"""True mobility: the freedom that the constraints leave at a position, independent of any count."""
 
 from __future__ import annotations
 
@@ -14,20 +14,21 @@ from graphkin.numbers.arithmetic import Point
 from graphkin.scene.model import Scene
 
 SHARE = 1e-8
-"""Share of the largest singular value below which a direction is not constrained."""
+"""Share of the largest singular value below which a direction is unconstrained."""
 
 
 FIRM = 1e-4
-"""Share of the largest singular value below which a direction may be rounding near a dead point."""
+"""Share of the largest singular value below which a direction may be rounding at a dead point."""
 
 
 def true_mobility(scene: Scene, positions: Mapping[str, Point] | None = None) -> int:
     """Unknowns of the loop equations less the rank of their Jacobian without the drivers.
 
-    ``positions`` (m) must close the mechanism; what they leave open is assembled by the loops.
-    Without any, closed positions are looked for, whatever the drivers, and the least free counts.
-    At a change point or another singular position the velocities are freer than the motion, and so
-    is this number. Raises StructureError as ``equations`` does, WitnessError where nothing closes.
+    ``positions`` (m) must close the mechanism; the loops assemble what they leave open. Without
+    positions, closed positions are searched for, independent of the drivers, and the smallest
+    mobility counts. At a change point or another singular position the velocities have more freedom
+    than the motion, and so has this number. Raises StructureError as ``equations`` does,
+    WitnessError where nothing closes.
     """
     loops = equations(scene)
     unknowns = position_of(scene, loops, positions)
@@ -41,22 +42,22 @@ def undriven_rows(loops: Equations, unknowns: Reals) -> Reals:
 
 
 def firmness(rows: Reals) -> tuple[int, float]:
-    """The rank, and the least singular value that it counts, over the largest."""
+    """The rank, and the smallest singular value counted in it as a share of the largest."""
     values = np.linalg.svd(rows, compute_uv=False)
     count = rank(rows)
     return count, float(values[count - 1] / values[0]) if count else 0.0
 
 
 def rank(rows: Reals) -> int:
-    """How many directions rows constrain."""
+    """The number of directions that the rows constrain."""
     values = np.linalg.svd(rows, compute_uv=False)
     return int(np.count_nonzero(values > SHARE * values.max(initial=0)))
 
 
 def position_of(scene: Scene, loops: Equations, positions: Mapping[str, Point] | None) -> Reals:
-    """The unknowns (1, K + m) at given positions, or at the least free of some closed ones.
+    """The unknowns (1, K + m) at given positions, or at the least mobile of some closed positions.
 
-    Of several such positions the one farthest from a singular one is taken.
+    Of several such positions, the one farthest from a singular position is taken.
     """
     if positions is None:
         found = anywhere(loops)

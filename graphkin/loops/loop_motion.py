@@ -1,4 +1,4 @@
-"""How links stand and move by the loops: links, points on them, blocks on their guides."""
+"""Position and motion from the loops: of links, of points on them, of blocks on their guides."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ from graphkin.scene.link_points import ends_of
 from graphkin.text.errors import Problem, StructureError
 
 Spot = tuple[str, int, str]
-"""A guide by its block, its number there, and whether it is a track."""
+"""A guide, by its block, its number on the block, and whether it is a track."""
 
 
 class Pose(Struct, frozen=True, eq=False):
@@ -25,23 +25,23 @@ class Pose(Struct, frozen=True, eq=False):
 
 
 def spot(guide: Guide) -> Spot:
-    """What a guide is known by."""
+    """The key of a guide."""
     return guide.block, guide.number, guide.moved_by
 
 
 def setting_of(loops: Equations, n: int) -> dict[str, Any]:
-    """The parameter values of one setting of a batch, or of the one scene."""
+    """The parameter values of one setting of a batch, or of a single scene."""
     values = loops.numbers.values
     return {name: v[n].item() if hasattr(v, "shape") else v for name, v in values.items()}
 
 
 def lean(loops: Equations, link: str, setting: int = 0) -> float:
-    """Angle (radians) of a link's x axis against its turning."""
+    """Angle (radians) of a link's x axis relative to its turning."""
     return float(loops.numbers.reals(loops.turned.angle[link])[setting])
 
 
 def pose_of(loops: Equations, row: Reals, setting: int = 0) -> Pose:
-    """How links stand by the unknowns (K + m,) of one setting."""
+    """The pose given by the unknowns (K + m,) of one setting."""
     angles = np.concatenate([[0.0], row[: loops.turning_count]])
     slid = row[loops.turning_count :]
     return Pose(
@@ -54,7 +54,7 @@ def pose_of(loops: Equations, row: Reals, setting: int = 0) -> Pose:
 
 
 def unknowns_of(loops: Equations, pose: Pose) -> Reals:
-    """The unknowns (1, K + m) of a pose, one scene; zero where the pose does not tell them."""
+    """The unknowns (1, K + m) of a pose of one scene; zero where the pose gives no value."""
     row = np.zeros((1, loops.unknown_count))
     for link, angle in pose.angles.items():
         k = loops.turned.of.get(link, 0)
@@ -76,7 +76,7 @@ class PlaceMotion(NamedTuple):
 class SlideRates(NamedTuple):
     """Coordinate (m), speed (m/s), acceleration (m/s²) along the guide, and Coriolis vector.
 
-    Or the bounds of their errors, that of the vector as a magnitude.
+    The same structure holds the bounds of their errors; the bound of the vector is a magnitude.
     """
 
     position: Reals
@@ -88,9 +88,9 @@ class SlideRates(NamedTuple):
 class Motion(Struct, frozen=True, eq=False):
     """Motion of every link, shape (N, links): of its origin, its angle and its heading.
 
-    ``heading`` is the unit vector of the link's x axis; ``omega`` (rad/s) and ``epsilon`` (rad/s²)
-    are counter-clockwise positive; ``points`` (N, points) are all named ones in the order of
-    ``names``; ``slides`` holds (s, ṡ, s̈) of every guide, (3, N, m).
+    ``heading`` is the unit vector of the link's x axis. ``omega`` (rad/s) and ``epsilon`` (rad/s²)
+    are positive counter-clockwise. ``points`` (N, points) holds all named points in the order of
+    ``names``. ``slides`` holds (s, ṡ, s̈) of every guide, shape (3, N, m).
     """
 
     loops: Equations
@@ -105,9 +105,9 @@ class Motion(Struct, frozen=True, eq=False):
 
     @classmethod
     def of(cls, loops: Equations, unknowns: Reals, rates: Reals, seconds: Reals | None) -> Motion:
-        """From the unknowns φ and their first and second derivatives by time, (N, unknowns).
+        """The motion from the unknowns φ and their two time derivatives, (N, unknowns).
 
-        Without the second ones all accelerations are NaN.
+        Without the second derivatives all accelerations are NaN.
         """
         chains, links = loops.chains, len(loops.links)
         linear = chains.at(unknowns)
@@ -145,7 +145,7 @@ class Motion(Struct, frozen=True, eq=False):
         )
 
     def carried(self, link: str, place: Complexes) -> PlaceMotion:
-        """Motion of the point of a link that stands at a place (Galileo, Rivals)."""
+        """Motion of the point of a link that is at a given place (Galileo, Rivals)."""
         i = self.index[link]
         start, velocity, acceleration = (row[:, i] for row in self.origin)
         arm = place - start
@@ -157,11 +157,14 @@ class Motion(Struct, frozen=True, eq=False):
         )
 
     def place(self, name: str) -> Complexes:
-        """Where a point stands that the scene names."""
+        """Position of a named point."""
         return np.asarray(self.points.place[:, self.names[name]])
 
     def point(self, name: str) -> PlaceMotion:
-        """Motion of a point; ``A@3`` is the point of link 3 under A. Unknown: StructureError."""
+        """Motion of a point; ``A@3`` is the point of link 3 under A.
+
+        Raises StructureError for an unknown point.
+        """
         point, carrier = ends_of(name)
         if point not in self.names or (carrier and carrier not in self.index):
             known = ", ".join(self.names)
@@ -174,7 +177,7 @@ class Motion(Struct, frozen=True, eq=False):
         return PlaceMotion(*(row[:, p] for row in self.points))
 
     def slide(self, j: int) -> SlideRates:
-        """Relative motion of a block along guide j; Coriolis is 2 ω of the guide × v_rel."""
+        """Motion of a block along guide j; the Coriolis vector is 2 ω of the guide × v_rel."""
         guide = self.loops.guides[j]
         i = self.index[guide.on]
         position, speed, acceleration = self.slides[:, :, j]

@@ -1,8 +1,8 @@
 """Newton's method on the loop equations, velocity and acceleration ratios, and the motion.
 
-From f(φ, q) = 0 follow the velocity ratios τ_d = ∂φ/∂q_d = -J⁻¹ ∂f/∂q_d and, derived once more,
-∂τ_d/∂q_e = -J⁻¹ f″(τ_d, τ_e); then φ̇ = Σ τ_d q̇_d and φ̈ = Σ τ_d q̈_d + Σ (∂τ_d/∂q_e) q̇_d q̇_e.
-One scene is a batch of one: all arrays carry the N settings first.
+From f(φ, q) = 0 follow the velocity ratios τ_d = ∂φ/∂q_d = -J⁻¹ ∂f/∂q_d. A second derivative gives
+∂τ_d/∂q_e = -J⁻¹ f″(τ_d, τ_e). Then φ̇ = Σ τ_d q̇_d and φ̈ = Σ τ_d q̈_d + Σ (∂τ_d/∂q_e) q̇_d q̇_e.
+One scene is a batch of one: the first axis of every array is the N settings.
 """
 
 from __future__ import annotations
@@ -23,13 +23,13 @@ from graphkin.scene.model import FRAME
 from graphkin.text.errors import Problem, StructureError, WitnessError
 
 LOOSE = 1e-9
-"""Share of a unit direction below which linear equations settle an unknown."""
+"""Share of a unit direction below which the linear equations determine an unknown."""
 
 
 def settled(loops: Equations, read: Reals, told: Mask) -> tuple[Reals, Mask]:
-    """Unknowns read off positions (N, K + m) with their full turns, and which are told now.
+    """The unknowns (N, K + m) read off positions, with their full turns, and which are now known.
 
-    What the linear equations settle is told by them.
+    The linear equations add to the unknowns that are known.
     """
     if not loops.slips.counted:
         return read, told
@@ -41,7 +41,7 @@ def settled(loops: Equations, read: Reals, told: Mask) -> tuple[Reals, Mask]:
 
 
 def settle(loops: Equations, values: Reals, told: Mask, known: Mask, part: Mask) -> None:
-    """Settle one group's unknowns, by linear equations first, then as counted from the start."""
+    """Settle one group's unknowns: first by linear equations, then counted from their start."""
     turning = np.arange(len(part)) < loops.turning_count
     within = np.abs(np.nan_to_num(loops.slips.rows[0][:, ~(known | part)])).max(1, initial=0) == 0
     known |= part & told & ~turning & ~unrolled(loops, part)
@@ -63,11 +63,11 @@ def settle(loops: Equations, values: Reals, told: Mask, known: Mask, part: Mask)
 
 
 def unrolled(loops: Equations, part: Mask) -> Mask:
-    """The coordinates along bars of a group that touch a wheel which is known before.
+    """The coordinates along a group's bars that touch a wheel known before the group.
 
-    A wheel is as far on its track as it has come, also one on a known track that leads a
-    bar; a bar touches its wheel where the bar's angle says, and that is counted within half a turn
-    as one that only pins tell.
+    A wheel's coordinate on its track is the distance it has rolled, also on a known track that
+    guides a bar. Where a bar touches its wheel follows from the bar's angle. That angle is counted
+    within half a turn, like an angle that only pins determine.
     """
     found, of = np.zeros_like(part), loops.turned.of
     free = {int(k) + 1 for k in np.flatnonzero(part[: loops.turning_count])}
@@ -81,9 +81,10 @@ def unrolled(loops: Equations, part: Mask) -> Mask:
 
 
 def precedence(loops: Equations, k: int, within: Mask) -> tuple[bool, float]:
-    """Which of several angles that wheels tie is counted: an arm's, else the largest wheel's.
+    """The sort key for which of several angles tied by wheels is counted first.
 
-    Wheels count that touch ``within`` what is known and the group.
+    Arms come first, then the largest wheel. ``within`` marks the wheel contacts between links of
+    the group and known ones.
     """
     links, rows = loops.slips.links, loops.slips.rows[0]
     arms = {loops.turned.of[each[-1]] for each, near in zip(links, within, strict=True) if near}
@@ -91,9 +92,10 @@ def precedence(loops: Equations, k: int, within: Mask) -> tuple[bool, float]:
 
 
 def solved_straight(loops: Equations, values: Reals, free: Mask, known: Mask) -> tuple[Reals, Mask]:
-    """The free unknowns by the linear equations alone, and which of them those settle.
+    """The free unknowns by the linear equations alone, and which of them these determine.
 
-    ``values`` hold the known ones, and zero for the free; equations with others are left out.
+    ``values`` holds the known unknowns, and zero for the free ones. Equations that contain other
+    unknowns are left out.
     """
     scale = np.where(free, loops.columns, 0.0)
     every = np.nan_to_num(loops.linear_rows)
@@ -111,7 +113,7 @@ def solved_straight(loops: Equations, values: Reals, free: Mask, known: Mask) ->
 
 
 def settles(rows: Reals) -> Mask:
-    """Which unknowns a set of linear equations (R, U) settles: those that no motion left moves."""
+    """The unknowns that linear equations (R, U) determine: those zero throughout the null space."""
     _, sizes, directions = np.linalg.svd(rows)
     rank = int(np.count_nonzero(sizes > LOOSE * sizes.max(initial=0)))
     left = np.abs(directions[rank:]).max(axis=0, initial=0)
@@ -119,14 +121,14 @@ def settles(rows: Reals) -> Mask:
 
 
 def counted(loops: Equations, values: Reals, k: int) -> Reals:
-    """The angle of unknown turning k counted from its start, within half a turn: shape (N,)."""
+    """The angle of turning unknown k, counted within half a turn of its start: shape (N,)."""
     angle = values[:, k]
     start = loops.slips.counted.get(k + 1)
     return angle if start is None else within_half_a_turn(angle, start)
 
 
 def counted_freely(loops: Equations, values: Reals, moving: Mask) -> Reals:
-    """The unknowns with the angles counted that no linear equation ties: only chains hold them."""
+    """The unknowns with those angles counted that only closed chains contain."""
     found = values.copy()
     tied = np.abs(np.nan_to_num(loops.linear_rows)).max(axis=(0, 1), initial=0) > 0
     for k in np.flatnonzero(moving & ~tied):
@@ -136,7 +138,7 @@ def counted_freely(loops: Equations, values: Reals, moving: Mask) -> Reals:
 
 
 def as_meant(loops: Equations, values: Reals, moving: Mask) -> Mask:
-    """Where the full turns of a closed group are those that its position means: (N,)."""
+    """Where the full turns of a closed group are those that its position implies: (N,)."""
     found = values.copy()
     settle(loops, found, np.ones_like(moving), ~moving, moving)
     return np.asarray(np.abs(found - values).max(axis=1, initial=0) < 1)
@@ -146,7 +148,7 @@ Places = Mapping[str, Complexes]
 
 
 class Start(Struct, frozen=True, eq=False):
-    """Unknowns (N, K + m) to start from; ``told`` are those that the positions tell (K + m,)."""
+    """Unknowns (N, K + m) to start from; ``told`` marks those the positions determine (K + m,)."""
 
     unknowns: Reals
     told: Mask
@@ -157,9 +159,9 @@ def start_values(
 ) -> Start:
     """Unknowns from positions of points (m) and slide coordinates by block (m).
 
-    An angle comes from the longest known bar of its turning, else from a block known on its guide,
-    else from a driver; then further points of its links are known. Where wheels depend on it, full
-    turns are counted as the scene means them. What no position tells is zero.
+    An angle comes from the longest known bar of its turning, else from a known block on its guide,
+    else from a driver. The angle then gives further points of its links. Where wheels depend on an
+    angle, its full turns are counted as the scene states. What no position determines is zero.
     """
     numbers = loops.numbers
     read = numbers.columns(list(places.values())) - loops.home[:, None]
@@ -187,7 +189,7 @@ def start_values(
 
 
 def driven_coordinate(loops: Equations, j: int) -> Reals | None:
-    """The coordinate on guide j that a driver gives, None where none does."""
+    """The coordinate on guide j that a driver gives, or None."""
     column = loops.drives.selects[:, loops.turning_count + j]
     lifted = [lift.row for lift in loops.drives.lifts]
     found = [d for d in np.flatnonzero(column) if d not in lifted]
@@ -197,7 +199,7 @@ def driven_coordinate(loops: Equations, j: int) -> Reals | None:
 def turns_of_bars(
     loops: Equations, known: Places, turn: Mapping[int, Complexes]
 ) -> dict[int, Complexes]:
-    """e^{iθ} of the turnings with a link of which two points are known; the longest bar counts."""
+    """e^{iθ} of the turnings that have two known points on one link, from the longest such bar."""
     bars = {k: bar for k, bar in loops.longest_bars.items() if k not in turn}
     if not known.keys() >= {end for first, second, _ in bars.values() for end in (first, second)}:
         bars = {k: bar for k, bar in loops.bars_among(known).items() if k not in turn}
@@ -211,10 +213,10 @@ def turns_of_blocks(
     turn: Mapping[int, Complexes],
     guessed: set[int],
 ) -> dict[int, Complexes]:
-    """e^{iθ} of a guide from a point of its link and the block on it, both known.
+    """e^{iθ} of guides for which a point of the link and the block on the guide are known.
 
-    Without a given slide coordinate the block is taken on the positive side, and the turning is
-    added to ``guessed``.
+    Without a given slide coordinate, the block is taken to be on the positive side and the turning
+    is added to ``guessed``.
     """
     found: dict[int, Complexes] = {}
     for guide in loops.guides:
@@ -256,7 +258,7 @@ def turns_of_drivers(loops: Equations, turn: Mapping[int, Complexes]) -> dict[in
 def points_on_links(
     loops: Equations, known: Places, turn: Mapping[int, Complexes]
 ) -> dict[str, Complexes]:
-    """Every point of a link whose angle and one of whose points are known."""
+    """Every point of the links that have a known angle and a known point."""
     found: dict[str, Complexes] = {}
     for link, body in loops.bodies.items():
         base = next((name for name in body if name in known), None)
@@ -276,7 +278,7 @@ def slide_start(
     given: Mapping[str, Reals],
     turn: Mapping[int, Complexes],
 ) -> Reals | None:
-    """Coordinate on a guide: the way from its zero, measured along it; None where nothing tells."""
+    """The coordinate on guide j, from its zero, or None where nothing gives it."""
     guide = loops.guides[j]
     body = loops.bodies[guide.on]
     base = next((name for name in body if name in known), None)
@@ -291,34 +293,36 @@ def slide_start(
     return np.asarray((way / (heading * guide.along)).real)
 
 
-# --- newton's method on the loop equations, velocity and acceleration ratios, and the motion ------
+# --- Newton's method, velocity and acceleration ratios, and the motion ----------------------------
 
 
 ITERATIONS = 60
 SETTLED = 1e-12
-"""A step of Newton's method, in the sizes of the unknowns, after which the next is rounding."""
+"""Step, in the sizes of the unknowns, after which the next one would be rounding."""
 NEAR = 1e-6
-"""A step below which steps that no longer shrink are rounding too."""
+"""Step below which further steps that no longer shrink are rounding too."""
 AT_REST = 1e-13
-"""Closure error, in the sizes of the equations, at which a longer step than that only shows that
-J is singular."""
+"""Closure error, in the sizes of the equations, of a mechanism closed to rounding.
+
+A long step from there only shows that J is singular.
+"""
 LONGEST = 0.5
-"""Longest step taken at once, in radians or the sizes of slides."""
+"""Longest single step, in radians or the sizes of slides."""
 CLOSED = 1e-9
 """Closure error, in the sizes of the equations, at which a mechanism counts as closed."""
 ROUNDED = 4
-"""Roundings of an equation's terms by which it may be open."""
+"""Roundings of an equation's terms within which its residual may lie."""
 
 Flags = np.ndarray[Any, np.dtype[np.bool_]]
 
 
 class Report(Struct, frozen=True, eq=False):
-    """How Newton's method went; arrays of shape (N,).
+    """The course of Newton's method; arrays of shape (N,).
 
-    ``residual`` is the closure error (m) before the first iteration, ``remains`` after the last;
-    ``moved`` (m) the farthest that an unknown went; angles are measured on the longest bar.
-    ``closed`` marks the settings that closed, ``good`` those that did so in a position that no
-    rounding can make singular.
+    ``residual`` is the closure error (m) before the first iteration and ``remains`` the error after
+    the last. ``moved`` (m) is the largest change of an unknown. Angles are measured on the longest
+    bar. ``closed`` marks the settings that closed. ``good`` marks those whose position no rounding
+    can make singular.
     """
 
     residual: Reals
@@ -336,17 +340,17 @@ class Ratios(Struct, frozen=True, eq=False):
     acceleration: Reals
 
     def rates(self, speed: Reals) -> Reals:
-        """φ̇ from the drivers' speeds (N, D)."""
+        """The rates φ̇ from the drivers' speeds (N, D)."""
         return np.asarray(np.einsum("nud,nd->nu", self.velocity, speed))
 
     def accelerations(self, speed: Reals, acceleration: Reals) -> Reals:
-        """φ̈ from the drivers' speeds and accelerations (N, D)."""
+        """The second derivatives φ̈ from the drivers' speeds and accelerations (N, D)."""
         steady = np.einsum("nude,nd,ne->nu", self.acceleration, speed, speed)
         return np.asarray(steady + np.einsum("nud,nd->nu", self.velocity, acceleration))
 
 
 class LoopSolution(Struct, frozen=True, eq=False):
-    """The loop equations solved: unknowns φ (N, unknowns), ratios, motion, bounds and report."""
+    """The solved loop equations: unknowns φ (N, unknowns), ratios, motion, bounds and report."""
 
     loops: Equations
     unknowns: Reals
@@ -363,8 +367,9 @@ def solve(
 ) -> LoopSolution:
     """Close the loops from given positions of points (m) and find the motion.
 
-    ``slides`` may give slide coordinates (m) by block. Raises StructureError when the drivers are
-    too few, WitnessError when one scene does not close or is singular; a batch gives NaN there.
+    ``slides`` may give slide coordinates (m) by block. Raises StructureError when there are too few
+    drivers. Raises WitnessError when a single scene does not close or is singular; a batch holds
+    NaN there.
     """
     refuse_undriven(loops)
     with np.errstate(all="ignore"):
@@ -377,8 +382,9 @@ def closed_from(
 ) -> LoopSolution:
     """Close the loops from unknowns (N, K + m) and find the motion; raises as ``solve`` does.
 
-    Without ``accelerations`` those of the motion are NaN, and the equations are derived only once.
-    With ``singular`` positions count in which no rate is sure, which the bounds then show.
+    Without ``accelerations`` the motion's accelerations are NaN, and the equations are
+    differentiated only once. With ``singular``, positions in which no rate is certain are accepted;
+    the bounds then show it.
     """
     refuse_undriven(loops)
     with np.errstate(all="ignore"):
@@ -416,10 +422,10 @@ def newton(
 ) -> tuple[Reals, int]:
     """Newton–Raphson from the start values; steps longer than ``LONGEST`` are shortened to it.
 
-    Only the unknowns ``moving`` change, all of them without it; more equations than unknowns are
-    met by least squares. Gives the unknowns and the number of iterations, of which there are at
-    ``most`` so many; a step shorter than ``settled`` is the last. Of many starts in one setting
-    those that have settled are left alone.
+    Only the unknowns in ``moving`` change; without it, all do. Least squares serves where there are
+    more equations than unknowns. Returns the unknowns and the number of iterations, at ``most`` so
+    many. A step shorter than ``settled`` is the last. Starts of one setting that have settled are
+    not iterated further.
     """
     unknowns, done = start.copy(), np.zeros(len(start), dtype=np.bool_)
     columns = np.ones(start.shape[1], dtype=np.bool_) if moving is None else moving
@@ -444,31 +450,30 @@ def newton(
 
 
 def moving_step(residual: Reals, jacobian: Reals, moving: Mask) -> Reals:
-    """How far the unknowns that move are off (N, moving), by the equations in which they stand."""
+    """The Newton step (N, moving) of the moving unknowns, from the equations that contain them."""
     part = jacobian[:, :, moving]
     rows = np.flatnonzero((part != 0).any(axis=(0, 2)))
     return linear_solve(part[:, rows], residual[:, rows, None])[:, :, 0]
 
 
 def scaled(loops: Equations, unknowns: Reals, linear: Linear | None = None) -> tuple[Reals, Reals]:
-    """Residual (N, e) and Jacobian (N, e, u), each equation and unknown over its own size.
+    """Residual (N, e) and Jacobian (N, e, u), each equation and unknown divided by its size.
 
-    ``linear`` are the vectors there, where they are known.
+    ``linear`` are the vectors at these unknowns, where the caller has them.
     """
     linear = loops.chains.at(unknowns) if linear is None else linear
     return loops.residual(linear, unknowns) / loops.rows, loops.scaled_jacobian(linear)
 
 
 def largest(rows: Reals) -> Reals:
-    """Largest magnitude in each row."""
     return np.asarray(np.abs(rows).max(axis=1, initial=0.0))
 
 
 def linear_solve(matrix: Reals, right: Reals) -> Reals:
-    """Solve stacks of equations; least squares where there are more than unknowns, or singular.
+    """Solve stacks of linear equations, by least squares if overdetermined or singular.
 
-    Shapes (N, e, u) and (N, e, R) give (N, u, R); settings with a NaN stay NaN. Equations that have
-    none of the unknowns in any setting tell nothing.
+    Shapes (N, e, u) and (N, e, R) give (N, u, R). Settings with a NaN stay NaN. Equations with zero
+    coefficients in all settings are left out.
     """
     finite = finite_rows(matrix) & finite_rows(right)
     told = matrix[finite].any(axis=(0, 2))
@@ -485,17 +490,17 @@ def linear_solve(matrix: Reals, right: Reals) -> Reals:
 
 
 def finite_rows(stack: Reals) -> Flags:
-    """Where every number of a matrix of a stack is finite."""
+    """Where every number in a matrix of a stack is finite."""
     if len(stack) == 1:
         return np.array([np.isfinite(stack).all()])
     return np.asarray(np.isfinite(stack).all(axis=(1, 2)))
 
 
 def open_at_most(loops: Equations, unknowns: Reals) -> Reals:
-    """How far each equation of a closed mechanism may be open, in its own size: (N, e).
+    """The largest residual of each equation of a closed mechanism, in its own size: (N, e).
 
-    Angles of many turns, and ways of many lengths, leave those of wheels and drivers open by their
-    own rounding, and closed chains by that of their angles.
+    Angles of many turns and paths of many lengths leave rounding in the equations of wheels and
+    drivers. The rounding of angles leaves some in the closed chains.
     """
     linear = ROUNDED * (straight(loops, unknowns) + loops.whole_turns)
     links, count = len(loops.links), loops.turned.count
@@ -506,19 +511,22 @@ def open_at_most(loops: Equations, unknowns: Reals) -> Reals:
 
 
 def gap(loops: Equations, unknowns: Reals) -> Reals:
-    """The largest closure error (m), angles of drivers measured on the longest bar: (N,)."""
+    """The largest closure error (m), with drivers' angles measured on the longest bar: (N,)."""
     return widest_gap(loops, loops.residual(loops.chains.at(unknowns), unknowns))
 
 
 def widest_gap(loops: Equations, missed: Reals) -> Reals:
-    """The same from what the equations are missed by: (N,)."""
+    """The largest closure error (m) from the residuals ``missed``: (N,)."""
     turns = np.zeros(missed.shape[1], dtype=np.bool_)
     turns[len(turns) - len(loops.drives.turns) :] = loops.drives.turns
     return largest(missed * np.where(turns, loops.size[:, None], 1))
 
 
 def ratios_at(loops: Equations, unknowns: Reals, *, accelerations: bool = True) -> Ratios:
-    """Velocity ratios τ_d and acceleration ratios ∂τ_d/∂q_e at a closed position, or those NaN."""
+    """Velocity ratios τ_d and acceleration ratios ∂τ_d/∂q_e at a closed position.
+
+    Without ``accelerations`` the acceleration ratios are NaN.
+    """
     linear = loops.chains.at(unknowns)
     jacobian = loops.scaled_jacobian(linear)
     return ratios_about(loops, linear, jacobian, accelerations=accelerations)
@@ -527,9 +535,9 @@ def ratios_at(loops: Equations, unknowns: Reals, *, accelerations: bool = True) 
 def ratios_about(
     loops: Equations, linear: Linear, jacobian: Reals, *, accelerations: bool
 ) -> Ratios:
-    """The same from the vectors in that position and the scaled Jacobian.
+    """The ratios from the vectors at a position and the scaled Jacobian.
 
-    Each equation and unknown is counted in its own size, so that metres do not drown radians.
+    Each equation and unknown is divided by its own size, so that metres do not swamp radians.
     """
     units, sizes = loops.columns[:, :, None], loops.rows[:, :, None]
     count, rows, columns = jacobian.shape
@@ -551,7 +559,7 @@ def ratios_about(
 
 
 def refuse_undriven(loops: Equations) -> None:
-    """There must be as many equations as unknowns, or more where some are idle."""
+    """Raise StructureError if there are fewer equations than unknowns."""
     missing = loops.unknown_count - loops.equation_count
     if missing > 0:
         raise StructureError(
@@ -565,7 +573,7 @@ def refuse_undriven(loops: Equations) -> None:
 
 
 def refuse_failure(loops: Equations, unknowns: Reals, report: Report) -> None:
-    """Say why one scene has no motion: it does not close, or its position is singular."""
+    """Raise WitnessError if one scene has no motion, because it does not close or is singular."""
     if report.good[0]:
         return
     if not report.closed[0]:
@@ -594,7 +602,7 @@ def refuse_failure(loops: Equations, unknowns: Reals, report: Report) -> None:
 
 
 def widest(loops: Equations, unknowns: Reals) -> str:
-    """What is farthest from closing: a joint, a place where wheels touch, or a driver."""
+    """The place that is farthest from closing: a joint, a contact of wheels, or a driver."""
     gaps = np.abs(scaled(loops, unknowns)[0][0])
     chains = len(loops.closing)
     joints = np.hypot(gaps[:chains], gaps[chains : 2 * chains])

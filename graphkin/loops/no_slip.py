@@ -1,8 +1,8 @@
 """Rolling without slip: wheels on straight tracks and on one another, as chains and linear rows.
 
-A straight track leads the wheel's centre like a guide at the wheel's radius to its side, and ties
-the wheel's angle to the coordinate along it. Two wheels tie their angles to that of the arm that
-carries both centres; where no link does, an arm without substance from centre to centre is put in.
+A straight track guides the wheel's centre at a distance of the wheel's radius, and ties the wheel's
+angle to the coordinate along the track. Two wheels tie their angles to the angle of the arm that
+carries both centres. Where no link carries both, a massless arm from centre to centre is added.
 """
 
 from __future__ import annotations
@@ -20,21 +20,21 @@ from graphkin.text.errors import Problem, StructureError
 
 
 class Chain(Struct, frozen=True):
-    """Sum over turnings k of fixed[k]·e^{iθ_k} plus, over slides j, slid[j]·s_j·(its direction)."""
+    """The sum of fixed[k]·e^{iθ_k} over turnings k and slid[j]·s_j·(direction j) over slides j."""
 
     fixed: Mapping[int, Point] = field(default_factory=dict)
     slid: Mapping[int, int] = field(default_factory=dict)
 
     def plus(self, turning: int, vector: Point) -> Chain:
-        """The chain continued by a vector that is fixed in a turning."""
+        """The chain extended by a vector that is fixed in a turning."""
         return Chain({**self.fixed, turning: self.fixed.get(turning, 0j) + vector}, self.slid)
 
     def along(self, slide: int, sense: int) -> Chain:
-        """The chain continued along a guide, or back along it with sense -1."""
+        """The chain extended along a guide, or back along it with sense -1."""
         return Chain(self.fixed, {**self.slid, slide: self.slid.get(slide, 0) + sense})
 
     def minus(self, other: Chain) -> Chain:
-        """The way from the end of another chain to the end of this one."""
+        """The vector from the end of another chain to the end of this one."""
         fixed, slid = dict(self.fixed), dict(self.slid)
         for turning, vector in other.fixed.items():
             fixed[turning] = fixed.get(turning, 0j) - vector
@@ -44,10 +44,10 @@ class Chain(Struct, frozen=True):
 
 
 class Turnings(Struct, frozen=True):
-    """The turning that each link belongs to, and its fixed lean (unit vector) against it.
+    """The turning that each link belongs to, and the link's fixed lean (unit vector) against it.
 
     ``angle`` is the lean in radians, summed from guide to guide and not reduced. Turning 0 is the
-    frame's: its angle is zero.
+    frame's, and its angle is zero.
     """
 
     of: Mapping[str, int]
@@ -60,7 +60,10 @@ Found = tuple[dict[str, int], dict[str, Point], dict[str, Real]]
 
 
 def turnings(links: Sequence[str], guides: Sequence[Guide]) -> Turnings:
-    """Gather the links that slide on one another; a block's x axis lies along its first guide."""
+    """Collect the links that slide on one another into turnings.
+
+    The x axis of a block is parallel to its first guide.
+    """
     tied = [guide for guide in guides if guide.first and guide.turns_alike]
     of: dict[str, int] = {}
     lean: dict[str, Point] = {}
@@ -73,9 +76,9 @@ def turnings(links: Sequence[str], guides: Sequence[Guide]) -> Turnings:
 
 
 def refuse_unknown_lean(turned: Turnings, guides: Sequence[Guide]) -> None:
-    """A further guide of a block must join links that turn together already.
+    """Raise StructureError where a further guide of a block joins links of different turnings.
 
-    How far the second link leans against the block the scene does not say.
+    The scene does not state the angle between the second link and the block.
     """
     for guide in guides:
         if guide.turns_alike and turned.of[guide.block] != turned.of[guide.on]:
@@ -89,7 +92,7 @@ def refuse_unknown_lean(turned: Turnings, guides: Sequence[Guide]) -> None:
 
 
 def spread(seed: str, tied: Sequence[Guide], found: Found) -> None:
-    """Reach every link that turns with the seed, guide by guide."""
+    """Add every link that turns with the seed, guide by guide."""
     of, lean, angle = found
     waiting = [seed]
     while waiting:
@@ -106,7 +109,7 @@ def spread(seed: str, tied: Sequence[Guide], found: Found) -> None:
 
 
 class Tree:
-    """A spanning tree of the joints from a link; every joint left over closes a loop."""
+    """A spanning tree of the joints from a root link; every joint outside it closes a loop."""
 
     def __init__(
         self,
@@ -132,7 +135,7 @@ class Tree:
             waiting += self._reach_from(waiting.pop(0))
 
     def _reach_from(self, link: str) -> list[str]:
-        """Hang on a link every body that shares a pin or a guide with it and is not yet reached."""
+        """Attach to a link every body, not yet reached, that shares a pin or a guide with it."""
         reached = []
         for point in self.bodies[link]:
             for other in self.owners[point]:
@@ -158,26 +161,25 @@ class Tree:
         return reached
 
     def step(self, chain: Chain, link: str, vector: Point) -> Chain:
-        """The chain continued by a vector in the axes of a link."""
+        """The chain extended by a vector in the axes of a link."""
         return chain.plus(self.turned.of[link], self.turned.lean[link] * vector)
 
     def at(self, link: str, point: str) -> Chain:
-        """The chain to a point of a link."""
         return self.step(self.origins[link], link, self.bodies[link][point])
 
     def on_guide(self, index: int) -> Chain:
-        """The chain to where a block stands at slide coordinate zero."""
+        """The chain to the place of a block at slide coordinate zero."""
         guide = self.guides[index]
         foot = guide.through + 1j * guide.offset * guide.along
         return self.step(self.origins[guide.on], guide.on, foot)
 
     def head(self, index: int) -> Point:
-        """The point of a block that keeps to guide ``index``, in the block's axes."""
+        """The point of a block that lies on guide ``index``, in the block's axes."""
         guide = self.guides[index]
         return self.bodies[guide.block].get(guide.point, 0j)
 
     def closures(self) -> dict[str, Chain]:
-        """The chains that must vanish: pins reached twice, blocks met on their guide again."""
+        """The chains that must vanish: pins reached twice and blocks whose guide closes a loop."""
         found: dict[str, Chain] = {}
         holder: dict[str, str] = {}
         for link in self.origins:
@@ -200,20 +202,20 @@ class Tree:
 
 
 TOUCH = 1e-6
-"""Gap between wheels that touch, as a share of their distance."""
+"""Largest gap between wheels that touch, as a share of their distance."""
 
 
 ROUND = 1e-9
-"""Radians by which rounding may put half a turn on its other side."""
+"""Radians by which rounding may move an angle across half a turn."""
 
 
 class NoSlip(Struct, frozen=True, eq=False):
-    """No slip: the sum of weight·(angle - start) over links, and side·s of a track, is nought.
+    """No slip: the sum of weight·(angle - start) over links, plus side·s of a track, is zero.
 
-    ``weights`` in metres, ``starts`` in radians by link; ``track`` is the straight track, None
-    between two wheels. ``links`` are the wheel's, the track's and the arm; ``turned`` gives the
-    angles (radians) near which the scene says that links stand, whole turns counted, ``near`` those
-    at the start.
+    ``weights`` are in metres and ``starts`` in radians, by link. ``track`` is the straight track,
+    or None between two wheels. ``links`` are the wheel, the track or other wheel, and the arm.
+    ``turned`` holds the angles (radians) near which the scene states links to be, with whole turns;
+    ``near`` holds their angles at the start.
     """
 
     links: tuple[str, ...]
@@ -226,10 +228,10 @@ class NoSlip(Struct, frozen=True, eq=False):
 
 
 class Gear(Struct, frozen=True, eq=False):
-    """Two wheels that touch or have a belt, their radii (m), the arm that carries both centres.
+    """Two wheels in contact or on one belt, their radii (m) and the arm that carries both centres.
 
-    ``sense`` is +1 where they touch from outside or the belt is crossed, -1 for a wheel in a ring
-    or an open belt.
+    ``sense`` is +1 for external contact or a crossed belt, -1 for a wheel in a ring or an open
+    belt.
     """
 
     links: tuple[str, str]
@@ -241,11 +243,11 @@ class Gear(Struct, frozen=True, eq=False):
 
 
 class CountedApart(Struct, frozen=True, eq=False):
-    """A link in equation ``row`` that turns as one with others, and counts its turns by itself.
+    """A link in equation ``row`` that turns as one with others but counts its own whole turns.
 
-    It is ``lean`` (radians) ahead of its ``turning``, and stands within half a turn of ``near``
-    whatever the whole turns of the others are: its pins show its direction only. The equation has
-    its angle ``weight`` times.
+    The link is ``lean`` (radians) ahead of its ``turning``. It stays within half a turn of
+    ``near``, whatever the whole turns of the others: its pins only show its direction. ``weight``
+    is the factor of its angle in the equation.
     """
 
     row: int
@@ -255,16 +257,17 @@ class CountedApart(Struct, frozen=True, eq=False):
     near: Reals
 
     def excess(self, unknowns: Reals) -> Reals:
-        """What the whole turns of its turning that it does not count add to the equation: (N,)."""
+        """The contribution to the equation of whole turns that this link does not count: (N,)."""
         angle = unknowns[:, self.turning - 1] + self.lean
         return np.asarray(self.weight * (angle - within_half_a_turn(angle, self.near)))
 
 
 class Slips(Struct, frozen=True, eq=False):
-    """All rows of no slip: ``rows`` (N, R, K + m) times the unknowns plus ``constant`` (N, R).
+    """All no-slip conditions: ``rows`` (N, R, K + m) times the unknowns plus ``constant`` (N, R).
 
-    Metres. ``links`` are those that each row ties, ``apart`` those of them that count by
-    themselves. ``counted`` gives, by turning, the angle near which it is counted (N,), radians.
+    The result is in metres. ``links`` are the links that each row ties. ``apart`` are those of them
+    that count their own turns. ``counted`` gives, by turning, the angle (radians) near which it is
+    counted (N,).
     """
 
     rows: Reals
@@ -275,11 +278,11 @@ class Slips(Struct, frozen=True, eq=False):
 
     @property
     def words(self) -> list[str]:
-        """What each row is called."""
+        """The description of each row."""
         return [f"the contact of link {wheel} with {on}" for wheel, on, *_ in self.links]
 
     def residual(self, unknowns: Reals) -> Reals:
-        """Way slipped (m): shape (N, R)."""
+        """The slip (m): shape (N, R)."""
         slipped = np.asarray((self.rows @ unknowns[:, :, None])[:, :, 0] + self.constant)
         for link in self.apart:
             slipped[:, link.row] -= link.excess(unknowns)
@@ -287,12 +290,12 @@ class Slips(Struct, frozen=True, eq=False):
 
     @property
     def waits(self) -> Reals:
-        """The unknowns to be known before a row tells another: (R, K + m)."""
+        """The unknowns that must be known before each row can determine another: (R, K + m)."""
         return waiting(self.apart, self.rows.shape[1:])
 
 
 def waiting(apart: Sequence[CountedApart], shape: tuple[int, ...]) -> Reals:
-    """The unknowns to be known before an equation tells another, of links that count apart."""
+    """The unknowns that an equation needs before it determines another: of links apart."""
     found = np.zeros(shape)
     for link in apart:
         found[link.row, link.turning - 1] = 1
@@ -302,7 +305,7 @@ def waiting(apart: Sequence[CountedApart], shape: tuple[int, ...]) -> Reals:
 def gears_of(
     scene: Scene, bodies: Mapping[str, Body], numbers: Numbers
 ) -> tuple[tuple[Gear, ...], dict[str, Body]]:
-    """Every two wheels that roll on one another, and the bodies of the arms that were put in."""
+    """All pairs of wheels that roll on one another, and the bodies of the added arms."""
     gears, added = list[Gear](), dict[str, Body]()
     for link in scene.every_link:
         for rolling in link.rolls:
@@ -335,7 +338,7 @@ def pair(scene: Scene, name: str, rolling: Rolling, i: int, k: int, numbers: Num
 def carried_pairs(
     scene: Scene, name: str, rolling: Rolling, bodies: Mapping[str, Body], numbers: Numbers
 ) -> list[Gear]:
-    """Every pair of wheels of two links whose centres a third link carries."""
+    """Every pair of wheels of two links whose centres lie on a third link."""
     found = []
     for i in range(len(scene.link(name).wheels)):
         for k in range(len(scene.link(rolling.on).wheels)):
@@ -353,7 +356,10 @@ def carried_pairs(
 def touching(
     name: str, rolling: Rolling, kept: Sequence[Gear], bodies: Mapping[str, Body], numbers: Numbers
 ) -> Gear:
-    """The pair whose radii make the distance of the centres. StructureError where none do."""
+    """The pair whose radii fit the distance of the centres best.
+
+    Raises StructureError in a single scene where none fit.
+    """
 
     def gap(gear: Gear) -> float:
         body = bodies[gear.arm]
@@ -384,8 +390,8 @@ def tracks_of(
 ) -> tuple[tuple[Guide, ...], tuple[tuple[int, Rolling, Real], ...]]:
     """The slides and, after them, the straight tracks; for each track its rolling and radius (m).
 
-    A link with several wheels rolls on the one whose radius is the height at which other joints
-    keep its centre, the first written where none do; never on a ring.
+    A link with several wheels rolls on the wheel whose radius equals the height at which other
+    joints hold its centre. If there is none, the first written wheel counts. A ring never does.
     """
     guides, rolled = list(slides), list[tuple[int, Rolling, Real]]()
     for link in scene.every_link:
@@ -409,7 +415,7 @@ def tracks_of(
 
 
 def kept(tree: Tree, found: Sequence[Guide]) -> Guide:
-    """The track of the wheel whose radius is the height that other joints keep, or the first."""
+    """The track of the wheel whose radius is the height that other joints hold, or the first."""
     for track in found:
         level = height(tree, track)
         if level is not None and np.all(abs(level - track.offset) <= TOUCH * abs(level)):
@@ -418,7 +424,7 @@ def kept(tree: Tree, found: Sequence[Guide]) -> Guide:
 
 
 def height(tree: Tree, track: Guide) -> Real | None:
-    """How far (m) to the left of a track other joints keep a wheel's centre; None: they do not."""
+    """The height (m) to the left of a track at which other joints hold a wheel's centre."""
     if not {track.block, track.on} <= set(tree.origins):
         return None
     foot = tree.step(tree.origins[track.on], track.on, track.through)
@@ -442,7 +448,7 @@ def slips_of(
     guides: Sequence[Guide],
     numbers: Numbers,
 ) -> tuple[NoSlip, ...]:
-    """The conditions of no slip, tracks first."""
+    """The no-slip conditions, tracks first."""
     found = []
     for index, rolling, size in rolled:
         track = guides[index]
@@ -463,12 +469,12 @@ def slips_of(
 
 
 def at_start(rolling: Rolling, link: str, numbers: Numbers) -> Real:
-    """The angle of a link (radians) in the position that a rolling counts from."""
+    """The angle of a link (radians) in the position from which a rolling counts."""
     return numbers.si(rolling.start[link]) if link in rolling.start else 0.0
 
 
 def counted_at(rolling: Rolling, numbers: Numbers) -> dict[str, Real]:
-    """The angles (radians) of links at the start, less and more whole turns as stated."""
+    """The stated angles (radians) of links: the angle at the start plus the stated whole turns."""
     return {
         link: at_start(rolling, link, numbers) + 2 * np.pi * numbers.si(turns)
         for link, turns in rolling.turns.items()
@@ -483,7 +489,7 @@ def packed_slips(
     guides: Sequence[Guide],
     numbers: Numbers,
 ) -> Slips:
-    """The conditions of no slip as arrays."""
+    """The no-slip conditions as arrays."""
     alone = list[CountedApart]()
     rows = np.zeros((numbers.count, len(slips), turned.count + len(guides)))
     constant = np.zeros((numbers.count, len(slips)))
@@ -501,10 +507,10 @@ def packed_slips(
 
 
 class OwnTurns(Struct, frozen=True, eq=False):
-    """Which links count their whole turns by themselves, though they turn as one with others.
+    """The links that count their own whole turns, although they turn as one with others.
 
-    Each of the ``links`` stands within half a turn of what it stands ``near`` (radians).
-    ``doubtful`` says that they depend on which of several links pins show first.
+    Each of ``links`` is within half a turn of its angle in ``near`` (radians). ``doubtful`` marks a
+    choice that depends on which of several links the pins determine first.
     """
 
     links: Collection[str]
@@ -514,7 +520,7 @@ class OwnTurns(Struct, frozen=True, eq=False):
     def of(
         self, row: int, link: str, weight: Real, turned: Turnings, numbers: Numbers
     ) -> list[CountedApart]:
-        """A link of an equation, where it counts otherwise than its turning."""
+        """The link's correction to an equation, if it counts differently from its turning."""
         if link not in self.links or not turns_with_others(link, turned):
             return []
         lean, near = (numbers.reals(z) for z in (turned.angle[link], self.near.get(link, 0.0)))
@@ -522,7 +528,6 @@ class OwnTurns(Struct, frozen=True, eq=False):
 
 
 def turns_with_others(link: str, turned: Turnings) -> bool:
-    """Whether a link turns as one with another."""
     return list(turned.of.values()).count(turned.of[link]) > 1
 
 
@@ -533,10 +538,12 @@ def own_turns_of(
     near: Mapping[str, Real],
     known: Mapping[str, int],
 ) -> OwnTurns:
-    """Which links count by themselves: none that turns with a driven one or one a contact leads.
+    """The links that count their own whole turns.
 
-    Contacts lead one after the other, as each leaves the angle of a wheel or an arm unknown; where
-    none does, pins show one, of the first group that is ``known``, of what is no wheel first.
+    Excluded are links that turn with a driven link, or with a link whose angle a contact
+    determines. Contacts are taken one after another, as soon as only one angle of theirs is
+    unknown. Where none is ready, pins determine one angle: that of the first group that is
+    ``known``, and of a link other than a wheel first.
     """
     of, led, doubtful = turned.of, set[str](), False
     turning = turning_ends(scene, known)
@@ -572,9 +579,10 @@ def own_turns_of(
 
 
 def starting_angles(scene: Scene, slips: Sequence[NoSlip], numbers: Numbers) -> dict[str, Real]:
-    """The angle (radians) near which each link that wheels concern stands.
+    """The angle (radians) near which each link of a wheel contact is counted.
 
-    That of a motion comes first, then what the scene states of its turns, then what rolls first.
+    The order of precedence: the angle given by a motion, the turns that the scene states, and the
+    start of the rolling written first.
     """
     found = {link: numbers.si(angle) for link, angle in scene.near.items()}
     order = [FRAME, *scene.links]
@@ -586,9 +594,9 @@ def starting_angles(scene: Scene, slips: Sequence[NoSlip], numbers: Numbers) -> 
 
 
 def standing(turned: Turnings, near: Mapping[str, Real], numbers: Numbers) -> Turnings:
-    """The turnings with each link that never turns within half a turn of where it is ``near``.
+    """The turnings with each link that never turns within half a turn of its angle in ``near``.
 
-    One of which nothing is said stands near the frame.
+    A link without such an angle is taken near zero.
     """
     still = [link for link, k in turned.of.items() if k == turned.of[FRAME] and link != FRAME]
     found = {
@@ -601,7 +609,7 @@ def standing(turned: Turnings, near: Mapping[str, Real], numbers: Numbers) -> Tu
 
 
 def within_half_a_turn(angle: Reals, start: Reals) -> Reals:
-    """An angle with the whole turns (radians) that bring it within half a turn of another."""
+    """The angle shifted by whole turns to within half a turn of ``start``, in radians."""
     beyond = np.ceil((angle - start - np.pi - ROUND) / (2 * np.pi))
     return np.asarray(angle - 2 * np.pi * beyond)
 
@@ -613,11 +621,10 @@ def counted_turnings(
     numbers: Numbers,
     known: Mapping[str, int],
 ) -> dict[int, Reals]:
-    """By turning, the angle within half a turn of which it is counted (N,), radians.
+    """By turning, the angle (radians) within half a turn of which it is counted: (N,).
 
-    What the scene states of a link's whole turns comes first, then the start of what rolls first
-    as written. A link that a driver turns others from counts from nought where no wheel says more,
-    but with what slides along it where a driver turns that.
+    The whole turns that the scene states come first, then the start of the rolling written first. A
+    reference link of a driver that turns others counts from zero, where no wheel states more.
     """
     found: dict[int, Reals] = {}
 
@@ -660,7 +667,7 @@ def turning_ends(scene: Scene, known: Mapping[str, int]) -> dict[int, tuple[str,
 def turned_from(scene: Scene, turned: Turnings, known: Mapping[str, int]) -> dict[int, str]:
     """The links from which drivers turn others and which no driver turns, by the driver's number.
 
-    Of two drivers that turn one link the later moves the other way: the link that it names second.
+    Where two drivers turn one link, the later of them moves its second-named link instead.
     """
     ends = turning_ends(scene, known)
     turning = [turned.of.get(link, -1) for link, _ in ends.values()]
@@ -673,7 +680,7 @@ def turned_from(scene: Scene, turned: Turnings, known: Mapping[str, int]) -> dic
 
 
 def turned_from_frame(scene: Scene, turned: Turnings) -> set[int]:
-    """The turnings of which drivers, one against the other, say all from the frame on."""
+    """The turnings that drivers determine, one against the other, starting from the frame."""
     pairs = [
         {turned.of.get(driver.link, -1), turned.of.get(driver.against, -1)}
         for driver in scene.drivers

@@ -1,7 +1,8 @@
-"""Rigid bodies as numbers: each link's points and guides in axes of its own, by trigonometry.
+"""Rigid bodies as numbers: each link's points and guides in its own axes, by trigonometry.
 
-Local coordinates are counted from the link's first point, so that a drawing far from its origin
-loses nothing. Lengths in metres; every value is a float or, in a batch, an array of shape (N,).
+Local coordinates are relative to the link's first point, so that a drawing far from its origin
+loses no digits. Lengths are in metres. Every value is a float or, in a batch, an array of shape
+(N,).
 """
 
 from __future__ import annotations
@@ -38,7 +39,7 @@ Body = Mapping[str, Point]
 
 
 class Numbers(Struct, frozen=True):
-    """The scene's parameters as set, and how many settings there are (N; 1 for one scene)."""
+    """The scene's parameters as set, and the number of settings (N; 1 for one scene)."""
 
     values: Mapping[str, Any]
     kind: Kind
@@ -46,7 +47,7 @@ class Numbers(Struct, frozen=True):
 
     @classmethod
     def of(cls, values: Mapping[str, Any]) -> Numbers:
-        """One setting in floats, or a batch when any value is an array of shape (N,)."""
+        """One setting in floats, or a batch if any value is an array of shape (N,)."""
         sizes = {len(value) for value in values.values() if hasattr(value, "shape")}
         if len(sizes) > 1:
             raise ValueError(f"arrays of one length expected, found lengths {sorted(sizes)}")
@@ -57,7 +58,7 @@ class Numbers(Struct, frozen=True):
         return quantity.si(self.values, self.kind)
 
     def error(self, quantity: Quantity) -> Real:
-        """Bound of the error by which sums and functions round a number, in SI units."""
+        """Bound (SI) of the rounding error of a number computed by sums and functions."""
         return quantity.error(self.values, self.kind)
 
     def direction(self, quantity: Quantity) -> Point:
@@ -75,7 +76,7 @@ class Numbers(Struct, frozen=True):
         return array.reshape(1) if self.count == 1 else np.broadcast_to(array, (self.count,))
 
     def columns(self, values: Sequence[Any], dtype: type = complex) -> Complexes:
-        """Many values side by side, each a number or an array of shape (N,): (N, values)."""
+        """Many values as columns, each a number or an array of shape (N,): (N, values)."""
         if any(getattr(value, "shape", ()) for value in values):
             shape = (self.count,)
             return np.stack(
@@ -86,18 +87,18 @@ class Numbers(Struct, frozen=True):
 
     @property
     def single(self) -> bool:
-        """True for one scene, whose failures are raised; a batch masks them."""
+        """Whether this is a single scene, whose failures are raised; a batch masks them."""
         return self.kind is FLOAT
 
 
 class Guide(Struct, frozen=True):
-    """A sliding pair, or the straight way of a wheel's centre along its track.
+    """A sliding pair, or the straight path of a wheel's centre along its track.
 
-    The ``point`` of ``block`` stands at through + (s + i·offset)·along, with ``through`` and the
-    unit vector ``along`` in the axes of the link ``on``. ``number`` is its place among the slides
-    or tracks of the block; ``first`` tells the one reported under the block's name, which, where
-    it is a slide, also sets the block's x axis along the guide. ``moved_by`` is the kind of driver
-    that moves the block along it.
+    The ``point`` of ``block`` is at through + (s + i·offset)·along, with ``through`` and the unit
+    vector ``along`` in the axes of the link ``on``. ``number`` is its index among the slides or
+    tracks of the block. ``first`` marks the guide reported under the block's name; a slide also
+    sets the block's x axis along that guide. ``moved_by`` is the kind of driver that moves the
+    block along it.
     """
 
     block: str
@@ -112,17 +113,16 @@ class Guide(Struct, frozen=True):
 
     @property
     def turns_alike(self) -> bool:
-        """Whether its two links turn alike, as on all but a track."""
+        """Whether its two links turn alike, as on all guides except a track."""
         return self.moved_by == "slide"
 
     @property
     def word(self) -> str:
-        """What it is called."""
         return "guide" if self.turns_alike else "track"
 
 
 def bodies_of(scene: Scene, numbers: Numbers) -> tuple[dict[str, Body], dict[str, Point]]:
-    """Points of every link from its own first point, and where that lies in the written axes."""
+    """Points of every link from its own first point, and that point's place in the written axes."""
     bodies: dict[str, Body] = {}
     starts: dict[str, Point] = {}
     for name in (FRAME, *scene.links):
@@ -134,7 +134,7 @@ def bodies_of(scene: Scene, numbers: Numbers) -> tuple[dict[str, Body], dict[str
 
 
 def placed_points(link: Link, numbers: Numbers) -> dict[str, Point]:
-    """Every point of a link in the axes that the scene gives it."""
+    """Every point of a link in the axes of the scene."""
     placed: dict[str, Point] = {}
     with np.errstate(all="ignore"):
         for placing in link.placings:
@@ -154,7 +154,7 @@ def placed_points(link: Link, numbers: Numbers) -> dict[str, Point]:
 
 
 def located(placing: Placing, placed: Mapping[str, Point], numbers: Numbers) -> Point:
-    """One point from those placed before it; a point that is not placed is the origin."""
+    """One point from those placed before it; an unplaced point counts as the origin."""
     si = numbers.si
 
     def at(name: str) -> Point:
@@ -181,8 +181,8 @@ def located(placing: Placing, placed: Mapping[str, Point], numbers: Numbers) -> 
 def half_angle(near: Real, far: Real, base: Real, side: int) -> Point:
     """Unit vector at half the angle between ``near`` and ``base``, from the three sides.
 
-    The law of cosines in half angles; its square is the direction of ``near``. No such triangle
-    gives NaN.
+    This is the law of cosines in half angles; the square of the vector is the direction of
+    ``near``. NaN where there is no such triangle.
     """
     cosine = (near + base + far) * (near + base - far)
     sine = (far + (near - base)) * (far - (near - base))
@@ -197,7 +197,7 @@ def radius(wheel: Wheel, numbers: Numbers) -> Real:
 
 
 def unit(vector: Point) -> Point:
-    """A vector over its length; a vector without length gives NaN."""
+    """A vector divided by its length; NaN for zero length."""
     length = np.abs(vector)
     return vector / np.where(length > 0, length, np.nan)
 
@@ -205,7 +205,7 @@ def unit(vector: Point) -> Point:
 def guides_of(
     scene: Scene, bodies: Mapping[str, Body], starts: Mapping[str, Point], numbers: Numbers
 ) -> tuple[Guide, ...]:
-    """Every sliding pair in the axes of the link that carries the guide, as the scene says."""
+    """Every sliding pair in the axes of the link that carries the guide."""
     guides: list[Guide] = []
     for link in scene.links.values():
         for number, slide in enumerate(link.slides):
@@ -220,7 +220,7 @@ def guides_of(
 
 
 def guide_line(slide: Slide, body: Body, start: Point, numbers: Numbers) -> tuple[Point, Point]:
-    """A point of a guide and its unit vector, counted like the points of the link it lies on."""
+    """A point of a guide and its unit vector, relative to the first point of the guide's link."""
     if slide.along is not None:
         first, second = slide.along
         return body[first], unit(body[second] - body[first])

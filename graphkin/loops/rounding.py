@@ -1,10 +1,10 @@
-"""How far rounding may lead each quantity from the truth, whoever solves the equations in doubles.
+"""Bounds of the rounding error of each quantity, for any solution of the equations in doubles.
 
-Drawn or computed, a position meets the loop equations to some units of their terms, f(φ) = r, and
-is off by at most abs(J⁻¹)·abs(r): each element of J⁻¹ holds the product of the crossings on the way
-from an equation to an unknown, 1/s for every sine s. The equations of the rates, J·φ̇ = b and
-J·φ̈ = c, are met likewise, by vectors that the error of the position has turned: 1/s² and 1/s³.
-All sums are of magnitudes, so that no bound depends on errors that cancel.
+A drawn or computed position satisfies the loop equations to some units of their terms, f(φ) = r.
+Its error is at most abs(J⁻¹)·abs(r). Each element of J⁻¹ holds the product of the crossings between
+an equation and an unknown: 1/s for every sine s. The equations of the rates, J·φ̇ = b and J·φ̈ = c,
+are satisfied likewise, with vectors that the error of the position has turned: 1/s² and 1/s³. All
+sums are of magnitudes, so that no bound depends on errors that cancel.
 """
 
 from __future__ import annotations
@@ -21,14 +21,14 @@ from graphkin.loops.rigid_bodies import Complexes, Reals
 from graphkin.scene.link_points import ends_of
 
 AGAIN = 4
-"""How many times the first-order error a position may be off where it is nearly singular."""
+"""Factor on the first-order error of a position that is nearly singular."""
 
 Flags = np.ndarray[Any, np.dtype[np.bool_]]
 Indices = np.ndarray[Any, np.dtype[np.intp]]
 
 
 class PlaceBound(NamedTuple):
-    """Bounds of the errors of a place (m), a velocity (m/s) and an acceleration (m/s²): (N, …)."""
+    """Error bounds of a position (m), a velocity (m/s), an acceleration (m/s²): (N, …)."""
 
     place: Reals
     velocity: Reals
@@ -36,11 +36,12 @@ class PlaceBound(NamedTuple):
 
 
 class Vectors(Struct, frozen=True, eq=False):
-    """Magnitudes of the vectors in rows of chains: ``every`` (N, R, 1 + U), by turning, the frame's
-    first, then 1 where a slide is passed. ``turned_by`` (1 + U,) are the turnings of all of them,
-    of which there are ``count``; ``twice`` (1 + U,) is 2 for the slides.
+    """Magnitudes of the vectors in rows of chains: ``every`` (N, R, 1 + U).
 
-    Loads on them, such as errors or rates of unknowns, are magnitudes (N, 1 + U), 0 for the frame.
+    The columns are the turnings, the frame's first, then 1 for each slide in the chain.
+    ``turned_by`` (1 + U,) are the turnings of all columns, ``count`` is the number of turnings, and
+    ``twice`` (1 + U,) is 2 for slides. Loads on the vectors, such as errors or rates of unknowns,
+    are magnitudes (N, 1 + U), 0 for the frame.
     """
 
     every: Reals
@@ -49,19 +50,19 @@ class Vectors(Struct, frozen=True, eq=False):
     count: int
 
     def sum(self, loads: Reals) -> Reals:
-        """The longest sum of the vectors times their loads, whatever their directions: (N, R)."""
+        """The longest sum of the vectors times their loads, for any directions: (N, R)."""
         return np.asarray((self.every @ loads[:, :, None])[:, :, 0])
 
     def ends(self) -> Reals:
-        """How far the ends of the chains are off at most, by what turns: (N, R)."""
+        """The largest error of the ends of the chains, by what turns: (N, R)."""
         return np.asarray(self.every[:, :, : self.count].sum(axis=-1))
 
     def bent(self, off: Reals) -> Reals:
-        """The second-order change of the rows when the unknowns are off: half f″ twice."""
+        """The second-order change of the rows for an error of the unknowns: half f″ twice."""
         return self.sum(off * off[:, self.turned_by] * (self.twice / 2))
 
     def moved(self, off: Reals, places: Reals) -> Vectors:
-        """How far the tips of the vectors move, with the rounding of the ``places`` (N, K + 1)."""
+        """The movement of the vectors' tips, with the rounding of the ``places`` (N, K + 1)."""
         shaken = self.every * (off[:, None, self.turned_by] + UNIT)
         turned = shaken[:, :, : self.count]
         turned += np.where(self.every[:, :, : self.count] > 0, places[:, None, :], 0)
@@ -70,24 +71,24 @@ class Vectors(Struct, frozen=True, eq=False):
         return replace(self, every=shaken)
 
     def plus(self, other: Vectors) -> Vectors:
-        """Every vector longer by another."""
+        """The vectors, each longer by another."""
         return replace(self, every=self.every + other.every)
 
     def carried(self, rate: Reals, second: Reals) -> Reals:
-        """What accelerations load the vectors with: by the second derivatives, and by the rates."""
+        """The loads of accelerations on the vectors: by the second derivatives and by the rates."""
         return np.asarray(second + self.twice * rate * rate[:, self.turned_by])
 
     def carried_more(self, rate: Reals, more: Reals) -> Reals:
-        """How much the parts by the rates grow when these are off by ``more``."""
+        """The growth of the parts by the rates for an error ``more`` of the rates."""
         held, extra = rate[:, self.turned_by], more[:, self.turned_by]
         return np.asarray(self.twice * (rate * extra + more * (held + extra)))
 
 
 class Rounding(Struct, frozen=True, eq=False):
-    """Bounds of the errors of a motion, laid out as it is: SI units, each of shape (N, …).
+    """Bounds of the errors of a motion, structured like the motion: SI units, shape (N, …).
 
-    ``angles`` (N, K + 1) are those of the turnings. ``regular`` (N,) tells where the position is
-    so far from every singular one that its rates are known at all.
+    ``angles`` (N, K + 1) are those of the turnings. ``regular`` (N,) marks positions far enough
+    from every singular one that their rates are known.
     """
 
     motion: Motion
@@ -101,11 +102,10 @@ class Rounding(Struct, frozen=True, eq=False):
 
     @property
     def loops(self) -> Equations:
-        """The equations of the motion."""
         return self.motion.loops
 
     def point(self, name: str) -> PlaceBound:
-        """Of a point; ``A@3`` is the point of link 3 under A."""
+        """The bounds of a point; ``A@3`` is the point of link 3 under A."""
         point, carrier = ends_of(name)
         p = self.motion.names[point]
         if carrier:
@@ -113,7 +113,7 @@ class Rounding(Struct, frozen=True, eq=False):
         return PlaceBound(*(row[:, p] for row in self.points))
 
     def carried(self, link: str, place: Complexes, error: Reals | float = 0.0) -> PlaceBound:
-        """Of the point of a link that stands at a place, which has an error of its own."""
+        """The bounds of the point of a link at a given place, which has an error of its own."""
         i = self.motion.index[link]
         start, velocity, acceleration = (row[:, i] for row in self.origin)
         arm, off = abs(place - self.motion.origin.place[:, i]), start + error
@@ -128,7 +128,7 @@ class Rounding(Struct, frozen=True, eq=False):
         )
 
     def slide(self, j: int) -> SlideRates:
-        """Of a block along guide j."""
+        """The bounds of a block along guide j."""
         guide = self.loops.guides[j]
         i = self.motion.index[guide.on]
         heading = self.angles[:, self.loops.turned.of[guide.on]]
@@ -139,10 +139,10 @@ class Rounding(Struct, frozen=True, eq=False):
 
 
 class PositionBounds(Struct, frozen=True, eq=False):
-    """How sure a position is: ``off`` (N, K + m) bounds the errors of its unknowns.
+    """The certainty of a position: ``off`` (N, K + m) bounds the errors of its unknowns.
 
-    ``regular`` marks the unknowns that the equations determine to first order; ``places`` are
-    the roundings of coordinates by turning, ``inverse`` the magnitudes of J⁻¹.
+    ``regular`` marks the unknowns that the equations determine to first order. ``places`` are the
+    roundings of coordinates by turning, and ``inverse`` the magnitudes of J⁻¹.
     """
 
     loops: Equations
@@ -154,15 +154,15 @@ class PositionBounds(Struct, frozen=True, eq=False):
 
     @classmethod
     def of(cls, loops: Equations, unknowns: Reals) -> PositionBounds:
-        """Bounded at a closed position."""
+        """The bounds at a closed position."""
         still, jacobian = np.zeros_like(unknowns), loops.scaled_jacobian(loops.chains.at(unknowns))
         return cls.about(Motion.of(loops, unknowns, still, None), unknowns, jacobian)
 
     @classmethod
     def about(cls, motion: Motion, unknowns: Reals, jacobian: Reals) -> PositionBounds:
-        """The same, from a motion there and the scaled Jacobian (N, equations, K + m).
+        """The bounds from a motion at a position and the scaled Jacobian (N, equations, K + m).
 
-        To first order, and by how much the loops bend within that.
+        They hold the first-order error and the curvature of the loops within it.
         """
         loops, inverse = motion.loops, abs_inverse(motion.loops, jacobian)
         rows, places = vectors_of(loops, unknowns), places_of(motion)
@@ -175,7 +175,7 @@ class PositionBounds(Struct, frozen=True, eq=False):
 
     @property
     def lost(self) -> Reals:
-        """The bounds as rates see them: an unknown that is not regular may stand anywhere."""
+        """The bounds as used for rates: an unknown that is not regular may have any value."""
         return np.where(self.regular, self.off, np.maximum(self.off, self.loops.columns))
 
 
@@ -187,7 +187,7 @@ def loads(values: Reals) -> Reals:
 
 
 def led(loops: Equations, inverse: Reals, missed: Reals, linear: Reals | None = None) -> Reals:
-    """How far unknowns are off when the rows, and the linear equations, miss so much."""
+    """The errors of the unknowns for given residuals of the rows and the linear equations."""
     links = len(loops.links)
     closed = missed[:, links : links + len(loops.closing)]
     if linear is None:
@@ -199,10 +199,10 @@ def led(loops: Equations, inverse: Reals, missed: Reals, linear: Reals | None = 
 def rounding(
     motion: Motion, unknowns: Reals, rates: Reals, seconds: Reals | None, jacobian: Reals
 ) -> Rounding:
-    """The bounds of a motion found, from the unknowns and their derivatives, (N, K + m) each, and
-    the Jacobian there with each equation and unknown over its own size.
+    """The bounds of a motion, from the unknowns and their derivatives, (N, K + m) each.
 
-    Without the ``seconds`` the bounds of all accelerations are NaN.
+    ``jacobian`` is the one there, with each equation and unknown divided by its own size. Without
+    ``seconds``, the bounds of all accelerations are NaN.
     """
     loops = motion.loops
     links, points = len(loops.links), len(loops.links) + len(loops.closing)
@@ -253,19 +253,19 @@ def vectors_of(loops: Equations, unknowns: Reals) -> Vectors:
 
 
 def places_of(motion: Motion) -> Reals:
-    """The rounding of the coordinates of what each turning carries, which count from the origin."""
+    """The rounding of coordinates on each turning, which count from the origin."""
     far = abs(np.concatenate([motion.origin.place, motion.points.place], axis=1))
     carried = np.where(motion.loops.carries, far[:, None, :], 0.0)
     return np.asarray(UNIT * carried.max(axis=2, initial=0.0))
 
 
 def straight(loops: Equations, values: Reals) -> Reals:
-    """The rounding of the equations that are linear in unknowns, or in their rates: (N, R + D)."""
+    """The rounding of the equations linear in unknowns, or in their rates: (N, R + D)."""
     return np.asarray(UNIT * (loops.linear_sizes @ abs(values)[:, :, None])[:, :, 0])
 
 
 def touching(loops: Equations, loaded: Reals, places: Reals) -> Reals:
-    """What the rounding of the points where wheels touch adds to the rates of those equations."""
+    """The rounding that contact points of wheels add to the rates of those equations."""
     found = np.zeros((len(places), len(loops.slips.links) + len(loops.drives.turns)))
     if loops.slips.links:
         turned = (abs(loops.slips.rows) > 0)[:, :, : loops.turning_count]
@@ -277,10 +277,10 @@ def touching(loops: Equations, loaded: Reals, places: Reals) -> Reals:
 def lifted(
     loops: Equations, unknowns: Reals, off: Reals, motion: tuple[Reals, Reals | None, Reals | None]
 ) -> Reals:
-    """What the errors ``off`` of cams' angles add to the rates of their followers: (N, R + D).
+    """The contribution of errors ``off`` of cams' angles to their followers' rates: (N, R + D).
 
-    To the first ones by the rates of the unknowns; to the second with these, the second ones and
-    the bounds of the first.
+    The contribution to the first rates comes from the rates of the unknowns. That to the second
+    rates comes from these, the second rates and the bounds of the first.
     """
     found = np.zeros((len(unknowns), len(loops.slips.links) + len(loops.drives.turns)))
     rates, seconds, slower = motion
@@ -298,10 +298,10 @@ def lifted(
 
 
 def abs_inverse(loops: Equations, scaled: Reals) -> Reals:
-    """Magnitudes of the elements of J⁻¹ (N, unknowns, equations); infinite where J has none.
+    """Magnitudes of the elements of J⁻¹ (N, unknowns, equations); infinite where J is singular.
 
-    It is given ``scaled``, each equation and unknown over its own size. Where there are more
-    equations than unknowns, the inverse is that by least squares.
+    ``scaled`` is J with each equation and unknown divided by its own size. For more equations than
+    unknowns, the inverse is that by least squares.
     """
     columns, rows = loops.columns, loops.rows
     found = np.full((len(scaled), scaled.shape[2], scaled.shape[1]), np.inf)

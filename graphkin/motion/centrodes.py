@@ -1,4 +1,4 @@
-"""The fixed and the moving centrode of a link: where its instantaneous centre comes to lie."""
+"""The fixed and the moving centrode of a link: the curves of its instantaneous centre."""
 
 from __future__ import annotations
 
@@ -10,16 +10,16 @@ from graphkin.numbers.plane import Ratio
 from graphkin.scene.model import FRAME, Link, Scene
 
 MOST = 2
-"""Couplers whose centrodes are drawn when the scene does not say which."""
+"""The most couplers whose centrodes are drawn when the scene names none."""
 
 Complexes = np.ndarray[tuple[int], np.dtype[np.complex128]]
 
 
 class Centrodes(Struct, frozen=True, eq=False):
-    """Instantaneous centres of a link at places u (N,): in the plane, and carried by the link.
+    """Instantaneous centres of a link at values u (N,): in the plane, and carried by the link.
 
-    ``moving`` is in the link's own axes: origin at its first point, x axis towards its second;
-    ``origin`` and ``heading`` put it into the plane. Centres at infinity are NaN.
+    ``moving`` is in the link's own axes, with its origin at the first point and the x axis towards
+    the second. ``origin`` and ``heading`` place it in the plane. Centres at infinity are NaN.
     """
 
     link: str
@@ -29,12 +29,12 @@ class Centrodes(Struct, frozen=True, eq=False):
     heading: Complexes
 
     def placed(self, origin: complex, heading: complex) -> Complexes:
-        """The moving centrode with the link put at a place and in a direction."""
+        """The moving centrode for a link with the given origin and direction."""
         return np.asarray(origin + heading * self.moving)
 
 
 def centrodes(cycle: Cycle, link: str) -> Centrodes | None:
-    """Both centrodes of a link through the rows of a cycle; None where it has no centres."""
+    """Both centrodes of a link through the rows of a cycle; None if it has no centres."""
     motion = cycle.solution.links.get(link)
     ends = base(cycle.scene.links[link])
     if motion is None or not isinstance(motion.instant_centre, Ratio) or ends is None:
@@ -54,7 +54,7 @@ def base(link: Link) -> tuple[str, str] | None:
 
 
 def links_with_centrodes(scene: Scene) -> tuple[str, ...]:
-    """The links asked, else the first couplers: links that no pair joins to the frame."""
+    """The requested links, else the first couplers: links that no pair joins to the frame."""
     if scene.ask.centrodes:
         return tuple(scene.ask.centrodes)
     fixed = set(scene.fixed_points)

@@ -1,6 +1,6 @@
-"""What the motion does beyond a change point: it takes the closure that its velocity leads to.
+"""The motion beyond a change point: it takes the closure that its velocity predicts.
 
-Neither the nearest position nor the same side does.
+Neither the nearest position nor the same side would be correct.
 """
 
 from __future__ import annotations
@@ -20,15 +20,15 @@ from graphkin.scene.model import Branch, Closure, Side
 from graphkin.text.errors import GraphkinError
 
 MOST_CLOSURES = 8
-"""Closures of one group of higher class that are tried beyond a change point."""
+"""The most closures of a higher-class group that are tried beyond a change point."""
 AHEAD = 0.25
-"""Steps of the grid on each side of a change point between which the motion is predicted."""
+"""Grid steps on each side of a change point between which the motion is predicted."""
 
 
 def beyond(course: Course, event: Event, way: int) -> Course:
     """The course past a change point: the closures whose positions the velocity predicts.
 
-    Each closure that hangs on a touching step is tried both ways, a numbered one by its numbers.
+    Each closure that depends on a touching step is tried both ways, a numbered one by its numbers.
     """
     step = AHEAD * abs(course.sweep.grid_step)
     before, after = event.at - way * step, event.at + way * step
@@ -48,9 +48,10 @@ def beyond(course: Course, event: Event, way: int) -> Course:
 
 
 def followed(course: Course) -> list[Target]:
-    """The places of points of links: where links touch is another point of theirs a moment later.
+    """The position targets of points of links.
 
-    What touches there has the velocity of a link's point under it, none of its own.
+    Contact points are left out: a moment later they are other points of the links, and they have no
+    velocity of their own.
     """
     targets = course.program.targets
     own = [(what, of) for what, of in targets if what == "position" and not is_under(of)]
@@ -58,7 +59,7 @@ def followed(course: Course) -> list[Target]:
 
 
 def predict(course: Course, before: float, after: float) -> Mapping[Target, complex]:
-    """Where every point will stand, from its position, velocity and acceleration by u before."""
+    """The predicted position of every point, from its position, velocity and acceleration by u."""
     way = (after - before) * course.sweep.per_unit
     targets = course.program.targets
     names = [of for _, of in followed(course)]

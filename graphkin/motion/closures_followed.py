@@ -1,7 +1,7 @@
-"""Groups of higher class along a sweep: each closure followed, and the numbers that it has.
+"""Groups of higher class along a sweep: each closure followed, and its numbers.
 
-The number that the scene picks counts where the scene is drawn. From there the motion leads each
-group, in the order of construction, given how those before it move.
+The number in the scene counts in the position that is drawn. From there the motion determines each
+group's closure, in the order of construction, given the motion of the groups before it.
 """
 
 from __future__ import annotations
@@ -27,24 +27,29 @@ from graphkin.text.errors import ClosureError, Problem
 Reals = np.ndarray[Any, np.dtype[Any]]
 
 PLACES, FEWER = 360, 120
-"""Places in a usual sweep at which closures are numbered; fewer where several links are tried at
-once, as each costs a hundred times as much."""
+"""Positions in a usual sweep at which closures are numbered.
+
+They are fewer where several links are tried at once, because each then costs a hundredfold.
+"""
 ENOUGH = 1e-10
-"""Share of the usual sweep to which the places of new numbers are narrowed."""
+"""Share of the usual sweep to which changes of number are located."""
 PARTS, HALVES = 16, 2
-"""Parts into which an interval with a new number is cut, all at once; of a group that tries several
-links places together cost as much as apart."""
+"""Parts into which an interval with a new number is cut, all tried at once.
+
+HALVES is for a group that tries several links, where positions together cost as much as apart.
+"""
 TIED = 1e-7
-"""Share of the usual sweep within which numbers that change to and fro are one change."""
+"""Share of the usual sweep within which numbers that change back and forth are one change."""
 BESIDE = 1e-6
-"""How far from a place where two closures meet they are numbered, in parts of the usual sweep."""
+"""Distance from a meeting of two closures at which they are numbered, in usual sweeps."""
 MOST = 20_000
-"""Places at which closures are numbered in one sweep at most."""
+"""The most positions at which closures are numbered in one sweep."""
 
 
 def carried(course: Course, start: float, stop: float) -> Course:
-    """The course with its groups of higher class, and the links that count turns, followed from one
-    place to another, or as far as they go; what was followed before is kept.
+    """The course with its higher-class groups and counted links followed from one u to another.
+
+    They are followed as far as they go. What was followed before is kept.
     """
     if course.closers and start != stop:
         end = stop
@@ -58,7 +63,7 @@ def carried(course: Course, start: float, stop: float) -> Course:
 
 
 def carried_about(course: Course, start: float) -> Course:
-    """The course with its groups followed from where the scene is drawn, forth and back."""
+    """The course with its groups followed in both directions from the scene's position."""
     sweep = course.sweep
     far = (start + TURN, start - TURN) if sweep.whole else (sweep.high, sweep.low)
     course = carried(course, start, max(far[0], start))
@@ -68,9 +73,9 @@ def carried_about(course: Course, start: float) -> Course:
 
 
 def followed(course: Course, k: int, start: float, stop: float) -> Course | None:
-    """The course with a group followed as far as a place; None where it does not close.
+    """The course with a group followed up to a given u; None where it does not close.
 
-    Where it is followed already it goes on from there.
+    Where the group is followed already, it continues from there.
     """
     known = course.closures[k] if k < len(course.closures) else None
     if known is not None:
@@ -99,7 +104,7 @@ def followed(course: Course, k: int, start: float, stop: float) -> Course | None
 
 
 class Counting:
-    """A group on its way, with the links in it whose turns count followed from place to place."""
+    """A followed group, with its counted links followed from position to position."""
 
     def __init__(
         self, course: Course, step: int, counted: Followed, links: Sequence[str], stop: float
@@ -108,13 +113,13 @@ class Counting:
         self.links, self.stop = links, stop
 
     def group(self) -> GroupOnWay:
-        """The group, on what is known by the turns counted so far."""
+        """The group, given the turns counted so far."""
         trying = closing(self.course.program.steps[self.step]).trying
         usual = self.course.sweep.usual
         return GroupOnWay(trying, lambda at: self.course.known_at(self.step, at), usual)
 
     def seen(self, at: float, row: Reals) -> None:
-        """Count on from a place where a link has gone too far."""
+        """Update the count at a position where a link has turned too far."""
         if not self.links:
             return
         trying = closing(self.course.program.steps[self.step]).trying
@@ -129,7 +134,7 @@ class Counting:
 
 
 def counted_for(course: Course, step: int) -> list[str]:
-    """The links whose counted turns a group hangs on."""
+    """The links on whose counted turns a group depends."""
     steps = course.program.steps
     given = (steps[n].given for n in course.program.behind((step,)))
     used = {name for each in given if each is not None for name in each.uses()}
@@ -137,7 +142,7 @@ def counted_for(course: Course, step: int) -> list[str]:
 
 
 def hangs_on(course: Course, link: str, step: int) -> bool:
-    """Whether the turn of a link follows from what closes a group."""
+    """Whether the turn of a link follows from the closure of a group."""
     return step in course.program.behind((course.program.targets["turned", link],))
 
 
@@ -145,7 +150,7 @@ def hangs_on(course: Course, link: str, step: int) -> bool:
 
 
 class Bracket(NamedTuple):
-    """Two places between which the number of a closure changes, and the numbers there."""
+    """Two positions between which the number of a closure changes, and the numbers there."""
 
     low: float
     first: int
@@ -155,8 +160,10 @@ class Bracket(NamedTuple):
 
 
 def numbers_between(course: Course, low: float, high: float) -> list[tuple[float, Course]]:
-    """Where each part of a way begins on which all closures keep their numbers, and the course with
-    these numbers stated."""
+    """The start of each part of a sweep with constant closure numbers, and its course.
+
+    The course states these numbers.
+    """
     marks = [
         (at, name, number)
         for k, name in enumerate(course.numbered)
@@ -176,7 +183,7 @@ def numbers_between(course: Course, low: float, high: float) -> list[tuple[float
 
 
 def stated(course: Course, numbers: dict[str, int], low: float, high: float) -> Course:
-    """The course as it is written on a part of its way: with the numbers of the closures there."""
+    """The course written for a part of its sweep, with the closure numbers there."""
     branches = {**course.branches, **{name: Closure(n) for name, n in numbers.items()}}
     ways = tuple(way.within(low, high) for way in course.closures)
     other = Course(course.sweep, branches, (low + high) / 2, course.turned, ways)
@@ -184,7 +191,7 @@ def stated(course: Course, numbers: dict[str, int], low: float, high: float) -> 
 
 
 def changes(course: Course, k: int, low: float, high: float) -> list[tuple[float, int]]:
-    """The number of the closure of a group at the beginning of a way, and each new one."""
+    """The number of a group's closure at the start of an interval, and each later number."""
     group, way = course.group(k), course.closures[k]
     usual = course.sweep.usual
     places = FEWER if group.trying.several else PLACES
@@ -204,8 +211,11 @@ def changes(course: Course, k: int, low: float, high: float) -> list[tuple[float
 def settled(
     low: float, first: int, marks: Sequence[tuple[float, Bracket]], near: float
 ) -> list[tuple[float, int]]:
-    """The numbers from a place on, each with where it begins: the last one where several change
-    hands near one place, as the angles of two closures are equal there but for rounding."""
+    """The numbers from a given u on, each with its start.
+
+    Where several numbers change near one place, the last counts: the angles of two closures are
+    equal there but for rounding.
+    """
     found = [(low, first)]
     for n, (at, each) in enumerate(marks):
         if n + 1 < len(marks) and marks[n + 1][0] - at < near:
@@ -216,7 +226,10 @@ def settled(
 
 
 def known_numbers(numbers: Reals, stated: Any) -> Reals:
-    """Numbers, where rounding leaves one open that before it; at first the next one."""
+    """The numbers, with one that rounding leaves open replaced by the one before it.
+
+    At the start, the next one replaces it.
+    """
     known = np.flatnonzero(numbers)
     if not known.size:
         return np.full(len(numbers), stated.number)
@@ -225,7 +238,7 @@ def known_numbers(numbers: Reals, stated: Any) -> Reals:
 
 
 def parted(at: Reals, numbers: Reals) -> list[Bracket]:
-    """The neighbours of some places between which the number changes."""
+    """The neighbouring positions between which the number changes."""
     return [
         Bracket(float(at[n]), int(numbers[n]), float(at[n + 1]), int(numbers[n + 1]))
         for n in np.flatnonzero(np.diff(numbers))
@@ -233,8 +246,9 @@ def parted(at: Reals, numbers: Reals) -> list[Bracket]:
 
 
 def at_meetings(group: GroupOnWay, way: FollowedClosure, wide: Sequence[Bracket]) -> list[Bracket]:
-    """The brackets with all closures at both ends, where they lead on one to one; where two more
-    come or go in between, the place at which these meet.
+    """The brackets with all closures at both ends, where these continue one to one.
+
+    Where two closures appear or vanish in between, it is the place at which these meet.
     """
     if not wide:
         return []
@@ -273,13 +287,13 @@ def narrowed(group: GroupOnWay, way: FollowedClosure, wide: Sequence[Bracket]) -
 
 
 def within(each: Bracket, at: Reals, numbers: Reals) -> list[Bracket]:
-    """The parts of a bracket in which the number changes, by the numbers at places within."""
+    """The parts of a bracket in which the number changes, by the numbers at positions within."""
     every = known_numbers(np.array([each.first, *numbers, each.last]), None)
     return [part._replace(pairs=each.pairs) for part in parted(at, every)]
 
 
 def too_many(course: Course) -> ClosureError:
-    """What to raise where a motion would have to be followed through more places than allowed."""
+    """The error for a motion that would be followed through more positions than allowed."""
     sweep = course.sweep
     found = f"from {sweep.low:.10g} to {sweep.high:.10g} {sweep.unit} it has to be tried at more"
     most = f"at most {MOST} positions of the driver"

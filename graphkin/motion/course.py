@@ -1,4 +1,4 @@
-"""A mechanism with its closures picked: where it stands and moves for arrays of u."""
+"""A mechanism with selected closures: its positions and motion for arrays of u."""
 
 from __future__ import annotations
 
@@ -41,19 +41,19 @@ Reals = np.ndarray[Any, np.dtype[Any]]
 Flags = np.ndarray[Any, np.dtype[np.bool_]]
 Branches = Mapping[str, Branch]
 NOISE = 1e-9
-"""Sine of a crossing of loci that lie on one another, but for rounding."""
+"""Sine of a crossing below which its loci coincide but for rounding."""
 PLACES = ("position", "slide", "axis", "rolled")
-"""Targets that say where the mechanism stands."""
+"""Targets that give the position of the mechanism."""
 
 
 class Course(Struct, frozen=True, dict=True):
     """One choice of closures throughout a sweep: its scene, its program, and how to run it.
 
-    ``here`` is a u at which these closures hold, where the construction may look at the shape of
-    the mechanism; without it they hold where the scene stands. ``turned`` tells how far links have
-    turned that only their pins turn and whose wheels depend on it; without it they count near what
-    the scene says throughout. ``closures`` are the ways of the groups of higher class, in the order
-    of construction, as far as they were followed; elsewhere they are sought anew at every place.
+    ``here`` is a u at which these closures hold, so that the construction can use the shape of the
+    mechanism there. Without it, they hold in the scene's position. ``turned`` gives the turned
+    angles of links that only pins turn and on which wheels depend. Without it, these links count
+    near the scene's angles throughout. ``closures`` are the followed closures of higher-class
+    groups, in the order of construction. Groups without one are closed anew at every position.
     """
 
     sweep: Sweep
@@ -63,7 +63,7 @@ class Course(Struct, frozen=True, dict=True):
     closures: tuple[FollowedClosure, ...] = ()
 
     def along(self, **ways: Any) -> Course:
-        """The same course with other ways followed: what is written of it stays."""
+        """The course with other followed closures; its cached program is kept."""
         other = replace(self, **ways)
         vars(other).update(vars(self))
         return other
@@ -74,14 +74,12 @@ class Course(Struct, frozen=True, dict=True):
         return self.standing(self.here)
 
     def standing(self, here: float | None) -> Scene:
-        """The scene with these closures as it stands at a u."""
+        """The scene with these closures in the position of a given u."""
         values = None if here is None else self.values(np.array([here]))
         return self.sweep.with_branches(self.branches, values)
 
     def values(self, at: Any, *, geometric: bool = False) -> dict[str, Any]:
-        """All values of the scene for an array of u (N,), as the sweep gives them, and how far
-        links have turned.
-        """
+        """All values of the scene for an array of u (N,): those of the sweep, and turned angles."""
         turned = {} if self.turned is None else self.turned.values(at)
         return self.sweep.values(at, geometric=geometric) | turned
 
@@ -92,17 +90,16 @@ class Course(Struct, frozen=True, dict=True):
 
     @cached_property
     def program(self) -> Program:
-        """The construction with these closures."""
         return write(self.scene, self.groups)
 
     @cached_property
     def early(self) -> tuple[int, ...]:
-        """The steps that construct the positions of everything."""
+        """The steps that construct all positions."""
         return self.program.needed(t for t in self.program.targets if t[0] in PLACES)
 
     @cached_property
     def crossings(self) -> tuple[int, ...]:
-        """The steps of the positions that cross two loci and hang on u, in order."""
+        """The steps of positions that cross two loci and depend on u, in order."""
         moving = self._moving()
         steps = self.program.steps
         return tuple(
@@ -112,7 +109,7 @@ class Course(Struct, frozen=True, dict=True):
         )
 
     def _moving(self) -> set[int]:
-        """The early steps that hang on a driver."""
+        """The early steps that depend on a driver."""
         arrays = inputs(self.scene)
         moving: set[int] = set()
         for n in self.early:
@@ -124,7 +121,7 @@ class Course(Struct, frozen=True, dict=True):
 
     @cached_property
     def counting(self) -> tuple[str, ...]:
-        """The links whose angle counts near a followed one: only pins turn them, as u moves."""
+        """The links whose angle counts near a followed one, because only pins turn them."""
         steps, moving = self.program.steps, self._moving()
         return tuple(
             of
@@ -139,9 +136,9 @@ class Course(Struct, frozen=True, dict=True):
         links: Iterable[str] | None = None,
         closed: Mapping[int, Any] | None = None,
     ) -> dict[str, Reals]:
-        """The angles (radians) of some of these links, or all, for values of the scene, (N,) each.
+        """The angles (radians), (N,) each, of ``links`` or of all counted links.
 
-        ``closed`` are groups that are closed so, beside those that were followed.
+        ``closed`` are closed groups in addition to those that were followed.
         """
         some = self.counting if links is None else tuple(links)
         wanted = [("turned", link) for link in some]
@@ -159,14 +156,14 @@ class Course(Struct, frozen=True, dict=True):
         return {link: spread(trace.value("turned", link), len(at)) for link in some}
 
     def angles(self, at: float) -> dict[str, float]:
-        """The angles (degrees) of these links at one u."""
+        """The angles (degrees) of the counted links at one u."""
         here = np.array([at])
         found = self.counted(self.values(here), here)
         return {link: float(np.degrees(row[0])) for link, row in found.items()}
 
     @cached_property
     def closing_work(self) -> int:
-        """How many steps closing groups costs at one position of the driver; 0 without any."""
+        """The steps that closing groups takes at one position of the driver; 0 without groups."""
         work = 0
         values = self.values(np.array([self.sweep.start]))
         for n in self.closers:
@@ -175,12 +172,12 @@ class Course(Struct, frozen=True, dict=True):
 
     @property
     def is_searched(self) -> bool:
-        """Whether it has a group of higher class, whose places are known to few digits."""
+        """Whether there is a group of higher class, whose positions are known to few digits."""
         return any(isinstance(each, Closure) for each in self.branches.values())
 
     @property
     def tried_at_once(self) -> int:
-        """How many links a group tries at once, at most; 0 without one that tries any."""
+        """The most links that a group tries at once; 0 if no group does."""
         return max((len(g.nested) for g in self.groups if isinstance(g, Higher)), default=0)
 
     @property
@@ -214,14 +211,14 @@ class Course(Struct, frozen=True, dict=True):
 
     @cached_property
     def numbered(self) -> tuple[str, ...]:
-        """The links at which the closures of these groups are numbered, in the same order."""
+        """The links under which the closures of these groups are numbered, in the same order."""
         stated = [name for name, each in self.branches.items() if isinstance(each, Closure)]
         every = self.closed_links
         return tuple(next(name for name in stated if name in links) for links in every)
 
     @cached_property
     def within_groups(self) -> frozenset[int]:
-        """The steps that construct the links of these groups once they are closed."""
+        """The steps that construct the links of these groups after they are closed."""
         found: set[int] = set()
         for number, links in zip(self.closers, self.closed_links, strict=True):
             every = [("axis", link) for link in links]
@@ -232,7 +229,7 @@ class Course(Struct, frozen=True, dict=True):
         return frozenset(found)
 
     def group(self, k: int) -> GroupOnWay:
-        """A group of higher class on its way, those before it followed."""
+        """A followed group of higher class, with the groups before it followed, too."""
         step = self.closers[k]
         trying = closing(self.program.steps[step]).trying
         return GroupOnWay(trying, lambda at: self.known_at(step, at), self.sweep.usual)
@@ -240,8 +237,10 @@ class Course(Struct, frozen=True, dict=True):
     def closing(
         self, values: Mapping[str, Any], at: Reals, before: int | None = None
     ) -> dict[int, tuple[Any, ...]]:
-        """What closes the groups that were followed, by their steps, for each u (N,); only those
-        ``before`` a step, if one is given."""
+        """The values that close the followed groups, by step, for each u (N,).
+
+        With ``before``, only the groups before that step.
+        """
         found: dict[int, tuple[Any, ...]] = {}
         for k, way in enumerate(self.closures):
             number = self.closers[k]
@@ -255,11 +254,11 @@ class Course(Struct, frozen=True, dict=True):
 
     @cached_property
     def _readied(self) -> dict[Any, Ready]:
-        """What steps are drawn from, made ready for arrays of some values."""
+        """The prepared inputs of steps for arrays of some values."""
         return {}
 
     def known_at(self, number: int, at: Reals) -> list[Reals]:
-        """What a step is drawn from at each u (N,), the groups before it as they were followed."""
+        """The inputs of a step at each u (N,), with earlier groups as they were followed."""
         values = self.values(at)
         return self.known_of(number, values, len(at), self.closing(values, at, number))
 
@@ -270,7 +269,7 @@ class Course(Struct, frozen=True, dict=True):
         count: int,
         closed: Mapping[int, Any] | None = None,
     ) -> list[Reals]:
-        """What a step is drawn from, for values of the scene: arrays (N,)."""
+        """The inputs of a step for values of the scene: arrays (N,)."""
         args = self.program.steps[number].args
         arrays = frozenset(name for name, value in values.items() if is_array(value))
         key = number, arrays, frozenset(closed or ())
@@ -282,17 +281,17 @@ class Course(Struct, frozen=True, dict=True):
         return [spread(trace.values[arg], count) for arg in args]
 
     def closes(self, at: Any) -> Flags:
-        """Whether everything can be placed, and in one way, for each u (N,)."""
+        """Whether all positions exist and are unambiguous, for each u (N,)."""
         return closing_columns(self.margins(at))
 
     def is_placed(self, at: Any) -> Flags:
-        """Whether everything has a place, if rounding alone gives it one, for each u (N,)."""
+        """Whether all positions exist, if only by rounding, for each u (N,)."""
         return np.asarray(np.isfinite(self.margins(at)).all(axis=0))
 
     def run(
         self, at: Any, targets: Iterable[Target] | None = None, *, geometric: bool = False
     ) -> Trace:
-        """Values of the targets (all if None) with every margin on the way, for each u (N,)."""
+        """Values of the targets (all if None) and margins of the crossings, for each u (N,)."""
         wanted = list(self.program.answers if targets is None else targets)
         needed = self.program.needed(wanted)
         keep = [self.program.targets[target] for target in wanted]
@@ -315,7 +314,7 @@ class Course(Struct, frozen=True, dict=True):
     def columns(
         self, at: Any, targets: Iterable[Target], *, geometric: bool = False
     ) -> dict[Target, Any]:
-        """Each target as an array (N,), also where all u share one value."""
+        """Each target as an array (N,), even if all u share one value."""
         wanted = list(targets)
         trace = self.run(at, wanted, geometric=geometric)
         return {target: spread(trace.value(*target), len(at)) for target in wanted}
@@ -336,9 +335,9 @@ class Course(Struct, frozen=True, dict=True):
         return tuple(locus for locus in every if isinstance(locus, Line | Circle))
 
     def picks(self, name: str, other: Branch) -> set[int]:
-        """The steps that one branch decides: those that change when it does.
+        """The steps that one branch statement decides: those that change with it.
 
-        All crossings where the other closure does not fit what the construction looks at.
+        All crossings where the construction does not accept the other closure.
         """
         changed = replace(self, branches={**self.branches, name: other})
         try:
@@ -353,12 +352,12 @@ class Course(Struct, frozen=True, dict=True):
 
 
 def closing_columns(margins: Reals) -> Flags:
-    """Which columns of margins close: all is placed, and no two loci lie on one another."""
-    return np.asarray((margins >= NOISE).all(axis=0))  # NaN is not
+    """Which columns of margins close: all positions exist, and no two loci coincide."""
+    return np.asarray((margins >= NOISE).all(axis=0))  # false for NaN
 
 
 def spread(value: Any, count: int) -> Any:
-    """An array of shape (N,) of a value that may be shared by all; None stays None."""
+    """An array of shape (N,) from a value that all may share; None stays None."""
     if isinstance(value, Ratio):
         return Ratio(*(spread(part, count) for part in value))
     if value is None:

@@ -1,4 +1,4 @@
-"""A whole turn of the driver, or its reachable ranges, as arrays."""
+"""A full turn of the driver, or its reachable ranges, as arrays."""
 
 from __future__ import annotations
 
@@ -28,22 +28,22 @@ if TYPE_CHECKING:
     from graphkin.mechanism import Mechanism
 
 BESIDE = 1e-6
-"""How near to a singular place (degrees, mm or ms) a row tells nothing."""
+"""Distance from a singular position (degrees, mm or ms) within which a row has no values."""
 SHARE = 1e-3
-"""The same in parts of a window that is narrower than a thousand times that."""
+"""The largest such distance as a share of the window."""
 LISTED = 6
-"""Ranges told in a message."""
+"""The most ranges listed in a message."""
 NUMBERED = 4
-"""Rows of a cycle in which the independent route numbers closures."""
+"""Rows of a cycle in which the residual check numbers closures."""
 FULL = 10_000_000
-"""Values that a cycle holds: its rows times what is told of each."""
+"""The most values of a cycle: rows times quantities in each."""
 
 
 class Witnessed(Struct, frozen=True, eq=False):
-    """What the independent route says of every row: its difference (N,), and whether it agrees.
+    """The residual check of every row: its difference (N,), and whether it agrees.
 
-    ``refused`` says why it could not judge; ``unsure`` are the quantities of which no digit is
-    sure in some rows, and those rows (N,).
+    ``refused`` gives the reason if the check is not possible. ``unsure`` names the quantities that
+    have no certain digit in some rows, with those rows (N,).
     """
 
     difference: Reals
@@ -53,7 +53,7 @@ class Witnessed(Struct, frozen=True, eq=False):
 
     @property
     def largest(self) -> float:
-        """The largest difference among the rows that could be judged; NaN without any."""
+        """The largest difference among the rows with a check; NaN without any."""
         known = self.difference[np.isfinite(self.difference)]
         return float(known.max()) if known.size else float("nan")
 
@@ -61,11 +61,11 @@ class Witnessed(Struct, frozen=True, eq=False):
 class Cycle(Struct, frozen=True, eq=False, dict=True):
     """The motion of a mechanism over a turn of its driver or its reachable ranges.
 
-    ``at`` (N,) is u, the driver's position (degrees, metres) or the time (s), of every row;
-    ``piece`` (N,) counts the pieces of constant signs from 1; ``solution`` holds the motion of
-    points, links and slides as arrays (N,) in SI; ``margins`` the sine of each crossing by the
-    point, or the link, that it finds. ``left_out`` are the positions asked that have no row;
-    ``targets`` what was run for each row, None for all that there is.
+    ``at`` (N,) is u of every row: the driver's position (degrees, metres) or the time (s).
+    ``piece`` (N,) numbers the pieces of constant signs from 1. ``solution`` holds the motion of
+    points, links and slides as arrays (N,) in SI. ``margins`` holds the sine of each crossing, by
+    the point or link that it gives. ``left_out`` are the requested positions without a row.
+    ``targets`` are the targets run for each row, None for all.
     """
 
     mechanism: Mechanism
@@ -80,7 +80,7 @@ class Cycle(Struct, frozen=True, eq=False, dict=True):
 
     @property
     def scene(self) -> Scene:
-        """The scene as it was read."""
+        """The scene as read."""
         return self.mechanism.scene
 
     @property
@@ -90,29 +90,29 @@ class Cycle(Struct, frozen=True, eq=False, dict=True):
 
     @property
     def ranges(self) -> tuple[tuple[float, float], ...]:
-        """The reachable ranges of u, the one of the scene first."""
+        """The reachable ranges of u, the scene's first."""
         return self.path.spans
 
     @cached_property
     def singulars(self) -> tuple[Singular, ...]:
-        """Dead points and change points, named."""
+        """Dead points and change points, with words."""
         return singulars(self.path)
 
     @cached_property
     def witnessed(self) -> Witnessed:
-        """Every row held against the vector loops."""
+        """The residual check of every row against the vector loops."""
         return witnessed(self)
 
     @cached_property
     def sure(self) -> Solution:
-        """The motion of every row, with NaN for each quantity of which no digit is sure there."""
+        """The motion of every row, with NaN for each quantity that has no certain digit there."""
         from graphkin.loops.witness import sure_of
 
         return sure_of(self.solution, witnessed(self, numbered=False).unsure)
 
     @cached_property
     def profiles(self) -> Mapping[str, CamProfile]:
-        """The cams by their followers, at every position, whatever turns them."""
+        """The cams by their followers, at every position, whichever driver moves them."""
         found: dict[str, CamProfile] = {}
         if self.scene.cams:
             from graphkin.construction.core.cam_profiles import CamProfile
@@ -125,12 +125,12 @@ class Cycle(Struct, frozen=True, eq=False, dict=True):
         return found
 
     def slid(self, block: str) -> Reals:
-        """The coordinate of a block on its first guide at every position (N,), in metres."""
+        """The coordinate (m) of a block on its first guide at every position: (N,)."""
         target = "slide", block
         return np.asarray(columns_at(self.sweep, self.path, self.at, [target]).columns[target])
 
     def turned(self, link: str) -> Reals:
-        """The angle of a link's x axis at every position (N,), radians."""
+        """The angle (radians) of a link's x axis at every position: (N,)."""
         if link == FRAME:
             return np.zeros(len(self.at))
         driver = self.scene.drivers[(self.sweep.number or 1) - 1]
@@ -142,7 +142,7 @@ class Cycle(Struct, frozen=True, eq=False, dict=True):
         return np.asarray(np.angle(axes))
 
     def along(self, at: Sequence[float] | Reals) -> Cycle:
-        """The same cycle at other places u, those that have no motion left out."""
+        """The cycle at other values of u, without those that have no motion."""
         rows = np.asarray(at, float)
         return cycle_at(self.mechanism, self.sweep, self.path, rows, self.targets)
 
@@ -157,14 +157,16 @@ def cycle(
     branches: Mapping[str, Branch] | None = None,
     targets: Iterable[Target] | None = None,
 ) -> Cycle:
-    """A whole turn of a driver, or its reachable ranges, or a span of time, as arrays.
+    """A full turn of a driver, or its reachable ranges, or a span of time, as arrays.
 
-    One driver is moved through its positions at its stated speed and acceleration; driver number
-    ``driver`` of several, while the others stand still; several drivers, or one that follows a law
-    of time, move with the time. ``steps`` parts a turn, a range or the span; ``low`` and ``high``
-    (degrees, metres, seconds) bound it; ``branches`` picks other closures to start with;
-    ``targets`` keeps to what they need, where not all is wanted. Raises SceneError for a driver
-    that there is not, ClosureError where nothing closes.
+    A single driver moves through its positions at its stated speed and acceleration. Of several
+    drivers, number ``driver`` moves while the others are at rest. Without ``driver``, several
+    drivers, or one with a law of time, move with the time.
+
+    ``steps`` divides a turn, a range or the span. ``low`` and ``high`` (degrees, metres, seconds)
+    bound it. ``branches`` selects other closures to start with. ``targets`` restricts the work to
+    what they need. Raises SceneError for a driver that does not exist, ClosureError where nothing
+    closes.
     """
     sweep = sweep_of(mechanism.scene, driver=driver, low=low, high=high)
     refuse_steps(mechanism, sweep, steps)
@@ -178,9 +180,9 @@ def cycle(
 
 
 def refuse_steps(mechanism: Mechanism, sweep: Sweep, steps: int, turns: int = 1) -> None:
-    """Steps that there is no room for, or that doubles cannot tell apart; raises SceneError.
+    """Raise SceneError for steps that are too many, or too small for doubles.
 
-    ``turns`` are those of the driver's circle.
+    ``turns`` are the turns of the driver's circle.
     """
     most = FULL // max(len(mechanism.program.answers), 1) // max(turns, 1)
     if not 1 <= steps <= most:
@@ -194,9 +196,9 @@ def refuse_steps(mechanism: Mechanism, sweep: Sweep, steps: int, turns: int = 1)
 
 
 def no_rows(sweep: Sweep, path: Path, steps: int) -> Problem:
-    """The problem of steps that all miss the ranges, or of a driver that has no room to move.
+    """The problem of steps that all miss the ranges, or of a driver without room to move.
 
-    It has none where a dead point lies on both sides.
+    A driver has no room where a dead point lies on both sides.
     """
     known = path.spans
     ends = " and ".join(f"from {low:.10g} to {high:.10g}" for low, high in known[:LISTED])
@@ -215,10 +217,10 @@ def no_rows(sweep: Sweep, path: Path, steps: int) -> Problem:
 
 
 def places(sweep: Sweep, path: Path, steps: int) -> Reals:
-    """The places of the rows: the driver's circle in equal steps from nought, ``steps`` in each
-    turn; a range between its ends.
+    """The values of u of the rows, in equal steps.
 
-    A whole turn that does not come back has a row at its end, too.
+    There are ``steps`` in each turn of the driver's circle, from zero, or in a range between its
+    ends. A full turn that does not recur has a row at its end, too.
     """
     if sweep.whole:
         if path.whole and not path.returns:
@@ -238,7 +240,7 @@ def places(sweep: Sweep, path: Path, steps: int) -> Reals:
 
 
 def closing(even: Reals, found: Reals, circle: float) -> Flags:
-    """Which positions of the driver's circle are among those found, whole circles apart."""
+    """Which positions of the driver's circle are among those found, whole circles aside."""
     have = np.round(found % circle, 9) % circle
     return np.isin(np.round(even, 9), have)
 
@@ -250,7 +252,7 @@ def cycle_at(
     at: Reals,
     targets: tuple[Target, ...] | None = None,
 ) -> Cycle:
-    """The rows of a cycle: each place run with the closures of its piece, in batches."""
+    """The rows of a cycle: each position is run with the closures of its piece, in batches."""
     found = columns_at(sweep, path, at, targets)
     moves = found.piece > 0
     for value in found.columns.values():
@@ -267,7 +269,7 @@ def cycle_at(
 
 
 class Columns(Struct, frozen=True, eq=False):
-    """Values by target and margins by pin for each place (N,), NaN where there is no piece."""
+    """Values by target and margins by pin for each u (N,), NaN where there is no piece."""
 
     piece: np.ndarray[Any, np.dtype[np.int_]]
     columns: Mapping[Target, Any]
@@ -283,9 +285,9 @@ def columns_at(
     geometric: bool = False,
     near: float | None = None,
 ) -> Columns:
-    """Run every place with the closures of its piece; places within ``near`` of its ends are left.
+    """Run every u with the closures of its piece, except within ``near`` of singular ends.
 
-    ``near`` nought lets positions stand at the dead points themselves.
+    With ``near`` zero, the dead points themselves have positions.
     """
     usual = BESIDE if sweep.what in ("turn", "time") else BESIDE / 1000
     usual = min(usual, SHARE * (sweep.high - sweep.low))
@@ -313,9 +315,9 @@ def columns_at(
 
 
 def assigned(path: Path, at: Reals, near: float) -> tuple[Any, Reals]:
-    """The piece of each place, from 1 (0 where there is none), and the place within that piece.
+    """The piece of each u, from 1 (0 where there is none), and the equivalent u within that piece.
 
-    A place in no piece is that of one some circles of the driver on.
+    A u outside all pieces belongs to a piece some whole circles of the driver away.
     """
     which = np.zeros(len(at), dtype=int)
     within = at.copy()
@@ -332,7 +334,7 @@ def assigned(path: Path, at: Reals, near: float) -> tuple[Any, Reals]:
 
 
 def placed(whole: Any, value: Any, rows: Any, count: int) -> Any:
-    """Values at their rows of an array of the whole length, made where there is none."""
+    """Insert values at their rows into an array of full length, created if needed."""
     if isinstance(value, Ratio):
         parts = whole or (None, None, None)
         return Ratio(*(placed(w, v, rows, count) for w, v in zip(parts, value, strict=True)))
@@ -345,10 +347,11 @@ def placed(whole: Any, value: Any, rows: Any, count: int) -> Any:
 
 
 def witnessed(found: Cycle, *, numbered: bool = True) -> Witnessed:
-    """Each piece held against the vector loops with its own closures.
+    """The residual check of each piece against the vector loops, with the piece's own closures.
 
-    Without ``numbered`` numbers of closures are not verified, which takes most of the time. They
-    are in ``NUMBERED`` rows, and in at least one of each piece: on it the closure is followed.
+    Without ``numbered``, closure numbers are not checked; they take most of the time. They are
+    checked in ``NUMBERED`` rows, and in at least one row of each piece, on which the closure is
+    followed.
     """
     from graphkin.loops.witness import examine
 

@@ -1,4 +1,4 @@
-"""How drivers move as a scene says: where they stand, how fast, and how far they can be moved."""
+"""The drivers' motion as stated: position, speed, and how far they can move."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ What = DriverKind | Literal["time"]
 
 
 class Coordinate(NamedTuple):
-    """What is swept: its name as a column, its letter and unit, and what the driven link does."""
+    """A swept coordinate: its name as a column, its letter and unit, and the driven link's verb."""
 
     name: str
     letter: str
@@ -30,11 +30,11 @@ COORDINATES: dict[What, Coordinate] = {
 """The coordinates that a cycle may sweep."""
 TURN = 360.0
 GRID = 7200
-"""Positions of a whole sweep at which its events are looked for: in a turn every 0.05 degrees."""
+"""Positions of a full sweep at which events are searched for: every 0.05 degrees in a turn."""
 
 
 def stated_motion(driver: Driver, scene: Scene) -> tuple[float, float, float]:
-    """Position (degrees or m), speed and acceleration (rad or m) of a driver as it stands."""
+    """Position (degrees or m), speed and acceleration (rad or m) of a driver in the scene."""
     number = driver.position.number(scene.values)
     place = float(driver.position.si(scene.values))
     if driver.kind == "turn":
@@ -45,8 +45,8 @@ def stated_motion(driver: Driver, scene: Scene) -> tuple[float, float, float]:
 def motion_at(driver: Driver, values: dict[str, Any], at: Any) -> tuple[Any, Any, Any]:
     """Position (degrees or m), speed and acceleration of a driver at given times (N,).
 
-    A driver without a law moves from its stated position, at the time nought, with its stated
-    speed, evenly accelerated.
+    A driver without a law starts at its stated position at time zero, with its stated speed and
+    constant acceleration.
     """
     law = TIME in driver.position.uses()
     here = values | ({TIME: at} if law else {})
@@ -63,9 +63,9 @@ def motion_at(driver: Driver, values: dict[str, Any], at: Any) -> tuple[Any, Any
 
 
 def reach_of(scene: Scene) -> float:
-    """The sum of all lengths of a scene (m): no point moves farther.
+    """The sum of all lengths of a scene (m), which bounds the movement of every point.
 
-    Where the origin lies does not matter: coordinates count from the first that a link is given.
+    The origin does not matter, because coordinates count from the first point of a link.
     """
     lengths: list[Quantity] = []
     places: list[tuple[str, Quantity, Quantity]] = []

@@ -1,7 +1,7 @@
-"""Where the motion along a sweep ends or may change its closure: dead points and change points.
+"""Dead points and change points: where a motion ends or may change its closure.
 
-At a dead point the sine of a crossing falls to nought as a square root and nothing closes beyond;
-at a change point it touches nought. Its square is smooth in both, and goes on below nought.
+At a dead point the sine of a crossing falls to zero like a square root, and nothing closes beyond.
+At a change point the sine touches zero. Its square is smooth at both, and continues below zero.
 """
 
 from __future__ import annotations
@@ -18,36 +18,36 @@ from graphkin.numbers.plane import Line
 
 End = Literal["dead", "change", "number", "window", "flat"]
 SUSPECT = 0.3
-"""Sine of a crossing below which a minimum is looked at more closely."""
+"""Sine of a crossing below which a minimum is examined."""
 OPEN = 0.01
-"""Sine of a crossing that does not touch nought, whatever the samples about it foretell.
+"""Sine of a crossing above which it does not touch zero, whatever the samples predict.
 
-Where a cam's law changes its acceleration at once, the place of a centre of curvature jumps.
+Where a cam's law changes its acceleration suddenly, the centre of curvature jumps.
 """
 WIDE = 3
-"""Steps of the grid between the samples from which a change point is found."""
+"""Grid steps between the samples that locate a change point."""
 FEWEST = 64
-"""Positions at which events are looked for in a window, however narrow."""
+"""The fewest positions at which events are searched for in a window."""
 WITHIN = 4
-"""Steps of the grid by which the parts of a long way overlap."""
+"""Grid steps by which the parts of a long interval overlap."""
 PAST = 2
-"""Positions past the end of a window that are looked at."""
+"""Positions beyond the end of a window that are examined."""
 BESIDE_FOLD = 1e-6
-"""How near to a group's end it is looked whether all closes, in parts of a step of the grid."""
+"""Distance before a group's end at which closing is checked, as a share of a grid step."""
 BESIDE_END = 4e-10
-"""How far beyond such an end it is looked what fails, in parts of the usual sweep."""
+"""Distance beyond such an end at which failures are checked, as a share of the usual sweep."""
 SOUGHT = 16 * TOUCH
-"""As TOUCH, where groups of higher class are closed: their sines come from differences."""
+"""TOUCH for closed groups of higher class, whose sines come from differences."""
 NARROW = 2
-"""Positions of the grid in a row that do not close, and may be one change point."""
+"""The most consecutive grid positions that do not close at a single change point."""
 
 
 class Event(Struct, frozen=True):
-    """Where a piece ends: a dead point or a change point with the steps whose loci touch there.
+    """The end of a piece: a dead or change point, with the steps whose loci touch there.
 
-    At a ``number`` the closure goes on smoothly under another number. What is ``flat`` lies within
-    a group whose closure is followed: it goes on there, and no piece ends. ``beyond`` is a u at
-    which nothing closes, for a dead point.
+    At a ``number`` the closure continues smoothly under another number. A ``flat`` event lies
+    within a group whose closure is followed; the motion continues, and no piece ends. ``beyond``
+    is, for a dead point, a u at which nothing closes.
     """
 
     kind: End
@@ -57,9 +57,9 @@ class Event(Struct, frozen=True):
 
 
 def next_event(course: Course, start: float, stop: float) -> Event:
-    """The first dead point or change point on the way; the window's end if there is none.
+    """The first dead point or change point before ``stop``; the window's end if there is none.
 
-    A long way is gone part by part, each of which begins a little within the one before.
+    A long interval is searched in parts that overlap a little.
     """
     step = course.sweep.grid_step
     here, way = start, 1.0 if stop > start else -1.0
@@ -73,9 +73,10 @@ def next_event(course: Course, start: float, stop: float) -> Event:
 
 
 def event_between(course: Course, start: float, stop: float) -> Event:
-    """The first dead point or change point on a short way; its end if there is none.
+    """The first dead point or change point in a short interval, or its end if there is none.
 
-    In a window it is looked for a little past the end, too: a change point is seen from both sides.
+    In a window the search extends a little past the end, because a change point shows from both
+    sides.
     """
     if start == stop:
         return Event("window", stop)
@@ -104,9 +105,9 @@ def event_between(course: Course, start: float, stop: float) -> Event:
 
 
 def first_end(course: Course, grid: Reals, closed: np.ndarray) -> int | None:
-    """The last position of the grid that closes before a dead point; a change point is passed.
+    """The last grid position that closes before a dead point; change points are passed.
 
-    A short run that does not close, with a closing position on both sides, is left to ``suspects``.
+    A short gap with closing positions on both sides is left to ``suspects``.
     """
     gaps = np.flatnonzero(~closed)
     k = 0
@@ -126,13 +127,13 @@ def first_end(course: Course, grid: Reals, closed: np.ndarray) -> int | None:
 
 
 def is_touch(course: Course, grid: Reals, k: int) -> bool:
-    """Whether a position of the grid that does not close is one where loci only touch."""
+    """Whether loci only touch at a grid position that does not close."""
     event = looked_at(course, grid, k)
     return event is not None and event.kind in ("change", "flat")
 
 
 def suspects(margins: Reals, closed: np.ndarray) -> list[int]:
-    """Positions of the grid near which a crossing may touch nought, in order."""
+    """Grid positions near which a crossing may touch zero, in order."""
     found: set[int] = set()
     rows = margins[:-1]
     if rows.shape[1] > 2:
@@ -151,7 +152,7 @@ def suspects(margins: Reals, closed: np.ndarray) -> list[int]:
 
 
 def looked_at(course: Course, grid: Reals, k: int) -> Event | None:
-    """What happens near a position of the grid: a change point, a narrow gap, or nothing."""
+    """The event near a grid position: a change point, a narrow gap, or None."""
     step = float(grid[1] - grid[0])
     centre = float(grid[k])
     touch = SOUGHT if course.closures else TOUCH
@@ -180,7 +181,7 @@ def looked_at(course: Course, grid: Reals, k: int) -> Event | None:
 
 
 def touch_of(course: Course, centre: float, step: float, row: int) -> float:
-    """How far from a place a margin touches nought; from afar, where its digits are sure."""
+    """The offset at which a margin touches zero, from distant samples with more certain digits."""
     for wide in (WIDE * step, step):
         samples = course.margins(centre + AROUND * wide)[row]
         shift = touching(AROUND, samples) if np.isfinite(samples).all() else None
@@ -190,13 +191,13 @@ def touch_of(course: Course, centre: float, step: float, row: int) -> float:
 
 
 def runs_away(course: Course, number: int, at: float) -> bool:
-    """Whether a step crosses two straight lines: their crossing is at infinity when parallel."""
+    """Whether a step crosses two straight lines, which meet at infinity when parallel."""
     loci = course.loci(number, at)
     return len(loci) == 2 and all(isinstance(locus, Line) for locus in loci)
 
 
 def just_before(at: float, inside: float) -> Reals:
-    """A place just before another, as seen from one inside."""
+    """A u just before another, on the side of ``inside``."""
     return np.array([at + (inside - at) * BESIDE_FOLD])
 
 
@@ -219,11 +220,11 @@ def dead(course: Course, inside: float, outside: float) -> Event:
 
 
 def failing(course: Course, at: float) -> list[int]:
-    """The crossings that cannot be found at a place, in order."""
+    """The crossings that do not exist at a given u, in order."""
     lost = ~np.isfinite(course.margins(np.array([at]))[:-1, 0])
     return [course.crossings[n] for n in np.flatnonzero(lost)]
 
 
 def before_groups(course: Course, at: float) -> tuple[int, ...]:
-    """The first crossing that fails at a place, of those before all groups of higher class."""
+    """The first crossing that fails at a given u, if it precedes all groups of higher class."""
     return tuple(n for n in failing(course, at)[:1] if n < course.closers[0])

@@ -1,4 +1,4 @@
-"""Dead points and change points in words: what becomes impossible, and what lies in line there."""
+"""Words for dead points and change points: what becomes impossible there, and what is in line."""
 
 from __future__ import annotations
 
@@ -16,16 +16,16 @@ from graphkin.motion.pieces import ALIKE, Path
 from graphkin.numbers.plane import Line
 
 FLAT = 0.02
-"""Sine of a crossing that counts as flat beside a dead point."""
+"""Sine of a crossing that counts as flat near a dead point."""
 INSIDE = 1e-7
-"""How far before a dead point its loci are looked at, as a share of a step of the grid."""
+"""Distance before a dead point at which its loci are examined, as a share of the piece."""
 
 
 class Singular(Struct, frozen=True):
     """A dead point (the driver can go no further) or a change point (the closure may change).
 
-    ``at`` is u; ``pin`` what cannot be found beyond; ``lines`` says which lines are in line or
-    parallel there.
+    ``at`` is u. ``pin`` is the point that does not exist beyond. ``lines`` names the lines that are
+    in line or parallel there.
     """
 
     kind: Literal["dead", "change"]
@@ -35,7 +35,7 @@ class Singular(Struct, frozen=True):
 
 
 def singulars(path: Path) -> tuple[Singular, ...]:
-    """Every dead and change point of all ranges, in order, each once."""
+    """Every dead and change point of all ranges, in order, without duplicates."""
     found: list[Singular] = []
     for pieces in path.ranges:
         for piece in pieces:
@@ -48,7 +48,7 @@ def singulars(path: Path) -> tuple[Singular, ...]:
 
 
 def once_round(path: Path, at: float) -> float:
-    """A place of a driver that turns fully counted from 0 to the end of its circle."""
+    """A position of a driver that turns fully, counted from 0 to the end of its circle."""
     if not path.whole or not path.turns:
         return at
     at %= path.period
@@ -56,14 +56,14 @@ def once_round(path: Path, at: float) -> float:
 
 
 def ends(low: Event, high: Event) -> list[tuple[Event, float]]:
-    """The ends of a piece that are singular, each with a place inside the piece."""
+    """The singular ends of a piece, each with a position inside the piece."""
     way = high.at - low.at
     pairs = [(low, low.at + INSIDE * way), (high, high.at - INSIDE * way)]
     return [(event, inside) for event, inside in pairs if event.kind in ("dead", "change")]
 
 
 def named(course: Course, event: Event, inside: float) -> Singular:
-    """An event with its words."""
+    """The dead or change point of an event, with its words."""
     kind: Literal["dead", "change"] = "dead" if event.kind == "dead" else "change"
     if not event.steps:
         return Singular(kind, event.at, *flattest(course, inside))
@@ -74,8 +74,8 @@ def named(course: Course, event: Event, inside: float) -> Singular:
 
 
 def flattest(course: Course, inside: float) -> tuple[str, str]:
-    """What closes no further where a group of higher class is followed: its flattest crossing."""
-    sines = course.margins(np.array([inside]))[:, 0]  # the last, of no crossing, is 1
+    """The flattest crossing, for a followed group of higher class that closes no further."""
+    sines = course.margins(np.array([inside]))[:, 0]  # the last row, of no crossing, is 1
     if np.nanmin(sines, initial=1.0) < FLAT:
         return words(course, course.crossings[int(np.nanargmin(sines))], inside)
     ways = zip(course.numbered, course.closures, strict=False)
@@ -85,7 +85,7 @@ def flattest(course: Course, inside: float) -> tuple[str, str]:
 
 
 def words(course: Course, number: int, inside: float) -> tuple[str, str]:
-    """The pin that a step finds, and which lines are in line, square or parallel there."""
+    """The pin that a step finds, and the lines in line, perpendicular or parallel there."""
     program = course.program
     step = program.steps[number]
     loci = course.loci(number, inside)
@@ -100,7 +100,7 @@ def words(course: Course, number: int, inside: float) -> tuple[str, str]:
 
 
 def of_later(program: Program, number: int) -> str:
-    """The name of the first step after it that uses a step and has one."""
+    """The name of the first later step that uses a step and has a name."""
     reached = {number}
     for later in range(number + 1, len(program.steps)):
         step = program.steps[later]

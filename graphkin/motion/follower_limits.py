@@ -1,4 +1,4 @@
-"""How far the followers go: limits of rockers and blocks, dwells, swing, stroke and time ratio."""
+"""The travel of followers: limits of rockers and blocks, dwells, swing, stroke and time ratio."""
 
 from __future__ import annotations
 
@@ -19,25 +19,25 @@ from graphkin.motion.refine import crossings_of_nought
 from graphkin.scene.model import Link, Scene
 
 FINE = 3600
-"""Places in each piece, and in each turn of it, at which the sense of a follower is looked at."""
+"""Positions in each piece, and in each of its turns, at which a follower's sense is examined."""
 FEWER = 360
-"""The same for groups of higher class, each place of which is a search."""
+"""FINE for groups of higher class, where each position requires a search."""
 ENOUGH = 1e-9
-"""To how much of u their limits are then found."""
+"""Precision, in u, of their limits."""
 NOTHING = 1e-9
-"""Share of the largest speed below which a follower may be about to turn round."""
+"""Share of the largest speed below which a follower may be about to reverse."""
 REST = 1e-15
-"""Share of the largest speed below which a follower rests."""
+"""Share of the largest speed below which a follower is at rest."""
 NEAR = 0.1
-"""Degrees about a dwell within which a limit is one that the follower comes to there."""
+"""Degrees about a dwell within which a limit counts as the one at the dwell."""
 APART = 1e-4
-"""How far from a singular place (in degrees, or tenths of mm) a sense of motion is trusted."""
+"""Distance (degrees, or 0.1 mm) from singular positions at which a speed's sign is reliable."""
 
 
 class Limit(Struct, frozen=True):
-    """Where a follower turns round: u, and its angle (degrees) or coordinate (m) there.
+    """A reversal of a follower: u, and its angle (degrees) or coordinate (m) there.
 
-    ``edge`` tells that it does not turn round there: the window ends, and it may go farther.
+    ``edge`` means that it does not reverse: the window ends there, and the follower may go further.
     """
 
     at: float
@@ -46,7 +46,7 @@ class Limit(Struct, frozen=True):
 
 
 class Dwell(Struct, frozen=True):
-    """Where a follower rests while the driver moves on: from one u to another, and its place."""
+    """A rest of a follower while the driver moves: from one u to another, and its value."""
 
     start: float
     end: float
@@ -54,13 +54,13 @@ class Dwell(Struct, frozen=True):
 
 
 class Follower(Struct, frozen=True):
-    """How far a link swings or a block slides within one range of the driver.
+    """The swing of a link or the stroke of a block within one range of the driver.
 
-    ``low`` and ``high`` are its extreme places, at a limit, a dead point or the edge of a window;
-    ``line`` is the line (from, to) whose angle is meant; ``full`` tells that a link turns all the
-    way round. ``rising`` and ``falling`` are the angles (degrees, u growing) that the driver takes
-    from the low to the high limit and back, ``dwells`` apart, where there are just two limits in
-    the driver's circle.
+    ``low`` and ``high`` are its extreme values, at a limit, a dead point or the edge of a window.
+    ``line`` is the line (from, to) whose angle is given. ``full`` means that a link turns all the
+    way round. ``rising`` and ``falling`` are the driver angles (degrees, u increasing) from the low
+    limit to the high one and back, without ``dwells``. They are set only for two limits in the
+    driver's circle.
     """
 
     name: str
@@ -75,19 +75,19 @@ class Follower(Struct, frozen=True):
 
     @property
     def time_ratio(self) -> float | None:
-        """The slower over the faster stroke of a driver that turns evenly."""
+        """The slower stroke over the faster, for a driver at constant speed."""
         if self.rising is None or self.falling is None:
             return None
         return max(self.rising, self.falling) / min(self.rising, self.falling)
 
     @property
     def extent(self) -> float:
-        """The whole swing (degrees) or stroke (m)."""
+        """The total swing (degrees) or stroke (m)."""
         return self.high.value - self.low.value
 
 
 class Mover(Struct, frozen=True):
-    """A link or block whose way is asked: its line, and the targets of its place and its speed."""
+    """A link or block whose travel is examined: its line, and targets of its position and speed."""
 
     name: str
     line: tuple[str, str] | None
@@ -103,10 +103,10 @@ class Mover(Struct, frozen=True):
 
 
 def followers(cycle: Cycle, number: int = 0) -> tuple[Follower, ...]:
-    """Every link pinned to the frame, and every block, that no driver moves, in one range.
+    """The travel, in one range, of the links pinned to the frame and of the blocks, if not driven.
 
-    ``number`` counts the ranges from 0, the one of the scene. All followers are run together, so
-    that the mechanism is constructed as often for many as for one.
+    ``number`` counts the ranges from 0, the range of the scene. All followers are run together, so
+    that many take as many constructions as one.
     """
     movers = tuple(movers_of(cycle))
     if not movers:
@@ -136,12 +136,12 @@ def followers(cycle: Cycle, number: int = 0) -> tuple[Follower, ...]:
 
 
 def circle(cycle: Cycle) -> float:
-    """After how many degrees of the driver all comes again."""
+    """The degrees of the driver after which everything recurs."""
     return cycle.path.period or TURN
 
 
 def movers_of(cycle: Cycle) -> Iterator[Mover]:
-    """Every link pinned to the frame, and every block, that no driver moves."""
+    """The links pinned to the frame, and the blocks, that no driver moves."""
     driven = {driver.link for driver in cycle.scene.drivers}
     targets = cycle.path.ranges[0][0].course.program.targets
     for name, link in cycle.scene.links.items():
@@ -166,7 +166,7 @@ def swinging_line(scene: Scene, link: Link) -> tuple[str, str] | None:
 def values(
     cycle: Cycle, at: Reals, targets: Sequence[Target], *, moving: bool = False
 ) -> Mapping[Target, Reals]:
-    """Targets at places of the path; rates by the driver's position, not beside dead points."""
+    """Targets at positions of the path, dead points included; rates are by u."""
     return columns_at(cycle.sweep, cycle.path, at, targets, geometric=moving, near=0.0).columns
 
 
@@ -179,9 +179,9 @@ def follower(
     rests: Sequence[tuple[float, float]],
     again: bool,
 ) -> Follower | None:
-    """How far one follower goes, by u and its ``places`` there, ``turns`` and ``rests`` among them.
+    """The travel of one follower, from its ``places`` by u, ``turns`` and ``rests``.
 
-    ``again`` tells that it comes back after the driver's circle. None for one that stands still.
+    ``again`` means that the follower recurs after the driver's circle. None for a follower at rest.
     """
     name, line = mover.name, mover.line
     every, where = places
@@ -206,19 +206,19 @@ def follower(
 
 
 def left_at(at: float, dwells: Sequence[Dwell]) -> float:
-    """Where a follower leaves a limit that it comes to at a place: the end of a dwell there."""
+    """The u at which a follower leaves a limit: the end of a dwell there, or the limit."""
     near = (each.end for each in dwells if each.start - NEAR <= at <= each.end + NEAR)
     return next(near, at)
 
 
 def edges_of(pieces: Range) -> tuple[float, ...]:
-    """The ends of a range at which only the window ends, and not the motion."""
+    """The ends of a range at which only the window ends, not the motion."""
     both = pieces[0].low, pieces[-1].high
     return tuple(event.at for event in both if event.kind == "window")
 
 
 def extreme(at: Reals, where: Reals, turns: Reals, edges: Sequence[float], sign: int) -> Limit:
-    """The highest (sign +1) or lowest place, at a limit where one is as far as any other place."""
+    """The highest (sign +1) or lowest value; at a limit, if that is equal to any other value."""
     best = int((sign * where).argmax())
     slack = NOTHING * max(float(np.ptp(where)), NOTHING)
     for u in turns:
@@ -234,7 +234,7 @@ def whole(cycle: Cycle, number: int) -> bool:
 
 
 def coming_back(cycle: Cycle, movers: Sequence[Mover], number: int) -> list[bool]:
-    """Which followers stand and move after the driver's circle as before; wheels may not."""
+    """Which followers recur, in position and speed, after the driver's circle; wheels may not."""
     if cycle.path.returns or not whole(cycle, number):
         return [whole(cycle, number) for _ in movers]
     bounds = ends(cycle.path.ranges[number])
@@ -248,7 +248,7 @@ def coming_back(cycle: Cycle, movers: Sequence[Mover], number: int) -> list[bool
 
 
 def samples(pieces: Range) -> Reals:
-    """Places within the pieces of a range, a little away from its singular places."""
+    """Positions within the pieces of a range, at a small distance from singular ones."""
     parts = []
     for piece in pieces:
         low, high = piece.low.at, piece.high.at
@@ -262,7 +262,6 @@ def samples(pieces: Range) -> Reals:
 
 
 def ends(pieces: Range) -> Reals:
-    """Both ends of a range."""
     return np.array([pieces[0].low.at, pieces[-1].high.at])
 
 
@@ -274,9 +273,9 @@ def turning_places(
     again: Sequence[bool],
     enough: float,
 ) -> list[Reals]:
-    """Where the speed of each follower changes its sense, of those ``again`` round the circle.
+    """The reversals of each follower; those ``again`` are examined round the circle.
 
-    ``rates`` are their speeds at the places. The brackets of all followers are halved together.
+    ``rates`` are their speeds at the positions. The brackets of all followers are halved together.
     """
     targets = [mover.speed for mover in movers]
     most, brackets = [], []
@@ -301,8 +300,10 @@ def turning_places(
 def resting(
     cycle: Cycle, mover: Mover, at: Reals, rate: Reals, enough: float
 ) -> list[tuple[float, float]]:
-    """From where to where a follower of some speeds at places rests; the last may end in the next
-    circle of a driver that turns fully."""
+    """The intervals in which a follower is at rest.
+
+    For a driver that turns fully, the last interval may end in the next circle.
+    """
     most = float(np.nanmax(np.abs(rate), initial=0.0))
     if most <= NOTHING:
         return []
@@ -333,9 +334,9 @@ def resting(
 
 
 def changing(at: Reals, rate: Reals, most: float, after: float) -> tuple[Reals, Reals]:
-    """The brackets (low, high) in which a speed of at ``most`` so much changes its sense.
+    """The brackets (low, high) in which a speed of at ``most`` that size changes its sign.
 
-    ``after`` is the circle after which it does so again, 0 without one.
+    ``after`` is the circle after which the speed recurs, or 0.
     """
     if most <= NOTHING:
         return at[:0], at[:0]

@@ -1,4 +1,4 @@
-"""A cycle held to its own velocities: from row to row every point goes as far as these lead it."""
+"""Jumps in a cycle: rows between which a point moves otherwise than its velocities say."""
 
 from __future__ import annotations
 
@@ -15,23 +15,24 @@ from graphkin.motion.cycle import Cycle, columns_at
 from graphkin.scene.link_points import is_under
 
 ROUNDED = 1e-7
-"""What positions may be off by rounding, in parts of the mechanism; beside dead points most."""
+"""Rounding error of positions, as a share of the mechanism; it is largest near dead points."""
 COARSE = 1e-4
-"""A bound in parts of the mechanism above which places between two rows are looked at."""
+"""Bound, as a share of the mechanism, above which positions between two rows are examined."""
 PARTS = 16
-"""Parts into which a step is cut in which a point goes otherwise than its velocities say."""
+"""Parts into which a step is cut if a point disagrees with its velocities there."""
 ROUNDS = 6
-"""How often it is cut: a motion that is only fast goes as they say in parts so small."""
+"""Times a step is cut; a motion that is only fast agrees with its velocities in parts so small."""
 
 MOMENT = 1e-3
-"""Steps of the grid in which a change point may leave nothing known."""
+"""Grid steps near a change point in which nothing may be known."""
 
 
 class Jump(Struct, frozen=True):
-    """Two neighbouring rows between which a point, or a wheel, goes otherwise than its rates say.
+    """Two neighbouring rows between which a point or a wheel disagrees with its rates.
 
-    ``low`` and ``high`` are u; ``of`` is the point, or the link of the wheel where it ``turns``;
-    ``way`` is how far it goes, ``led`` how far the mean of its rates leads it (m, degrees).
+    ``low`` and ``high`` are u. ``of`` is the point, or the link of the wheel where it ``turns``.
+    ``way`` is the distance it moves, ``led`` the distance given by the mean of its rates (m,
+    degrees).
     """
 
     low: float
@@ -43,9 +44,9 @@ class Jump(Struct, frozen=True):
 
 
 class PlacesAndRates(Struct, frozen=True, eq=False):
-    """Places with their first and second derivatives by u in SI: (K, N) at ``at`` (N,).
+    """Positions with their first and second derivatives by u in SI: (K, N) at ``at`` (N,).
 
-    A wheel is a point of the circle of radius 1. ``size`` (K, 1) is what each is large against.
+    A wheel is represented by a point of the unit circle. ``size`` (K, 1) is the scale of each.
     """
 
     at: Reals
@@ -61,10 +62,10 @@ class PlacesAndRates(Struct, frozen=True, eq=False):
 
 
 class CycleTracker:
-    """What a cycle moves, and how it moves there.
+    """The points and wheels that a cycle moves, and their motion.
 
-    ``names`` are points and, as axes, the links of wheels that have one point only. Where links
-    touch is another point of theirs a moment later, and so is a centre of curvature.
+    ``names`` are points and, as axes, links of wheels that have only one point. Points where links
+    touch and centres of curvature are left out, because they are other points a moment later.
     """
 
     def __init__(self, cycle: Cycle) -> None:
@@ -85,7 +86,7 @@ class CycleTracker:
         self.size = np.ones((len(self.names), 1))
 
     def between(self, at: Reals) -> PlacesAndRates:
-        """How they move at some places, those left out that have no motion."""
+        """The motion at some values of u, without those that have no motion."""
         cycle, wanted = self.cycle, [target for each in self.targets for target in each]
         columns = columns_at(cycle.sweep, cycle.path, at, wanted, geometric=True).columns
         found = [[columns[target] for target in each] for each in self.targets]
@@ -97,7 +98,7 @@ class CycleTracker:
         return PlacesAndRates(at, place, rate, bend, self.size).rows(known)
 
     def at_rows(self, rows: Any) -> PlacesAndRates:
-        """How they move at some rows of the cycle, by its own solution where that says all."""
+        """The motion at some rows of the cycle, from its own solution where that is complete."""
         cycle, at = self.cycle, self.cycle.at[rows]
         driver, values = cycle.sweep.driver, cycle.scene.values
         speed = 1.0 if driver is None else float(driver.speed.si(values))
@@ -113,7 +114,7 @@ class CycleTracker:
         return PlacesAndRates(at, place, rate, (acceleration - rate * push) / speed**2, self.size)
 
     def sized(self, found: PlacesAndRates) -> None:
-        """Say how large the mechanism is, by where it stands in all rows."""
+        """Set the size of the mechanism, from its positions in all rows."""
         points = np.array([what == "position" for what, _ in self.names])
         places = found.place[points]
         self.size[points] = np.abs(places - places.mean()).max(initial=0.0) or 1.0
@@ -143,16 +144,16 @@ def jumps(cycle: Cycle) -> tuple[Jump, ...]:
 
 
 def closed_by(rows: PlacesAndRates, period: float) -> PlacesAndRates:
-    """The rows of a whole circle with the first once more, a circle on."""
+    """The rows of a full circle, with the first row repeated one circle later."""
     found = rows.rows(np.append(np.arange(len(rows.at)), 0))
     at = np.append(rows.at, rows.at[0] + period)
     return PlacesAndRates(at, found.place, found.rate, found.bend, rows.size)
 
 
 def leaps(followed: CycleTracker, pair: PlacesAndRates, rounds: int = ROUNDS) -> bool:
-    """Whether something jumps between two rows: however finely the way is cut, in a part of it.
+    """Whether something jumps between two rows, however finely the interval is cut.
 
-    A way of which nothing is known is passed, but for the moment in which a closure may change.
+    An interval without known motion is accepted, if it is longer than the moment of a change point.
     """
     sweep = followed.cycle.sweep
     inner = followed.between(np.linspace(pair.at[0], pair.at[1], PARTS + 1)[1:-1])
@@ -166,7 +167,7 @@ def leaps(followed: CycleTracker, pair: PlacesAndRates, rounds: int = ROUNDS) ->
 
 
 def joined(*parts: PlacesAndRates) -> PlacesAndRates:
-    """Rows one after the other."""
+    """The rows of several parts, one after another."""
     at = np.concatenate([each.at for each in parts])
     place, rate, bend = (
         np.concatenate(each, axis=1)
@@ -176,12 +177,12 @@ def joined(*parts: PlacesAndRates) -> PlacesAndRates:
 
 
 def missing(rows: PlacesAndRates, unit: float) -> tuple[Any, Any]:
-    """By how much each goes otherwise from row to row than half the sum of its rates leads it, and
-    how much that may be: (K, N - 1). ``unit`` is what one of u is in SI.
+    """The deviation of each step from the mean of its rates, and its bound: (K, N - 1).
 
-    The trapezoid misses an eighth of the square of the step times the change of the second
-    derivative at most: a twelfth where that changes evenly, an eighth where it changes at once. The
-    change is the largest of three steps in a row, as within one it may turn back.
+    ``unit`` is one unit of u in SI. The trapezoidal rule errs by at most an eighth of the squared
+    step times the change of the second derivative: a twelfth for an even change, an eighth for a
+    sudden one. The change is the largest of three consecutive steps, because it may reverse within
+    one.
     """
     step = np.diff(rows.at) * unit
     led = (rows.rate[:, 1:] + rows.rate[:, :-1]) / 2 * step
@@ -192,7 +193,7 @@ def missing(rows: PlacesAndRates, unit: float) -> tuple[Any, Any]:
 
 
 def jump_at(pair: PlacesAndRates, names: Sequence[tuple[str, str]], unit: float) -> Jump:
-    """What jumps farthest between two rows, in parts of its size."""
+    """The largest jump between two rows, relative to size."""
     missed, _ = missing(pair, unit)
     worst = int((missed / pair.size)[:, 0].argmax())
     what, of = names[worst]

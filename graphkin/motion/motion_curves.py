@@ -1,4 +1,4 @@
-"""The curves that sheets show of the whole motion: centrodes, paths, loci that close a group."""
+"""The curves of the whole motion on sheets: centrodes, paths, loci that close a group."""
 
 from __future__ import annotations
 
@@ -14,21 +14,21 @@ if TYPE_CHECKING:
     from graphkin.motion.cycle import Cycle
 
 STEPS = 720
-"""Positions of a turn from which a curve is drawn."""
+"""Positions per turn for a curve."""
 MOST_STEPS = 4320
-"""Positions of all the turns together after which wheels stand as before."""
+"""The most positions of all turns after which the wheels are back."""
 ALIKE = 1e-9
-"""Distance of two points of a curve, in parts of its size, below which they are one."""
+"""Distance of two points of a curve, as a share of its size, below which they are one."""
 NEAR = 0.35
-"""How far on both sides of its fit a locus is drawn, in parts of the mechanism."""
+"""Length of a locus drawn on each side of its fit, as a share of the mechanism."""
 AWAY = 20.0
-"""Breadths of the mechanism beyond which a centrode is not followed."""
+"""Distance from the mechanism, in its breadths, beyond which a centrode is not followed."""
 
 
 def curves_of(mechanism: Mechanism) -> tuple[Curve, ...]:
-    """The centrodes and paths that are asked, over a turn or the whole range of the driver.
+    """The requested centrodes and paths, over a turn or the whole range of the driver.
 
-    Where wheels stand otherwise after a turn it is as many turns as bring them back.
+    If wheels differ after a turn, they cover as many turns as bring the wheels back.
     """
     ask = mechanism.scene.ask
     if not ask.centrodes and not ask.curves:
@@ -46,9 +46,10 @@ def curves_of(mechanism: Mechanism) -> tuple[Curve, ...]:
 
 
 def loci_of(mechanism: Mechanism) -> tuple[Curve, ...]:
-    """Near the fit the loci by which each group of higher class is closed, where points show it.
+    """The loci that close each higher-class group, near the fit, where points define them.
 
-    A hand tries a few places there; branches that close in other ways would only cover the drawing.
+    By hand, only a few positions are tried there. Branches that close in other ways would only
+    clutter the drawing.
     """
     steps = mechanism.program.steps
     closing = [n for n, step in enumerate(steps) if step.closes]
@@ -79,7 +80,7 @@ def loci_of(mechanism: Mechanism) -> tuple[Curve, ...]:
 def piece(
     points: Any, fit: complex, far: float, *, closed: bool
 ) -> tuple[tuple[complex, ...], ...]:
-    """The run of points through the place of the fit, so far along it to both sides.
+    """The run of points through the fit, up to a given length on both sides.
 
     It ends where a point is NaN; a round that is ``closed`` goes on at its beginning. A locus so
     short that no place of it can be drawn gives none.
@@ -97,9 +98,9 @@ def piece(
 
 
 def along(points: Any, far: float) -> list[complex]:
-    """The points after the first, as many as reach so far along them, until they turn back."""
+    """The points after the first, up to a given length along them, or until they turn back."""
     ways = np.diff(points)
-    gone = np.cumsum(abs(ways))  # NaN from the first place on that cannot be drawn
+    gone = np.cumsum(abs(ways))  # NaN from the first position that cannot be drawn
     short = np.append(0.0, gone[:-1]) < far
     back = (ways[1:] * ways[:-1].conjugate()).real < 0
     ahead = np.append(0, np.cumsum(back)) == 0
@@ -107,9 +108,9 @@ def along(points: Any, far: float) -> list[complex]:
 
 
 def followed(whole: Cycle) -> Cycle:
-    """The driver's whole circle, or the range in which the scene stands, its ends in finer steps.
+    """The driver's whole circle, or the scene's range with finer steps at its ends.
 
-    Near a dead point a mechanism goes a long way while its driver hardly moves.
+    Near a dead point a mechanism moves far while its driver hardly moves.
     """
     if whole.path.whole:
         turns = max(whole.path.turns, 1)
@@ -123,7 +124,7 @@ def followed(whole: Cycle) -> Cycle:
 
 
 def centrodes_of(mechanism: Mechanism, whole: Cycle, link: str) -> Iterator[Curve]:
-    """The fixed and the moving centrode of a link, the moving one where the link stands now."""
+    """The fixed and the moving centrode of a link, the moving one in its present position."""
     from graphkin.motion.centrodes import base, centrodes
 
     found, ends = centrodes(whole, link), base(mechanism.scene.links[link])
@@ -139,7 +140,7 @@ def centrodes_of(mechanism: Mechanism, whole: Cycle, link: str) -> Iterator[Curv
 
 
 def runs_of(whole: Cycle, path: Any) -> tuple[tuple[complex, ...], ...]:
-    """A curve in runs, broken where a centre is far away; a turn that comes back closes it."""
+    """A curve in runs, broken where a centre is far away and closed if the motion recurs."""
     ends = [p.position for p in whole.solution.points.values() if p.position is not None]
     breadth = max(float(np.ptp(part)) for p in ends for part in (np.real(p), np.imag(p))) or 1.0
     middle = np.mean([np.mean(p) for p in ends])
@@ -153,7 +154,7 @@ def runs_of(whole: Cycle, path: Any) -> tuple[tuple[complex, ...], ...]:
 
 
 def once(path: Any) -> Any:
-    """A closed curve drawn once, though the motion may go round it several times."""
+    """A closed curve drawn once, even if the motion runs along it several times."""
     size = float(np.abs(path - np.mean(path)).max())
     for count in range(len(path) // 3, 1, -1):
         if len(path) % count == 0:

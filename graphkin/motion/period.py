@@ -1,4 +1,4 @@
-"""After how many turns of the driver a mechanism with wheels stands as before."""
+"""The number of driver turns after which a mechanism with wheels is back in its position."""
 
 from __future__ import annotations
 
@@ -13,11 +13,11 @@ from graphkin.motion.driving import TURN
 from graphkin.motion.turns_followed import led
 
 BACK = 1e-6
-"""Miss after a period, in parts of the mechanism's size, with which it has come back."""
+"""Difference after a period, relative to the mechanism's size, that counts as none."""
 MOST_TURNS = 24
-"""Turns of the driver, forth and back, through which a motion that wheels carry on is followed."""
+"""The most driver turns, in both directions, over which a motion with wheels is followed."""
 PLACES, FEWER = 64, 4
-"""Places of a turn at which wheels are looked at, and where closing a group costs a search."""
+"""Positions per turn at which wheels are examined, and FEWER where each requires a search."""
 
 
 def wheels(course: Course) -> list[str]:
@@ -26,11 +26,11 @@ def wheels(course: Course) -> list[str]:
 
 
 def turns_back(course: Course, start: float) -> int:
-    """After how many turns of the driver all wheels stand as before.
+    """The number of driver turns after which all wheels are back.
 
-    A wheel turns in each turn of the driver by the same angle, whether or not the rest of the
-    mechanism closes on the way; links that go round between pins are followed through two turns.
-    0 for more turns than are followed, and where a group that is tried counts such links.
+    A wheel turns by the same angle in each driver turn, even if the rest of the mechanism does not
+    close on the way. Links that rotate between pins are followed through two turns. 0 for more
+    turns than are followed, and where a group closed by trial counts such links.
     """
     links = wheels(course)
     if not links:
@@ -44,12 +44,12 @@ def turns_back(course: Course, start: float) -> int:
 
 
 def turns_after(first: Course, start: float, last: Course, turns: int) -> int:
-    """How many times some turns of the driver bring all wheels back, by where those have led."""
+    """How many times ``turns`` driver turns bring all wheels back, judged by one such run."""
     return turns_between(first, np.array([start]), last, turns)
 
 
 def turns_between(first: Course, places: Reals, last: Course, turns: int) -> int:
-    """How many times so many turns bring all wheels back, by their angles before and after."""
+    """How many times ``turns`` turns bring all wheels back, by their angles before and after."""
     targets = [("axis", link) for link in wheels(first)]
     before = first.columns(places, targets)
     after = last.columns(places + turns * TURN, targets)
@@ -64,16 +64,16 @@ def turns_between(first: Course, places: Reals, last: Course, turns: int) -> int
 
 
 def repeated(share: float) -> int:
-    """The least number of times that a share of a turn must be added up to whole turns."""
+    """The least multiple of a share of a turn that makes whole turns."""
     near = Fraction(share).limit_denominator(MOST_TURNS)
     missed = abs(float(near) - share) * near.denominator * 2 * pi
     return near.denominator if missed < BACK else MOST_TURNS + 1
 
 
 def led_round(course: Course, start: float, stop: float) -> Course:
-    """The course with links followed that go round between pins, where these close in every turn.
+    """The course with rotating links between pins followed, if these close in every turn.
 
-    Elsewhere no motion leads from turn to turn, and they count near what the course says.
+    Otherwise no motion leads from turn to turn, and they count near the course's angles.
     """
     if not course.counting or course.closing_work:
         return course
@@ -85,9 +85,9 @@ def led_round(course: Course, start: float, stop: float) -> Course:
 
 
 def misses(first: Course, start: float, last: Course, stop: float) -> dict[Target, float]:
-    """By how much points and links stand otherwise at one place than at another before.
+    """The differences of points and links between two positions.
 
-    In parts of the mechanism's size, and as the size of the change of a unit axis.
+    Points count relative to the mechanism's size, links by the change of a unit axis.
     """
     targets = [t for t in first.program.targets if t[0] in ("position", "axis")]
     before = first.columns(np.array([start]), targets)

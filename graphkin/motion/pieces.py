@@ -1,6 +1,6 @@
 """A sweep split where the motion ends or may change its closure; each piece has constant signs.
 
-A cycle is followed from where the scene stands, forth and back, from one change point to the next.
+A cycle is followed in both directions from the scene's position, from one change point to the next.
 """
 
 from __future__ import annotations
@@ -33,24 +33,26 @@ from graphkin.motion.turns_followed import led
 from graphkin.text.errors import ClosureError, Problem, SceneError
 
 ALIKE = 1e-8
-"""Degrees within which two places are one."""
+"""Degrees within which two positions count as one."""
 BESIDE = 1e-3
 """Sine of a crossing below which a change point may lie within a step of the grid."""
 SAME = 1e-9
-"""Difference of two sines, in parts of them, that is rounding."""
+"""Relative difference of two sines that counts as rounding."""
 MOST_PIECES = 400
-"""Pieces into which change points may part a range."""
+"""The most pieces into which change points may divide a range."""
 MOST_CLOSURES = 4
-"""Periods of the wheels after which closures that change points swap may be those of the start."""
+"""Periods of the wheels after which closures swapped at change points may have swapped back."""
 FEWER = 360
-"""Positions of a sweep at which a group of higher class is sought that does not close where the
-scene is drawn."""
+"""Positions of a sweep at which closures of a higher-class group are searched for.
+
+This search serves a group that does not close where the scene is drawn.
+"""
 MOST_WAYS = 200
-"""How many turns, or ways of a slide, a motion is followed from where the scene stands."""
+"""The most turns, or slide lengths, over which a motion is followed."""
 
 
 class Piece(Struct, frozen=True):
-    """A part of a sweep, low to high, on which all signs stay, and how it ends on both sides."""
+    """A part of a sweep, low to high, with constant signs, and the event at each end."""
 
     low: Event
     high: Event
@@ -58,24 +60,25 @@ class Piece(Struct, frozen=True):
 
     @property
     def branches(self) -> Branches:
-        """The closures picked on this piece, as [branches] states them."""
+        """The closures selected on this piece, as [branches] states them."""
         return self.course.branches
 
     def holds(self, at: Reals) -> np.ndarray:
-        """Which u lie within, ends included."""
+        """Which u lie within the piece, ends included."""
         return (self.low.at <= at) & (at <= self.high.at)
 
 
 Range = tuple[Piece, ...]
-"""Pieces that join at change points, between two dead points, or all the way round."""
+"""Pieces that join at change points, between two dead points or all the way round."""
 
 
 class Path(Struct, frozen=True):
-    """The ranges of a sweep, the one in which the scene stands first.
+    """The ranges of a sweep; the range that contains the scene's position is the first.
 
-    ``whole`` tells that the first range goes all the way round; ``returns`` that all then stands as
-    at the start. ``turns`` are the whole turns of the driver after which the same ranges come
-    again: its circle. It is 0 for a window, and where few turns do not bring the wheels back.
+    ``whole`` means that the first range goes all the way round. ``returns`` means that the
+    mechanism then has its initial position again. ``turns`` is the number of whole driver turns
+    after which the same ranges recur: the driver's circle. It is 0 for a window, and where few
+    turns do not bring the wheels back.
     """
 
     ranges: tuple[Range, ...]
@@ -85,12 +88,11 @@ class Path(Struct, frozen=True):
 
     @property
     def pieces(self) -> tuple[Piece, ...]:
-        """All pieces, range by range."""
         return tuple(piece for found in self.ranges for piece in found)
 
     @property
     def spans(self) -> tuple[tuple[float, float], ...]:
-        """Where each range begins and ends."""
+        """The start and end of each range."""
         return tuple((found[0].low.at, found[-1].high.at) for found in self.ranges)
 
     @property
@@ -99,7 +101,7 @@ class Path(Struct, frozen=True):
         return self.turns * TURN
 
     def shifts(self, at: Reals | float) -> list[float]:
-        """By how much places may be moved round the circle onto the ranges, the least first."""
+        """The shifts round the circle that bring positions onto the ranges, smallest first."""
         if not self.turns or not np.size(at):
             return [0.0]
         low, high = min(low for low, _ in self.spans), max(high for _, high in self.spans)
@@ -108,17 +110,17 @@ class Path(Struct, frozen=True):
         return sorted((k * self.period for k in range(first, last + 1)), key=abs)
 
     def found_at(self, at: float, low: float, high: float) -> float:
-        """A place moved round the circle to within two others; itself where none lies there."""
+        """A position shifted round the circle to between two others, or unshifted."""
         every = (at + shift for shift in self.shifts(at))
         return next((place for place in every if low <= place <= high), at)
 
 
 def reachable_ranges(sweep: Sweep, branches: Branches | None = None) -> Path:
-    """The reachable ranges of a sweep, from where the scene stands and with its closures.
+    """The reachable ranges of a sweep, from the scene's position and with its closures.
 
-    ``branches`` overrides them. Ranges that cannot be reached from there come after it, with the
-    same closures picked. A driver that turns is looked at round its whole circle: as many turns as
-    bring the wheels back. Raises ClosureError where nothing closes at all.
+    ``branches`` overrides the closures. Ranges that the motion cannot reach from there follow, with
+    the same closures selected. For a driver that turns, the whole circle is examined: as many turns
+    as bring the wheels back. Raises ClosureError where the mechanism closes nowhere.
     """
     course = Course(sweep, sweep.original.branches if branches is None else branches)
     refuse_far(sweep)
@@ -147,7 +149,7 @@ def reachable_ranges(sweep: Sweep, branches: Branches | None = None) -> Path:
 
 
 def others(course: Course, first: Path) -> list[Range]:
-    """The ranges that the motion does not lead to from where the scene stands, in order."""
+    """The ranges that the motion does not reach from the scene's position, in order."""
     sweep, turns = course.sweep, max(first.turns, 1)
     count = FEWER if course.closers else GRID
     step = (sweep.high - sweep.low) / count
@@ -167,9 +169,9 @@ def others(course: Course, first: Path) -> list[Range]:
 
 
 def shown(sweep: Sweep, path: Path) -> Path:
-    """The part of a path that lies in the window, its closures numbered.
+    """The part of a path that lies in the window, with its closures numbered.
 
-    Raises ClosureError where there is none.
+    Raises ClosureError where no part lies there.
     """
     path = replace(path, ranges=tuple(map(in_numbers, path.ranges)))
     if sweep.whole:
@@ -201,7 +203,7 @@ def within(sweep: Sweep, found: Range) -> Range:
 
 
 def refuse_far(sweep: Sweep) -> None:
-    """A motion is followed from where the scene stands, so far and no farther."""
+    """Raise SceneError if the window is too far to follow the motion from the scene's position."""
     ends = min(sweep.low, sweep.start), max(sweep.high, sweep.start)
     ways = (ends[1] - ends[0]) / sweep.usual
     if ways > MOST_WAYS:
@@ -213,7 +215,7 @@ def refuse_far(sweep: Sweep) -> None:
 
 
 def in_numbers(found: Range) -> Range:
-    """The pieces of a range, parted where the closure of a group has a new number."""
+    """The pieces of a range, split where the closure of a group gets a new number."""
     pieces = list[Piece]()
     for piece in found:
         if not piece.course.closures:
@@ -228,9 +230,9 @@ def in_numbers(found: Range) -> Range:
 
 
 def beside_touch(course: Course, start: float) -> float | None:
-    """The start, or half a step beside it where loci all but touch; None where nothing closes.
+    """The start, moved by half a grid step where loci almost touch; None where nothing closes.
 
-    It is the side on which the start lies: the closures of the scene hold there.
+    The move goes to the side on which the start lies, because the scene's closures hold there.
     """
     half = course.sweep.grid_step / 2
     here, ahead, behind = course.margins(start + half * np.array([0, 1, -1])).T
@@ -251,7 +253,7 @@ def seed(grid: Reals, free: np.ndarray) -> float:
 
 
 def covered(path: Path, found: Range, grid: Reals) -> np.ndarray:
-    """Which positions of the grid a range passes, round the driver's circle."""
+    """Which grid positions lie in a range, round the driver's circle."""
     low, high, half = found[0].low.at, found[-1].high.at, float(grid[1] - grid[0])
     passed = np.zeros(len(grid), dtype=bool)
     for shift in replace(path, ranges=(found,)).shifts(grid):
@@ -260,11 +262,11 @@ def covered(path: Path, found: Range, grid: Reals) -> np.ndarray:
 
 
 def from_start(course: Course, start: float, turns: int) -> Path:
-    """The range through one position, after whose ``turns`` the wheels stand as before.
+    """The range through one position; ``turns`` of the driver bring the wheels back.
 
-    What comes back is told from 0 degrees to the end of its circle; a motion that does not, for one
-    turn from the last whole one before the position. Where it is not known when wheels come back, a
-    dead point may lie many turns away.
+    A motion that comes back is given from 0 degrees to the end of its circle. A motion that goes on
+    without coming back is given for one turn, from the last whole turn before the position. Where
+    the wheels' period is unknown, a dead point may lie many turns away.
     """
     sweep = course.sweep
     if not sweep.whole:
@@ -296,7 +298,7 @@ def goes_on(found: Range) -> bool:
 
 
 def counts(ahead: Range, course: Course, start: float, turns: int) -> list[int]:
-    """After how many turns a motion may come back that has been followed through some."""
+    """The numbers of turns after which a motion, followed through ``turns``, may come back."""
     found = list[int]()
     if dict(ahead[-1].branches) == dict(course.branches):
         found = [turns * turns_after(ahead[0].course, start, ahead[-1].course, turns)]
@@ -306,31 +308,33 @@ def counts(ahead: Range, course: Course, start: float, turns: int) -> list[int]:
 
 
 def comes_back(found: Range, course: Course, start: float, stop: float) -> bool:
-    """Whether all stands at one place as at another before, where a motion leads so far."""
+    """Whether the motion reaches ``stop`` and everything is there as at ``start``."""
     if not goes_on(found) or dict(found[-1].branches) != dict(course.branches):
         return False
     return max(misses(found[0].course, start, found[-1].course, stop).values()) <= BACK
 
 
 def about_nought(found: Range, period: float, gone: dict[str, float]) -> Range:
-    """A range between dead points, moved round the driver's circle: about 0 if it passes there,
-    else to where it begins nearest to 0."""
+    """A range between dead points, shifted round the driver's circle to contain 0.
+
+    If it cannot contain 0, it is shifted so that it begins nearest to 0.
+    """
     if not period:
         return found
     low, high = found[0].low.at, found[-1].high.at
     turns = floor(high / period)
-    if turns * period <= low:  # it does not pass the beginning of the circle
+    if turns * period <= low:  # |the range does not contain the start of the circle
         turns = ceil(low / period - 0.5)
     return tuple(turned_back(piece, turns, period, gone) for piece in found)
 
 
 def both_ways(course: Course, start: float, high: float, low: float) -> Range:
-    """The pieces about one position, forth and back, each as far as the motion goes."""
+    """The pieces about one position in both directions, as far as the motion goes."""
     return joined_at(marched(course, start, low), marched(course, start, high))
 
 
 def joined_at(before: Sequence[Piece], after: Sequence[Piece]) -> Range:
-    """Pieces before and after one place, at which the last and the first are one."""
+    """Pieces before and after one position, with the two pieces at that position merged."""
     end, start = before[-1].course.turned, after[0].course
     turned = start.turned if end is None else end.joined(start.turned)
     course = start.along(turned=turned, closures=ways_joined(before[-1].course, start))
@@ -339,7 +343,7 @@ def joined_at(before: Sequence[Piece], after: Sequence[Piece]) -> Range:
 
 
 def ways_joined(before: Course, after: Course) -> tuple[FollowedClosure, ...]:
-    """The ways of groups of higher class on both sides of one place."""
+    """The followed closures of higher-class groups, joined from both sides of one position."""
     every = range(len(after.closures))
     turns = [[one.turns for one in after.group(k).trying.unknowns] for k in every]
     ways = zip(before.closures, after.closures, turns, strict=True)
@@ -347,7 +351,7 @@ def ways_joined(before: Course, after: Course) -> tuple[FollowedClosure, ...]:
 
 
 def counted_from_nought(pieces: Range, start: float, period: float) -> Range:
-    """The pieces of a circle that comes back, from 0 degrees to its end instead of the start's."""
+    """The pieces of a recurring circle, rearranged to run from 0 degrees to the circle's end."""
     gone = gone_in(pieces[0].course, pieces[-1].course, start, period)
     turns = floor(start / period)
     pieces = tuple(turned_back(piece, turns, period, gone) for piece in pieces)
@@ -368,7 +372,7 @@ def counted_from_nought(pieces: Range, start: float, period: float) -> Range:
 
 
 def gone_in(first: Course, last: Course, start: float, period: float) -> dict[str, float]:
-    """By how many degrees links go in a circle of the driver after which all stands as before."""
+    """By how many degrees each link turns in one circle of the driver, in whole turns."""
     if last.turned is None:
         return {}
     before, after = first.angles(start), last.angles(start + period)
@@ -377,7 +381,7 @@ def gone_in(first: Course, last: Course, start: float, period: float) -> dict[st
 
 
 def turned_back(piece: Piece, turns: int, period: float, gone: dict[str, float]) -> Piece:
-    """A piece some circles of the driver earlier, after each of which all stands as before."""
+    """A piece shifted back by some circles of the driver, each of which restores all positions."""
     if not turns:
         return piece
     by = turns * period
@@ -408,7 +412,7 @@ def marched(course: Course, start: float, stop: float) -> Range:
 
 
 def strangers(path: Path) -> tuple[str, ...]:
-    """The links that stand otherwise after a whole turn of the driver, in the order written."""
+    """The links that differ after a whole turn of the driver, in the order written."""
     pieces = path.ranges[0]
     first, start = pieces[0], pieces[0].low.at
     last = next((p for p in pieces if p.low.at <= start + TURN <= p.high.at), pieces[-1])
@@ -418,9 +422,9 @@ def strangers(path: Path) -> tuple[str, ...]:
 
 
 def through(pieces: Sequence[Piece]) -> Turned | None:
-    """Near which angles links count on the pieces of a range, one after the other.
+    """The angles near which links are counted on the pieces of a range, joined in order.
 
-    None where none counts.
+    None where no link is counted.
     """
     found: Turned | None = None
     for piece in pieces:

@@ -1,4 +1,4 @@
-"""Finding where a motion ends, touches or turns round: to the last digits, many places at once."""
+"""Root finding for the ends, contacts and reversals of a motion, to the last digit, vectorised."""
 
 from __future__ import annotations
 
@@ -8,23 +8,23 @@ from typing import Any
 import numpy as np
 
 HALVINGS = 70
-"""Halvings after which two doubles of a bracket of the grid are neighbours."""
+"""Halvings after which the ends of a grid bracket are neighbouring doubles."""
 CUT = 16
-"""Parts into which the way to the last place that closes is cut at once."""
+"""Parts into which the interval up to the last closing position is cut at once."""
 AROUND = np.array([-4.5, -3.5, -2.5, -1.5, 1.5, 2.5, 3.5, 4.5])
-"""Where, in steps, a square of a margin is sampled about a place that it may touch nought at."""
+"""Sample offsets, in steps, of a squared margin about a place where it may touch zero."""
 BESIDE = (0.25, 0.75)
-"""Shares of a bracket at which it is cut where its middle tells nothing."""
+"""Shares at which a bracket is cut if the function is NaN in its middle."""
 TOUCH = 1e-12
-"""Square of a sine that counts as nought: less is rounding, or a gap too narrow to be passed."""
+"""Square of a sine that counts as zero: it is rounding, or a gap too narrow to pass."""
 
 Reals = np.ndarray[Any, np.dtype[Any]]
 
 
 def last_closing(closes: Callable[[Reals], Any], inside: float, outside: float) -> float:
-    """The last u that closes between one that closes and one that does not.
+    """The last u that closes, between one that closes and one that does not.
 
-    The way is cut into parts, all tried at once, until no double lies between.
+    The interval is cut into parts, all tried at once, until no double lies between.
     """
     for _ in range(HALVINGS):
         between = np.unique(np.linspace(inside, outside, CUT + 1)[1:-1])
@@ -42,11 +42,11 @@ def last_closing(closes: Callable[[Reals], Any], inside: float, outside: float) 
 def crossings_of_nought(
     value: Callable[[Reals], Reals], low: Reals, high: Reals, enough: float = 0.0
 ) -> Reals:
-    """Where a function changes its sign in each bracket, by halving, all brackets at once.
+    """The sign change of a function in each bracket, by halving, all brackets at once.
 
-    ``value`` takes u (N,) and gives the function of bracket i at u[i]; brackets narrower than
-    ``enough`` are left. A bracket is cut beside a middle where the function is NaN; where it is NaN
-    on both sides, too, the bracket's lower end is returned, at which it is known.
+    ``value`` takes u (N,) and returns the function of bracket i at u[i]. Brackets narrower than
+    ``enough`` are left alone. If the function is NaN in the middle, the bracket is cut to either
+    side of it. If it is NaN there, too, the bracket's lower end is returned, where it is known.
     """
     at_low = value(low)
     blind = np.zeros(len(low), dtype=bool)
@@ -69,9 +69,9 @@ def crossings_of_nought(
 
 
 def least_square(offsets: Reals, margins: Reals) -> tuple[float, float] | None:
-    """The least value of a squared margin about nought, and where, from samples around it.
+    """The minimum of a squared margin near zero and its place, from samples around it.
 
-    The square is smooth where the margin has a corner, and goes on below nought where nothing
+    The square is smooth where the margin has a corner, and continues below zero where nothing
     closes. None where it has no minimum among the samples.
     """
     if not np.isfinite(margins).all():
@@ -86,7 +86,10 @@ def least_square(offsets: Reals, margins: Reals) -> tuple[float, float] | None:
 
 
 def touching(offsets: Reals, margins: Reals) -> float | None:
-    """Where a margin that touches nought does so: it is smooth when its sign is turned there."""
+    """The place where a margin touches zero, or None.
+
+    With its sign reversed beyond that place, the margin is smooth.
+    """
     signed = np.polynomial.Polynomial.fit(offsets, np.sign(offsets) * margins, len(offsets) - 1)
     roots = [float(r.real) for r in signed.roots() if abs(r.imag) < 1e-9]
     inside = [r for r in roots if abs(r) < 1.5]

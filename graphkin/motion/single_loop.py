@@ -1,8 +1,9 @@
-"""One closed loop: the path of the driven pin against the ring or band that the rest can reach.
+"""A single loop: the path of the driven pin against the ring or band that the rest can reach.
 
-The pin of the crank runs on a circle. The two links of the dyad reach a ring about the other fixed
-pivot, between the difference and the sum of their lengths; a rod whose end slides reaches a band
-along the guide, as wide as the rod on either side. The mechanism closes where the pin is within.
+The pin of the crank moves on a circle. The two links of the dyad reach a ring about the other fixed
+pivot, between the difference and the sum of their lengths. A rod with a sliding end reaches a band
+along the guide, as wide as the rod on either side. The mechanism closes where the pin is within the
+ring or band.
 """
 
 from __future__ import annotations
@@ -20,7 +21,7 @@ from graphkin.structure.groups import Crank, Dyad
 from graphkin.structure.pairs import Pin, Sliding
 
 EQUAL = 1e-9
-"""Share of the whole length within which two lengths count as equal."""
+"""Share of the total length within which two lengths count as equal."""
 
 Kind = Literal["four-bar", "slider-crank", "slider-driven"]
 
@@ -41,11 +42,11 @@ class Band(Struct, frozen=True):
 
 
 class Loop(Struct, frozen=True):
-    """A driven pin, its path, and what the rest of its loop can reach.
+    """A driven pin, its path, and the reach of the rest of its loop.
 
     ``pins`` are the driver's pivot (empty for a slider), the driven pin, the inner pin and the
-    other fixed pivot (empty for a guide). ``lengths`` (m) by their names; ``turns`` tells that the
-    driven pin's whole path lies within reach; ``more`` that further groups hang on the loop.
+    other fixed pivot (empty for a guide). ``lengths`` (m) are by name. ``turns`` means that the
+    driven pin's whole path is within reach, ``more`` that further groups depend on the loop.
     """
 
     kind: Kind
@@ -58,7 +59,7 @@ class Loop(Struct, frozen=True):
 
 
 def loop_of(cycle: Cycle) -> Loop | None:
-    """The loop that the only driver closes with a dyad RRR or RRP on the frame; None else."""
+    """The loop of a single driver and a dyad RRR or RRP on the frame; None for others."""
     course = cycle.path.ranges[0][0].course
     drivers = cycle.scene.drivers
     if len(drivers) != 1 or drivers[0].against != FRAME or not len(cycle.at):
@@ -98,7 +99,7 @@ def ends_of(scene: Scene, dyad: object, driver: str) -> tuple[str, str, Pin | Sl
 
 
 def place(cycle: Cycle, point: str) -> np.ndarray:
-    """The places of a point in all rows."""
+    """The positions of a point in all rows."""
     return np.asarray(cycle.solution.points[point].position)
 
 
@@ -108,7 +109,7 @@ def apart(cycle: Cycle, p: str, q: str) -> float:
 
 
 def four_bar(cycle: Cycle, pins: tuple[str, str, str, str], more: bool) -> Loop:
-    """The circle of the crank pin about its pivot, the ring of coupler and rocker."""
+    """The four-bar: the crank pin's circle about its pivot, the ring of coupler and rocker."""
     o, a, b, c = pins
     crank, coupler, rocker, base = (apart(cycle, p, q) for p, q in ((o, a), (a, b), (c, b), (o, c)))
     least, most = abs(coupler - rocker), coupler + rocker
@@ -126,7 +127,7 @@ def four_bar(cycle: Cycle, pins: tuple[str, str, str, str], more: bool) -> Loop:
 
 
 def slider_crank(cycle: Cycle, pins: tuple[str, str, str], more: bool) -> Loop | None:
-    """The circle of the crank pin, the band of the rod along the guide."""
+    """The slider-crank: the crank pin's circle, and the band of the rod along the guide."""
     o, a, b = pins
     guide = path_line(cycle, b)
     if guide is None:
@@ -147,7 +148,7 @@ def slider_crank(cycle: Cycle, pins: tuple[str, str, str], more: bool) -> Loop |
 
 
 def slider_driven(cycle: Cycle, pin: str, inner: str, pivot: str, more: bool) -> Loop | None:
-    """The line of the driven block, the ring of rod and crank."""
+    """The driven slider: the line of the block, and the ring of rod and crank."""
     guide = path_line(cycle, pin)
     if guide is None:
         return None
@@ -166,7 +167,7 @@ def slider_driven(cycle: Cycle, pin: str, inner: str, pivot: str, more: bool) ->
 
 
 def path_line(cycle: Cycle, point: str) -> Line | None:
-    """The line on which a point moves, through the two of its places that lie farthest apart."""
+    """The line on which a point moves, through its two positions that are farthest apart."""
     places = place(cycle, point)
     far = places[np.abs(places - places[0]).argmax()]
     if far == places[0]:
@@ -189,7 +190,7 @@ def class_of(loop: Loop) -> str:
 
 
 def equal_pairs(a: float, b: float, c: float, g: float) -> str:
-    """What a change-point four-bar is: a parallelogram, a kite, or neither."""
+    """The kind of a change-point four-bar: a parallelogram, a kite, or neither."""
     slack = EQUAL * (a + b + c + g)
     if abs(a - c) <= slack and abs(b - g) <= slack:
         return "parallelogram"

@@ -1,7 +1,7 @@
-"""What is moved through a cycle: one driver's position, or the time when several drivers move.
+"""The variable of a cycle: one driver's position, or the time when several drivers move.
 
-The scene is written anew with named values in place of its drivers' numbers; the construction and
-the witness then take arrays for these names as they take arrays for any parameter.
+The scene is rewritten with named values in place of its drivers' numbers. The construction and the
+residual check then take arrays for these names, as for any parameter.
 """
 
 from __future__ import annotations
@@ -33,10 +33,10 @@ from graphkin.text.errors import Problem, SceneError
 class Sweep(Struct, frozen=True, eq=False):
     """A scene whose drivers are named values, and the coordinate u that moves them.
 
-    u is the swept driver's position in degrees or metres, or the time in seconds; ``start`` is
-    where the scene stands, ``low`` to ``high`` the window. ``whole`` tells that the window is one
-    turn, which closes on itself. ``number`` counts drivers from 1, None for the time.
-    ``usual`` is the way, in the unit of u, that is swept where no window is stated.
+    u is the swept driver's position in degrees or metres, or the time in seconds. ``start`` is the
+    scene's own u, ``low`` to ``high`` the window. ``whole`` means that the window is one full turn.
+    ``number`` counts drivers from 1 and is None for the time. ``usual`` is the length of the
+    default window, in the unit of u.
     """
 
     scene: Scene
@@ -51,12 +51,11 @@ class Sweep(Struct, frozen=True, eq=False):
 
     @property
     def coordinate(self) -> Coordinate:
-        """What u is."""
+        """The kind of coordinate of u."""
         return COORDINATES[self.what]
 
     @property
     def is_length(self) -> bool:
-        """Whether u is a length."""
         return self.unit == "m"
 
     @property
@@ -71,12 +70,12 @@ class Sweep(Struct, frozen=True, eq=False):
 
     @property
     def driver(self) -> Driver | None:
-        """The swept driver as the scene has it; None for the time."""
+        """The swept driver in the original scene; None for the time."""
         return None if self.number is None else self.original.drivers[self.number - 1]
 
     @property
     def runs_backwards(self) -> bool:
-        """Whether u falls as time goes on."""
+        """Whether u decreases with time."""
         return self.driver is not None and self.driver.speed.si(self.original.values) < 0
 
     @property
@@ -94,13 +93,13 @@ class Sweep(Struct, frozen=True, eq=False):
 
     @property
     def grid_step(self) -> float:
-        """The step of the grid on which events are looked for, whatever window is shown."""
+        """The grid step in the search for events, independent of the window."""
         return self.usual / GRID
 
     def with_branches(
         self, branches: Mapping[str, Branch], here: Mapping[str, Any] | None = None
     ) -> Scene:
-        """The scene, ready for arrays, with its closures picked as given, standing at one place."""
+        """The scene, ready for arrays, with the given closures and the values of one position."""
         found: Mapping[str, Any] = self.scene.values if here is None else here
         values = {k: float(v[0]) if hasattr(v, "shape") else v for k, v in found.items()}
         return replace(self.scene, branches=dict(branches), values=values)
@@ -108,8 +107,8 @@ class Sweep(Struct, frozen=True, eq=False):
     def values(self, at: Any, *, geometric: bool = False) -> dict[str, Any]:
         """All values of the scene for an array of u (N,): parameters, and every driver's motion.
 
-        ``geometric`` lets the swept driver move at speed 1 (rad/s, m/s) without acceleration, so
-        that velocities are derivatives by its position; with the time they are so anyhow.
+        ``geometric`` moves the swept driver at speed 1 (rad/s, m/s) without acceleration, so that
+        velocities are derivatives by its position. With the time as u they are derivatives anyway.
         """
         values: dict[str, Any] = dict(self.scene.values)
         for n, driver in enumerate(self.original.drivers, 1):
@@ -127,12 +126,12 @@ class Sweep(Struct, frozen=True, eq=False):
 
 
 def names(number: int) -> tuple[str, str, str]:
-    """Names of a driver's position, speed and acceleration; no parameter can be called so."""
+    """Names of a driver's position, speed and acceleration; no parameter can have such a name."""
     return (f"drive {number} position", f"drive {number} speed", f"drive {number} acceleration")
 
 
 def inputs(scene: Scene) -> frozenset[str]:
-    """The names of the numbers by which a sweep sets the drivers of a scene."""
+    """The names of the values by which a sweep sets the drivers of a scene."""
     return frozenset(name for n, _ in enumerate(scene.drivers, 1) for name in names(n))
 
 
@@ -143,17 +142,18 @@ def sweep_of(
     low: float | None = None,
     high: float | None = None,
 ) -> Sweep:
-    """The sweep of a scene: its only driver, driver number ``driver`` while the others stand still,
-    or else the time.
+    """The sweep of a scene, over one driver's position or over the time.
 
-    ``low`` and ``high`` (degrees, metres or seconds) narrow or widen the window. Raises SceneError.
+    With ``driver``, that driver moves and the others are at rest; by default the only driver moves,
+    or the time runs. ``low`` and ``high`` (degrees, metres or seconds) set the window. Raises
+    SceneError.
     """
     number = chosen(scene, driver)
     what: What = "time" if number is None else scene.drivers[number - 1].kind
     start = 0.0
     if number is not None:
         start = stated_motion(scene.drivers[number - 1], scene)[0]
-        if what == "turn" and not scene.touching:  # else wheels count its turns
+        if what == "turn" and not scene.touching:  # |else wheels count its turns
             start %= TURN
     first, last, whole = window(scene, what, number, start, low, high)
     way = usual(scene, what, number, first, last)
@@ -161,7 +161,7 @@ def sweep_of(
 
 
 def chosen(scene: Scene, driver: int | None) -> int | None:
-    """The driver that is swept, counted from 1; None when the time is."""
+    """The swept driver, counted from 1; None where the time is swept."""
     drivers = scene.drivers
     if not drivers:
         raise SceneError(Problem("drivers", "none", "a driver to be moved"))
@@ -174,13 +174,15 @@ def chosen(scene: Scene, driver: int | None) -> int | None:
 
 
 def law_of_time(scene: Scene) -> bool:
-    """Whether any driver moves by a law of the time."""
+    """Whether any driver's position depends on the time."""
     return any(TIME in driver.position.uses() for driver in scene.drivers)
 
 
 def named(scene: Scene, number: int | None) -> Scene:
-    """The scene with named values in place of its drivers' numbers, and for the angles near which
-    links count; what is not swept stands."""
+    """The scene with named values for its drivers and for the angles near which links are counted.
+
+    Drivers that are not swept are at rest.
+    """
     drivers, values = [], dict(scene.values)
     for n, driver in enumerate(scene.drivers, 1):
         unit = "deg" if driver.kind == "turn" else "m"
@@ -201,9 +203,9 @@ def named(scene: Scene, number: int | None) -> Scene:
 def bounds_in_si(
     scene: Scene, driver: int | None, low: float | None, high: float | None
 ) -> tuple[float | None, float | None]:
-    """Bounds of a window in the scene's unit of length, where a sliding driver moves, in metres.
+    """Bounds of a window, converted from the scene's unit of length to metres for a sliding driver.
 
-    Degrees and seconds stay as they are.
+    Degrees and seconds are unchanged.
     """
     number = chosen(scene, driver)
     if number is None or scene.drivers[number - 1].kind == "turn":

@@ -1,8 +1,8 @@
-"""How often links have gone round along a sweep, where wheels depend on it.
+"""The whole turns of links along a sweep, where wheels depend on them.
 
-A position shows which way a link points and not how often it went round since its wheels stood as
-at the start. Along a motion nothing is open: from place to place the angle goes on. So the angles
-near which links count are followed from the place where the scene says them.
+A position shows the direction of a link, but not how many turns it has made since its wheels were
+at the start. Along a motion this is known, because the angle is continuous. The angles near which
+links count are therefore followed from the position in which the scene states them.
 """
 
 from __future__ import annotations
@@ -22,12 +22,12 @@ Reals = np.ndarray[Any, np.dtype[Any]]
 
 
 def name_of(link: str) -> str:
-    """The name of the angle near which a link counts; no parameter can be called so."""
+    """The name of the angle near which a link counts; no parameter can have such a name."""
     return f"turned {link}"
 
 
 def named_angles(scene: Scene) -> tuple[dict[str, Quantity], dict[str, Any]]:
-    """The angles near which links count as named values in degrees, and those of the scene."""
+    """The angles near which links count, as named values in degrees, and their values."""
     near = counted_near(scene)
     values = {name_of(link): degrees_of(angle, scene) for link, angle in near.items()}
     named = {link: Quantity(name_of(link), Name(name_of(link)), "deg") for link in near}
@@ -35,25 +35,25 @@ def named_angles(scene: Scene) -> tuple[dict[str, Quantity], dict[str, Any]]:
 
 
 def degrees_of(angle: Quantity, scene: Scene) -> Any:
-    """An angle in degrees, exact where it is stated so."""
+    """An angle in degrees, exact where it is stated in degrees."""
     if angle.unit == "deg":
         return angle.number(scene.values)
     return float(np.degrees(angle.si(scene.values)))
 
 
 class Turned(Struct, frozen=True, eq=False):
-    """Near which angles links count: from each of some places u on (N,), rising, degrees (N,)."""
+    """The angles (degrees) near which links count, each from a u in ``at`` on: (N,)."""
 
     at: Reals
     near: Mapping[str, Reals]
 
     def values(self, at: Any) -> dict[str, Any]:
-        """The named angles at any places; before the first they are those of the first."""
+        """The named angles at any u; before the first u, the first angles hold."""
         here = np.maximum(np.searchsorted(self.at, at, side="right") - 1, 0)
         return {name_of(link): row[here] for link, row in self.near.items()}
 
     def beside(self, other: Turned | None) -> Turned:
-        """With the links of another that it does not have."""
+        """With the additional links of another."""
         more = {} if other is None else {k: n for k, n in other.near.items() if k not in self.near}
         if other is None or not more:
             return self
@@ -62,20 +62,20 @@ class Turned(Struct, frozen=True, eq=False):
         return Turned(at, {link: near[name_of(link)] for link in (*self.near, *more)})
 
     def joined(self, other: Turned | None) -> Turned:
-        """With the places of another that follow on these."""
+        """With the values of u of another that follow."""
         if other is None:
             return self
         both = {link: np.append(row, other.near[link]) for link, row in self.near.items()}
         return Turned(np.append(self.at, other.at), both)
 
     def within(self, low: float, high: float) -> Turned:
-        """The part from one place to another."""
+        """The part from one u to another."""
         here = (low < self.at) & (self.at < high)
         first = self.values(low)
         near = {link: np.append(first[name_of(link)], row[here]) for link, row in self.near.items()}
         return Turned(np.append(low, self.at[here]), near)
 
     def moved(self, by: float, gone: Mapping[str, float]) -> Turned:
-        """The same motion at other places, links having gone so much farther (degrees)."""
+        """The same motion shifted by ``by``, with links turned further by ``gone`` (degrees)."""
         near = {link: row + gone.get(link, 0.0) for link, row in self.near.items()}
         return Turned(self.at + by, near)

@@ -1,4 +1,4 @@
-"""Links followed along a motion: near which angles they count from place to place."""
+"""Links followed along a motion: the angles near which they count."""
 
 from __future__ import annotations
 
@@ -12,31 +12,33 @@ from graphkin.motion.turns_counted import Turned, name_of
 
 Reals = np.ndarray[Any, np.dtype[Any]]
 QUARTER = 90.0
-"""Angles near which links count are whole quarters of a turn from the stated ones, in degrees."""
+"""Angles near which links count are whole quarter turns from the stated ones, in degrees."""
 FAR, STEP = 135.0, 45.0
-"""Degrees from such an angle beyond which another is taken, and largest step from place to place:
-together less than half a turn."""
+"""Degrees from such an angle beyond which another is taken, and the largest single step.
+
+Together they are less than half a turn.
+"""
 FIRST, MOST = 64, 8192
-"""Places run at once, at first and at most, until some link counts near another angle."""
+"""Positions run at once, at first and at most, until a link counts near another angle."""
 PARTS = 16
-"""Parts into which a way is cut on which a link goes by a larger step."""
+"""Parts into which an interval is cut where a link turns by a larger step."""
 ENOUGH = 1e-9
-"""Share of the way below which it is not cut any more: there a link leaps."""
+"""Share of the interval below which it is not cut further: there a link jumps."""
 
 
 class Followed:
-    """Links followed along a sweep from one place, forth or back: near which angles they count."""
+    """Links followed along a sweep in one direction, with the angles near which they count."""
 
     def __init__(self, start: float, near: Mapping[str, float]) -> None:
         self.places, self.near = [start], [dict(near)]
 
     @property
     def now(self) -> Mapping[str, float]:
-        """The angles near which they count from the last place on."""
+        """The angles near which they count from the last position on."""
         return self.near[-1]
 
     def counts_on(self, at: float, angles: Mapping[str, float]) -> bool:
-        """Whether they count near other angles from a place on, where they stand at some."""
+        """Whether they count near other angles from a position on, given their angles there."""
         moved = {link: angle - self.now[link] for link, angle in angles.items()}
         if max(map(abs, moved.values()), default=0.0) <= FAR:
             return False
@@ -46,7 +48,7 @@ class Followed:
         return True
 
     def turned(self, stop: float) -> Turned:
-        """The whole of it, as far as a place."""
+        """The followed angles up to a given u."""
         places, near = self.places, self.near
         if stop < places[0]:
             places, near = [stop, *places[:0:-1]], near[::-1]
@@ -54,8 +56,7 @@ class Followed:
 
 
 def following(course: Course, start: float, links: Iterable[str] | None = None) -> Followed:
-    """The links of a course that count near a followed angle, or some, from a place on as it says
-    so far."""
+    """The start of following some links, by default all counted ones, with the course's angles."""
     known = course.values(np.array([start]))
     some = course.counting if links is None else links
     near = {link: float(np.ravel(known[name_of(link)])[0]) for link in some}
@@ -69,12 +70,11 @@ def led(
     step: float = 0.0,
     links: Sequence[str] | None = None,
 ) -> Course:
-    """The course with the angles near which links count, or some, followed from one place to
-    another.
+    """The course with counted links, or some of them, followed from one u to another.
 
-    At the start they count as the course says so far. Where nothing closes they stay. Between two
-    places of the grid, or of one of a larger ``step``, a link is taken to turn by less than a turn
-    but for a largest step.
+    At the start they count as the course states. Where nothing closes, they keep their angles. The
+    grid is coarser with ``step``. Between two of its positions, a link must turn by less than a
+    turn minus the largest step.
     """
     if not (course.counting if links is None else links) or start == stop:
         return course
@@ -102,14 +102,14 @@ def led(
 
 
 def led_both(course: Course, start: float, low: float, high: float, step: float = 0.0) -> Course:
-    """The course with these angles followed from one place forth and back."""
+    """The course with these angles followed from one u in both directions."""
     before, after = (led(course, start, end, step).turned for end in (low, high))
     turned = before.joined(after) if before is not None else after
     return course.along(turned=turned)
 
 
 def angles_near(course: Course, at: Reals, near: Mapping[str, float]) -> dict[str, Reals]:
-    """The angles of links (degrees) at some places, each within half a turn of a given one."""
+    """The angles of links (degrees) at some u, each within half a turn of a given one."""
     values = course.values(at) | {name_of(link): angle for link, angle in near.items()}
     rows = course.counted(values, at, near)
     return {link: np.degrees(row) for link, row in rows.items()}
@@ -118,9 +118,9 @@ def angles_near(course: Course, at: Reals, near: Mapping[str, float]) -> dict[st
 def as_far(
     angles: Mapping[str, Reals], near: Mapping[str, float], last: Mapping[str, float]
 ) -> int:
-    """How many places come before a link has gone too far from its angle, or by too large a step.
+    """The number of positions before a link turns too far from its angle, or by too large a step.
 
-    Places where nothing closes are passed; ``last`` is empty before the first that closes.
+    Positions where nothing closes are skipped; ``last`` is empty before the first that closes.
     """
     good = np.isfinite(np.array([*angles.values()])).all(axis=0)
     places = np.flatnonzero(good)
@@ -136,7 +136,7 @@ def as_far(
 
 
 def last_of(angles: Mapping[str, Reals], done: int) -> dict[str, float]:
-    """The angles at the last of some places that closes; empty without one."""
+    """The angles at the last position that closes; empty without one."""
     rows = np.array([row[:done] for row in angles.values()])
     good = np.flatnonzero(np.isfinite(rows).all(axis=0))
     return {} if not good.size else {link: float(row[good[-1]]) for link, row in angles.items()}

@@ -1,4 +1,4 @@
-"""The window of a sweep: one turn, the way of a slide, or for how long a scene is shown."""
+"""The window of a sweep: one turn, the travel of a slide, or the time shown."""
 
 from __future__ import annotations
 
@@ -21,9 +21,9 @@ from graphkin.scene.model import FRAME, Driver, Link, Scene
 from graphkin.text.errors import Problem, SceneError
 
 DOUBLINGS = 60
-"""How often the time is doubled to find a driver's first whole turn."""
+"""Doublings of the time in the search for a driver's first full turn."""
 FREE = 2.1
-"""Reaches to each side of where a slide stands: over two, so that no dead point falls there."""
+"""Reaches on each side of a slide's position: over two, so that no dead point is at the end."""
 
 
 def window(
@@ -34,9 +34,9 @@ def window(
     low: float | None,
     high: float | None,
 ) -> tuple[float, float, bool]:
-    """The window of the sweep, and whether it is one turn that closes on itself.
+    """The window of the sweep, and whether it is one full turn.
 
-    What is not bounded is filled in: a turn, the way of a slide, a time. Raises SceneError.
+    Missing bounds are filled in: a turn, the travel of a slide, a time. Raises SceneError.
     """
     for option, bound in (("--from", low), ("--to", high)):
         if bound is not None and not isfinite(bound):
@@ -68,8 +68,8 @@ def window(
 def is_cylinder(scene: Scene, driver: Driver) -> bool:
     """Whether a driver sets the length of a cylinder: a rod on one pin in a tube on another.
 
-    Nothing else holds either of them, and the guide passes the tube's pin, so that a length is
-    never negative.
+    Nothing else holds either of them, and the guide passes through the tube's pin, so that the
+    length is never negative.
     """
     if driver.kind != "slide" or driver.against == FRAME:
         return False
@@ -92,9 +92,9 @@ def is_cylinder(scene: Scene, driver: Driver) -> bool:
 
 
 def usual(scene: Scene, what: What, number: int | None, low: float, high: float) -> float:
-    """The whole way of a sweep of no stated bounds, on which events are looked for, in its unit.
+    """The length of a sweep without stated bounds, in its unit, on which events are searched for.
 
-    A window on the time, where nothing says how long a scene is shown, is its own.
+    A window in time has its own length where the scene determines none.
     """
     try:
         first, last, _ = window(scene, what, number, 0.0, None, None)
@@ -104,17 +104,17 @@ def usual(scene: Scene, what: What, number: int | None, low: float, high: float)
 
 
 def wheel_turn(link: Link, scene: Scene) -> float:
-    """The way of a wheel in one turn (m); nought where its radius is not given."""
+    """The path of a wheel in one turn (m); zero if its radius is not given."""
     radii = [wheel.radius.si(scene.values) for wheel in link.wheels if wheel.radius is not None]
     return 2 * pi * float(radii[0]) if radii else 0.0
 
 
 def whole_turn(scene: Scene) -> float:
-    """The time (s) in which the first turning driver makes one turn from the time nought.
+    """The time (s) of the first full turn of a driver, counted from time zero.
 
-    Where none does, the time until one comes to rest, or has slid as far as all lengths together,
-    or in which a law of time moves one once to and fro.
-    Raises SceneError where there is no such time.
+    If no driver makes a full turn, it is the time until a driver stops, or until it has slid the
+    sum of all lengths. For a law of time, it is the time of one movement to and fro. Raises
+    SceneError where there is no such time.
     """
     for driver in scene.drivers:
         if driver.kind != "turn":
@@ -141,7 +141,7 @@ def whole_turn(scene: Scene) -> float:
 
 
 def until_rest(driver: Driver, scene: Scene) -> float | None:
-    """The time in which a driver comes to rest, or slides as far as the mechanism is long."""
+    """The time after which a driver stops, or has slid the length of the mechanism; or None."""
     _, speed, push = stated_motion(driver, scene)
     if speed * push < 0:
         return -speed / push
@@ -151,7 +151,7 @@ def until_rest(driver: Driver, scene: Scene) -> float | None:
 
 
 def turn_evenly(speed: float, push: float) -> float | None:
-    """The time of one turn under even acceleration along the sense of the speed."""
+    """The time of one turn with constant acceleration, positive in the sense of the speed."""
     if push == 0:
         return radians(TURN) / speed if speed else None
     under = speed * speed + 4 * pi * push
@@ -161,7 +161,7 @@ def turn_evenly(speed: float, push: float) -> float | None:
 
 
 def turn_by_law(driver: Driver, scene: Scene) -> float | None:
-    """The time at which a law of time has first turned its driver by a whole turn."""
+    """The time at which a law of time has first turned its driver by a full turn."""
     for times, (angle, _, _) in doubled(driver, scene):
         past = np.flatnonzero(np.abs(angle - angle[0]) >= TURN)
         if past.size:
@@ -177,8 +177,7 @@ def turn_by_law(driver: Driver, scene: Scene) -> float | None:
 
 
 def to_and_fro(driver: Driver, scene: Scene) -> float | None:
-    """The time (s) in which a law of time moves its driver to and fro: from where it first turns
-    back to where it does so for the third time."""
+    """The time (s) of one movement to and fro, from the first reversal to the third, or None."""
     for times, (_, speed, _) in doubled(driver, scene):
         if not np.isfinite(speed).all():
             return None
@@ -193,7 +192,7 @@ def to_and_fro(driver: Driver, scene: Scene) -> float | None:
 
 
 def doubled(driver: Driver, scene: Scene) -> Iterator[tuple[Any, tuple[Any, Any, Any]]]:
-    """Times (N,) from nought on, each time over twice the span, with a driver's motion at them."""
+    """Times (N,) from zero on, with the driver's motion at them; each span doubles the last."""
     span = 1e-3
     for _ in range(DOUBLINGS):
         times = np.linspace(0, span, GRID + 1)

@@ -1,9 +1,9 @@
-"""Number kinds: what a float, a numpy batch or any later kind does at a root, a choice or a sine.
+"""Number kinds: the behaviour of a float, a numpy batch or another kind at a root, choice or sine.
 
-Steps and plans are written once, in complex numbers, and never ask which kind they run on: plus,
-minus, times, over, ``abs``, ``.real``, ``.imag`` and ``.conjugate()`` mean the same for Python's
-``complex``, numpy's arrays, decimals of any length and balls. What differs lives here; the kinds
-beside Python's float are made in kinds.
+Steps and plans are written once, in complex numbers, and do not depend on the kind. Plus, minus,
+times, over, ``abs``, ``.real``, ``.imag`` and ``.conjugate()`` work alike for Python's ``complex``,
+numpy's arrays, decimals of any length and balls. The differences are in this module. The kinds
+other than Python's float are made in ``kinds``.
 """
 
 from __future__ import annotations
@@ -25,10 +25,10 @@ if TYPE_CHECKING:
 else:
 
     class LateNumpy(ModuleType):
-        """Stands for numpy, and keeps what has been taken from it."""
+        """A stand-in for numpy that loads it on first use."""
 
         def __getattr__(self, name: str) -> Any:
-            """Load numpy, and take one thing from it."""
+            """Load numpy and return one attribute of it."""
             import numpy
 
             value = getattr(numpy, name)
@@ -50,12 +50,12 @@ QUARTERS = (1, 1j, -1, -1j)
 
 
 class Kind(Struct, frozen=True):
-    """One kind of number: how exact numbers enter it, and its functions of an angle.
+    """One kind of number: conversion of exact numbers to it, and its functions of an angle.
 
-    ``sound`` tells whether a value can be drawn, where that does not raise; ``working`` is what a
-    run happens within, such as a precision; ``shared`` is the kind of what all variants of a batch
-    have in common, None where it is Python's float; ``own`` makes one of Python's numbers one
-    of the kind, where the two cannot be reckoned with together as they are.
+    ``sound`` says whether a value can be drawn, where an impossible value does not raise.
+    ``working`` is the context of a run, such as a precision. ``shared`` is the kind of values
+    common to all variants of a batch, None for Python's float. ``own`` converts a Python number to
+    the kind, where the two cannot be mixed.
     """
 
     name: str
@@ -70,7 +70,7 @@ class Kind(Struct, frozen=True):
     own: Callable[[complex | float], Any] | None = None
 
     def direction(self, degrees: Any) -> Point:
-        """Unit vector at an angle in degrees, reduced exactly: 90 gives i, not nearly i."""
+        """Unit vector at an angle in degrees, reduced exactly: 90 gives i without rounding."""
         quarter = nearest_quarter(degrees)
         rest = self.number(degrees - 90 * quarter) * (self.pi / 180)
         return self.radians(rest) * quarter_turns(quarter)
@@ -81,14 +81,14 @@ class Kind(Struct, frozen=True):
 
 
 def nearest_quarter(degrees: Any) -> Any:
-    """Whole number of quarter turns nearest to an exact angle, or to each of an array of them."""
+    """The nearest whole number of quarter turns to an exact angle, or to each of an array."""
     if hasattr(degrees, "shape"):
         return np.rint(degrees / 90)
     return math.floor(Fraction(degrees) / 90 + Fraction(1, 2))
 
 
 def quarter_turns(quarter: Any) -> Any:
-    """The power of i that turns by so many quarters, exactly."""
+    """The power of i that turns by ``quarter`` quarter turns, exactly."""
     if hasattr(quarter, "shape"):
         left = quarter - 4 * np.rint(quarter / 4)
         size = abs(left)
@@ -97,16 +97,16 @@ def quarter_turns(quarter: Any) -> Any:
 
 
 def is_finite(value: Any) -> bool:
-    """True unless a float or a complex number is infinite or none."""
+    """False for a float or a complex number that is infinite or NaN."""
     return not isinstance(value, complex | float) or cmath.isfinite(value)
 
 
 FLOAT = Kind("float", float, math.pi, math.cos, math.sin, math.sqrt, is_finite)
-"""Python's own double precision numbers: one scene, raised errors, nothing imported."""
+"""Python's double precision numbers: one scene, errors raised, no imports."""
 
 
 def batch_kind() -> Kind:
-    """Arrays of numpy doubles: many variants at once; what cannot be drawn becomes NaN."""
+    """Arrays of numpy doubles, for many variants at once; impossible values become NaN."""
 
     def number(exact: Any) -> Any:
         return np.asarray(exact, dtype=float) if hasattr(exact, "shape") else float(exact)
@@ -115,7 +115,7 @@ def batch_kind() -> Kind:
 
 
 def at(x: Real, y: Real) -> Point:
-    """The point of two coordinates."""
+    """The point with two coordinates."""
     if isinstance(x, float) and isinstance(y, float):
         return complex(x, y)
     for part in (x, y):
@@ -149,7 +149,7 @@ def is_formal(value: Any) -> bool:
 def sqrt(x: Real) -> Real:
     """Square root; a negative number raises ValueError, a negative element of a batch gives NaN.
 
-    A ball that reaches below nought gives one that is not finite.
+    A ball that contains negative numbers gives a ball that is not finite.
     """
     if isinstance(x, float):
         return math.sqrt(x)
@@ -198,14 +198,14 @@ def pick(condition: Any, yes: Any, no: Any) -> Any:
 
 
 def below(a: Real, b: Real) -> Any:
-    """Whether a number is smaller than another; where a ball does not tell, ValueError."""
+    """Whether a number is smaller than another. Raises ValueError where a ball leaves that open."""
     if is_ball(a) and not (a < b or a >= b):
         raise ValueError("the ball does not tell which number is smaller")
     return a < b
 
 
 def either(condition: Any, one: Point, other: Point) -> Point:
-    """One of two ways to the same point, by a condition; in balls what both ways allow."""
+    """One of two ways to the same point, by a condition; for balls, the intersection of both."""
     if is_ball(one):
         from flint import acb
 
@@ -224,10 +224,10 @@ def least(a: Real, b: Real) -> Real:
 
 
 def smaller(a: Real, b: Real) -> Real:
-    """The smaller of two numbers, neither of them NaN: in fewer steps than ``least``."""
+    """The smaller of two numbers that are not NaN, in fewer steps than ``least``."""
     return pick(a <= b, a, b)
 
 
 def larger(a: Real, b: Real) -> Real:
-    """The larger of two numbers of which neither is NaN."""
+    """The larger of two numbers that are not NaN."""
     return pick(a <= b, b, a)

@@ -1,7 +1,7 @@
 """The motions of cams: a rise from 0 to 1 over u from 0 to 1, with both derivatives by u.
 
-Written for any kind of number. The forms are those of the textbooks (Norton, Cam Design and
-Manufacturing Handbook): modified trapezoid and modified sine are made of pieces of sines.
+The functions accept any kind of number. The formulas are those of the textbooks (Norton, Cam Design
+and Manufacturing Handbook). Modified trapezoid and modified sine are made of pieces of sines.
 """
 
 from __future__ import annotations
@@ -13,12 +13,14 @@ from graphkin.numbers.arithmetic import Point, Real, at, below, phase, pick, sqr
 from graphkin.numbers.plane import Line, cross, dot
 
 BORDER = 1e-9
-"""How far before the end of a piece (radians, or parts of it) the next one begins: rounding does
-not decide on which side of a border a cam stands."""
+"""How far (radians, or shares of a piece) before the end of a piece the next one begins.
+
+Rounding then does not decide on which side of a border a cam is.
+"""
 
 
 HALVED = 0.0123
-"""The cosine at which the halves of a turn part, where no angle of a scene is likely to be."""
+"""The cosine at which a turn is split into halves; a scene's angle is unlikely to be there."""
 
 
 class Rise(NamedTuple):
@@ -33,18 +35,18 @@ Motion = Callable[[Real], Rise]
 
 
 def half_turn(u: Real) -> Real:
-    """Pi as a number of the kind of another."""
+    """Pi as a number of the same kind as ``u``."""
     nought = abs(u) * 0
     return phase(at(nought - 1, nought))
 
 
 def chosen(condition: object, yes: Rise, no: Rise) -> Rise:
-    """One of two by a condition."""
+    """One of two rises, by a condition."""
     return Rise(*(pick(condition, *pair) for pair in zip(yes, no, strict=True)))
 
 
 def before(u: Real, border: float) -> object:
-    """Whether u lies before a border."""
+    """Whether u is before a border."""
     return below(u, abs(u) * 0 + (border - BORDER))
 
 
@@ -54,46 +56,46 @@ def uniform(u: Real) -> Rise:
 
 
 def mirrored(u: Real, first: Motion) -> Rise:
-    """A motion whose second half is the first, turned by half a turn about its middle."""
+    """A motion whose second half is its first half, rotated by 180° about the middle."""
     late = first(1 - u)
     return chosen(before(u, 0.5), first(u), Rise(1 - late.at, late.rate, -late.bend))
 
 
 def parabolic(u: Real) -> Rise:
-    """Constant acceleration, then as much the other way."""
+    """Constant acceleration, then the same deceleration."""
     return mirrored(u, lambda w: Rise(2 * w * w, 4 * w, w * 0 + 4))
 
 
 def harmonic(u: Real) -> Rise:
-    """Half a cosine."""
+    """Half a period of a cosine."""
     pi = half_turn(u)
     way = turn_by(pi * u)
     return Rise((1 - way.real) / 2, pi * way.imag / 2, pi * pi * way.real / 2)
 
 
 def cycloidal(u: Real) -> Rise:
-    """A whole sine of acceleration."""
+    """A full period of a sine as acceleration."""
     pi = half_turn(u)
     way = turn_by(2 * pi * u)
     return Rise(u - way.imag / (2 * pi), 1 - way.real, 2 * pi * way.imag)
 
 
 def polynomial_345(u: Real) -> Rise:
-    """The polynomial 3-4-5: no acceleration at both ends."""
+    """The polynomial 3-4-5: zero acceleration at both ends."""
     v, w = 1 - u, u * (1 - u)
     lift = u * u * u * (10 - u * (15 - 6 * u))
     return Rise(lift, 30 * w * w, 60 * w * (v - u))
 
 
 def polynomial_4567(u: Real) -> Rise:
-    """The polynomial 4-5-6-7: no jerk at both ends either."""
+    """The polynomial 4-5-6-7: zero acceleration and jerk at both ends."""
     v, w = 1 - u, u * (1 - u)
     lift = u * u * u * u * (35 - u * (84 - u * (70 - 20 * u)))
     return Rise(lift, 140 * w * w * w, 420 * w * w * (v - u))
 
 
 def modified_sine(u: Real) -> Rise:
-    """Quick sines of acceleration in the first and last eighth, a slow one between them."""
+    """Sine acceleration: fast in the first and last eighth, slow between them."""
     pi = half_turn(u)
     size, quick, slow = pi + 4, turn_by(4 * pi * u), turn_by((4 * pi * u + pi) / 3)
     peak = 4 * pi * pi / size
@@ -109,7 +111,7 @@ def modified_sine(u: Real) -> Rise:
 
 
 def modified_trapezoid(u: Real) -> Rise:
-    """Constant acceleration that begins and ends in quarters of sines."""
+    """Constant acceleration that begins and ends with quarter sines."""
     pi = half_turn(u)
     peak, k = 8 * pi / (pi + 2), 4 * pi
 
@@ -138,13 +140,13 @@ MOTIONS: dict[str, Motion] = {
     "modified trapezoid": modified_trapezoid,
     "modified sine": modified_sine,
 }
-"""Every motion by its name in a scene."""
+"""The motions by their names in a scene."""
 
 
 def turned(turn: Point) -> Real:
-    """The angle of a unit vector from 0 to a whole turn; rounding puts none below 0.
+    """The angle of a unit vector, from 0 to a full turn; rounding puts none below 0.
 
-    Each half of the turn is measured from its own middle, so that a ball meets no jump but at 0.
+    Each half of the turn is measured from its own middle, so that a ball has a jump only at 0.
     """
     ahead, behind = phase(turn), phase(-turn)
     half = half_turn(ahead)
@@ -153,7 +155,7 @@ def turned(turn: Point) -> Real:
 
 
 def splined(u: Real, rise: Real, begin: Real, finish: Real) -> Rise:
-    """A cubic from 0 to ``rise`` over u from 0 to 1 with given derivatives by u at both ends."""
+    """A cubic from 0 to ``rise`` over u from 0 to 1, with given derivatives by u at both ends."""
     v, ahead, back = 1 - u, begin - rise, rise - finish
     mixed = ahead * v + back * u
     rate = rise + (v - u) * mixed + u * v * (back - ahead)
@@ -167,11 +169,11 @@ def displaced(
     motions: Sequence[str],
     slopes: Sequence[tuple[Real, Real]] = (),
 ) -> Rise:
-    """The displacement of a follower where the cam has turned by ``turn`` (a unit vector).
+    """The displacement of a follower for a cam turned by ``turn`` (a unit vector).
 
-    The pieces end at angles ``ends`` (radians, the last a whole turn) and add up ``rises``; at a
-    border the piece that begins there holds. Where ``slopes`` are given, all pieces are cubics that
-    begin and finish with these, each times the angle of its piece.
+    The pieces end at the angles ``ends`` (radians, the last a full turn), and ``rises`` add up. At
+    a border, the piece that begins there counts. With ``slopes``, all pieces are cubics with these
+    end derivatives, each times the angle of its piece.
     """
     return pieced(turned(turn), ends, rises, motions, slopes)
 
@@ -179,10 +181,10 @@ def displaced(
 def displaced_along(
     way: Real, ends: Sequence[Real], rises: Sequence[Real], motions: Sequence[str]
 ) -> Rise:
-    """The displacement of a follower where a plate has moved by ``way`` from where its law begins.
+    """The displacement of a follower for a plate moved by ``way`` from the start of its law.
 
-    The pieces end at lengths ``ends`` and add up ``rises``; the plate is level before the law and
-    past it.
+    The pieces end at the lengths ``ends``, and ``rises`` add up. The plate is level before the law
+    and after it.
     """
     whole, share = ends[-1], way / ends[-1]
     inside = pieced(share, [end / whole for end in ends], rises, motions)
@@ -201,7 +203,7 @@ def pieced(
     motions: Sequence[str],
     slopes: Sequence[tuple[Real, Real]] = (),
 ) -> Rise:
-    """The pieces of a law at an ``angle`` from its begin."""
+    """The displacement by the pieces of a law, at an ``angle`` from the law's start."""
     found = None
     low, start = angle * 0, angle * 0
     pieces = []
@@ -221,13 +223,13 @@ def pieced(
     return found
 
 
-# --- how a cam's follower stands and moves by the cam's angle -------------------------------------
+# --- the follower's position and motion by the cam's angle ----------------------------------------
 
 
 class TipMotion(NamedTuple):
-    """The place of a roller's centre or a knife's edge, and its derivatives.
+    """The position of a roller's centre or a knife edge, and its derivatives.
 
-    ``drift`` is the unit vector along which the cam slides; None where it turns.
+    ``drift`` is the unit vector of a sliding cam's direction; None for a cam that turns.
     """
 
     place: Point
@@ -242,21 +244,21 @@ class TipMotion(NamedTuple):
 
     @property
     def turn(self) -> Point:
-        """Derivative of the tangent in the cam."""
+        """Derivative of the tangent in the cam's axes."""
         return self.bend if self.drift is not None else self.bend - 2j * self.rate - self.place
 
     @property
     def centre(self) -> Point:
-        """The centre of curvature of the pitch curve."""
+        """Centre of curvature of the pitch curve."""
         way = self.way
         return self.place + 1j * way * (dot(way, way) / cross(way, self.turn))
 
 
 class FaceMotion(NamedTuple):
-    """A flat face: its unit ``normal``, its distance ``gap`` from the pivot, how these change.
+    """A flat face: its unit ``normal``, its distance ``gap`` from the pivot, and their derivatives.
 
-    ``spin`` and ``twist`` are the derivatives of the normal's angle, ``rate`` and ``bend`` those of
-    the distance.
+    ``spin`` and ``twist`` are the derivatives of the normal's angle; ``rate`` and ``bend`` are
+    those of the distance.
     """
 
     normal: Point
@@ -268,45 +270,45 @@ class FaceMotion(NamedTuple):
 
     @property
     def slope(self) -> Real:
-        """dp/dα: how far beside the foot of the pivot the face touches the cam."""
+        """dp/dα: the distance along the face from the pivot's foot to the contact point."""
         return self.rate / (self.spin - 1)
 
     @property
     def second(self) -> Real:
-        """d²p/dα²."""
+        """The second derivative d²p/dα²."""
         against = self.spin - 1
         return (self.bend * against - self.rate * self.twist) / against**3
 
     @property
     def contact(self) -> Point:
-        """Where the face touches the cam."""
+        """Contact point of the face and the cam."""
         return self.gap * self.normal + 1j * self.normal * self.slope
 
     @property
     def radius(self) -> Real:
-        """The radius of curvature of the profile there, positive where it is convex."""
+        """Radius of curvature of the profile at the contact, positive where it is convex."""
         return self.gap + self.second
 
     @property
     def centre(self) -> Point:
-        """Its centre of curvature."""
+        """Centre of curvature of the profile at the contact."""
         return 1j * self.normal * self.slope - self.normal * self.second
 
 
 def guided_tip(along: Point, aside: Real, height: Real, rate: Real, bend: Real) -> TipMotion:
-    """A tip that a guide along a unit vector leads at ``aside`` to the left of the pivot."""
+    """A tip on a guide along a unit vector, at ``aside`` to the left of the pivot."""
     return TipMotion(height * along + 1j * along * aside, rate * along, bend * along)
 
 
 def guided_face(along: Point, height: Real, rate: Real, bend: Real) -> FaceMotion:
-    """A face square to the guide on which it slides."""
+    """A face perpendicular to the guide on which it slides."""
     return FaceMotion(along, height, rate * 0, bend * 0, rate, bend)
 
 
 def swung_tip(pin: Point, arm: Point, side: float, rate: Real, bend: Real) -> TipMotion:
-    """A tip at the end of the ``arm`` of a lever about ``pin``; ``side`` +1 left of the pins' line.
+    """A tip at the end of a lever's ``arm`` about ``pin``; ``side`` is +1 left of the pins' line.
 
-    The line leads from the cam's pivot to the lever's pin; the lever lifts away from the cam.
+    The line runs from the cam's pivot to the lever's pin. The lever lifts away from the cam.
     """
     spin = -side * rate
     return TipMotion(pin + arm, 1j * arm * spin, 1j * arm * (-side * bend) - arm * (spin * spin))
@@ -323,33 +325,35 @@ def swung_face(
 
 
 def lever_way(pin: Point, start: Point, side: float, lift: Real) -> Point:
-    """The unit vector of a lever that has swung by ``lift`` from where it rests on the base circle.
+    """The unit vector of a lever that has swung by ``lift`` from its rest on the base circle.
 
-    ``start`` is its direction there, from that of the pins' line backwards, as of an angle
-    counter-clockwise.
+    ``start`` is its direction at rest, relative to the reversed line of the pins, as a
+    counter-clockwise angle.
     """
     begins = start if side < 0 else start.conjugate()
     return -pin / abs(pin) * begins * turn_by(-side * lift)
 
 
 def start_on_tip(pin: Point, arm: Real, prime: Real) -> Point:
-    """The unit vector of the angle at the pin of a triangle with the sides pin, arm and prime."""
+    """The unit vector of the angle at the pin in a triangle with the sides pin, arm and prime."""
     bar = abs(pin)
     cosine = (bar * bar + arm * arm - prime * prime) / (2 * bar * arm)
     return at(cosine, sqrt((1 - cosine) * (1 + cosine)))
 
 
 def upward(along: Point, toward: Point) -> Point:
-    """The unit vector square to ``along``, to the side on which a vector points."""
+    """The unit vector perpendicular to ``along``, on the side of ``toward``."""
     square = 1j * along / abs(along)
     side = dot(square, toward)
     return pick(below(side, side * 0), -square, square)
 
 
 def level_on_path(path: Line, plate: Line, prime: Real) -> Real:
-    """How far along its path a tip rests on a plate, ``prime`` above the path of this.
+    """The distance along its path at which a tip rests on a plate.
 
-    Counted from the path's point.
+    The tip is then ``prime`` above the plate's path.
+
+    The distance is measured from the path's point.
     """
     along = path.along / abs(path.along)
     up = upward(plate.along, along)
@@ -357,7 +361,7 @@ def level_on_path(path: Line, plate: Line, prime: Real) -> Real:
 
 
 def start_on_plate(above: Real, arm: Real, prime: Real) -> Point:
-    """The unit vector of the angle at the pin, ``above`` a plate's path, from square to it."""
+    """The unit vector of a lever's angle to the normal, its pin ``above`` a plate's path."""
     cosine = (above - prime) / arm
     return at(cosine, sqrt((1 - cosine) * (1 + cosine)))
 

@@ -1,9 +1,9 @@
-"""Where n functions of n numbers vanish together: cells narrowed, then closing in by Newton.
+"""Common roots of n functions of n numbers: cells are narrowed, then Newton's method converges.
 
-``Misses`` gives the functions of rows at places: which rows (K,), where (K, n), their values
-(K, n), NaN where they are not defined; ``Reach`` how far one of them is from that, positive where
-it is. Cells in which no function can vanish are left out, the others halved a few times; Newton's
-method closes in from each that is left.
+``Misses`` gives the functions of rows at places: which rows (K,), where (K, n), their values (K,
+n), NaN where they are undefined. ``Reach`` is the distance from the boundary of one definition,
+positive inside. Cells in which no function can vanish are left out, and the others are halved a few
+times. Newton's method starts from each remaining cell.
 """
 
 from __future__ import annotations
@@ -16,67 +16,73 @@ from graphkin.numbers.arithmetic import is_ball, np
 from graphkin.numbers.kinds import middle
 
 HALVED = 4
-"""How often cells of two unknowns are halved; those of more are too many."""
+"""Halvings of cells with two unknowns; cells with more unknowns are too many."""
 SLACK = 0.5
-"""By how much a misfit may vanish beyond what it is at a cell's corners, in parts of its range
-there: what curves it."""
+"""Slack of a misfit inside a cell beyond its corner values, as a share of their range.
+
+The slack allows for curvature.
+"""
 AT_EDGE = 2.0
-"""The same where a corner cannot be drawn: beside a flat dyad the misfit grows like a root."""
+"""SLACK where a corner cannot be drawn: near a flat dyad the misfit grows like a square root."""
 BENT = 0.5
-"""The same in parts of its range all round, for the square of a cell's side in radians."""
+"""Further slack as a share of the whole range, for the square of a cell's side in radians."""
 ROOT = 2.0
-"""The same where a corner cannot be drawn, for the root of that side: the corners that can may all
-lie along the flat dyad, and do not tell how the misfit grows away from it."""
+"""BENT where a corner cannot be drawn, for the square root of that side.
+
+The drawable corners may all be on the flat dyad, and then do not show how the misfit grows away
+from it.
+"""
 CELLS = 40_000
-"""Cells looked at together."""
+"""Cells examined together."""
 ROUNDS = 20
-"""Steps of Newton's method at most."""
+"""The most steps of Newton's method."""
 HOPEFUL = 7
-"""The step before which those are left out that miss by too much still."""
+"""The step before which starts with too large a misfit are dropped."""
 LEFT = 1e-3
-"""What they may miss by then, in parts of the ranges of misfits; where two closures merge each step
-halves the way that is left."""
+"""The misfit allowed by then, as a share of the misfits' ranges.
+
+Where two closures merge, each step only halves the distance left.
+"""
 NEAR = 64.0
-"""How far it may lead from where it starts, in halves of a cell."""
+"""The largest distance from the start, in half cells."""
 BESIDE = 12.0
-"""How far in v beside a flat dyad, in parts of what half a cell makes of it."""
+"""The largest v near a flat dyad, relative to the v of half a cell."""
 STARTS = (0.1, 0.6)
-"""Where it starts in v, on the side of the dyad's sign."""
+"""The starts in v, on the side of the dyad's sign."""
 CLUSTERED = 3
-"""The step before which those are left out that come to one place."""
+"""The step before which starts that converge to one place are merged."""
 ONE_PLACE = 1e-5
-"""Shares that differ less are those of one place then."""
+"""Difference of shares below which they are one place then."""
 SHORTER = 8
-"""How often a step is halved that leads beyond what can be drawn, or no nearer."""
+"""Halvings of a step that leaves the drawable range or does not come nearer."""
 STEP = 1e-6
-"""Half the step of the differences that give slopes, in radians or shares of a way."""
+"""Half the step of the differences for slopes, in radians or shares of a way."""
 FLAT = 3.0
-"""How far from a flat dyad a cell may lie that is looked at beside it, in parts of its size."""
+"""Distance of a cell from a flat dyad, in cell sizes, up to which it is examined there."""
 LEADING = 5
-"""Steps along the secant that find the share for a v."""
+"""Secant steps that find the share for a v."""
 STILL = 1e-10
-"""A step so small that Newton's method has come to rest, in radians or shares of a way."""
+"""Step at which Newton's method has converged, in radians or shares of a way."""
 CLOSED = 1e-9
-"""Misfit left at a closure at most, in parts of its range all round."""
+"""The largest misfit at a closure, as a share of its whole range."""
 
 Array = Any
 Misses = Callable[[Array, Array], Array]
 """The misfits (K, n) of rows (K,) at shares (K, n)."""
 Reach = Callable[[Array, Array], Array]
-"""How far a dyad can be drawn (K,): positive where it can; NaN where one before it cannot."""
+"""The reach of a dyad (K,): positive where it can be drawn, NaN where an earlier dyad cannot."""
 Looked = Callable[[Array, Array], tuple[Sequence[Array], Sequence[Array]]]
-"""Each misfit of rows (K,) at shares (K, n), and how far each dyad can be drawn: (K,) each."""
+"""Each misfit of rows (K,) at shares (K, n), and the reach of each dyad: (K,) each."""
 
 
 class Cells(NamedTuple):
-    """Boxes of shares: whose each is (C,), its middle (C, n)."""
+    """Boxes of shares: the row of each (C,) and its middle (C, n)."""
 
     row: Array
     middle: Array
 
 
 def joined(cells: Sequence[Cells]) -> Cells:
-    """Some cells after others."""
     return Cells(*(np.concatenate(column) for column in zip(*cells, strict=True)))
 
 
@@ -88,10 +94,11 @@ def common_roots(
     half: Array,
     ranges: Array,
 ) -> tuple[Array, Array]:
-    """Every place in or near cells at which all misfits of a row vanish: rows (K,), shares (K, n).
+    """The places in or near cells at which all misfits of a row vanish: rows (K,), shares (K, n).
 
-    ``half`` are half the sides of the cells (n,), ``ranges`` how far misfits of each row range
-    (R, n), ``edges`` the dyads that may be stretched flat, each with the bit of its sign in rows.
+    ``half`` are half the sides of the cells (n,), and ``ranges`` the ranges of each row's misfits
+    (R, n). ``edges`` are the dyads that may be stretched flat, each with the bit of its sign in
+    rows.
     """
     cells, half = narrowed(looked, cells, half, ranges)
     start = drawn_places(missed, cells, half)
@@ -113,7 +120,7 @@ def narrowed(looked: Looked, cells: Cells, half: Array, ranges: Array) -> tuple[
 
 
 def corners_of(size: int) -> Array:
-    """The corners of a cell, of shares nought and one."""
+    """The corners of a cell, with coordinates zero and one."""
     return np.array([*product((0, 1), repeat=size)])
 
 
@@ -125,11 +132,11 @@ def may_vanish(
     ranges: Array,
     side: Array,
 ) -> Array:
-    """Of which cells all misfits may vanish within: from the least and the largest at the corners,
-    or where no corner can be drawn from how far dyads are from that.
+    """The cells in which all misfits may vanish.
 
-    ``some`` and ``whole`` tell whether some corners, or all, can be drawn; ``ranges`` how far
-    misfits range.
+    The test uses the least and largest values at the corners, or the dyads' reaches where no corner
+    can be drawn. ``some`` and ``whole`` mark cells of which some or all corners can be drawn.
+    ``ranges`` are the ranges of the misfits.
     """
     bent = np.where(whole, BENT * side.max() ** 2, ROOT * np.sqrt(side.max()))
     slack, crossed, drawn = np.where(whole, SLACK, AT_EDGE), some, ~some
@@ -169,10 +176,9 @@ def halved(looked: Looked, cells: Cells, half: Array, ranges: Array) -> Cells:
 def closed_in(
     missed: Misses, row: Array, start: Array, near: Array, ranges: Array
 ) -> tuple[Array, Array]:
-    """Where Newton's method comes to rest from starts (K, n), no farther than ``near`` (n,): rows
-    and shares.
+    """The limits of Newton's method from starts (K, n), within ``near`` (n,): rows and shares.
 
-    Steps are halved that lead beyond what can be drawn, or no nearer.
+    Steps that leave the drawable range, or do not come nearer, are halved.
     """
     share, value = start.copy(), missed(row, start)
     which = np.flatnonzero(np.isfinite(value).all(axis=1))
@@ -211,7 +217,7 @@ def closed_in(
 
 
 def roots_beside(missed: Misses, start: Array) -> Array:
-    """Where Newton's method comes to rest from starts (K, n); NaN where it does not."""
+    """The limits of Newton's method from starts (K, n); NaN where it does not converge."""
     share, left = start.copy(), np.arange(len(start))
     for _ in range(ROUNDS):
         way = steps_from(missed, left, share[left])
@@ -224,7 +230,7 @@ def roots_beside(missed: Misses, start: Array) -> Array:
 
 
 def steps_from(missed: Misses, row: Array, share: Array) -> Array:
-    """As steps_of, with the misfits and all their slopes run together."""
+    """The steps of ``steps_of``, with the misfits and all slopes evaluated together."""
     count, size = share.shape
     away = np.concatenate([np.zeros((1, size)), STEP * np.eye(size)])[:, None]
     places = (share + away).reshape(-1, size)
@@ -236,14 +242,14 @@ def steps_from(missed: Misses, row: Array, share: Array) -> Array:
 
 
 def apart(row: Array, share: Array, which: Array, way: Array) -> tuple[Array, Array]:
-    """Of those that all but stand at one place only one, with the steps of each."""
+    """One of each group of starts that are almost at one place, with the step of each."""
     place = np.round((share[which] + way) / ONE_PLACE)
     _, first = np.unique(np.column_stack([row[which], place]), axis=0, return_index=True)
     return which[first], way[first]
 
 
 def drawn_places(missed: Misses, cells: Cells, half: Array) -> Array:
-    """A place of each cell that can be drawn: its middle, else a corner."""
+    """A drawable place of each cell: its middle, otherwise a corner."""
     share = cells.middle.copy()
     lost = np.arange(len(share))
     for corner in np.array([[0] * len(half), *product((-1, 1), repeat=len(half))]):
@@ -255,10 +261,10 @@ def drawn_places(missed: Misses, cells: Cells, half: Array) -> Array:
 
 
 class FlatDyad(NamedTuple):
-    """Beside the places where the dyad of one sign is stretched flat: its two signs meet there.
+    """The neighbourhood of places where the dyad of one sign is stretched flat and its signs meet.
 
-    With v, the root of how far it can be drawn, taken with its sign, in place of the share that
-    moves it most, misfits run smoothly through the flat dyad. ``bit`` is that of its sign in rows.
+    The share that changes the reach most is replaced by v, the signed square root of the reach.
+    Misfits are then smooth through the flat dyad. ``bit`` is that of the dyad's sign in rows.
     """
 
     missed: Misses
@@ -266,7 +272,7 @@ class FlatDyad(NamedTuple):
     bit: int
 
     def fits(self, cells: Cells, half: Array, ranges: Array) -> list[tuple[Array, Array]]:
-        """The fits near cells that the dyad does not reach all over: rows and shares."""
+        """The roots near cells that are partly out of the dyad's reach: rows and shares."""
         here = self.reach(cells.row, cells.middle)
         slopes = np.empty(cells.middle.shape)
         for j, side in enumerate(half):
@@ -288,7 +294,7 @@ class FlatDyad(NamedTuple):
     def fits_beside(
         self, j: int, cells: Cells, slope: Array, half: Array, ranges: Array
     ) -> tuple[Array, Array]:
-        """The fits near cells with v in place of a share whose ``slope`` of the reach is known."""
+        """The roots near cells, with v in place of a share with a known ``slope`` of the reach."""
         row, middle = cells
         scale, plain = np.sqrt(abs(slope) * half[j]), row & ~self.bit
 
@@ -320,7 +326,7 @@ class FlatDyad(NamedTuple):
 
 
 def far(value: Array, scale: Array) -> Array:
-    """How large misfits are, in parts of their ranges; infinite without a value."""
+    """The size of misfits relative to their ranges; infinite without a value."""
     size = np.sqrt(((value / scale) ** 2).sum(axis=1))
     return np.where(np.isfinite(size), size, np.inf)
 
@@ -339,8 +345,10 @@ def steps_of(missed: Misses, row: Array, share: Array, value: Array) -> Array:
 
 
 def solutions(slopes: Array, right: Array) -> Array:
-    """What makes linear equations true (K, n), of slopes (K, n, n) and right sides (K, n); NaN
-    where slopes have no value or no inverse."""
+    """The solutions (K, n) of linear equations with slopes (K, n, n) and right sides (K, n).
+
+    NaN where slopes are NaN or singular.
+    """
     good: Array = np.isfinite(slopes).all(axis=(1, 2))
     good &= np.linalg.det(np.where(good[:, None, None], slopes, 0.0)) != 0
     slopes = np.where(good[:, None, None], slopes, np.eye(slopes.shape[1]))
@@ -348,7 +356,7 @@ def solutions(slopes: Array, right: Array) -> Array:
     return np.where(good[:, None], found, np.nan)
 
 
-# --- where functions vanish near doubles that do so nearly, in numbers of any other kind ----------
+# --- roots near roots in doubles, in numbers of any other kind ------------------------------------
 
 
 Misfit = Callable[[Any], Any]
@@ -356,30 +364,29 @@ Misfits = Callable[[Sequence[Any]], Sequence[Any]]
 Rows = Sequence[Sequence[Any]]
 
 APART = 2.0**-30
-"""How far the second place lies from the double, in radians or parts of its size."""
+"""Distance of the second place from the double, in radians or relative to its size."""
 LEAST = 4 * 1024
-"""The power of a half that the interval of a proof has at least for its width."""
+"""The power of a half that is the least width of a proof's interval."""
 MOST_SECANTS = 40
-"""Most steps along the secant."""
+"""The most secant steps."""
 WIDENED = 100
-"""How many times the interval of a proof is widened before it is given up."""
+"""The most times a proof's interval is widened."""
 WIDER = 1.25
-"""How much wider each time."""
+"""The factor of each widening."""
 ARRAY_STEPS = 2
-"""Steps for arrays; each gains all the digits that the first double had."""
+"""Steps for arrays; each adds as many digits as the first double had."""
 REFINING_ROUNDS = 60
-"""Steps of Newton's method at most."""
+"""The most steps of Newton's method."""
 PIECES = (1, 16, 128, 1024, 4096)
-"""Parts into which a face is cut, one number after the other: balls on smaller parts are tighter by
-as much."""
+"""Numbers of parts, in turn, into which a face is cut; balls on smaller parts are tighter."""
 DOUBLED = 3
-"""How many times a box is tried, doubled each time, before its proof is given up."""
+"""How many times a box is doubled before its proof is abandoned."""
 
 
 def by_secant(misfit: Misfit, start: Any, step: Any) -> Any:
-    """Where a misfit vanishes, near a start: until it no longer comes nearer to nought.
+    """The root of a misfit near a start, iterated until the misfit stops decreasing.
 
-    The second place lies a ``step`` away.
+    The second place is a ``step`` away.
     """
     old, new = start, start + step
     before, after = misfit(old), misfit(new)
@@ -397,7 +404,7 @@ def by_secant(misfit: Misfit, start: Any, step: Any) -> Any:
 
 
 def by_secants(misfit: Misfit, start: Any, turns: bool) -> Any:
-    """As by_secant for an array; each step gains all the digits that the first double had."""
+    """``by_secant`` for an array; each step adds as many digits as the first double had."""
     old, new = start + APART * (1 if turns else np.maximum(abs(start), APART)), start
     before, after = misfit(old), misfit(new)
     for _ in range(ARRAY_STEPS):
@@ -408,9 +415,9 @@ def by_secants(misfit: Misfit, start: Any, turns: bool) -> Any:
 
 
 def proved(misfit: Misfit, near: Any, step: Any) -> Any:
-    """The ball about a value at whose ends the misfit surely has two signs, and none is missing.
+    """The ball about a value that surely contains a root, because the misfit changes sign.
 
-    Between them the misfit is a continuous function, for it is finite on the whole ball.
+    Between the ends the misfit is continuous, because it is finite on the whole ball.
     """
     from flint import arb
 
@@ -444,7 +451,7 @@ def determinant(rows: Rows) -> Any:
 
 
 def solved(rows: Rows, right: Sequence[Any]) -> list[Any]:
-    """What makes a few linear equations true (Cramer's rule)."""
+    """The solution of a few linear equations (Cramer's rule)."""
     whole = determinant(rows)
     sides = range(len(rows))
     with_right = (
@@ -457,7 +464,7 @@ def solved(rows: Rows, right: Sequence[Any]) -> list[Any]:
 def slopes(
     misfits: Misfits, here: Sequence[Any], value: Sequence[Any], steps: Sequence[Any]
 ) -> Rows:
-    """How each misfit grows with each unknown: rows of differences."""
+    """The slope of each misfit by each unknown: rows of differences."""
     columns = []
     for k, step in enumerate(steps):
         there = misfits([*here[:k], here[k] + step, *here[k + 1 :]])
@@ -466,16 +473,16 @@ def slopes(
 
 
 def size_of(value: Any) -> Any:
-    """What a step is measured by: a radian, or the value itself."""
+    """The unit of a step: a radian, or the value itself."""
     return abs(value) or 1
 
 
 def by_newton(misfits: Misfits, start: Sequence[Any]) -> list[Any]:
-    """Where all misfits vanish, near a start: until they no longer come nearer to nought.
+    """The common root of all misfits near a start, iterated until they stop decreasing.
 
-    Differences reach as far as the last step went. In the end these are rounding alone, which may
-    lead nowhere (ZeroDivisionError), or to where there are no misfits (ValueError): neither is
-    nearer.
+    Differences are as wide as the last step. In the end they are only rounding. They may then have
+    no solution (ZeroDivisionError), or reach a place without misfits (ValueError); both end the
+    search.
     """
     here, steps = [*start], [size_of(each) * APART for each in start]
     value = misfits(here)
@@ -497,7 +504,7 @@ def by_newton(misfits: Misfits, start: Sequence[Any]) -> list[Any]:
 
 
 def by_newton_arrays(misfits: Misfits, start: Sequence[Any]) -> list[Any]:
-    """As by_newton for arrays."""
+    """``by_newton`` for arrays."""
     here = [*start]
     for _ in range(ARRAY_STEPS):
         value, steps = misfits(here), [size * APART for size in map(abs, here)]
@@ -507,7 +514,7 @@ def by_newton_arrays(misfits: Misfits, start: Sequence[Any]) -> list[Any]:
 
 
 def proved_together(misfits: Misfits, middles: Misfits, near: Sequence[Any]) -> list[Any]:
-    """The balls about values within which all misfits surely vanish, by Miranda's theorem."""
+    """The balls about values in which all misfits surely vanish, by Miranda's theorem."""
     from flint import arb
 
     sides = range(len(near))
@@ -518,7 +525,7 @@ def proved_together(misfits: Misfits, middles: Misfits, near: Sequence[Any]) -> 
     inverse = [tuple(middle(each) for each in row) for row in inverse]
 
     def grown(tried: Sequence[Any]) -> list[Any]:
-        """The combinations of misfits that grow each along one unknown."""
+        """The combinations of misfits that each grow along one unknown."""
         found = misfits(tried)
         return [sum(a * g for a, g in zip(row, found, strict=True)) for row in inverse]
 

@@ -1,4 +1,4 @@
-"""Rational numbers: points and numbers that no operation rounds, as a scene states them."""
+"""Rational numbers: points and numbers of a scene without rounding."""
 
 from __future__ import annotations
 
@@ -12,18 +12,18 @@ from graphkin.numbers.arithmetic import Kind, nearest_quarter, quarter_turns
 
 
 class IrrationalError(ArithmeticError):
-    """A value that is no rational number, so that it cannot be reckoned with fractions."""
+    """A value that is not rational, so that fractions cannot represent it."""
 
 
 class Exact(Struct, frozen=True):
-    """A point or a number with rational coordinates, which no operation rounds."""
+    """A point or a number with rational coordinates."""
 
     real: Fraction
     imag: Fraction = Fraction(0)
 
     @classmethod
     def of(cls, value: Any) -> Exact:
-        """A number of any rational kind as it is; IrrationalError for pi and the like."""
+        """A number of any rational kind, unchanged. Raises IrrationalError for pi and the like."""
         if isinstance(value, Exact):
             return value
         if isinstance(value, complex):
@@ -68,16 +68,16 @@ class Exact(Struct, frozen=True):
         return Exact(root(self.square()))
 
     def conjugate(self) -> Exact:
-        """The mirror image in the real axis."""
+        """The complex conjugate."""
         return Exact(self.real, -self.imag)
 
     def square(self) -> Fraction:
-        """The square of the distance from nought."""
+        """The square of the absolute value."""
         return self.real**2 + self.imag**2
 
 
 def root(square: Fraction) -> Fraction:
-    """The square root of a fraction; IrrationalError where it is none."""
+    """The square root of a fraction. Raises IrrationalError if it is irrational."""
     top, bottom = isqrt(square.numerator), isqrt(square.denominator)
     if top**2 != square.numerator or bottom**2 != square.denominator:
         raise IrrationalError(f"the root of {square} is no rational number")
@@ -85,29 +85,29 @@ def root(square: Fraction) -> Fraction:
 
 
 class Rational(Kind, frozen=True):
-    """Rational numbers: what a scene states as it is written, before anything is rounded."""
+    """Rational numbers: the values of a scene as written, before any rounding."""
 
     def direction(self, degrees: Any) -> Exact:
-        """Unit vector at whole quarters of a turn; IrrationalError at other angles."""
+        """Unit vector at whole quarter turns. Raises IrrationalError at other angles."""
         quarter = nearest_quarter(degrees)
         if degrees != 90 * quarter:
             raise IrrationalError(f"the direction of {degrees} degrees")
         return Exact.of(complex(quarter_turns(quarter)))
 
     def radians(self, angle: Any) -> Exact:
-        """Unit vector at the angle nought."""
+        """Unit vector at the angle zero. Raises IrrationalError at other angles."""
         if angle != Exact.of(0):
             raise IrrationalError(f"the direction of {angle} radians")
         return Exact.of(1)
 
 
 def irrational(value: Any, *others: Any, **named: Any) -> Any:
-    """A function whose values are not rational."""
+    """A function with irrational values."""
     raise IrrationalError(f"a function of {value}")
 
 
 class Pi:
-    """A number that is no fraction: neither is what is reckoned with it."""
+    """An irrational number; every result with it is irrational, too."""
 
     __neg__ = __abs__ = __lt__ = irrational
     __add__ = __sub__ = __mul__ = __truediv__ = __pow__ = irrational

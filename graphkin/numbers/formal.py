@@ -1,9 +1,10 @@
-"""Formal numbers: what a construction makes exactly, and what vanishes whatever its numbers are.
+"""Formal numbers: exact results of a construction, and zeros that hold for all values.
 
-A polynomial, with rational coefficients in the complex plane, in letters that stand for numbers of
-which nothing more is needed: real ones (pi, a root, a length found by compass) and directions,
-whose conjugates are their inverses. Powers may be negative. What is no polynomial gets a letter of
-its own: so what comes out as a fraction, or as zero, is so for every value of the letters.
+A formal number is a polynomial with rational complex coefficients in letters. Letters represent
+numbers of which nothing more is needed: real ones (pi, a root, a length found by compass) and
+directions, whose conjugates are their inverses. Powers may be negative. Whatever is no polynomial
+gets a letter of its own. A result that is a fraction, or zero, is therefore so for all values of
+the letters.
 """
 
 from __future__ import annotations
@@ -23,11 +24,11 @@ from graphkin.numbers.exact import Exact, IrrationalError, irrational, root
 MOST = 48
 """Terms beyond which a polynomial gets a letter of its own."""
 WIDEST = 2048
-"""Bits above or below the fraction bar beyond which a number is no longer kept as a fraction."""
+"""Bits above or below the fraction bar beyond which a number is not kept as a fraction."""
 
 
 class Letter(Struct, frozen=True, eq=False):
-    """What stands for a number: a real one, or a direction; ``over`` is the inverse of a sum."""
+    """A letter for a real number or a direction; ``over`` marks the inverse of a sum."""
 
     number: int
     direction: bool = False
@@ -55,22 +56,22 @@ class Formal:
 
     @classmethod
     def of(cls, value: Any) -> Formal:
-        """A rational number as it is; IrrationalError for what is none."""
+        """A rational number as a polynomial. Raises IrrationalError for others."""
         return value if isinstance(value, Formal) else cls({BARE: Exact.of(value)})
 
     @property
     def constant(self) -> Exact | None:
-        """The rational number that this is; None where letters are in it."""
+        """The rational value; None if the polynomial contains letters."""
         return self.terms.get(BARE, ZERO) if self.terms.keys() <= {BARE} else None
 
     @property
     def key(self) -> frozenset[tuple[Term, Exact]]:
-        """What it is, to name a letter by."""
+        """The identity of the polynomial, used to name a letter."""
         return frozenset(self.terms.items())
 
     @property
     def leading(self) -> Exact:
-        """The coefficient of one of its terms, the same one in all its multiples."""
+        """The coefficient of one of its terms, of the same term in all its multiples."""
         return self.terms[min(self.terms, key=sorted)]
 
     def __add__(self, other: Any) -> Formal:
@@ -120,7 +121,7 @@ class Formal:
         return (self * self.conjugate()).sqrt()
 
     def conjugate(self) -> Formal:
-        """The mirror image in the real axis."""
+        """The complex conjugate."""
         return Formal(
             {
                 frozenset((n, -p if n.direction else p) for n, p in term): each.conjugate()
@@ -139,7 +140,7 @@ class Formal:
         return (self - self.conjugate()) * -0.5j
 
     def sqrt(self) -> Formal:
-        """The square root: a fraction where it is one, else a letter."""
+        """The square root: a fraction where it is rational, else a letter."""
         if (value := self.constant) is not None and not value.imag and value.real >= 0:
             try:
                 return Formal.of(root(value.real))
@@ -148,7 +149,7 @@ class Formal:
         return letter(("root", self.key))
 
     def arg(self) -> Formal:
-        """The angle of a direction in radians: that of a quarter of a turn, else a letter."""
+        """The angle of a direction in radians: exact for quarter turns, else a letter."""
         value = self.constant
         if value is None or (value.real and value.imag):
             return letter(("angle", self.key))
@@ -164,7 +165,7 @@ class Formal:
         return found * letter(("turn", rest.key), direction=True) if rest.terms else found
 
     def simpler(self, other: Formal) -> Formal:
-        """This or another number, both of one value: the one of which more is known."""
+        """The better known of this and another number, both of one value."""
         return min(self, other, key=lambda each: bool(each.real.terms) + bool(each.imag.terms))
 
     def __lt__(self, other: Any) -> Any:
@@ -181,13 +182,13 @@ class Formal:
 
 
 class Undecided:
-    """A condition that may hold or not: nothing can be picked by it."""
+    """A condition that may hold or not, so that nothing can be selected by it."""
 
     __bool__ = __array__ = irrational
 
 
 def below_zero(value: Formal) -> Any:
-    """Whether a number is negative: one without letters, or with pi where that is plain."""
+    """Whether a number is negative, if it has no letters, or only pi and a clear sign."""
     (pi,) = PI.terms
     if value.terms.keys() <= {BARE, pi}:
         whole, turns = (value.terms.get(term, ZERO).real for term in (BARE, pi))
@@ -199,8 +200,10 @@ def below_zero(value: Formal) -> Any:
 
 @lru_cache(maxsize=4096)
 def letter(name: Hashable, direction: bool = False) -> Formal:
-    """The letter of a real number, or of a direction. One long unused may be followed by another
-    of its name."""
+    """The letter of a real number or a direction, cached by name.
+
+    A name that has left the cache gets a new letter.
+    """
     return Formal({frozenset({(Letter(next(COUNT), direction), 1)}): UNIT})
 
 
@@ -216,7 +219,7 @@ def point(name: Hashable) -> Formal:
 
 
 def kept(value: Formal) -> Formal:
-    """A polynomial, by a letter where it has grown too long to be reckoned with."""
+    """A polynomial, replaced by a letter if it has grown too long."""
     if len(value.terms) <= MOST and not any(map(is_wide, value.terms.values())):
         return value
     return letter(value.key) if is_real(value) else point(value.key)
@@ -233,7 +236,7 @@ def expanded(one: Formal, other: Formal) -> Formal:
 
 
 def cancelled(one: Formal, other: Formal) -> Formal | None:
-    """The product with the inverse of a sum that is the real or imaginary part of the other factor.
+    """The product with the inverse of a sum that is the other factor's real or imaginary part.
 
     None where there is nothing to cancel.
     """
@@ -250,7 +253,7 @@ def cancelled(one: Formal, other: Formal) -> Formal | None:
 
 
 def multiple(value: Formal, of: Formal | None) -> Exact | None:
-    """How many times a polynomial is another; None where it is not, or is nothing."""
+    """The ratio of a polynomial to another; None if it is no multiple, or is zero."""
     if not value.terms or of is None:
         return None
     ratio = value.leading / of.leading
@@ -262,12 +265,12 @@ def multiple(value: Formal, of: Formal | None) -> Exact | None:
 
 
 def is_real(value: Formal) -> bool:
-    """Whether a polynomial is its own mirror image."""
+    """Whether a polynomial equals its own conjugate."""
     return value.key == value.conjugate().key
 
 
 def is_wide(value: Exact) -> bool:
-    """Whether a fraction is so long that to reckon with it takes more time than it saves."""
+    """Whether a fraction is too long to be worth computing with."""
     parts = (value.real, value.imag)
     return any(max(abs(p.numerator), p.denominator).bit_length() > WIDEST for p in parts)
 
@@ -283,10 +286,10 @@ def product(one: Term, other: Term) -> Term:
 
 
 class FormalKind(Kind, frozen=True):
-    """Formal numbers: what a scene states as it is written, and letters for what is no fraction."""
+    """Formal numbers: the values of a scene as written, with letters for irrational numbers."""
 
     def direction(self, degrees: Any) -> Formal:
-        """Unit vector at an angle in degrees: of whole quarters of a turn exactly."""
+        """Unit vector at an angle in degrees, exact for whole quarter turns."""
         if not isinstance(degrees, Fraction):
             raise IrrationalError(f"the direction of {degrees} degrees")
         quarter = nearest_quarter(degrees)

@@ -1,7 +1,7 @@
-"""The number kinds beside Python's float: arrays of three lengths, decimals, balls that certify.
+"""The number kinds other than Python's float: arrays of three lengths, decimals, certified balls.
 
-All run the one program. Arrays hold many variants; decimals have as many digits as are asked; a
-ball is a number with a radius in which the true value surely lies.
+All of them run the same program. Arrays hold many variants. Decimals have as many digits as
+requested. A ball is a number with a radius that surely contains the true value.
 """
 
 from __future__ import annotations
@@ -14,16 +14,17 @@ from typing import Any
 from graphkin.numbers.arithmetic import FLOAT, Kind, batch_kind, is_ball, is_decimal, np, sqrt
 
 PI_REST = 1.2246467991473532e-16
-"""What pi is more than its double, to 33 digits in all together."""
+"""The difference of pi and its double; together they give pi to 33 digits."""
 GUARD = 10
-"""Digits carried beyond those that are asked of decimals."""
+"""Digits carried beyond the requested digits of decimals."""
 
 
 def array_kind(name: str) -> Kind:
-    """Arrays of numpy's float32, float64 or longdouble: what cannot be drawn becomes NaN.
+    """Arrays of numpy's float32, float64 or longdouble; impossible values become NaN.
 
-    What all variants share is worked out in doubles, or in longdoubles where those are asked, and
-    joins the arrays as a number of their own type: a choice between two of Python's own would not.
+    Values common to all variants are computed in doubles, or in longdoubles where requested. They
+    join the arrays as numbers of the array's type, because a choice between two Python numbers
+    would not.
     """
     if name == "float64":
         return batch_kind()
@@ -43,19 +44,19 @@ def array_kind(name: str) -> Kind:
 
 
 def split(exact: Any, dtype: Any) -> Any:
-    """An exact number as the sum of the double next to it and of what that lacks."""
+    """An exact number as the sum of the nearest double and the remainder."""
     whole = Fraction(exact)
     near = float(whole)
     return dtype(near) + dtype(float(whole - Fraction(near)))
 
 
 def sound_scalar(value: Any) -> bool:
-    """True unless a number of numpy's is infinite or none."""
+    """False for a numpy number that is infinite or NaN."""
     return not isinstance(value, np.number) or bool(np.isfinite(value))
 
 
 def decimal_kind(digits: int) -> Kind:
-    """Numbers of mpmath with so many digits that hold, and some more that are carried."""
+    """Numbers of mpmath with ``digits`` correct digits and some guard digits."""
     import mpmath
 
     context = mpmath.mp.clone()
@@ -64,7 +65,7 @@ def decimal_kind(digits: int) -> Kind:
 
 
 def kind_of_context(context: Any) -> Kind:
-    """The kind of the decimals of one context of mpmath."""
+    """The kind of the decimals of one mpmath context."""
 
     def number(exact: Any) -> Any:
         whole = Fraction(exact)
@@ -74,9 +75,9 @@ def kind_of_context(context: Any) -> Kind:
 
 
 def ball_kind(bits: int) -> Kind:
-    """Balls of Arb with so many bits (Johansson 2017): the true value surely lies in each.
+    """Balls of Arb with ``bits`` bits (Johansson 2017) that surely contain the true values.
 
-    What cannot be decided within the ball, such as a root of what may be negative, is not sound.
+    Undecided results, such as a root of a ball that may be negative, are not sound.
     """
     from flint import acb, arb, ctx, fmpq
 
@@ -97,14 +98,14 @@ def ball_kind(bits: int) -> Kind:
 
 
 def sound_ball(value: Any) -> bool:
-    """True unless a ball, or one of those of a line, a circle or a ratio, reaches to infinity."""
+    """False for a ball, or one of a line, circle or ratio, that is not finite."""
     if isinstance(value, tuple):
         return all(sound_ball(part) for part in value)
     return not is_ball(value) or bool(value.is_finite())
 
 
 def kind_of(*values: Any) -> Kind:
-    """The kind that some values of one run belong to; Python's float where none tells another."""
+    """The kind of some values of one run; Python's float if none shows another."""
     for value in values:
         if is_decimal(value):
             return kind_of_context(value.context)
@@ -120,11 +121,11 @@ def kind_of(*values: Any) -> Kind:
 NAMES = {"d": "float64", "D": "float64", "f": "float32", "F": "float32", "g": "longdouble"} | {
     "G": "longdouble"
 }
-"""The kinds of arrays by numpy's letters for reals and for complex numbers."""
+"""The kinds of arrays, by numpy's letters for real and complex numbers."""
 
 
 def in_doubles(value: Any) -> Any:
-    """The double, or the array of doubles, next to a number of any kind."""
+    """The nearest double, or array of doubles, to a number of any kind."""
     if hasattr(value, "shape") and value.shape:
         return value.astype(np.complex128 if value.dtype.kind == "c" else np.float64)
     if isinstance(value, complex | float | int):
@@ -135,12 +136,12 @@ def in_doubles(value: Any) -> Any:
 
 
 def is_real_ball(value: Any) -> bool:
-    """Whether a ball is one of real numbers."""
+    """Whether a ball is real."""
     from flint import arb
 
     return isinstance(value, arb)
 
 
 def middle(value: Any) -> Any:
-    """The middle of a ball; any other number as it is."""
+    """The middle of a ball; any other number unchanged."""
     return value.mid() if is_ball(value) else value

@@ -1,7 +1,7 @@
-"""Points and lines of the plane as complex numbers, and the primitives whose errors are bounded.
+"""Points and lines of the plane as complex numbers, and primitives with bounded errors.
 
-Each primitive keeps its coordinates local to the figure and its error within the bound that its
-docstring names (eps = 2^-52, s = sine of the angle of crossing, L the largest length involved).
+Each primitive keeps its coordinates local to the figure and its error within the bound in its
+docstring (eps = 2^-52, s = sine of the angle of crossing, L = the largest length involved).
 """
 
 from __future__ import annotations
@@ -34,8 +34,11 @@ class Vector(NamedTuple):
 
 
 class Ratio(NamedTuple):
-    """The point ``start + shift / size``, kept apart because ``size`` may vanish: then it is far
-    away in the direction of ``shift``."""
+    """The point ``start + shift / size``.
+
+    Its parts are kept separate because ``size`` may vanish: the point is then far away in the
+    direction of ``shift``.
+    """
 
     start: Point
     shift: Point
@@ -43,13 +46,13 @@ class Ratio(NamedTuple):
 
 
 def by_parts(work: Callable[..., Any], *values: Any) -> Any:
-    """A value of the make of the first, a line or another tuple, each part worked out by itself."""
+    """A value of the first one's type, a line or another tuple, computed part by part."""
     parts = [work(*each) for each in zip(*values, strict=True)]
     return type(values[0])(*parts) if hasattr(values[0], "_fields") else tuple(parts)
 
 
 def cross(u: Point, v: Point) -> Real:
-    """Signed area of the parallelogram of two vectors, positive when v lies to the left of u."""
+    """Signed area of the parallelogram of two vectors, positive for v to the left of u."""
     return u.real * v.imag - u.imag * v.real
 
 
@@ -59,7 +62,7 @@ def dot(u: Point, v: Point) -> Real:
 
 
 def line_meets_line(m: Line, n: Line) -> Point:
-    """Crossing of two lines, stepped off from the anchor that lies nearer to it.
+    """Intersection of two lines, measured from the nearer anchor.
 
     Error at most 4·eps·(L/s + abs X). Parallel lines raise ZeroDivisionError on a scalar.
     """
@@ -86,7 +89,7 @@ def in_order(a: Real, b: Real) -> tuple[Real, Real]:
 def triangle_area(a: Real, b: Real, c: Real) -> Real:
     """Area of the triangle with three given sides.
 
-    Kahan, "Miscalculating Area and Angles of a Needle-like Triangle" (2014); no such triangle
+    Kahan, "Miscalculating Area and Angles of a Needle-like Triangle" (2014). An impossible triangle
     raises ValueError on a scalar.
     """
     b, a = in_order(a, b)
@@ -99,7 +102,7 @@ def triangle_area(a: Real, b: Real, c: Real) -> Real:
 
 
 def circle_meets_circle(m: Circle, n: Circle, side: int) -> Point:
-    """Crossing of two circles to the left (side +1) or right (-1) of the way from m to n.
+    """Intersection of two circles, left (side +1) or right (-1) of the line from m to n.
 
     Error at most 4·eps·((r1 + r2 + d)/s + abs X). Circles that do not meet raise ValueError.
     """
@@ -121,9 +124,9 @@ def circles_sine(m: Circle, n: Circle) -> Real:
 
 
 def line_meets_circle(line: Line, circle: Circle, way: int) -> Point:
-    """Crossing of a line and a circle, the farther along the line (way +1) or the nearer (-1).
+    """Intersection of a line and a circle, the farther along the line (way +1) or the nearer (-1).
 
-    Error at most 8·eps·((r + PC)/s + abs X). A line that passes by raises ValueError.
+    Error at most 8·eps·((r + PC)/s + abs X). A line that misses the circle raises ValueError.
     """
     unit = line.along / abs(line.along)
     offset = (circle.centre - line.point) * unit.conjugate()

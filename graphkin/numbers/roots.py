@@ -1,7 +1,7 @@
-"""Where functions of one number vanish, many at once: brackets on a grid, then closing in.
+"""Roots of many functions of one number at once: brackets on a grid, then refinement.
 
 ``Misfit`` gives the values of many functions at one place each: which functions (K,), where (K,),
-as arrays of equal length; NaN where a function is not defined.
+as arrays of equal length; NaN where a function is undefined.
 """
 
 from __future__ import annotations
@@ -15,41 +15,40 @@ Array = Any
 Misfit = Callable[[Array, Array], Array]
 
 ROUNDS = 60
-"""Most rounds of closing in; halving alone needs 53 for all digits of a double."""
+"""The most rounds of refinement; bisection alone needs 53 for all digits of a double."""
 CLOSE = 1e-6
-"""Misfit left at a root, in parts of its interval's: rounding leaves far less, a pole more."""
+"""Misfit left at a root, relative to its interval's: rounding leaves far less, a pole more."""
 GROWN = 4.0
-"""How many times the misfit of an interval may grow within it before it counts as a pole."""
+"""Growth of the misfit within an interval beyond which it counts as a pole."""
 SURE = 8
-"""Rounds after which a misfit that has grown is taken for a pole."""
+"""Rounds after which a misfit that has grown counts as a pole."""
 NEXT = 4e-16
-"""How far apart two neighbouring numbers lie, in parts of their size."""
+"""Relative distance of two neighbouring numbers."""
 POLE = 4 * NEXT
-"""How far from a pole its sides are looked at."""
+"""Relative distance from a pole at which its sides are examined."""
 DEEPEST = 1e3
-"""How deep a misfit may dip within three places, in parts of how far it rises at the outer two.
+"""Largest dip of a misfit within three places, relative to its rise at the outer two.
 
-A parabola with two roots within dips an eighth, an edge half; what only rounding moves rises not
-at all.
+A parabola with two roots dips an eighth, an edge half. A change by rounding alone does not rise.
 """
 HIDDEN = 1e-13
-"""Least misfit, in parts of the largest, below which rounding hides whether there is a root."""
+"""Relative misfit below which rounding hides whether there is a root."""
 GOLDEN = 0.3819660112501051
-"""The smaller part of a way divided in the golden ratio."""
+"""The smaller part in the golden section."""
 
 
 def roots(misfit: Misfit, grid: Array) -> tuple[Array, Array]:
-    """Every root of n functions, each on its own grid of places (n, M): function, place of each."""
+    """Every root of n functions, each on its own grid of places (n, M): function and place."""
     which, place, touching = roots_and_touches(misfit, grid)
     return which[~touching], place[~touching]
 
 
 def roots_and_touches(misfit: Misfit, grid: Array) -> tuple[Array, Array, Array]:
-    """As roots, with the places where rounding may hide two roots: whether each is one of these.
+    """The roots, with places where rounding may hide two roots, and a mark for these.
 
-    Between neighbours of the grid a change of sign is a root, unless it is a pole. Where the
-    misfit turns back towards zero its least value is looked for, and where a function breaks off
-    the very end of it, so that two roots close together are found there too.
+    A change of sign between grid neighbours is a root, unless it is a pole. Where the misfit turns
+    back towards zero, its minimum is located. Where a function breaks off, its last place is
+    located. Two roots close together are thus found there, too.
     """
     size, places = grid.shape
     owner = np.repeat(np.arange(size), places)
@@ -69,7 +68,7 @@ def roots_and_touches(misfit: Misfit, grid: Array) -> tuple[Array, Array, Array]
 
 
 def beside_breaks(misfit: Misfit, grid: Array, value: Array) -> list[tuple[Array, Array, Array]]:
-    """Intervals with a root between the last place of a grid and where the function breaks off."""
+    """Intervals with a root between the last grid place and the function's break."""
     there = np.isfinite(value)
     element, at = np.nonzero(there[:, :-1] != there[:, 1:])
     if not element.size:
@@ -90,7 +89,7 @@ def beside_breaks(misfit: Misfit, grid: Array, value: Array) -> list[tuple[Array
 
 
 def roots_beside_poles(misfit: Misfit, pole: Misfit, grid: Array) -> tuple[Array, Array]:
-    """Roots that share an interval of the grid with a pole, so that no change of sign shows them.
+    """Roots that share a grid interval with a pole, so that there is no change of sign.
 
     ``pole`` vanishes at the poles.
     """
@@ -117,7 +116,7 @@ def roots_beside_poles(misfit: Misfit, pole: Misfit, grid: Array) -> tuple[Array
 def beside_turns(
     element: Array, low: Array, best: Array, high: Array, least: Array
 ) -> list[tuple[Array, Array, Array]]:
-    """Intervals with two roots, one on each side of where a function turns beyond zero."""
+    """Intervals with two roots, one on each side of a minimum beyond zero."""
     crossed = least <= 0
     which, middle = element[crossed], best[crossed]
     return [(which, low[crossed], middle), (which, middle, high[crossed])]
@@ -126,24 +125,23 @@ def beside_turns(
 def touches(
     value: Array, element: Array, low: Array, best: Array, high: Array, least: Array
 ) -> tuple[Array, Array]:
-    """Where functions turn so near zero, without crossing it, that rounding may hide two roots.
+    """Places where functions turn so near zero that rounding may hide two roots.
 
-    ``value`` are those of the functions on their grids.
+    ``value`` are the values of the functions on their grids.
     """
     near = (least > 0) & (least < HIDDEN * largest(value)[element])
     return element[near], best[near]
 
 
 def largest(value: Array) -> Array:
-    """The largest value of each function on its grid."""
     return np.nanmax(abs(value), axis=1, initial=0)
 
 
 def turns(misfit: Misfit, grid: Array, value: Array) -> tuple[Array, Array, Array, Array, Array]:
-    """Where functions turn back towards zero: which, three places about each, the least misfit.
+    """Minima of functions towards zero: which function, three places about each, the least misfit.
 
-    Golden section towards it, until it has been found, or crosses zero by more than rounding, then
-    negative, or stands so much higher than it rises on both sides that it cannot fall to zero.
+    Golden section searches until it has converged or crosses zero by more than rounding; the least
+    misfit is then negative. It also stops where the function is too high to fall to zero.
     """
     size = abs(value)
     here, near = size[:, 1:-1], np.sign(value[:, 1:-1])
@@ -212,10 +210,10 @@ def halved_in(
     found: tuple[Array, Array],
     rough: Array,
 ) -> None:
-    """Close in by halves on ``rough`` roots, which false position does not settle.
+    """Refine by bisection the ``rough`` roots that false position does not settle.
 
-    So does one that lies just before a jump of its function. ``found`` are the best place of each
-    and the misfit there, which are set anew.
+    A root just before a jump of its function is one of them. ``found`` holds the best place of each
+    root and the misfit there; both are updated.
     """
     (low, high), (best, least) = ends, found
     live = np.flatnonzero(rough)
@@ -232,35 +230,37 @@ def halved_in(
         start, end = np.where(beyond, start, middle), np.where(beyond, middle, end)
 
 
-# --- windows in which functions of one number are defined: their ends, and roots beside these -----
+# --- windows in which functions of one number are defined, their ends, and roots near these -------
 
 
 BESIDE = 0.5
-"""How far from the end of a window its first place lies, in steps of the places before easing."""
+"""Distance of a window's first place from its end, in steps of the places before easing."""
 STRAIGHT = 8.0
-"""How many times rounding moves what is close enough to a root: nearer the end the curve counts as
-straight, as rounding hides it there."""
+"""Multiple of rounding within which the curve near an end counts as straight.
+
+Rounding hides the curvature there.
+"""
 WHOLE = 0.9
-"""Most of the way to the place next to an end that counts as straight."""
+"""The largest share of the distance to the next place that counts as straight."""
 OPENS = 1.5
-"""How many times more the signs differ twice as far from the end, at least; 2 where they meet."""
+"""Least growth of the signs' difference at twice the distance; 2 where the signs meet."""
 DOUBLINGS = 40
-"""Most doublings of the distance at which doubles can draw a dyad that is stretched nearly flat."""
+"""The most doublings of the distance at which doubles can draw a nearly flat dyad."""
 NOISY = 10
-"""Places, from a quarter of that distance on, at which they can: rounding lets one of them pass."""
+"""Places, from a quarter of that distance on, that must be drawable; rounding excuses one."""
 LEAST = 16.0
-"""That distance at least, in parts of how far two neighbouring numbers about one lie apart."""
+"""The least such distance, in gaps between neighbouring numbers near one."""
 
 
 class Windows(NamedTuple):
-    """Whose each window is (W,), and its places from end to end (W, M)."""
+    """The owner of each window (W,), and its places from end to end (W, M)."""
 
     owner: Array
     places: Array
 
 
 class Ends(NamedTuple):
-    """Whose each end of a window is (E,), where it lies (E,), and the window's place next to it."""
+    """The owner of each window end (E,), its place (E,), and the window's next place."""
 
     owner: Array
     at: Array
@@ -268,9 +268,9 @@ class Ends(NamedTuple):
 
 
 def narrowed(reaches: Misfit, windows: Windows) -> tuple[Windows, Ends]:
-    """The parts of windows in which a smooth function is positive, and their ends where it is zero.
+    """The parts of windows in which a smooth function is positive, and their ends at its zeros.
 
-    Places lead up to such an end, not into it.
+    The places come close to such an end but do not include it.
     """
     owner, places = windows
     size, count = places.shape
@@ -295,20 +295,20 @@ def narrowed(reaches: Misfit, windows: Windows) -> tuple[Windows, Ends]:
 
 
 def ease(share: Any) -> Any:
-    """Shares from 0 to 1, closer together near both ends: there a root grows steeply."""
+    """Shares from 0 to 1, denser near both ends, where a square root grows steeply."""
     return (1 - np.cos(np.pi * share)) / 2
 
 
-# --- beside a flat end ---------------------------------------------------------------------------
+# --- roots near a flat end ------------------------------------------------------------------------
 
 
 def fits_beside(
     misfit: Callable[[Array, Array, Array], Array], at: Array, beside: Array
 ) -> tuple[Array, Array, Array, Array]:
-    """Every fit near n ends of windows: which end, place, sign, and whether it only may be one.
+    """Every root near n ends of windows: end, place, sign, and whether it is uncertain.
 
-    ``misfit`` gives the values of which functions (K,), at which places and signs (K,). ``at`` has
-    where each ends (n,), in radians or shares of a way, ``beside`` the window's place next to it.
+    ``misfit`` gives the values of functions (K,) at places and signs (K,). ``at`` are the ends
+    (n,), in radians or shares of a way, and ``beside`` the windows' next places.
     """
     way = beside - at
     grain = NEXT * np.maximum(abs(at), 1) / np.maximum(abs(way), NEXT)
@@ -347,7 +347,7 @@ def fits_beside(
 
 
 def may_vanish(value: Array) -> Array:
-    """Of which rows of values some change their sign, or turn back towards zero."""
+    """The rows of values that change sign or turn back towards zero."""
     size = abs(value)
     turned = (size[:, 1:-1] <= size[:, :-2]) & (size[:, 1:-1] <= size[:, 2:])
     return (np.sign(value[:, 1:]) != np.sign(value[:, :-1])).any(axis=1) | turned.any(axis=1)

@@ -1,1 +1,1 @@
-"""What the lecturer wrote: a TOML scene read into frozen records with exact numbers."""
+"""The scene of a lecturer: a TOML file read into frozen records with exact numbers."""

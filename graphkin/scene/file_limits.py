@@ -1,4 +1,4 @@
-"""From bytes to tables: what a file may be before anything in it is read, and how to mend it."""
+"""From bytes to tables: the limits of a file before it is read, and hints for its mistakes."""
 
 from __future__ import annotations
 
@@ -19,20 +19,20 @@ from graphkin.text import paths
 from graphkin.text.errors import Hint, InLine, Mend, Problem, SceneError
 
 LARGEST = 256 * 1024
-"""Bytes of a scene file."""
+"""The most bytes of a scene file."""
 LARGEST_KEPT = 64 << 20
-"""Bytes of a file that an earlier run kept: a manifest, a table of marks, a reading."""
+"""The most bytes of a file from an earlier run: a manifest, a table of marks, a reading."""
 LONGEST_LINE = 4000
 DOTTED = r"(?<![\w\"'.-])(?>[\w\"'-]+[ \t]*\.[ \t]*){16}"
 ROUNDED = r"[=\[,]\s*(\([^][()\"']*,[^][()\"']*[])]|\[[^][()\"']*,[^][()\"']*\))"
 """A list with a round bracket."""
 CURLED = "“”„‟‘’‚«»″"
-"""Quotes that a word processor writes."""
+"""Quotation marks that a word processor writes."""
 WHERE = r"\s*\(at (?:line (\d+), column (\d+)|end of document)\)\s*$"
 
 
 def read_bytes(path: paths.Named) -> bytes:
-    """The bytes of a file, no more than a scene may have; SceneError when there are none."""
+    """The bytes of a scene file, up to one beyond the limit. Raises SceneError."""
     try:
         return file_bytes(path, LARGEST + 1)
     except (OSError, ValueError) as error:
@@ -41,9 +41,9 @@ def read_bytes(path: paths.Named) -> bytes:
 
 
 def file_bytes(path: paths.Named, most: int) -> bytes:
-    """The bytes of a file, as far as ``most`` of them; nothing waits for a pipe or a device.
+    """The first ``most`` bytes of a file, without waiting for a pipe or a device.
 
-    Raises OSError where there is no such file; ValueError for what can be no path.
+    Raises OSError where there is no such file, ValueError for an impossible path.
     """
     mode = paths.mode(path)
     if mode and not (S_ISREG(mode) or S_ISDIR(mode)):
@@ -52,7 +52,7 @@ def file_bytes(path: paths.Named, most: int) -> bytes:
 
 
 def whole_file(path: paths.Named, most: int = LARGEST_KEPT) -> bytes:
-    """All bytes of a file that has no more than ``most``; raises OSError for a larger one."""
+    """All bytes of a file of at most ``most`` bytes; raises OSError for a larger one."""
     data = file_bytes(path, most + 1)
     if len(data) > most:
         raise OSError(EFBIG, f"it is larger than {most >> 20} MiB", str(path))
@@ -74,14 +74,14 @@ def decoded(data: bytes) -> str:
 
 
 def in_line(at: InLine, found: str, expected: str = "", hint: Hint = "") -> Problem:
-    """The problem of a line that is not read on."""
+    """The problem of a line at which reading stops."""
     return Problem(str(at), found, expected, hint, about=(at,))
 
 
 def tables_of(text: str, findings: Findings | None = None) -> dict[str, object]:
-    """The tables of a TOML text; SceneError with the line where it is not TOML.
+    """The tables of a TOML text. Raises SceneError with the line where it is not TOML.
 
-    What is written twice is noted in ``findings``, where these are given, and the text is read on.
+    With ``findings``, duplicate keys are recorded there and reading continues.
     """
     text = text.removeprefix("\ufeff")
     refuse_bombs(text)
@@ -115,7 +115,7 @@ def parsed(text: str) -> dict[str, Any]:
 
 
 def refuse_bombs(text: str) -> None:
-    """Refuse what would take long to read: too much text, too long a line, too long a key."""
+    """Raise SceneError for text that would take long to read: a large text, line or key."""
     if len(text) > LARGEST:
         raise SceneError(Problem("", "the scene is too large", f"at most {LARGEST // 1024} KiB"))
     for number, line in enumerate(text.splitlines(), 1):
@@ -128,7 +128,7 @@ def refuse_bombs(text: str) -> None:
 
 
 def syntax_problem(message: str, text: str) -> Problem:
-    """What the TOML reader found, at its line."""
+    """The problem that the TOML reader found, at its line."""
     where = re.search(WHERE, message)
     found = message[: where.start()] if where else message
     found = f"{found[:1].lower()}{found[1:160]}"
@@ -149,7 +149,7 @@ def syntax_problem(message: str, text: str) -> Problem:
 
 
 def value_hint(line: str, at: int) -> Hint:
-    """How to mend a value that TOML cannot read, from its line and the index of the fault."""
+    """A hint for a value that TOML cannot read, from its line and the index of the fault."""
     comma = re.search(r"=\s*(-?\d+,\d+)", line)
     if comma:
         pointed = comma[1].replace(",", ".")
@@ -176,7 +176,7 @@ def value_hint(line: str, at: int) -> Hint:
 
 
 def in_quotes(what: str, value: str) -> Mend:
-    """A value that is to stand in quotes."""
+    """The correction of a value that must be quoted."""
     return Mend(value, f'"{value}"', f'put the {what} in quotes: "{visible(value)}"')
 
 
@@ -195,9 +195,9 @@ PLAIN = "a number stands here: 12"
 MEASURED = frozenset(
     ("angle", "speed", "acceleration", "position", "offset", "length", "radius", "module")
 )
-"""Keys of numbers with a unit, beside those of lengths and angles between points."""
+"""Keys of numbers with a unit, except lengths and angles between points."""
 COUNTED = frozenset(("value", "min", "max", "step", "teeth", "time"))
-"""Keys of numbers that no unit of the scene measures."""
+"""Keys of numbers without a unit."""
 ADVICE = (
     ("expected '='", "between a key and its value stands ="),
     ("expected ']", HEADING),
@@ -213,28 +213,28 @@ ADVICE = (
     ("unescaped '\\'", "write a backslash twice, or put the text in single quotes"),
     ("invalid statement", PARTS),
 )
-"""How what the reader of TOML says begins, and what helps."""
+"""Hints, by the beginning of the TOML reader's message."""
 OTHER_LETTER = (
     "“{letter}” ({code}) is no letter of a name: these are A to Z and a to z without accents"
 )
 OF_KEYS = ("invalid statement", "invalid initial character", "expected '='", "expected ']'")
-"""How what the reader says of a name begins that has a letter of another alphabet."""
+"""Beginnings of the TOML reader's messages about a name with a letter of another alphabet."""
 LAST = "'\\n'"
-"""The sign that stands where a text is not closed on its line."""
+"""The character that the reader names where a text is not closed on its line."""
 
 
 def advice(found: str, line: str, at: int, known: Hint = "") -> Hint:
-    """What helps against a fault that is found in a line at an index; nothing where none is known.
+    """A hint for a fault in a line at an index; empty if there is none.
 
-    ``found`` is what the TOML reader says, its first letter small; ``known`` is a hint that comes
-    of the value itself, and better than a general one.
+    ``found`` is the TOML reader's message, in lower case at its start. ``known`` is a hint derived
+    from the value, which precedes a general one.
     """
     rest = line[at:].strip() if at >= 0 else ""
     return certain(found, line, rest) or known or general(found, line[: max(at, 0)], rest)
 
 
 def certain(found: str, line: str, rest: str) -> Hint:
-    """What helps against a fault that can be nothing else; ``rest`` stands from the fault on."""
+    """A hint for a fault that has only one explanation; ``rest`` is the line from the fault on."""
     if line.lstrip().startswith("[") and found.startswith("expected ']"):
         return HEADING
     if rest and rest[0].isalpha() and not rest[0].isascii() and found.startswith(OF_KEYS):
@@ -249,9 +249,9 @@ def certain(found: str, line: str, rest: str) -> Hint:
 
 
 def number_hint(before: str) -> str:
-    """What is to stand where a key wants a number; nothing where none is known to.
+    """A hint for a key that needs a number; empty for other keys.
 
-    ``before`` is the line as far as the value.
+    ``before`` is the line up to the value.
     """
     key = re.search(r"([\w-]+)[ \t]*=[ \t]*$", before)
     name = key[1] if key else ""
@@ -261,7 +261,7 @@ def number_hint(before: str) -> str:
 
 
 def general(found: str, before: str, rest: str) -> str:
-    """What helps against what the reader says, by what stands before and after."""
+    """A general hint from the reader's message and the text before and after the fault."""
     if found.startswith("invalid value"):
         if not rest or rest[0] in "#,]}":
             return f"the value is missing: {VALUE}"
@@ -279,11 +279,11 @@ def general(found: str, before: str, rest: str) -> str:
 
 
 SPARE = "\ue000"
-"""Begins the name that a key gets instead of one which is taken: a sign of no alphabet."""
+"""Start of the name that replaces a duplicate key: a character of no alphabet."""
 
 
 def written_twice(text: str) -> tuple[list[Problem], str, list[Again]]:
-    """What stands twice in a text, the text with other names for it, and where it was."""
+    """The problems of duplicates, the text with the duplicates renamed, and their places."""
     again = walked(text).again
     problems = [problem_of(text, each) for each in again]
     for number, each in reversed([*enumerate(again)]):
@@ -292,7 +292,7 @@ def written_twice(text: str) -> tuple[list[Problem], str, list[Again]]:
 
 
 def problem_of(text: str, each: Again) -> Problem:
-    """The problem of a key or a table, at its second place."""
+    """The problem of a duplicate key or table, at its second place."""
     first, at = (text.count("\n", 0, start) + 1 for start in (each.first.start, each.key.start))
     place = InLine(at, each.key.start - text.rfind("\n", 0, each.key.start))
     found = f"{dotted(each.path)} is written twice, first in line {first}"
@@ -313,7 +313,7 @@ def dotted(path: Path) -> str:
 
 
 def read_once(tables: dict[str, Any], again: Iterable[Again]) -> dict[str, Any]:
-    """The tables of a text with other names: a key has its first value, a table all its keys."""
+    """The tables of a renamed text: a key keeps its first value, a table gets all its keys."""
     for number, each in enumerate(again):
         own = tables.pop(f"{SPARE}{number}", None)
         if isinstance(own, dict) and isinstance(whole := inside(tables, each.path), dict):
@@ -325,7 +325,7 @@ def read_once(tables: dict[str, Any], again: Iterable[Again]) -> dict[str, Any]:
 
 
 def inside(value: Any, path: Path) -> Any:
-    """What stands at a path; None where nothing does."""
+    """The value at a path, or None."""
     with suppress(LookupError, TypeError):
         for key in path:
             value = value[key]

@@ -1,8 +1,8 @@
-"""Links without substance that keep a wheel on what it rolls on, where no link of the scene does.
+"""Massless links that keep a wheel in contact where no link of the scene does.
 
-Two wheels that touch keep the distance of their centres: a bar joins these. A wheel on a straight
-track that pins and wheels alone hold keeps its centre on a parallel to the track: a block is there.
-Neither takes anything from the motion, and both count as the contact does that they stand for.
+Two wheels in contact keep the distance of their centres: a bar joins the centres. A wheel on a
+straight track, held only by pins and wheels, keeps its centre on a parallel to the track: a block
+slides there. Neither restricts the motion, and both count like the contact that they represent.
 """
 
 from __future__ import annotations
@@ -31,15 +31,15 @@ from graphkin.scene.model import (
 from graphkin.scene.quantity import Quantity, exact
 
 ON_LINE = 1e-12
-"""How far beside a track, in parts of the way along it, a point still lies on it."""
+"""Distance from a track, relative to the length along it, within which a point lies on it."""
 
 
 def with_keepers(
     frame: Link, links: Mapping[str, Link], drivers: Sequence[Driver], measures: Measures
 ) -> tuple[Link, dict[str, Link]]:
-    """The frame and the links, those that wheels need to stay where they roll put in.
+    """The frame and the links, with the links added that keep wheels in contact.
 
-    A name that a scene gives one, ``rolls = { …, link = "arm" }``, asks for it.
+    A scene may name such a link, ``rolls = { …, link = "arm" }``, and so request it.
     """
     written = laid_on_rollers({FRAME: frame, **links}, drivers, measures)
     tracks = {
@@ -63,10 +63,10 @@ def with_keepers(
 def laid_on_rollers(
     written: Mapping[str, Link], drivers: Sequence[Driver], measures: Measures
 ) -> dict[str, Link]:
-    """The links, those that lie on rollers of one size sliding along the track of these.
+    """The links, with those that lie on rollers of one size made to slide along the rollers' track.
 
-    Of two that may lie on one another that one does which a driver slides, else that of which
-    fewer points are pins, the later written.
+    Of two links that may lie on one another, a driven slide is chosen. Otherwise it is the link
+    with fewer pins, and then the one written later.
     """
     free = {name: link for name, link in written.items() if name != FRAME and not link.slides}
     guides = {name: roller_guide(written, link, measures) for name, link in free.items()}
@@ -88,10 +88,10 @@ def laid_on_rollers(
 
 
 def roller_guide(written: Mapping[str, Link], plank: Link, measures: Measures) -> Slide | None:
-    """The guide along which rollers of one size keep a plank, twice their radius from their track.
+    """The guide of a plank on rollers of one size: twice their radius from the rollers' track.
 
-    None where they do not: each rolls on one line of the plank and on one of another link. What
-    slides on the plank, such as a rack, bears none of it.
+    None if the rollers do not form one: each must roll on one line of the plank and on one of
+    another link. Links that slide on the plank, such as a rack, do not carry it.
     """
     borne = {name for name, link in written.items() if any(s.on == plank.name for s in link.slides)}
     pairs = [
@@ -124,7 +124,7 @@ def roller_guide(written: Mapping[str, Link], plank: Link, measures: Measures) -
 
 
 def height_on(plank: Link, track: Rolling) -> Quantity | None:
-    """How far a track along a link's x axis lies to the left of the link's first point."""
+    """The distance of a track along a link's x axis to the left of the link's first point."""
     first = place_on(plank, plank.points[0]) if plank.points else None
     there = place_on(plank, track.through)
     if first is None or there is None or track.angle is None or not track.angle.is_zero():
@@ -133,14 +133,14 @@ def height_on(plank: Link, track: Rolling) -> Quantity | None:
 
 
 def place_on(link: Link, point: str | tuple[Quantity, Quantity] | None) -> Quantity | None:
-    """How far a point of a link, or a place on it, is written to lie left of its x axis."""
+    """The written distance of a point of a link, or place on it, to the left of its x axis."""
     if isinstance(point, tuple):
         return point[1]
     return next((p.y for p in link.placings if isinstance(p, At) and p.point == point), None)
 
 
 def same_line(link: Link, one: Rolling, other: Rolling, measures: Measures) -> bool:
-    """Whether two tracks of a link are one line with one side, as it is written."""
+    """Whether two tracks of a link are written as one line with one side."""
     if one.on != other.on or one.side != other.side or None in (one.angle, other.angle):
         return False
     assert one.angle is not None and other.angle is not None
@@ -161,7 +161,7 @@ def same_line(link: Link, one: Rolling, other: Rolling, measures: Measures) -> b
 def written_place(
     link: Link, point: str | tuple[Quantity, Quantity] | None, measures: Measures
 ) -> complex | None:
-    """Where a point of a link is written to lie: by coordinates, or from another that is (m)."""
+    """The written position (m) of a point: by coordinates, or from a point that has them."""
     values = measures.values
     if isinstance(point, tuple):
         return complex(*(float(each.si(values)) for each in point))
@@ -183,9 +183,10 @@ def keeper_of(
     turned: Collection[str],
     measures: Measures,
 ) -> Link | None:
-    """The link that keeps a wheel on what it rolls on; None where there is no need of one.
+    """The link that keeps a wheel in contact; None where none is needed.
 
-    A bar ``turned`` by a driver, on a drum of the frame, is placed by both: all else hangs on it.
+    A bar ``turned`` by a driver on a drum of the frame needs one: bar and drum locate everything
+    else.
     """
     own, rolling = every[name], every[name].rolls[index]
     on = every.get(rolling.on)
@@ -215,13 +216,13 @@ def keeper_of(
 
 
 def bears(links: Mapping[str, Link], wheel: str, track: str) -> bool:
-    """Whether a wheel is a roller that bears what slides along its track: it does not hold that."""
+    """Whether a wheel is a roller under a link on its track, and so does not hold it."""
     slides = (slide for link in links.values() for slide in link.slides)
     return any(slide.on == track and wheel in slide.rollers for slide in slides)
 
 
 def counted_alike(rolling: Rolling, keeper: str) -> Rolling:
-    """A rolling with its keeper: a block counts its angle as the bar along which it slides."""
+    """A rolling with its keeper, in which a block counts its angle like the bar it slides along."""
     start, turns = dict(rolling.start), dict(rolling.turns)
     if rolling.angle is not None:
         bar = start.get(rolling.on)
@@ -232,7 +233,7 @@ def counted_alike(rolling: Rolling, keeper: str) -> Rolling:
 
 
 def loose_pair(every: Mapping[str, Link], own: Link, on: Link) -> tuple[Wheel, Wheel] | None:
-    """The wheel that rolls and that on which it does, where no third link carries the centres."""
+    """The wheel that rolls and its track wheel, where no third link carries both centres."""
     pairs = [(w, t) for w in own.wheels for t in on.wheels if not (w.inside and t.inside)]
     others = [set(link.points) for link in every.values() if link is not own and link is not on]
     kept = any({w.centre, t.centre} <= points for w, t in pairs for points in others)
@@ -240,9 +241,9 @@ def loose_pair(every: Mapping[str, Link], own: Link, on: Link) -> tuple[Wheel, W
 
 
 def bar_between(wheel: Wheel, track: Wheel, measures: Measures) -> Link | None:
-    """The bar from the centre of the wheel rolled on to that of the wheel that rolls there.
+    """The bar from the centre of the track wheel to the centre of the rolling wheel.
 
-    None where a ring is no larger than the wheel within it, which is told elsewhere.
+    None where a ring is no larger than the wheel within it; another check reports that.
     """
     if wheel.radius is None or track.radius is None:
         return None
@@ -264,7 +265,7 @@ def origin(point: str, measures: Measures) -> At:
 
 
 def combined(sign: str, one: Quantity, other: Quantity) -> Quantity:
-    """The sum or the difference of two lengths, in their unit."""
+    """The sum or difference of two lengths, in the unit of the first."""
     text = f"({one.text}) {sign} ({other.text})"
     return Quantity(text, Sum(sign, one.tree, other.tree), one.unit, one.place)
 
@@ -279,10 +280,10 @@ def block_on(wheel: Wheel, rolling: Rolling, measures: Measures) -> Link | None:
 
 
 def joints_of(every: Mapping[str, Link], name: str, drivers: Collection[Driver]) -> int:
-    """How many pins, slides, drivers and wheels of its own hold a link; the frame needs none.
+    """The number of pins, slides, drivers and own wheels that hold a link; 2 for the frame.
 
-    What hangs on the link holds nothing: neither links that it alone joins to the frame, nor the
-    equivalent linkage of a cam, which lifts a follower.
+    Links attached to this link alone do not hold it. Neither does the equivalent linkage of a cam,
+    which lifts a follower.
     """
     if name == FRAME:
         return 2
@@ -298,7 +299,7 @@ def joints_of(every: Mapping[str, Link], name: str, drivers: Collection[Driver])
 
 
 def moves(every: Mapping[str, Link], driver: Driver, name: str, pinned: bool) -> set[str]:
-    """The link against which a driver sets a link in its place; none where it only turns it."""
+    """The link against which a driver positions a link; none where the driver only turns it."""
     ends = {driver.link, driver.against}
     if name not in ends:
         return set()
@@ -310,7 +311,7 @@ def moves(every: Mapping[str, Link], driver: Driver, name: str, pinned: bool) ->
 
 
 def reached(every: Mapping[str, Link], but: str) -> set[str]:
-    """The links that joints lead to from the frame without passing one of them."""
+    """The links that joints connect to the frame without one given link."""
     cams = {link.cam.link for link in every.values() if link.cam is not None}
     beside: dict[str, set[str]] = {name: set() for name in every}
     owners: dict[str, str] = {}

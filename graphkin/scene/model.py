@@ -1,7 +1,7 @@
-"""What a lecturer wrote, as frozen records: numbers exact and in their written units.
+"""A scene as frozen records: numbers are exact and in their written units.
 
-Nothing here is solved. A link's points come as *placings*, in an order in which each uses only
-points before it; where a link is put in the plane is for the construction to find.
+Nothing is solved here. A link's points come as *placings*, in an order in which each uses only
+earlier points. The construction finds where a link lies in the plane.
 """
 
 from __future__ import annotations
@@ -30,7 +30,7 @@ Lengths = tuple[tuple[str, str, Quantity], ...]
 
 
 class Parameter(Struct, frozen=True):
-    """A number that a variant may change, with the range it may take."""
+    """A number that a variant may change, with its permitted range."""
 
     name: str
     value: Quantity
@@ -48,7 +48,7 @@ class At(Struct, frozen=True):
 
 
 class Polar(Struct, frozen=True):
-    """``P = {from, length, angle}``: so far from a point, at an angle to the link's x axis."""
+    """``P = {from, length, angle}``: at a distance from a point, at an angle to the x axis."""
 
     point: str
     start: str
@@ -65,7 +65,7 @@ class Apart(Struct, frozen=True):
 
 
 class Triangle(Struct, frozen=True):
-    """Two lengths and ``P = "left of A-B"``: side +1 left of the way from A to B, -1 right."""
+    """Two lengths and ``P = "left of A-B"``: side is +1 left of the line from A to B, -1 right."""
 
     point: str
     first: str
@@ -78,8 +78,8 @@ class Triangle(Struct, frozen=True):
 class OnLine(Struct, frozen=True):
     """``P = "on A-B"`` or ``"beyond B on A-B"``: at a distance from ``start`` along A to B.
 
-    sense +1 steps from ``start`` the way from ``first`` to ``second``, -1 the other way.
-    ``by_parts``: the scene says that ``second`` lies on the bar from ``first`` to ``point``.
+    sense +1 steps from ``start`` in the direction from ``first`` to ``second``, -1 in the other.
+    ``by_parts`` means that the scene places ``second`` on the bar from ``first`` to ``point``.
     """
 
     point: str
@@ -94,7 +94,7 @@ class OnLine(Struct, frozen=True):
 class Angled(Struct, frozen=True):
     """``P-Q-R`` with ``Q-R``: R at that distance from Q, turned counter-clockwise from QP.
 
-    P where ``R-Q-P`` is written and P is placed: ``clockwise``, by the angle's negative.
+    ``clockwise`` is for P where ``R-Q-P`` is written: the angle counts as negative.
     """
 
     point: str
@@ -123,10 +123,11 @@ def lengths_of(placing: Placing) -> Lengths:
 class Slide(Struct, frozen=True):
     """A block on a straight guide of link ``on``.
 
-    The guide passes ``through`` a point of that link (a name, or coordinates) at an angle to its
-    x axis, or ``along`` two of its points (zero of the coordinate at the first, positive towards
-    the second). The block's first point keeps the distance ``offset`` to the left of the guide.
-    ``rollers`` of one size, which keep a link parallel to their track, stand for a guide.
+    The guide passes ``through`` a point of that link, given by name or coordinates, at an angle to
+    its x axis. Or it runs ``along`` two of its points; the coordinate is then zero at the first and
+    positive towards the second. The block's first point keeps the distance ``offset`` to the left
+    of the guide. ``rollers`` of one size, which keep a link parallel to their track, may replace a
+    guide.
     """
 
     on: str
@@ -138,11 +139,11 @@ class Slide(Struct, frozen=True):
     rollers: tuple[str, ...] = ()
 
     def named(self, block: str) -> str:
-        """The guide of a link."""
+        """The description of the guide of a block."""
         return f"the guide of block {block} on {link_words(self.on)}"
 
     def called(self, names: Mapping[str, str]) -> Slide:
-        """The same with links by other names."""
+        """The slide with links renamed."""
         return replace(self, on=names.get(self.on, self.on))
 
 
@@ -156,7 +157,7 @@ class Wheel(Struct, frozen=True):
 
 
 def of_one_size(one: Wheel, other: Wheel) -> bool:
-    """Whether two wheels are as large whatever the parameters: written alike, or equal numbers."""
+    """Whether two wheels have one size for all parameters: written alike, or equal numbers."""
     r, s = one.radius, other.radius
     if r is None or s is None:
         return False
@@ -168,7 +169,7 @@ def of_one_size(one: Wheel, other: Wheel) -> bool:
 class Belt(Struct, frozen=True):
     """A belt, chain or rope round two wheels, ``crossed`` or open.
 
-    ``wheels`` are the places, in the lists of their links, of the wheel and of the one ``on``.
+    ``wheels`` are the indices, in their links' lists, of the wheel and of the one it runs ``on``.
     """
 
     crossed: bool = False
@@ -176,17 +177,17 @@ class Belt(Struct, frozen=True):
 
     @property
     def sense(self) -> int:
-        """+1 where both turn opposite ways against their arm, as gears do; -1 the same way."""
+        """+1 where the wheels turn oppositely relative to their arm, like gears; else -1."""
         return 1 if self.crossed else -1
 
 
 class Rolling(Struct, frozen=True):
     """A wheel that rolls without slip on a straight or circular track of link ``on``.
 
-    With a ``belt`` the wheel does not touch the other: the belt joins their rims, without slip.
-    ``turns`` are the whole turns to be added to the angle of a link that only its pins show, which
-    is else the one within half a turn of its ``start``. ``keeper`` is the link without substance
-    that keeps the wheel there, where no link of the scene does.
+    With a ``belt`` the wheels do not touch: the belt joins their rims, without slip. ``turns`` are
+    whole turns, added to the angle of a link that only its pins determine. That angle is otherwise
+    within half a turn of its ``start``. ``keeper`` is the massless link that keeps the wheel in
+    contact, where no link of the scene does.
     """
 
     on: str
@@ -199,11 +200,11 @@ class Rolling(Struct, frozen=True):
     keeper: str = ""
 
     def named(self, wheel: str) -> str:
-        """The contact of a link."""
+        """The description of the contact of a wheel."""
         return f"the contact of link {wheel} with {link_words(self.on)}"
 
     def called(self, names: Mapping[str, str]) -> Rolling:
-        """The same with links by other names."""
+        """The rolling contact with links renamed."""
         return replace(
             self,
             on=names.get(self.on, self.on),
@@ -214,15 +215,15 @@ class Rolling(Struct, frozen=True):
 
 
 GuideOrTrack = Slide | Rolling
-"""What leads a link."""
+"""A joint that guides a link."""
 
 
 class Profile(Struct, frozen=True):
     """The edge by which a link touches another: an arc about a point of the link, only drawn.
 
-    It passes ``through`` the place where a point stands now, which another link may own, and is
-    drawn over an ``arc`` about it, as far as there is room where none is told. The link of a
-    ``hollow`` lies beyond it, and is not drawn to its centre.
+    It passes ``through`` the present position of a point, which may belong to another link. It is
+    drawn over an ``arc`` about that position or, without one, as far as there is room. For a
+    ``hollow``, the link lies beyond the arc and is not drawn to its centre.
     """
 
     about: str
@@ -232,9 +233,9 @@ class Profile(Struct, frozen=True):
 
 
 class CamPiece(Struct, frozen=True):
-    """A piece of a cam's law: up to the angle ``to`` it lifts by ``rise``, nought in a dwell.
+    """A piece of a cam's law: up to the angle ``to`` it lifts by ``rise``, zero in a dwell.
 
-    A piece of a table is a cubic between two of its points; ``slopes`` are its derivatives at both
+    A piece of a table is a cubic between two of its points. ``slopes`` are its derivatives at both
     ends times its angle.
     """
 
@@ -245,10 +246,10 @@ class CamPiece(Struct, frozen=True):
 
 
 class CamLever(Struct, frozen=True):
-    """A follower that a cam swings about the ``pin``: its bar leads from there to the tip.
+    """A follower that a cam swings about ``pin``, with its bar from there to the tip.
 
-    ``side`` is +1 where it stands left of the line from the cam's pivot to the pin. A flat face
-    runs beside the bar, ``face`` nearer to the cam.
+    ``side`` is +1 for a bar left of the line from the cam's pivot to the pin. A flat face is
+    parallel to the bar, ``face`` nearer to the cam.
     """
 
     pin: str
@@ -264,17 +265,18 @@ class Conjugate(Struct, frozen=True):
 
 
 class Cam(Struct, frozen=True):
-    """What lifts a follower, by its law: the disc of link ``on``, which turns about ``pivot``.
+    """A cam that lifts a follower by a law: the disc of link ``on``, which turns about ``pivot``.
 
-    ``tip`` is the follower's: a roller of the radius ``roller``, a knife, a flat face; ``point`` is
-    its centre, its edge, a point of it. A ``lever`` swings, else the follower slides. The law
-    counts from the cam's angle ``start``, ``sense`` +1 counter-clockwise. The equivalent linkage
-    of an instant joins the centre of curvature ``centre``, a point of the cam, by link ``link``.
-    A ``conjugate`` roller closes it; it takes nothing from the motion.
+    ``tip`` is the follower's tip: a roller of the radius ``roller``, a knife, or a flat face.
+    ``point`` is the roller's centre, the knife's edge, or a point of the face. A follower with a
+    ``lever`` swings; another slides. The law counts from the cam's angle ``start``,
+    counter-clockwise for ``sense`` +1. The equivalent linkage of an instant joins the centre of
+    curvature ``centre``, a point of the cam, by link ``link``. A ``conjugate`` roller keeps contact
+    on the other side and does not change the motion.
 
-    All is seen from the link ``carrier`` that guides the follower, or carries its pin. A cam that
-    ``slides`` on that link is a plate, level along the path of its point ``pivot``; its law is of
-    its coordinate there, and counts from ``start``, forwards with ``sense`` +1.
+    All positions are relative to the link ``carrier`` that guides the follower or carries its pin.
+    A cam that ``slides`` on that link is a plate, level along the path of its point ``pivot``. The
+    law is then a function of its coordinate, counted from ``start``, forward for ``sense`` +1.
     """
 
     on: str
@@ -295,19 +297,19 @@ class Cam(Struct, frozen=True):
 
     @property
     def is_flat(self) -> bool:
-        """Whether a face touches the cam."""
+        """Whether the follower touches the cam with a flat face."""
         return self.tip == "flat"
 
     @property
     def slopes(self) -> tuple[tuple[Quantity, Quantity], ...]:
-        """Those of the cubics of a table; none of a law of motions."""
+        """The slopes of a table's cubics; none for a law of motions."""
         return tuple(piece.slopes for piece in self.law if piece.slopes is not None)
 
     def displacement(self, place: Point, values: Mapping[str, Any], kind: Kind = FLOAT) -> Rise:
-        """How far the follower is lifted, with the derivatives by the cam's angle or coordinate.
+        """The lift of the follower, with its derivatives by the cam's angle or coordinate.
 
-        ``place`` is the cam's axis as the carrier sees it, or the coordinate (m) of one that
-        slides.
+        ``place`` is the direction of the cam's axis relative to the carrier, or the coordinate (m)
+        of a cam that slides.
         """
         from graphkin.numbers.cam_motions import displaced, displaced_along
 
@@ -328,22 +330,22 @@ class Cam(Struct, frozen=True):
         return found._replace(rate=self.sense * found.rate)
 
     def called(self, names: Mapping[str, str]) -> Cam:
-        """The same with links by other names."""
+        """The cam with links renamed."""
         on, link, carrier = (names.get(name, name) for name in (self.on, self.link, self.carrier))
         return replace(self, on=on, link=link, carrier=carrier)
 
 
 JOINED = ("slides", "rolls", "belt", "wheel", "wheels")
-"""The keys of what a link is joined by beside its points."""
+"""The keys of a link's joints other than points."""
 KEYWORDS = frozenset((*JOINED, "touches", "profiles", "cam"))
 LEADING = "slides or rolls"
-"""The keys of what leads a link along another, in words."""
+"""The keys, in words, of joints that guide a link along another."""
 LINK_KEYS = "slides, rolls, belt, wheel, touches or profiles"
-"""The keys of a link beside its points, in words."""
+"""The keys, in words, of a link other than its points."""
 
 
 class Link(Struct, frozen=True):
-    """A rigid body: its points in the order written, how they are placed, what it slides on."""
+    """A rigid body: its points in the order written, their placings, its guides and wheels."""
 
     name: str
     points: tuple[str, ...]
@@ -355,7 +357,7 @@ class Link(Struct, frozen=True):
     cam: Cam | None = None
 
     def wheel_sign(self, wheel: Wheel) -> str:
-        """What one of its wheels is called: as the link, after the first with primes, 2, 2′, 2″."""
+        """The label of one of its wheels: the link's name, then with primes: 2, 2′, 2″."""
         return self.name + ("′" * self.wheels.index(wheel)).replace("′′", "″")
 
     @property
@@ -365,21 +367,21 @@ class Link(Struct, frozen=True):
 
     @property
     def has_wheels(self) -> bool:
-        """Whether it has wheels, or rolls on those of others."""
+        """Whether the link has wheels, or rolls on those of others."""
         return bool(self.wheels or self.rolls)
 
     @property
     def paths(self) -> tuple[GuideOrTrack, ...]:
-        """What it slides and rolls on."""
+        """The guides and tracks on which the link slides and rolls."""
         return (*self.slides, *self.rolls)
 
     @property
     def spare_paths(self) -> tuple[GuideOrTrack, ...]:
-        """Those that may be idle: what its wheels roll on, and all its guides but the first."""
+        """The joints that may be idle: tracks of its wheels, and all guides except the first."""
         return (*self.rolls, *self.slides[1:])
 
     def without(self, path: GuideOrTrack) -> Link:
-        """The same without one of its guides or tracks."""
+        """The link without one of its guides or tracks."""
         slides = tuple(each for each in self.slides if each is not path)
         return replace(self, slides=slides, rolls=tuple(r for r in self.rolls if r is not path))
 
@@ -388,7 +390,7 @@ class Link(Struct, frozen=True):
         return any(each.hollow and each.about == point for each in self.profiles)
 
     def called(self, names: Mapping[str, str]) -> Link:
-        """The same by another name, with those of the links that it slides and rolls on."""
+        """The link renamed, and with the links renamed on which it slides and rolls."""
         return replace(
             self,
             name=names.get(self.name, self.name),
@@ -399,24 +401,25 @@ class Link(Struct, frozen=True):
 
 
 def link_words(name: str) -> str:
-    """A link by its name, link 0 as the frame."""
+    """A link by its name; link 0 is the frame."""
     return "the frame" if name == FRAME else f"link {name}"
 
 
 def joined_words(names: Sequence[str]) -> str:
-    """Several links by their names, the frame apart."""
+    """Several links by their names; the frame is named separately."""
     return listed(map(link_words, names)) if FRAME in names else f"links {listed(names)}"
 
 
 DriverKind = Literal["turn", "slide", "roll"]
 DRIVEN: tuple[str, ...] = get_args(DriverKind)
-"""What a driver can do to a link, as written."""
+"""The kinds of driver, as written."""
 
 
 class Driver(Struct, frozen=True):
-    """A motion that is given: link ``link`` turns, slides or rolls ``against`` another.
+    """A given motion: link ``link`` turns, slides or rolls ``against`` another.
 
-    ``of`` names the line (from, to) of the link whose angle is meant; without it the link's x axis.
+    ``of`` names the line (from, to) of the link whose angle is given; without it, the x axis
+    counts.
     """
 
     kind: DriverKind
@@ -429,7 +432,7 @@ class Driver(Struct, frozen=True):
 
 
 class Side(Struct, frozen=True):
-    """``B = "right of A-O2"``: +1 left, -1 right of the way from ``first`` to ``second``."""
+    """``B = "right of A-O2"``: +1 left, -1 right of the line from ``first`` to ``second``."""
 
     first: str
     second: str
@@ -461,10 +464,11 @@ Branch = Side | Way | Closure
 
 
 class Ask(Struct, frozen=True):
-    """What is asked of the mechanism; points may be written ``A@3``.
+    """The requested quantities; points may be written ``A@3``.
 
-    ``pairs`` are two links joined by a dash, ``2-4``, whose relative centre is asked, in the order
-    of the scene with the frame first; ``curves`` are points whose paths are asked.
+    ``pairs`` are two links with a dash, such as ``2-4``, whose relative centre is requested. They
+    are in the order of the scene, with the frame first. ``curves`` are points whose paths are
+    requested.
     """
 
     velocity: tuple[str, ...] = ()
@@ -481,33 +485,33 @@ class Ask(Struct, frozen=True):
 
     @property
     def anything(self) -> bool:
-        """Whether anything is asked."""
         return any(astuple(self))
 
     @property
     def any_centres(self) -> bool:
-        """Whether instantaneous centres are drawn: for their own sake, or for circles."""
+        """Whether instantaneous centres are drawn: as requested, or for inflection circles."""
         return bool(self.centres or self.pairs or self.inflection)
 
     @property
     def chosen_by_place(self) -> bool:
-        """Whether something is asked whose way is chosen by where the mechanism stands."""
+        """Whether a request is solved in a way that depends on the position of the mechanism."""
         return bool(self.pairs or self.inflection)
 
     @property
     def any_poles(self) -> bool:
-        """Whether acceleration poles are drawn: for their own sake, or for circles."""
+        """Whether acceleration poles are drawn: as requested, or for inflection circles."""
         return bool(self.poles or self.inflection)
 
 
 class Sheet(Struct, frozen=True):
-    """What the title block and the page say beyond the drawing.
+    """The contents of the title block and the options of the page.
 
-    ``method`` is what gives components of accelerations: triangles, or Klein's construction;
-    ``plan`` what velocities are drawn as: images alone, or Kutzbach's plan of a train with them.
-    ``rule`` is how large plans are: as large as they fit, or as the lab draws them, the vectors of
-    the crank's pin as long as the crank; ``enlarge`` how many times as long, one number for each
-    plan or one for both. ``student`` is whose sheet it is: a class says so, no scene.
+    ``method`` selects how components of accelerations are found: triangles, or Klein's
+    construction. ``plan`` selects how velocities are drawn: images alone, or Kutzbach's plan of a
+    train with them. ``rule`` sets the size of plans: as large as possible, or as in the lab, with
+    vectors of the crank's pin as long as the crank. ``enlarge`` is the factor on that length, one
+    number for each plan or one for both. ``student`` is the owner of the sheet, set by a class, not
+    by a scene.
     """
 
     owner: str = ""
@@ -540,12 +544,12 @@ def quantities_within(part: object) -> Iterator[Quantity]:
 
 
 class Scene(Struct, frozen=True, dict=True):
-    """A planar mechanism in one position, with what is asked of it.
+    """A planar mechanism in one position, with the requested quantities.
 
-    ``near`` are angles within half a turn of which those of links are taken, where a motion says
-    more than the ``start`` of what rolls: no scene states them, a sweep does.
-    ``titles`` and ``notes`` hold texts per language, ``names`` what links are called in each;
-    ``values`` the parameters as set, exact.
+    ``near`` gives angles within half a turn of which links' angles are taken, where a motion says
+    more than the ``start`` of a rolling. Scenes do not state them; sweeps do. ``titles`` and
+    ``notes`` hold texts per language, and ``names`` the links' names in each. ``values`` holds the
+    parameters as set, exact.
     """
 
     name: str
@@ -573,25 +577,24 @@ class Scene(Struct, frozen=True, dict=True):
 
     @property
     def fixed_points(self) -> tuple[str, ...]:
-        """The points of the frame that stand still; the centre of curvature of a cam at rest does
-        not."""
+        """The points of the frame that do not move, unlike a fixed cam's centre of curvature."""
         return tuple(point for point in self.frame.points if point not in self.cam_centres)
 
     @property
     def keepers(self) -> Mapping[str, tuple[str, Rolling]]:
-        """The links without substance that keep wheels where they roll, with the wheels' links."""
+        """The massless links that keep wheels in contact, with the wheels' links."""
         every = ((link.name, rolling) for link in self.every_link for rolling in link.rolls)
         return {rolling.keeper: (name, rolling) for name, rolling in every if rolling.keeper}
 
     @property
     def unseen(self) -> frozenset[str]:
-        """The keepers of wheels that no driver moves: links of which nobody need speak."""
+        """The keepers of wheels that no driver moves; they are not mentioned to the reader."""
         driven = {end for driver in self.drivers for end in (driver.link, driver.against)}
         return frozenset(name for name in self.keepers if name not in driven)
 
     @property
     def bare(self) -> Scene:
-        """The scene without its unseen keepers: what counts as links and pairs."""
+        """The scene without its unseen keepers, as links and pairs are counted."""
         if not (unseen := self.unseen):
             return self
 
@@ -606,23 +609,23 @@ class Scene(Struct, frozen=True, dict=True):
 
     @property
     def touching(self) -> tuple[tuple[str, str], ...]:
-        """Each wheel with the link on which it rolls or to which a belt runs, as written."""
+        """Each wheel's link with the link on which it rolls or to which a belt runs, as written."""
         return tuple((link.name, each.on) for link in self.every_link for each in link.rolls)
 
     @property
     def in_touch(self) -> tuple[tuple[str, str], ...]:
-        """The same without those that an open belt turns alike: none of their points touch."""
+        """The contacts except open belts on wheels of one size, whose points never touch."""
         every = ((link.name, each) for link in self.every_link for each in link.rolls)
         return tuple((name, each.on) for name, each in every if not self.turn_alike(name, each))
 
     @property
     def belted(self) -> tuple[tuple[str, str], ...]:
-        """Those that a belt joins."""
+        """The pairs of links that a belt joins."""
         links = self.links.values()
         return tuple((link.name, each.on) for link in links for each in link.rolls if each.belt)
 
     def turn_alike(self, name: str, rolling: Rolling) -> bool:
-        """Whether an open belt joins a wheel of a link ``name`` with another of its size."""
+        """Whether an open belt joins a wheel of link ``name`` with another of the same size."""
         belt = rolling.belt
         if belt is None or belt.crossed:
             return False
@@ -654,7 +657,7 @@ class Scene(Struct, frozen=True, dict=True):
         return self.frame if name == FRAME else self.links[name]
 
     def values_in(self, kind: Kind) -> Mapping[str, object]:
-        """The values, with the moment as a number of a kind, for it may be no fraction."""
+        """The values, with the time as a number of the given kind; it may be no fraction."""
         if kind is FLOAT or self.time is None:
             return self.values
         return {**self.values, TIME: self.time.number(self.values, kind)}

@@ -1,4 +1,4 @@
-"""The few words of a scene: names, and phrases such as "left of A-B" or "closure 1"."""
+"""The vocabulary of a scene: names, and phrases such as "left of A-B" or "closure 1"."""
 
 from __future__ import annotations
 
@@ -19,28 +19,28 @@ WAYS = {"forward": 1, "backward": -1}
 
 
 def is_name(text: str) -> bool:
-    """Whether a text is a letter, then letters, digits or underscores, and not too long."""
+    """Whether a text is a letter followed by letters, digits or underscores, and not too long."""
     return (
         text.isascii() and text[:1].isalpha() and text.isidentifier() and len(text) <= LONGEST_NAME
     )
 
 
 def is_link_name(text: str) -> bool:
-    """Whether a text is a name, or a whole number that does not begin with nought."""
+    """Whether a text is a name, or a whole number without a leading zero."""
     digits = text.isascii() and text.isdigit() and text[0] != "0"
     return is_name(text) or (digits and len(text) <= LONGEST_NAME)
 
 
 def line(text: str) -> tuple[str, str] | None:
-    """The two points of ``P-Q``; None when it is no such thing."""
+    """The two points of ``P-Q``, or None if the text has another form."""
     first, _, second = text.partition("-")
     return (first, second) if is_name(first) and is_name(second) and first != second else None
 
 
 class OnWords(Struct, frozen=True):
-    """``"on A-B"``, or ``"beyond B on A-B"`` with ``beyond`` one of the two ends.
+    """``"on A-B"``, or ``"beyond B on A-B"`` with ``beyond`` as one of the two ends.
 
-    ``by_parts``: what is written is that this end lies on the bar whose parts are given.
+    ``by_parts`` means that the scene places this end on a bar whose parts are given.
     """
 
     first: str
@@ -50,7 +50,7 @@ class OnWords(Struct, frozen=True):
 
 
 def point_name(place: str, name: object, findings: Findings) -> str | None:
-    """The name of a point; None, with a problem noted, when it cannot be one."""
+    """The name of a point; None, with a problem recorded, if it is not valid."""
     if isinstance(name, str) and is_name(name):
         if name.lower() == FRAME_WORD:
             findings.add(place, f"a point named {name}", "a name that is not the frame's")
@@ -70,7 +70,7 @@ def point_name(place: str, name: object, findings: Findings) -> str | None:
 def link_name(
     place: str, raw: object, findings: Findings, meant: str = "the name of a link"
 ) -> str | None:
-    """The name of a link written as a text or a whole number; ``frame`` and 0 are the frame."""
+    """The name of a link, written as text or whole number; ``frame`` and 0 are the frame."""
     if isinstance(raw, int) and not isinstance(raw, bool) and 0 <= raw < 10**6:
         return str(raw)
     if isinstance(raw, str):
@@ -88,7 +88,7 @@ def link_name(
 
 
 def asked_point(place: str, raw: object, findings: Findings) -> str | None:
-    """A point of which something is asked: ``A``, or ``A@3`` for the point of link 3 under A."""
+    """A requested point: ``A``, or ``A@3`` for the point of link 3 under A."""
     if isinstance(raw, str) and is_under(raw):
         point, link = ends_of(raw)
         of, own = point_name(place, point, findings), link_name(place, link, findings)
@@ -107,12 +107,12 @@ def line_words(place: str, raw: object, findings: Findings) -> tuple[str, str] |
 
 
 def phrase(text: str) -> list[str]:
-    """The words of a phrase, a line ``P - Q`` being one word."""
+    """The words of a phrase; a line ``P - Q`` counts as one word."""
     return text.replace(" - ", "-").split()
 
 
 def side_words(text: str) -> Side | None:
-    """``"left of A-B"`` or ``"right of A-B"``; None when it is neither."""
+    """``"left of A-B"`` or ``"right of A-B"``; None for any other text."""
     match phrase(text):
         case ["left" | "right" as side, "of", word] if ends := line(word):
             return Side(*ends, SIDES[side])
@@ -120,7 +120,7 @@ def side_words(text: str) -> Side | None:
 
 
 def on_words(text: str) -> OnWords | None:
-    """``"on B-C"`` or ``"beyond C on B-C"``; None when it is neither."""
+    """``"on B-C"`` or ``"beyond C on B-C"``; None for any other text."""
     match phrase(text):
         case ["on", word] if ends := line(word):
             return OnWords(*ends)
@@ -130,7 +130,7 @@ def on_words(text: str) -> OnWords | None:
 
 
 def branch_words(text: str) -> Branch | None:
-    """A branch of assembly: a side, ``forward``, ``backward`` or ``closure 1``."""
+    """A branch statement: a side, ``forward``, ``backward`` or ``closure 1``."""
     match phrase(text):
         case ["forward" | "backward" as way]:
             return Way(WAYS[way])
@@ -140,14 +140,13 @@ def branch_words(text: str) -> Branch | None:
 
 
 CLOSURE = "closure"
-"""The first word of a branch that is a closure by its number."""
+"""The first word of a branch statement with a closure number."""
 PLACES = (*SIDES, "on", "beyond")
-"""Those of what says where a point of a link lies."""
+"""The first words of phrases that place a point of a link."""
 
 
 def phrase_hint(raw: object, begins: Collection[str]) -> Hint:
-    """How a phrase that should begin with one of some words may have been meant; empty where that
-    cannot be told."""
+    """A correction of a phrase that should begin with one of some words; empty if there is none."""
     words = phrase(raw) if isinstance(raw, str) else []
     if not words:
         return ""
@@ -161,7 +160,7 @@ def phrase_hint(raw: object, begins: Collection[str]) -> Hint:
 
 
 def key_points(place: str, key: str, findings: Findings) -> tuple[str, ...] | None:
-    """Points of a link's key: ``P``, ``P-Q`` or ``P-Q-R``; None, with a problem, if no such key."""
+    """The points of a key ``P``, ``P-Q`` or ``P-Q-R``; None, with a problem, for other keys."""
     parts = key.split("-")
     if len(parts) > 3 or not all(is_name(part) for part in parts):
         findings.add(

@@ -1,5 +1,6 @@
-"""The points of a link placed in its own axes, each by points placed before it; whether its
-triangles close, at the parameters as set.
+"""Placement of a link's points in its own axes, each by earlier points, and the check of triangles.
+
+Triangles are checked at the parameters as set.
 """
 
 from __future__ import annotations
@@ -29,7 +30,7 @@ PHRASES = '"left of A-B", "right of A-B", "on A-B" or "beyond B on A-B"'
 
 
 class LinkKeys(Struct):
-    """What the keys of a link say, before its points are placed; broken when a key is lost."""
+    """The keys of a link before its points are placed; ``broken`` when a key is unreadable."""
 
     place: str
     points: list[str] = field(default_factory=list)
@@ -46,7 +47,7 @@ class LinkKeys(Struct):
 
 
 def read_sketch(table: Table, measures: Measures) -> LinkKeys:
-    """All keys of a link that speak of its points; problems are noted."""
+    """All keys of a link that concern its points; problems are recorded."""
     sketch = LinkKeys(table.place)
     for key, raw in table.raw.items():
         if key not in KEYWORDS:
@@ -56,7 +57,7 @@ def read_sketch(table: Table, measures: Measures) -> LinkKeys:
 
 
 def read_key(sketch: LinkKeys, key: str, raw: object, place: str, measures: Measures) -> None:
-    """One key of a link: a point, a length or an angle."""
+    """Read one key of a link: a point, a length or an angle."""
     points = key_points(place, key, measures.findings)
     if points is None or misspelt(key, raw, place, measures.findings):
         sketch.broken = True
@@ -87,7 +88,7 @@ POLAR = ("from", "length", "angle")
 
 
 def misspelt(key: str, raw: object, place: str, findings: Findings) -> bool:
-    """Whether a key that looks like a point holds a guide, a track or a wheel; it is noted."""
+    """Whether a key that looks like a point holds a guide, track or wheel; that is recorded."""
     if "-" in key:
         return False
     held = raw[0] if isinstance(raw, list) and raw else raw
@@ -101,7 +102,7 @@ def misspelt(key: str, raw: object, place: str, findings: Findings) -> bool:
 
 
 def read_point(sketch: LinkKeys, point: str, raw: object, place: str, measures: Measures) -> None:
-    """One point by coordinates, by a polar table or by a phrase."""
+    """Read one point given by coordinates, a polar table or a phrase."""
     if isinstance(raw, list):
         sketch.spots[point] = measures.point(place, raw)
         sketch.broken |= len(raw) != 2
@@ -118,7 +119,7 @@ def read_point(sketch: LinkKeys, point: str, raw: object, place: str, measures: 
 
 
 def read_polar(sketch: LinkKeys, point: str, table: Table, measures: Measures) -> None:
-    """``{ from, length, angle }``: a point so far from another, at an angle to the x axis."""
+    """Read ``{ from, length, angle }``: a distance from a point, at an angle to the x axis."""
     start = point_name(table.at("from"), table.take("from"), measures.findings)
     length = measures.length(table.at("length"), table.take("length"), positive=True)
     angle = measures.angle(table.at("angle"), table.take("angle"))
@@ -130,7 +131,7 @@ def read_polar(sketch: LinkKeys, point: str, table: Table, measures: Measures) -
 
 
 def explain(sketch: LinkKeys, waiting: list[str], placed: set[str], findings: Findings) -> None:
-    """Note, for each point left over, what it lacks; points that only wait for those are passed."""
+    """Record what each unplaced point lacks, except points that only wait for others."""
     before = len(findings.problems)
     for point in waiting:
         found, expected, hint = missing(sketch, point, placed)
@@ -147,7 +148,7 @@ def explain(sketch: LinkKeys, waiting: list[str], placed: set[str], findings: Fi
 
 
 def refuse_circle(sketch: LinkKeys, points: Iterable[str], findings: Findings) -> bool:
-    """Note the first points that are laid off by lengths and angles from one another, if any."""
+    """Record the first points that are placed from one another in a circle, if any."""
     for point in points:
         circle = [point]
         while (polar := sketch.polars.get(circle[-1])) and polar.start not in circle:
@@ -163,7 +164,7 @@ def refuse_circle(sketch: LinkKeys, points: Iterable[str], findings: Findings) -
 
 
 def missing(sketch: LinkKeys, point: str, placed: set[str]) -> tuple[str, str, Hint]:
-    """What one point lacks: found, expected and hint; empty when it only waits for another."""
+    """What one point lacks: found, expected and hint; empty if it only waits for another point."""
     polar, words = sketch.polars.get(point), sketch.words.get(point)
     if polar is not None:
         return unknown(sketch, "from", [polar.start], point)
@@ -201,7 +202,7 @@ def missing(sketch: LinkKeys, point: str, placed: set[str]) -> tuple[str, str, H
 
 
 def bare_turn(sketch: LinkKeys, point: str, placed: set[str]) -> str:
-    """The length that an angle of this point wants, where it is not written."""
+    """The length that an angle at this point needs and that is not written."""
     for first, vertex, last in sketch.angles:
         ready = point in (first, last) and {first, vertex, last} - {point} <= placed
         if ready and sketch.between(vertex, point) is None:
@@ -210,7 +211,7 @@ def bare_turn(sketch: LinkKeys, point: str, placed: set[str]) -> str:
 
 
 def bare_base(sketch: LinkKeys, point: str, placed: set[str]) -> str:
-    """The length of the first two points, on which other points are built, where it is missing."""
+    """The missing length of the first two points, on which other points are built."""
     for first, vertex, last in sketch.angles:
         for arm in (first, last):
             ends = {arm, vertex}
@@ -241,7 +242,7 @@ def missing_lengths(sketch: LinkKeys, point: str, placed: set[str]) -> tuple[str
 def unknown(
     sketch: LinkKeys, what: str, ends: tuple[str, ...] | list[str], itself: str = ""
 ) -> tuple[str, str, Hint]:
-    """A point named in a placing that this link does not have; none is placed by ``itself``."""
+    """The problem of a placing that names no other point of this link; empty if it does."""
     others = [point for point in sketch.points if point != itself]
     for end in ends:
         if end not in sketch.points:
@@ -253,7 +254,7 @@ def unknown(
 def spare(
     sketch: LinkKeys, used: set[frozenset[str] | tuple[str, str, str]], findings: Findings
 ) -> None:
-    """Note each length and angle that no placing needs: what it says is settled already."""
+    """Record each length and angle that no placing needs, because its points are already placed."""
     left = [(pair, quantity) for pair, quantity in sketch.lengths.items() if pair not in used]
     turns = [(three, quantity) for three, quantity in sketch.angles.items() if three not in used]
     for _, quantity in (*left, *turns):
@@ -265,14 +266,14 @@ def spare(
         )
 
 
-# --- the points of a link placed in its own axes, each by points placed before it; whether its ----
+# --- the points of a link in its own axes, and its triangles --------------------------------------
 
 
 MOST_POINTS = 500
 
 
 def read_shape(table: Table, measures: Measures) -> tuple[tuple[str, ...], tuple[Placing, ...]]:
-    """Points of a link in the order written and their placings; problems are noted."""
+    """The points of a link in the order written and their placings; problems are recorded."""
     sketch = read_sketch(table, measures)
     if len(sketch.points) > MOST_POINTS:
         found = f"{len(sketch.points)} points"
@@ -284,9 +285,9 @@ def read_shape(table: Table, measures: Measures) -> tuple[tuple[str, ...], tuple
 
 
 def lay_end_to_end(sketch: LinkKeys) -> None:
-    """Read X ``on A-B``, written by the lengths A-X and X-B alone, as B beyond X on A-X.
+    """Read X ``on A-B``, with only the lengths A-X and X-B, as B beyond X on A-X.
 
-    The axis of the link begins with one of the three, so that it runs along them.
+    The link's axis starts at one of the three points, so that it runs along them.
     """
     if sketch.spots or sketch.polars:
         return
@@ -310,7 +311,7 @@ def lay_end_to_end(sketch: LinkKeys) -> None:
 
 
 def begin_with_axis(sketch: LinkKeys) -> None:
-    """Put second the point at which the x axis ends: the same axis leads to a point on it."""
+    """Make the end of the x axis the second point, where a point on the axis is second."""
     points, passed = sketch.points, set[str]()
     while len(points) > 1 and points[1] not in passed:
         passed.add(points[1])
@@ -325,7 +326,7 @@ def begin_with_axis(sketch: LinkKeys) -> None:
 
 
 class Placer:
-    """Finds, for each point of a sketch, a placing that uses only points before it."""
+    """Finds, for each point of a link, a placing that uses only earlier points."""
 
     def __init__(self, sketch: LinkKeys, measures: Measures) -> None:
         self.sketch = sketch
@@ -339,7 +340,7 @@ class Placer:
         self.used: set[frozenset[str] | tuple[str, str, str]] = set()
 
     def place(self) -> tuple[Placing, ...]:
-        """The placings in order; what stays unplaced or is left over is noted."""
+        """The placings in order; unplaced points and unneeded keys are recorded."""
         self.origin()
         waiting = [p for p in self.sketch.points if p not in self.placings]
         found = True
@@ -356,7 +357,7 @@ class Placer:
         return tuple(self.placings.values())
 
     def origin(self) -> None:
-        """The first point written is the origin, unless the link has coordinates of its own."""
+        """Make the first point the origin, unless the link has coordinates of its own."""
         if not self.sketch.points or self.sketch.spots:
             return
         first, unit = self.sketch.points[0], self.layout.unit
@@ -377,12 +378,12 @@ class Placer:
         self.layout.add(self.placings[first], self.sketch.between)
 
     def is_placed_by_itself(self, point: str) -> bool:
-        """Whether the line on which or beside which a point lies begins or ends with it."""
+        """Whether a point's own line or side begins or ends at that point."""
         words = self.sketch.words.get(point)
         return words is not None and point in (words.first, words.second)
 
     def placing(self, point: str) -> Placing | None:
-        """The placing of a point by what is placed so far, None while it must wait."""
+        """The placing of a point by the points placed so far, or None while it must wait."""
         sketch = self.sketch
         if point in sketch.spots:
             return At(point, *sketch.spots[point])
@@ -397,14 +398,14 @@ class Placer:
         return self.apart(point) or self.angled(point)
 
     def taken(self, one: str, other: str) -> Quantity | None:
-        """The length between a placed point and one to be placed, noted as used."""
+        """The length between a placed point and a new one, marked as used."""
         length = self.sketch.between(one, other)
         if length is not None:
             self.used.add(frozenset((one, other)))
         return length
 
     def triangle(self, point: str, side: Side) -> Placing | None:
-        """Two lengths and a side."""
+        """The placing by two lengths and a side."""
         ends = (side.first, side.second)
         lengths = [self.sketch.between(end, point) for end in ends]
         if None in lengths or any(end not in self.placings for end in ends):
@@ -414,7 +415,7 @@ class Placer:
         return Triangle(point, *ends, first, second, side.side)
 
     def on_line(self, point: str, words: OnWords) -> Placing | None:
-        """One length along a line; ``on`` steps towards the other end, ``beyond`` outwards."""
+        """The placing by a length along a line: ``on`` towards the other end, else outwards."""
         ends = (words.first, words.second)
         if any(end not in self.placings for end in ends):
             return None
@@ -429,7 +430,7 @@ class Placer:
         return None
 
     def apart(self, point: str) -> Placing | None:
-        """The second point of a link lies on its x axis, at its length from the first."""
+        """The placing of a link's second point: on its x axis, at its length from the first."""
         first = self.sketch.points[0]
         if point != self.sketch.points[1] or first not in self.placings:
             return None
@@ -437,7 +438,7 @@ class Placer:
         return Apart(point, first, length) if length is not None else None
 
     def angled(self, point: str) -> Placing | None:
-        """An angle at a placed point, from the direction of another, with one length."""
+        """The placing by an angle at a placed point, from another's direction, and a length."""
         for (first, vertex, last), angle in self.turns.get(point, {}).items():
             clockwise = point == first
             arm, turned = (last, angle.negative()) if clockwise else (first, angle)
@@ -449,7 +450,7 @@ class Placer:
         return None
 
     def complain(self, waiting: list[str]) -> None:
-        """Note each point that nothing places and each key that nothing needs."""
+        """Record each point that nothing places and each key that nothing needs."""
         if self.sketch.broken:
             return
         if waiting:
@@ -459,15 +460,15 @@ class Placer:
 
 
 CLOSE = 1e-12
-"""Relative difference below which lengths that are not exact count as equal."""
+"""Relative difference below which inexact lengths count as equal."""
 Size = Fraction | float
 Between = Callable[[str, str], Quantity | None]
 
 
 class TriangleLayout:
-    """Float positions of a link's points; a triangle that is flat or impossible is noted.
+    """Float positions of a link's points; flat and impossible triangles are recorded.
 
-    Nothing is judged where a number could not be read and another stands in for it.
+    Nothing is judged where a number could not be read and has a substitute.
     """
 
     def __init__(self, measures: Measures, place: str) -> None:
@@ -478,7 +479,7 @@ class TriangleLayout:
         self.spots: dict[str, complex] = {}
 
     def add(self, placing: Placing, between: Between) -> None:
-        """Lay one more point, from points laid before it."""
+        """Add one more point, placed by earlier points."""
         if isinstance(placing, Triangle):
             self.spots[placing.point] = self.corner(placing, between)
         elif isinstance(placing, OnLine):
@@ -487,7 +488,7 @@ class TriangleLayout:
             self.spots[placing.point] = self.free(placing)
 
     def free(self, placing: At | Apart | Polar | Angled) -> complex:
-        """A point that can always be laid."""
+        """The position of a point that always exists."""
         if isinstance(placing, At):
             return complex(self.value(placing.x), self.value(placing.y))
         length = self.value(placing.length)
@@ -508,14 +509,14 @@ class TriangleLayout:
         return number if isinstance(number, Fraction) else float(number)
 
     def distance(self, one: str, other: str, between: Between) -> Size:
-        """Distance of two points: exact where a length is written, else measured."""
+        """Distance of two points: exact where a length is written, otherwise measured."""
         length = between(one, other)
         if length is not None:
             return self.value(length)
         return abs(self.spots[other] - self.spots[one])
 
     def corner(self, placing: Triangle, between: Between) -> complex:
-        """The third corner of a triangle by its three lengths and its side."""
+        """The third corner of a triangle, by its three lengths and its side."""
         a, b = placing.first, placing.second
         base = self.distance(a, b, between)
         if base == 0:
@@ -529,7 +530,7 @@ class TriangleLayout:
         return self.spots[a] + complex(x, y) * way
 
     def judge(self, placing: Triangle, base: Size, r: Size, s: Size) -> None:
-        """Note three lengths that make no triangle, or a flat one."""
+        """Record three lengths that form no triangle, or a flat one."""
         a, b, c = placing.first, placing.second, placing.point
         sides: list[tuple[Size, str]] = [(base, f"{a}-{b}"), (r, f"{a}-{c}"), (s, f"{b}-{c}")]
         longest, name = max(sides)
@@ -548,7 +549,7 @@ class TriangleLayout:
         self.findings.add(f"{key}.{c}", found, expected, hint, about=(longest_key,))
 
     def along(self, placing: OnLine, between: Between) -> complex:
-        """A point on a line, within its two points or beyond one of them."""
+        """A point on a line, between its two points or beyond one of them."""
         a, b, start = placing.first, placing.second, placing.start
         base = self.distance(a, b, between)
         if base == 0:
@@ -560,7 +561,7 @@ class TriangleLayout:
     def reach(
         self, point: str, words: OnWords, start: str, length: Quantity, between: Between
     ) -> None:
-        """Note a point said to be on a line or beyond its end whose length says otherwise."""
+        """Record a point on a line, or beyond its end, whose length contradicts that."""
         a, b = words.first, words.second
         base, far = self.distance(a, b, between), self.value(length)
         if not self.sound or base == 0:
@@ -575,10 +576,10 @@ class TriangleLayout:
             self.findings.add(length.place, f"{point} is {sizes}", f"more than {a}-{b}", hint)
 
     def coincide(self, place: str, one: str, other: str) -> None:
-        """Note two points that are one, where a line through them is meant."""
+        """Record two coinciding points where a line through them is needed."""
         self.findings.add(place, f"{one} and {other} lie at one spot", "a line through two points")
 
 
 def instead(old: str, new: str) -> Mend:
-    """Another phrase in place of one."""
+    """The replacement of one phrase by another."""
     return Mend(old, new, f'did you mean "{new}"?')

@@ -1,9 +1,9 @@
-"""Cams by their law: what is written of them, and the equivalent linkage that stands for each.
+"""Cams by their law: how they are written, and the equivalent linkage of each.
 
-At an instant a cam moves its follower as the circle of its curvature would: a bar from the centre
-of curvature to the roller's centre, or a block at the centre on the follower's face. The follower
-slides on a guide of the link to which the cam is pinned, or on which it slides, or swings about a
-pin of it: the frame, or an arm that turns about a cam at rest.
+At an instant a cam moves its follower like the circle of its curvature. That circle acts through a
+bar from the centre of curvature to the roller's centre. For a flat face, it acts through a block at
+the centre of curvature on the face. The follower slides on a guide of the link that carries the
+cam, or swings about a pin of it. That link is the frame, or an arm that turns about a cam at rest.
 """
 
 from __future__ import annotations
@@ -38,8 +38,10 @@ def is_table(raw: object) -> bool:
 def read_table(
     place: str, raw: Sequence[object], measures: Measures, *, swings: bool
 ) -> tuple[CamPiece, ...]:
-    """The cubics through points ``[angle, lift]``; the first is [0, 0], angles grow to the turn's
-    end, which is not repeated."""
+    """The cubics through points ``[angle, lift]`` of a table.
+
+    The first point is [0, 0]. Angles increase up to the end of the turn, which is not repeated.
+    """
     findings, before = measures.findings, len(measures.findings.problems)
     if not LEAST_POINTS <= len(raw) <= MOST_POINTS:
         expected = f"{LEAST_POINTS} to {MOST_POINTS} points [angle, lift]"
@@ -83,9 +85,9 @@ def read_table(
 def cubics(
     angles: Sequence[Fraction], lifts: Sequence[Quantity], whole: Fraction, unit: str
 ) -> tuple[CamPiece, ...]:
-    """The pieces of the spline through the points, with ``unit`` that of lifts.
+    """The pieces of the spline through the points, with lifts in ``unit``.
 
-    All is linear in the lifts: what those with parameters add, each for itself, is an expression.
+    The spline is linear in the lifts. Each lift with parameters adds its share as an expression.
     """
     spans = [b - a for a, b in zip(angles, [*angles[1:], whole], strict=True)]
     known = [Fraction(0) if lift.uses() else Fraction(lift.number({})) for lift in lifts]
@@ -103,7 +105,7 @@ def cubics(
 
 
 def shares(spans: Sequence[Fraction], lifts: Sequence[Fraction]) -> list[tuple[Fraction, ...]]:
-    """Of each piece its rise, and its slopes at both ends times its angle."""
+    """For each piece, its rise and its slopes at both ends times its angle."""
     rises = [b - a for a, b in zip(lifts, [*lifts[1:], lifts[0]], strict=True)]
     slopes = periodic_slopes(spans, rises)
     ends = zip(slopes, [*slopes[1:], slopes[0]], spans, strict=True)
@@ -112,7 +114,7 @@ def shares(spans: Sequence[Fraction], lifts: Sequence[Fraction]) -> list[tuple[F
 
 
 def summed(plain: Fraction, parts: Sequence[tuple[Fraction, Tree]], unit: str) -> Quantity:
-    """A number and multiples of expressions as one quantity."""
+    """A number plus multiples of expressions, as one quantity."""
     tree: Tree = Number(plain)
     for times, each in parts:
         if times:
@@ -121,9 +123,9 @@ def summed(plain: Fraction, parts: Sequence[tuple[Fraction, Tree]], unit: str) -
 
 
 def periodic_slopes(spans: Sequence[Fraction], rises: Sequence[Fraction]) -> list[Fraction]:
-    """The derivatives at the points for which the second derivative goes on, too.
+    """The derivatives at the points for which the second derivative is continuous.
 
-    The cyclic system is solved as one without its corners and a correction (Sherman and Morrison).
+    The cyclic system is solved without its corners, with a correction (Sherman and Morrison).
     """
     count = len(spans)
     near = [1 / span for span in spans]  # between point i and the next
@@ -144,7 +146,7 @@ def periodic_slopes(spans: Sequence[Fraction], rises: Sequence[Fraction]) -> lis
 def tridiagonal(
     middle: Sequence[Fraction], beside: Sequence[Fraction], right: Sequence[Fraction]
 ) -> list[Fraction]:
-    """The solution of a symmetric system with one band beside its diagonal."""
+    """The solution of a symmetric tridiagonal system."""
     pivots, sides = [middle[0]], [right[0]]
     for i in range(1, len(middle)):
         factor = beside[i - 1] / pivots[-1]
@@ -171,9 +173,10 @@ OTHER_CAMS = (
 
 
 class Seat(NamedTuple):
-    """How a cam is joined to the link ``carrier`` that guides its follower or carries its pin.
+    """The joint of a cam to the link ``carrier`` that guides its follower or carries its pin.
 
-    It turns about its point ``pivot``, or slides with it along a guide.
+    The cam turns about its point ``pivot``, or slides along a guide, with ``pivot`` as a point of
+    it.
     """
 
     carrier: str
@@ -184,7 +187,7 @@ class Seat(NamedTuple):
 def with_cams(
     written: Mapping[str, Table], frame: Link, links: Mapping[str, Link], measures: Measures
 ) -> tuple[Link, dict[str, Link]]:
-    """The frame and the links with their cams, and with the equivalent linkage of each."""
+    """The frame and the links with their cams, and with the equivalent linkage of each cam."""
     found = {FRAME: frame, **links}
     many = sum("cam" in table for table in written.values()) > 1
     count = 0
@@ -204,7 +207,7 @@ def with_cams(
 
 
 def join(links: dict[str, Link], follower: str, cam: Cam, measures: Measures) -> None:
-    """Put the equivalent linkage of a cam among the links."""
+    """Add the equivalent linkage of a cam to the links."""
     own, disc = links[follower], links[cam.on]
     links[follower] = replace(own, cam=cam)
     links[cam.on] = replace(disc, points=(*disc.points, cam.centre))
@@ -215,7 +218,7 @@ def join(links: dict[str, Link], follower: str, cam: Cam, measures: Measures) ->
 
 
 def face_of(follower: str, cam: Cam, measures: Measures) -> Slide:
-    """The guide of the block that stands for a flat face: along a lever, or square to its guide."""
+    """The guide of the block that replaces a flat face: along a lever, or normal to its guide."""
     if cam.lever:
         none = exact(0, measures.units["length"])
         return Slide(follower, None, None, (cam.lever.pin, cam.point), none)
@@ -226,7 +229,7 @@ def face_of(follower: str, cam: Cam, measures: Measures) -> Slide:
 def read_cam(
     follower: str, table: Table, links: Mapping[str, Link], measures: Measures, letter: str
 ) -> Cam | None:
-    """One cam, as ``{ on, tip, base, roller, law, start, … }``; None where none can be."""
+    """One cam, as ``{ on, tip, base, roller, law, start, … }``; None if it is not valid."""
     findings = measures.findings
     before = len(findings.problems)
     on = link_name(table.at("on"), table.take("on"), findings, CAM)
@@ -280,7 +283,7 @@ def read_cam(
 
 
 def free_name(letter: str, links: Mapping[str, Link]) -> str:
-    """A letter for the centre of curvature; K with a number where a point or a link has it."""
+    """A letter for the centre of curvature, or K with a number if a point or link has that name."""
     taken = {*links, *(point for link in links.values() for point in link.points)}
     names = chain([letter], (f"K{number}" for number in count(1)))
     return next(name for name in names if name not in taken)
@@ -294,8 +297,10 @@ def conjugate_of(
     links: Mapping[str, Link],
     measures: Measures,
 ) -> Conjugate | None:
-    """A second roller, ``conjugate = { at, roller }``, about another point than the ``first`` and
-    those ``held``."""
+    """A second roller, ``conjugate = { at, roller }``, about a further point of the follower.
+
+    The point must be neither ``first`` nor one of ``held``.
+    """
     raw = table.take("conjugate")
     if raw is None:
         return None
@@ -346,15 +351,14 @@ def lever_of(
 
 
 def pinned_to(follower: str, on: str, links: Mapping[str, Link]) -> list[str]:
-    """The links, but the cam's, to which a follower is pinned."""
+    """The links, except the cam's, to which a follower is pinned."""
     own = {*links[follower].points}
     beside = (name for name in links if name not in (on, follower))
     return [name for name in beside if own & {*links[name].points}]
 
 
 def is_lever(follower: str, on: str, links: Mapping[str, Link]) -> bool:
-    """Whether a follower swings about a pin: one that does not slide, or on another link than that
-    which carries the cam."""
+    """Whether a follower swings about a pin: it does not slide, or slides off the cam's carrier."""
     own = links[follower]
     if not own.slides or on not in links:
         return not own.slides
@@ -366,7 +370,7 @@ def is_lever(follower: str, on: str, links: Mapping[str, Link]) -> bool:
 
 
 def seated(on: str, carrier: str, links: Mapping[str, Link]) -> Seat | None:
-    """How a cam is joined to a link, by one pin or by its guide there; None where it is not."""
+    """The joint of a cam to a link, by one pin or by its guide there; None without one."""
     guides = [slide for slide in links[on].slides[:1] if slide.on == carrier]
     pivots = [point for point in links[on].points if point in links[carrier].points]
     if guides and links[on].points:
@@ -375,7 +379,7 @@ def seated(on: str, carrier: str, links: Mapping[str, Link]) -> Seat | None:
 
 
 def seat_of(follower: str, on: str, table: Table, links: Mapping[str, Link]) -> Seat | None:
-    """The link that carries both the cam and its follower, and how the cam is joined to it."""
+    """The link that carries both the cam and its follower, and the cam's joint to it."""
     findings, own = table.findings, links[follower]
     if on not in links or on == follower:
         expected = listed(name for name in links if name != follower)
@@ -411,9 +415,9 @@ def seat_of(follower: str, on: str, table: Table, links: Mapping[str, Link]) -> 
 def read_law(
     table: Table, measures: Measures, *, swings: bool, slides: bool
 ) -> tuple[CamPiece, ...]:
-    """The pieces of a law: they follow one another to a whole turn and come back to nought.
+    """The pieces of a law: they add up to a full turn and return to zero.
 
-    Those of a cam that ``slides`` end at lengths, where they like.
+    The pieces of a cam that ``slides`` end at lengths and need not return.
     """
     findings, raw, place = measures.findings, table.take("law"), table.at("law")
     if isinstance(raw, list) and is_table(raw):
@@ -440,7 +444,7 @@ def read_law(
 
 
 def read_piece(table: Table, measures: Measures, swings: bool, slides: bool) -> CamPiece:
-    """One piece, ``{ to, rise, motion }``; without a rise it is a dwell, a lever's is an angle."""
+    """One piece, ``{ to, rise, motion }``: without a rise a dwell; a lever's rise is an angle."""
     ending = measures.length if slides else measures.angle
     to = ending(table.at("to"), table.take("to"))
     raw, dwells = table.take("rise"), table.take("motion") is None
@@ -457,7 +461,7 @@ def read_piece(table: Table, measures: Measures, swings: bool, slides: bool) -> 
 
 
 def check_law(place: str, pieces: list[CamPiece], measures: Measures, *, slides: bool) -> None:
-    """Angles grow to a whole turn, and the follower comes back; lengths of a plate grow."""
+    """Check that angles increase to a full turn, lengths increase, and followers return."""
     values, findings = measures.values, measures.findings
     unit = measures.units["angle"]
     low, lift = 0.0, 0.0

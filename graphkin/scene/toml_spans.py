@@ -1,7 +1,7 @@
-"""Where each key of a TOML text stands: the spans of headings, keys and elements of lists.
+"""The places of keys in a TOML text: the spans of headings, keys and elements of lists.
 
-The values are read elsewhere. Here a text is only walked through, and what is no TOML ends the walk
-with all that was found before it.
+The values are read elsewhere. This module only walks through a text. Invalid TOML ends the walk,
+which keeps everything found up to there.
 """
 
 from __future__ import annotations
@@ -12,7 +12,7 @@ from contextlib import suppress
 from typing import NamedTuple
 
 Path = tuple[str | int, ...]
-"""The keys and indices that lead to a value."""
+"""The keys and indices of a value."""
 BARE = re.compile(r"[A-Za-z0-9_-]+")
 BLANK = re.compile(r"[ \t]*")
 EMPTY = re.compile(r"(?:[ \t\r\n]|#[^\n]*)*")
@@ -29,16 +29,16 @@ ESCAPE = re.compile(r"\\(?:u([0-9A-Fa-f]{4})|U([0-9A-Fa-f]{8})|(.))", re.DOTALL)
 
 
 class Span(NamedTuple):
-    """A piece of the text: where it starts, and where the next sign after it is."""
+    """A piece of the text: its start, and the index after its end."""
 
     start: int
     end: int
 
 
 class Again(NamedTuple):
-    """A key, or a table by its heading, that stands in the text a second time.
+    """A key, or a table by its heading, that occurs in the text a second time.
 
-    ``first`` is where it stands first, ``key`` the second name without brackets or value.
+    ``first`` is the first occurrence. ``key`` is the second name, without brackets or value.
     """
 
     path: Path
@@ -48,7 +48,7 @@ class Again(NamedTuple):
 
 
 class LostError(Exception):
-    """The text goes on in a way that is no TOML."""
+    """The text is not valid TOML from here on."""
 
 
 def spans(text: str) -> dict[Path, Span]:
@@ -70,7 +70,7 @@ def walked(text: str) -> Walk:
 
 
 class Walk:
-    """Goes through a text once, from its beginning, and notes where keys stand."""
+    """One pass through a text that records the places of its keys."""
 
     def __init__(self, text: str) -> None:
         self.text = text
@@ -82,7 +82,7 @@ class Walk:
         self.names: dict[Path, Span] = {}
 
     def document(self) -> None:
-        """Headings, each with its keys."""
+        """Read headings, each with its keys."""
         table: Path = ()
         self.skip(EMPTY)
         while self.at < len(self.text):
@@ -93,7 +93,7 @@ class Walk:
             self.skip(EMPTY)
 
     def heading(self) -> Path:
-        """The path of the table that a heading opens; one of several gets its number."""
+        """Read a heading and return the path of its table, with a number in an array of tables."""
         many = self.text.startswith("[[", self.at)
         start = self.at
         self.at += 2 if many else 1
@@ -115,7 +115,7 @@ class Walk:
         return path
 
     def numbered(self, keys: list[str]) -> Path:
-        """The path of keys, within the last of several tables where there are several."""
+        """The path of some keys, within the last table of each array of tables."""
         path: Path = ()
         for key in keys:
             path = (*path, key)
@@ -124,7 +124,7 @@ class Walk:
         return path
 
     def pair(self, table: Path) -> None:
-        """A key with its value; the keys before its last dot are tables."""
+        """Read a key with its value; the keys before its last dot are tables."""
         start = self.at
         keys = self.keys()
         path = (*table, *keys)
@@ -133,7 +133,7 @@ class Walk:
         self.skip(BLANK)
         begin = self.at
         self.value(path)
-        if again:  # what stands within it is not told again
+        if again:  # |a duplicate's own keys are not reported again
             del self.again[count:]
         self.values[path] = Span(begin, self.at)
         for depth in range(len(table) + 1, len(path) + 1):
@@ -141,7 +141,7 @@ class Walk:
             self.names.setdefault(path[:depth], self.found[path[:depth]])
 
     def name(self, path: Path, span: Span, *, heading: bool = False) -> bool:
-        """Note a name, and whether it stands there for the second time."""
+        """Record a name and return whether it occurs for the second time."""
         first = self.names.setdefault(path, span)
         if first is span:
             return False
@@ -149,7 +149,7 @@ class Walk:
         return True
 
     def keys(self) -> list[str]:
-        """A key, or several with dots between them."""
+        """Read a key, or several with dots between them."""
         found = [self.key()]
         while self.text.startswith(".", self.at):
             self.at += 1
@@ -157,7 +157,7 @@ class Walk:
         return found
 
     def key(self) -> str:
-        """One key, bare or in quotes, and the blanks around it."""
+        """Read one key, bare or quoted, and the blanks around it."""
         self.skip(BLANK)
         match = BARE.match(self.text, self.at) or STRING.match(self.text, self.at)
         if match is None:
@@ -167,7 +167,7 @@ class Walk:
         return unquoted(match[0])
 
     def value(self, path: Path) -> None:
-        """A value: a list and a table within the line hold more of them."""
+        """Read a value; lists and inline tables hold further values."""
         sign = self.text[self.at : self.at + 1]
         if sign == "[":
             self.several("]", lambda number: self.element((*path, number)))
@@ -180,7 +180,7 @@ class Walk:
             self.at += len(match[0].rstrip())
 
     def several(self, closing: str, one: Callable[[int], None]) -> None:
-        """What stands between brackets, with commas."""
+        """Read the items between brackets, separated by commas."""
         self.at += 1
         self.skip(EMPTY)
         number = 0
@@ -196,19 +196,19 @@ class Walk:
         self.at += 1
 
     def element(self, path: Path) -> None:
-        """An element of a list."""
+        """Read an element of a list."""
         start = self.at
         self.value(path)
         self.found[path] = Span(start, self.at)
 
     def skip(self, what: re.Pattern[str]) -> None:
-        """Pass over blanks, or over blanks, ends of lines and comments."""
+        """Skip blanks, or blanks, line ends and comments."""
         match = what.match(self.text, self.at)
         assert match is not None
         self.at = match.end()
 
     def expect(self, sign: str) -> None:
-        """Pass over a sign that must stand here."""
+        """Skip a required sign."""
         if not self.text.startswith(sign, self.at):
             raise LostError
         self.at += len(sign)
@@ -222,7 +222,7 @@ def unquoted(key: str) -> str:
 
 
 def unescaped(match: re.Match[str]) -> str:
-    """The sign that an escape stands for; the rarer ones do not matter in a key."""
+    """The character of an escape; rare escapes are not decoded, as keys do not need them."""
     code = match[1] or match[2]
     if code is None:
         return match[3]
@@ -230,6 +230,6 @@ def unescaped(match: re.Match[str]) -> str:
 
 
 def parts(place: str) -> Iterator[str | int]:
-    """The keys and indices of a dotted place."""
+    """The keys and indices of a dotted path."""
     for match in PART.finditer(place):
         yield int(match[1]) if match[1] else unquoted(match[0])

@@ -1,1 +1,1 @@
-"""How a mechanism is put together: its pairs, its mobility, and its groups in order."""
+"""The structure of a mechanism: its pairs, its mobility, and its groups in order."""

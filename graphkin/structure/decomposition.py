@@ -1,7 +1,7 @@
-"""Decomposition into driven links and Assur groups, in an order in which each can be constructed.
+"""Decomposition into driven links and Assur groups, in an order of construction.
 
-Assur: a mechanism is its frame and drivers, to which groups of links without freedom of their own
-are joined one after the other. The smallest, two links and three pairs, is the dyad.
+Assur: a mechanism consists of its frame and drivers, to which groups of links without mobility of
+their own are added one after another. The smallest group, two links and three pairs, is the dyad.
 """
 
 from __future__ import annotations
@@ -54,7 +54,7 @@ from graphkin.text.errors import Problem, StructureError
 
 
 def settle(group: Group, known: set[str], waiting: list[Driver]) -> None:
-    """The group's links are known now, and its drivers used."""
+    """Mark the group's links as known and its drivers as used."""
     known.update(group.links)
     if isinstance(group, Higher):
         for each in group.chain:
@@ -69,7 +69,7 @@ def settle(group: Group, known: set[str], waiting: list[Driver]) -> None:
 
 
 def next_driven(joints: Joints, known: Collection[str], waiting: list[Driver]) -> Group | None:
-    """The first link, as its driver is written, that a known one drives."""
+    """The first link, in the order of drivers, that is driven against a known link."""
     for driver in waiting:
         for link, against in ((driver.link, driver.against), (driver.against, driver.link)):
             if link in known or against not in known:
@@ -83,7 +83,7 @@ def next_driven(joints: Joints, known: Collection[str], waiting: list[Driver]) -
 def driven_by(
     joints: Joints, known: Collection[str], driver: Driver, link: str, against: str
 ) -> Crank | Driven | Spun | None:
-    """The group of one driven link: a crank about any known pin, or along its own guide."""
+    """The group of one driven link: a crank about any known pin, or a block along its own guide."""
     if driver.kind == "turn":
         pins = [pair for pair in joints.between(link, known) if isinstance(pair, Pin)]
         if pins:
@@ -98,7 +98,7 @@ def driven_by(
 
 
 def next_group(joints: Joints, known: Collection[str]) -> Group | None:
-    """The first dyad or geared wheel, as written, that closes on known links."""
+    """The first dyad or geared wheel, in written order, that closes on known links."""
     for first in joints.unknown(known):
         left = joints.between(first, known)
         if not left:
@@ -115,7 +115,7 @@ def next_group(joints: Joints, known: Collection[str]) -> Group | None:
 def dyad_with(
     joints: Joints, known: Collection[str], first: str, left: tuple[Joint, ...]
 ) -> Dyad | None:
-    """The dyad of a link with the first of its neighbours that is joined to known links too."""
+    """The dyad of a link with the first neighbour that is joined to known links, too."""
     if len(left) != 1 or left[0].taken != 2:
         return None
     for second in joints.neighbours(first):
@@ -131,8 +131,11 @@ def dyad_with(
 
 
 def can_close(scene: Scene, dyad: Dyad) -> bool:
-    """False for slides that leave the group loose: three of them, or two along one direction of
-    their link; and for wheels pinned off centre."""
+    """Whether a dyad can close.
+
+    False for slides that leave it loose (three, or two along one direction of their link), and for
+    wheels pinned off centre.
+    """
     if dyad.type == "PPP" or not by_centres(dyad.inner, dyad.outer, dyad.links):
         return False
     inner = dyad.inner
@@ -144,7 +147,7 @@ def can_close(scene: Scene, dyad: Dyad) -> bool:
 
 
 def in_order(dyad: Dyad) -> Dyad:
-    """The dyad read from its pin: RRP rather than PRR, the driver's side first."""
+    """The dyad read from its pin: RRP instead of PRR, with the driver's side first."""
     turned = Dyad((dyad.links[1], dyad.links[0]), dyad.right, dyad.inner, dyad.left)
     if not isinstance(dyad.left, Pin) and isinstance(dyad.right, Pin):
         return turned
@@ -157,7 +160,7 @@ def in_order(dyad: Dyad) -> Dyad:
 def next_stretched(
     joints: Joints, known: Collection[str], waiting: list[Driver]
 ) -> Stretched | None:
-    """The first dyad, as its driver is written, with a driven cylinder for a bar."""
+    """The first dyad, in the order of drivers, with a driven cylinder as a bar."""
     cylinders = [each for driver in waiting for each in cylinders_of(joints, known, driver)]
     for cylinder in cylinders:
         for other in joints.neighbours(cylinder.far):
@@ -167,7 +170,7 @@ def next_stretched(
 
 
 def cylinders_of(joints: Joints, known: Collection[str], driver: Driver) -> Iterator[Cylinder]:
-    """The cylinder that a driver makes longer, if one of its two links is on a known pin."""
+    """The cylinder that a driver lengthens, if one of its two links is on a known pin."""
     if driver.kind != "slide" or driver.link in known or driver.against in known:
         return
     for near, far in ((driver.link, driver.against), (driver.against, driver.link)):
@@ -185,7 +188,7 @@ def stretched_dyad(
     other: str,
     cylinders: Sequence[Cylinder],
 ) -> Stretched | None:
-    """The dyad of a cylinder's far link with another: with a known one, or with a cylinder."""
+    """The dyad of a cylinder's far link with another that is on a known link or a cylinder."""
     near, far = cylinder.near, cylinder.far
     if other in known or other == near or joints.between(near, (other,)):
         return None
@@ -203,9 +206,9 @@ def stretched_dyad(
 def next_on_two_pins(
     joints: Joints, known: Collection[str], waiting: Sequence[Driver]
 ) -> OnTwoPins | None:
-    """The first two blocks, as written, that guide a link together: on known pins, parallel.
+    """The first two blocks, in written order, that guide a link: on known pins, in parallel guides.
 
-    What a driver slides along the link is kept to tell how far this has come.
+    A block that a driver slides along the link is kept for the link's position.
     """
     driven = [{driver.link, driver.against} for driver in waiting if driver.kind == "slide"]
     for rail in joints.unknown(known):
@@ -222,7 +225,7 @@ def next_on_two_pins(
 def pinned(
     joints: Joints, known: Collection[str], rail: str, pair: Joint
 ) -> Iterator[tuple[Sliding, Pin]]:
-    """The slide between a link and a block on one known pin, with that pin; nothing else."""
+    """The slide between a link and a block held only by one known pin, with that pin."""
     block = partner(pair, rail)
     if block in known or not isinstance(pair, Sliding):
         return
@@ -232,7 +235,7 @@ def pinned(
 
 
 def is_parallel(scene: Scene, rail: str, *pairs: Sliding) -> bool:
-    """Whether two guides lie in one direction on a link; false where its block names one second."""
+    """Whether two guides are parallel on a link; false where its block names one of them second."""
     if any(pair.block == rail and pair.slide != scene.link(rail).slides[0] for pair in pairs):
         return False
     one, other = (guide_on(scene, rail, pair.block, pair.slide) for pair in pairs)
@@ -247,7 +250,7 @@ def on_two_pins(
     pins: tuple[Pin, Pin],
     spare: Sliding,
 ) -> OnTwoPins:
-    """Two blocks that guide a link: the later written with its pin, and the first."""
+    """Two blocks that guide a link: the later one with its pin, and the first."""
     block, start = (partner(pair, rail) for pair in slides)
     carriers = ({*joints.owners[pin.place]} & {*known} for pin in pins)
     shared = sorted(set.intersection(*carriers), key=joints.order.__getitem__)
@@ -266,9 +269,9 @@ def left_by(group: Group, joints: Joints) -> Joints:
 
 
 def next_tie(joints: Joints, known: Collection[str]) -> Tie | None:
-    """The first link, as written, that two pins or slides join to known links.
+    """The first link, in written order, that two pins or slides join to known links.
 
-    Two slides on one link leave it free to go along them, if it can go at all.
+    Two slides on one link would leave it free to slide along them, if it can move at all.
     """
     for link in joints.unknown(known):
         pairs = joints.between(link, known)
@@ -284,11 +287,14 @@ def next_tie(joints: Joints, known: Collection[str]) -> Tie | None:
 
 
 ALONG = 1e-9
-"""Sine of the angle below which a follower's guide lies along the path of a plate."""
+"""Sine of the angle below which a follower's guide counts as parallel to a plate's path."""
 
 
 def decompose(scene: Scene) -> tuple[Group, ...]:
-    """The groups in order of construction. StructureError: a follower that misses its cam."""
+    """The groups in order of construction.
+
+    Raises StructureError for a follower that misses its cam.
+    """
     refuse_far_guides(scene)
     joints = Joints(scene)
     known = {FRAME}
@@ -311,9 +317,9 @@ def decompose(scene: Scene) -> tuple[Group, ...]:
 
 
 def next_tried(joints: Joints, known: Collection[str], waiting: list[Driver]) -> Group | None:
-    """The next group of higher class; what finds these is loaded where the others end.
+    """The next group of higher class; the code for these is loaded only when it is needed.
 
-    First without the bars that parallel ones make idle: they would seem to close a group.
+    Bars made idle by parallel ones are left out first, because they would seem to close a group.
     """
     from graphkin.structure.parallel_bars import idle_bars
 
@@ -325,7 +331,7 @@ def next_tried(joints: Joints, known: Collection[str], waiting: list[Driver]) ->
 
 
 def tried(joints: Joints, known: Collection[str], waiting: list[Driver]) -> Group | None:
-    """The next group that closes after some of its links have been tried."""
+    """The next group that closes after some of its links are tried."""
 
     return (
         next_coupled(joints, known)
@@ -336,7 +342,7 @@ def tried(joints: Joints, known: Collection[str], waiting: list[Driver]) -> Grou
 
 
 def unresolved(joints: Joints, known: Collection[str], waiting: Sequence[Driver]) -> Unresolved:
-    """What is left, and what there is in it that no construction takes."""
+    """The remaining links, with those features that no construction accepts."""
     from graphkin.structure.touching_wheels import asked_of
 
     links = tuple(joints.unknown(known))
@@ -358,8 +364,10 @@ def refuse_far_guides(scene: Scene) -> None:
 
 
 def far_from_plate(scene: Scene, follower: str, cam: Cam) -> Problem | None:
-    """The error for a follower that a plate cannot lift: along its path, or out of a lever's
-    reach."""
+    """The error for a follower that a plate cannot lift.
+
+    Its guide is parallel to the plate's path, or the plate is out of a lever's reach.
+    """
     slide = scene.link(cam.on).slides[0]
     plate = guide_line(scene, slide)
     if cam.lever is None:
@@ -386,7 +394,7 @@ def far_from_plate(scene: Scene, follower: str, cam: Cam) -> Problem | None:
 
 
 def far_guide(scene: Scene, follower: str, cam: Cam) -> Problem | None:
-    """The error for a guide that passes beside the prime circle."""
+    """The error for a guide that misses the prime circle."""
     slide = scene.link(follower).slides[0]
     line, pivot = guide_line(scene, slide), body(scene, slide.on)[cam.pivot]
     aside = abs(cross(line.along, line.point - pivot) + metres(scene, slide.offset))
@@ -421,16 +429,17 @@ def far_lever(scene: Scene, follower: str, cam: Cam) -> Problem | None:
     return Problem(place, found, expected)
 
 
-# --- groups of class III and higher: which link to try so that dyads do the rest, or none ---------
+# --- groups of class III and higher: the link to try so that dyads do the rest --------------------
 
 
 def at_instant(
     joints: Joints, group: Higher, known: Collection[str], waiting: Collection[Driver]
 ) -> Higher:
-    """A group with what constructs its plans, its wheels pinned where they touch.
+    """A group with the groups for its plans at the instant, its wheels pinned at their contacts.
 
-    The same where no wheel of it touches a known track, or where one would have to be tried all the
-    same; or where an arm and its wheel would close as a dyad, for its three pins lie in line.
+    The group is unchanged where none of its wheels touches a known track, or where a link would
+    have to be tried anyway. The same holds where an arm and its wheel would close as a dyad,
+    because its three pins are in line.
     """
     wheels = pinned_wheels(joints, group.links, group.placing, known)
     if not wheels:
@@ -456,17 +465,17 @@ def at_instant(
 
 
 MOST_TRIED = 4
-"""Links of a group that are tried together at most."""
+"""The most links of a group that are tried together."""
 
 
 def next_higher(
     joints: Joints, known: Collection[str], waiting: list[Driver], *, by_wheels: bool = False
 ) -> Higher | None:
-    """The smallest group that closes after the fewest links have been tried, as written first.
+    """The smallest group that closes after the fewest links are tried, in written order.
 
-    Of two wheels that turn one another the larger is tried: all round it the smaller goes farther.
-    A link is tried among those that pairs and drivers join it to: no other can follow it.
-    ``by_wheels`` also finds those that only a wheel closes which must not slip.
+    Of two wheels in mesh, the larger is tried: in one turn of it the smaller turns further. A link
+    is tried among the links that pairs and drivers join to it, because no other can follow it.
+    ``by_wheels`` also finds groups that only the no-slip condition of a wheel closes.
     """
     for count in range(1, MOST_TRIED + 1):
         if least := least_tried(joints, known, waiting, count, by_wheels):
@@ -477,7 +486,7 @@ def next_higher(
 def least_tried(
     joints: Joints, known: Collection[str], waiting: list[Driver], count: int, by_wheels: bool
 ) -> Higher | None:
-    """The smallest group that closes after so many links have been tried."""
+    """The smallest group that closes after ``count`` links are tried."""
     tied = [{driver.link, driver.against} for driver in waiting]
     part_of = {
         link: part
@@ -495,7 +504,7 @@ def least_tried(
 
 
 def speeding(scene: Scene, group: Higher) -> int:
-    """How many wheels of a group are turned by smaller ones."""
+    """The number of wheels in a group that smaller ones turn."""
     geared = [each for each in group.members if isinstance(each, Geared)]
     return sum(turned_by_smaller(scene, each) for each in geared)
 
@@ -520,9 +529,9 @@ def closing(
     count: int,
     by_wheels: bool,
 ) -> Iterator[Higher]:
-    """The group that closes when a link's place is taken as known, if one does.
+    """The group that closes when a link's position is assumed known, if one does.
 
-    Those within it may try ``count`` links less one.
+    Groups within it may try one link less than ``count``.
     """
     grown, left, count = {*known, tried.link}, list(waiting), count - 1
     chain: list[Group] = []
@@ -571,7 +580,7 @@ def over_given(
 
 
 def needed_by(last: Last) -> set[str]:
-    """The links that must stand before what closes a group does."""
+    """The links that must be known before the closing condition can be checked."""
     match last:
         case Driver():
             return {last.link, last.against}
@@ -581,7 +590,7 @@ def needed_by(last: Last) -> set[str]:
 
 
 def supports(group: Group) -> set[str]:
-    """The links on which a group hangs."""
+    """The links on which a group depends."""
     if isinstance(group, Higher):
         parts = (*group.chain, *([group.last] if isinstance(group.last, Tie) else []))
         found = {partner(group.tried.pair, group.tried.link)}.union(*map(supports, parts))
@@ -595,14 +604,14 @@ def supports(group: Group) -> set[str]:
 
 
 class Needed:
-    """The part of a chain that its end hangs on, and the links that it needs."""
+    """The part of a chain on which its end depends, and the links that this part needs."""
 
     def __init__(self, chain: tuple[Group, ...], needs: set[str]) -> None:
         self.chain, self.needs = chain, needs
 
 
 def needed(joints: Joints, chain: list[Group], ends: set[str]) -> Needed:
-    """Drop what hangs on the chain without helping it to close."""
+    """The chain without groups that do not help to close it."""
     needs, kept = set(ends), list[Group]()
     for group in reversed(chain):
         if needs.intersection(group.links):
@@ -612,7 +621,7 @@ def needed(joints: Joints, chain: list[Group], ends: set[str]) -> Needed:
 
 
 def pivots(joints: Joints, group: Group) -> set[str]:
-    """The links that own the pin about which a crank turns."""
+    """The links that have the pin about which a crank turns."""
     if isinstance(group, Higher):
         return set[str]().union(*(pivots(joints, each) for each in group.chain)) - {*group.links}
     pivot = getattr(group, "pivot", None)
@@ -634,5 +643,5 @@ def pairs_of(
 
 
 def is_next(joints: Joints, pair: Joint, between: Collection[str]) -> bool:
-    """Whether none of some links has the pin too: a pin of k links is k - 1 pairs, in a row."""
+    """Whether none of some links has the pin, too: a pin of k links is k - 1 pairs in a row."""
     return not isinstance(pair, Pin) or set(between).isdisjoint(joints.owners[pair.point])

@@ -1,4 +1,4 @@
-"""The count of freedoms, in the plane and in space, and as many drivers as freedoms."""
+"""The count of freedoms, in the plane and in space, and the check that drivers equal freedoms."""
 
 from __future__ import annotations
 
@@ -39,11 +39,11 @@ from graphkin.text.errors import (
 )
 
 APART = 1e-9
-"""Distance of parallel guides (m) below which they are one line."""
+"""Distance of parallel guides (m) below which they count as one line."""
 
 
 def impossible(scene: Scene) -> list[Problem]:
-    """Every guide, wheel and driver that cannot do what is written."""
+    """The problems of all guides, wheels and drivers that cannot work as written."""
     return [
         *wheels_alone(scene),
         *double_guides(scene),
@@ -53,7 +53,7 @@ def impossible(scene: Scene) -> list[Problem]:
 
 
 def wheels_alone(scene: Scene) -> Iterator[Problem]:
-    """Wheels by themselves; what looks for them is loaded for a scene that has some."""
+    """The problems of wheels without a contact; the module for them is loaded only for wheels."""
     if any(link.wheels for link in scene.every_link):
         from graphkin.structure.touching_wheels import lone_wheels
 
@@ -61,7 +61,7 @@ def wheels_alone(scene: Scene) -> Iterator[Problem]:
 
 
 def double_guides(scene: Scene) -> Iterator[Problem]:
-    """Blocks with two guides on one link, unless both lie on one line (the second is idle)."""
+    """Problems of blocks with two guides on one link, unless both lie on one line (one is idle)."""
     for link in scene.links.values():
         for first, second in combinations(link.slides, 2):
             if first.on == second.on and (hinders := between_guides(scene, first, second)):
@@ -74,7 +74,7 @@ def double_guides(scene: Scene) -> Iterator[Problem]:
 
 
 def between_guides(scene: Scene, first: Slide, second: Slide) -> str:
-    """Why a block cannot move on two guides of one link; empty where they are one line."""
+    """Why a block cannot move on two guides of one link; empty where the guides are one line."""
     one, other = guide_line(scene, first), guide_line(scene, second)
     if abs(cross(one.along, other.along)) > LEVEL:
         return "cross, so that the block is held fast"
@@ -87,7 +87,7 @@ def between_guides(scene: Scene, first: Slide, second: Slide) -> str:
 
 
 def unknown_leans(scene: Scene) -> Iterator[Problem]:
-    """Further guides of a block on links whose angle against it the scene does not say."""
+    """Problems of further guides of a block, on links whose angle to the block is not stated."""
     for link in scene.links.values():
         for slide in link.slides[1:]:
             if slide.on in turning_with(scene, link.name, first=True):
@@ -106,7 +106,7 @@ def unknown_leans(scene: Scene) -> Iterator[Problem]:
 
 
 def unturnable(scene: Scene) -> Iterator[Problem]:
-    """Drivers that turn a link against another to which slides hold its direction."""
+    """Problems of drivers that turn a link against another that slides hold in direction."""
     for index, driver in enumerate(scene.drivers):
         if driver.kind == "turn" and driver.against in turning_with(scene, driver.link):
             link, own = scene.link(driver.link), quoted(driver.link)
@@ -120,9 +120,9 @@ def unturnable(scene: Scene) -> Iterator[Problem]:
 
 
 def turning_with(scene: Scene, name: str, *, first: bool = False) -> set[str]:
-    """The links that a link cannot turn against: those that slides join it to, one by one.
+    """The links that slides join to a link, one by one, so that it cannot turn against them.
 
-    ``first`` leaves out all but the first guide of each block.
+    ``first`` uses only the first guide of each block.
     """
     joined = [
         {link.name, slide.on}
@@ -139,10 +139,10 @@ def turning_with(scene: Scene, name: str, *, first: bool = False) -> set[str]:
 
 
 class Count(Struct, frozen=True):
-    """Moving links, pairs that take two freedoms, and those that take one.
+    """Moving links, pairs that remove two freedoms, and pairs that remove one.
 
-    ``pairs`` are pins, slides, and wheels that their track alone keeps; ``singles`` are wheels that
-    touch at a distance which an arm keeps already, teeth and tracks.
+    ``pairs`` are pins, slides, and wheels held only by their track. ``singles`` are teeth, tracks,
+    and wheels in contact at a distance that an arm already keeps.
     """
 
     moving: int
@@ -151,32 +151,32 @@ class Count(Struct, frozen=True):
 
     @property
     def mobility(self) -> int:
-        """Gruebler: three freedoms a moving link, less what the pairs take."""
+        """Gruebler's mobility: three freedoms per moving link, less those that the pairs remove."""
         return gruebler(self.moving, self.pairs, self.singles)
 
     @property
     def loops(self) -> int:
-        """Independent closed loops: pairs beyond those that a tree of as many links needs."""
+        """Independent closed loops: pairs in excess of those in a tree of as many links."""
         return self.pairs + self.singles - self.moving
 
     @property
     def sum(self) -> str:
-        """The sum as it is written: 3·5 − 2·7."""
+        """The sum as written, for example 3·5 − 2·7."""
         return f"3·{self.moving} − 2·{self.pairs}" + (
             f" − 1·{self.singles}" if self.singles else ""
         )
 
     @property
     def words(self) -> str:
-        """It with what it gives: 3·5 − 2·7 = 1."""
+        """The sum with its result, for example 3·5 − 2·7 = 1."""
         return f"{self.sum} = {self.mobility}".replace("= -", "= −")
 
 
 def count(scene: Scene) -> Count:
-    """Gruebler's count of a scene, a pin of k links counted as k - 1 pairs.
+    """Gruebler's count of a scene, in which a pin of k links counts as k - 1 pairs.
 
-    Links put in to keep wheels on their tracks count with the pair that they stand for.
-    Raises StructureError for wheels that do not touch.
+    Links added to keep wheels on their tracks count with the pair that they represent. Raises
+    StructureError for wheels that do not touch.
     """
     bare = scene.bare
     every = all_pairs(bare)
@@ -185,9 +185,9 @@ def count(scene: Scene) -> Count:
 
 
 def gruebler(moving: int, lower: int, higher: int = 0) -> int:
-    """Freedoms in the plane: 3 a moving link, less 2 a lower pair and 1 a higher pair.
+    """Freedoms in the plane: 3 per moving link, less 2 per lower pair and 1 per higher pair.
 
-    Lower pairs are pins and slides; higher ones cams, teeth and belts. Springs take nothing.
+    Lower pairs are pins and slides. Higher pairs are cams, teeth and belts. Springs remove nothing.
     """
     return 3 * moving - 2 * lower - higher
 
@@ -198,10 +198,15 @@ RANK = "the rank of the constraints"
 def refuse_drivers(scene: Scene, groups: Sequence[Group]) -> None:
     """Raise StructureError where the structure alone shows that the drivers are wrong.
 
-    What guides and wheels cannot do; too few by the count, which is never above the truth; too many
-    where all links follow without some of them; two on what one moves, and none on others. Else a
-    count below the number of drivers decides nothing, for a link may be idle: ask
-    ``refuse_wrong_drivers`` with the rank.
+    The cases are:
+
+    - guides or wheels that cannot work as written;
+    - too few drivers by the count, which never exceeds the true mobility;
+    - drivers without which all links still follow;
+    - two drivers for one motion, and none for others.
+
+    Otherwise, a count below the number of drivers decides nothing, because a link may be idle. Then
+    ``refuse_wrong_drivers`` decides by the rank.
     """
     wrong = impossible(scene)
     if wrong:
@@ -250,7 +255,8 @@ def driven_cams(scene: Scene, groups: Sequence[Group]) -> Iterator[Problem]:
 def refuse_wrong_drivers(scene: Scene, true: int | None = None, by: str = RANK) -> None:
     """Raise StructureError unless there are as many drivers as freedoms.
 
-    ``true`` is the true mobility, told ``by`` the rank; without it the count decides.
+    ``true`` is the true mobility, and ``by`` names its source, the rank. Without it the count
+    decides.
     """
     problem = driver_problem(scene, true, by)
     if problem is not None:
@@ -258,7 +264,7 @@ def refuse_wrong_drivers(scene: Scene, true: int | None = None, by: str = RANK) 
 
 
 def driver_problem(scene: Scene, true: int | None = None, by: str = RANK) -> Problem | None:
-    """What is wrong with the number of drivers, None where it is that of the freedoms."""
+    """The problem of a wrong number of drivers; None if it equals the freedoms."""
     counted = count(scene)
     freedoms = counted.mobility if true is None else true
     drivers = len(scene.drivers)
@@ -281,7 +287,7 @@ def driver_problem(scene: Scene, true: int | None = None, by: str = RANK) -> Pro
 
 
 def too_few_hint(scene: Scene) -> tuple[str, tuple[Change, ...]]:
-    """A driver to add, or what seems to be missing, and the change that it names."""
+    """Words for a driver to add, or for what seems to be missing, and the change that they name."""
     loose, alike = [each.words for each in lone_points(scene)], alike_points(scene)
     changes: tuple[Change, ...] = () if alike is None else (alike,)
     if loose or changes:
@@ -297,14 +303,14 @@ def too_few_hint(scene: Scene) -> tuple[str, tuple[Change, ...]]:
 
 
 def too_many_changes(scene: Scene, freedoms: int) -> tuple[Change, ...]:
-    """Each of the drivers without which all links still follow, where one is too many."""
+    """The removal of each driver without which all links still follow, if there is one too many."""
     if freedoms <= 0 or len(scene.drivers) - freedoms != 1:
         return ()
     return tuple(DriverTaken(each.kind, quoted(each.link)) for each in spare_drivers(scene))
 
 
 def too_many_hint(scene: Scene, freedoms: int, *, certain: bool) -> str:
-    """The drivers of which some are to be taken away; the count alone is not certain of it."""
+    """Words for the drivers of which some are to be removed; the count alone is not ``certain``."""
     if freedoms <= 0:
         twins = same_pins(scene)
         if twins:
@@ -322,7 +328,7 @@ def too_many_hint(scene: Scene, freedoms: int, *, certain: bool) -> str:
 
 
 def same_pins(scene: Scene) -> str:
-    """Words for two links that share two pins, and so are one body; empty where none do."""
+    """Words for two links that share two pins and so are one body; empty if there are none."""
     for one, other in combinations(scene.every_link, 2):
         both = [point for point in one.points if point in other.points]
         if len(both) > 1:
@@ -334,16 +340,16 @@ def same_pins(scene: Scene) -> str:
 
 
 def spare_drivers(scene: Scene) -> list[Driver]:
-    """The drivers without each of which all links still follow, one dyad after the other.
+    """The drivers without which all links still follow, dyad after dyad.
 
-    Groups of higher class close by a link that may be idle, and coupled trains by a pair that may
-    be, such as that of a second planet, so that they prove nothing.
+    Groups of higher class and coupled trains prove nothing: the link or pair that closes them, such
+    as a second planet's, may be idle.
     """
     return [driver for driver in scene.drivers if follows(without(scene, driver))]
 
 
 def enough(scene: Scene) -> int:
-    """How many drivers are left when those from which nothing new follows are taken away."""
+    """The number of drivers left when redundant ones are removed."""
     for driver in scene.drivers:
         rest = without(scene, driver)
         if follows(rest):
@@ -352,7 +358,7 @@ def enough(scene: Scene) -> int:
 
 
 def without(scene: Scene, driver: Driver) -> Scene:
-    """The mechanism without one of its drivers."""
+    """The scene without one of its drivers."""
     return replace(scene, drivers=tuple(each for each in scene.drivers if each is not driver))
 
 
@@ -363,7 +369,7 @@ def follows(scene: Scene) -> bool:
 
 
 def misplaced(scene: Scene, ties: Sequence[str], loose: Sequence[str]) -> Problem:
-    """A link closes what is driven already, and others are free."""
+    """The problem of a link that closes what is driven already, while other links are free."""
     from graphkin.structure.touching_wheels import keeper_hint
 
     drivers, points = len(scene.drivers), lone_points(scene)
@@ -383,7 +389,7 @@ def misplaced(scene: Scene, ties: Sequence[str], loose: Sequence[str]) -> Proble
 
 
 def guide_hint(scene: Scene, ties: Sequence[str], loose: Sequence[str]) -> str:
-    """Words for a block whose guide may have been meant to lie on a link that hangs loose."""
+    """Words for a block whose guide was perhaps meant to lie on a free link."""
     block = next((name for name in ties if scene.links[name].slides), None)
     if block is None:
         return ""
@@ -392,7 +398,7 @@ def guide_hint(scene: Scene, ties: Sequence[str], loose: Sequence[str]) -> str:
 
 
 def unused(scene: Scene, groups: Sequence[Group]) -> list[Driver]:
-    """The drivers that no group takes."""
+    """The drivers that belong to no group."""
     taken = list[Driver]()
     for group in groups:
         nested = group.nested if isinstance(group, Higher) else ()
@@ -404,7 +410,7 @@ def unused(scene: Scene, groups: Sequence[Group]) -> list[Driver]:
 
 
 def driven_twice(scene: Scene, driver: Driver, loose: Sequence[str]) -> Problem:
-    """A driver of a link whose motion the other drivers give already, while others are free."""
+    """The problem of a driver whose link other drivers move already, while other links are free."""
     return Problem(
         f"drivers[{scene.drivers.index(driver)}]",
         f"the other drivers move link {driver.link} already, while {', '.join(loose)} "
@@ -415,7 +421,7 @@ def driven_twice(scene: Scene, driver: Driver, loose: Sequence[str]) -> Problem:
 
 
 def drivable(scene: Scene) -> list[str]:
-    """Links that are pinned to the frame and that no driver turns."""
+    """Links that are pinned to the frame and not driven."""
     driven, scene = {driver.link for driver in scene.drivers}, scene.bare
     pinned = [
         link
@@ -428,27 +434,27 @@ def drivable(scene: Scene) -> list[str]:
 
 
 class LonePoint(Struct, frozen=True):
-    """A point that one link alone has."""
+    """A point that belongs to one link only."""
 
     point: str
     link: str
 
     @property
     def words(self) -> str:
-        """It with its link."""
+        """The point with its link."""
         return f"{self.point} ({'the frame' if self.link == FRAME else self.link})"
 
     @property
     def path(self) -> tuple[str, ...]:
-        """Its key in a scene's text, after the table of its link."""
+        """The point's key in a scene's text, after the table of its link."""
         return ("frame", self.point) if self.link == FRAME else ("links", self.link, self.point)
 
 
 def lone_points(scene: Scene) -> list[LonePoint]:
     """The points at which a pin may be missing, each with its link.
 
-    They are points of one link alone, of a link that has a single joint and no driver; then also
-    points of the frame that nothing uses.
+    They are points of a single link that has only one joint and no driver, and unused points of the
+    frame.
     """
     owners = sharers(scene)
     led = [pair for pair in all_pairs(scene) if not isinstance(pair, Pin)]
@@ -467,9 +473,10 @@ def lone_points(scene: Scene) -> list[LonePoint]:
 
 
 def alike_points(scene: Scene) -> PointRenamed | None:
-    """A point of one moving link whose name seems to be another's, misspelt, under that.
+    """A suggested renaming of a point that seems to be a misspelling of another link's point.
 
-    One is the other with a letter or a digit more, which that link does not have.
+    One name equals the other with one letter or digit added, and its link does not have the other
+    point.
     """
     owners = sharers(scene)
     lone = [point for point, links in owners.items() if len(links) == 1]
@@ -483,12 +490,12 @@ def alike_points(scene: Scene) -> PointRenamed | None:
 
 
 def begins(short: str, long: str) -> bool:
-    """Whether a name is another with one sign more, capitals apart."""
+    """Whether a name equals another with one character more, ignoring case."""
     return len(long) == len(short) + 1 and long.lower().startswith(short.lower())
 
 
 def points_used(link: Link) -> Iterator[str]:
-    """The points by which a link's guides and tracks are written, and the centres of its wheels."""
+    """The points that define a link's guides and tracks, and the centres of its wheels."""
     for joint in link.paths:
         if isinstance(joint.through, str):
             yield joint.through
@@ -499,5 +506,5 @@ def points_used(link: Link) -> Iterator[str]:
 
 
 def driver_name(driver: Driver) -> str:
-    """A driver in short, as it is written: turn = 1."""
+    """A driver in short, as written: turn = 1."""
     return f"{driver.kind} = {quoted(driver.link)}"

@@ -1,7 +1,7 @@
-"""Which links of a single loop can turn all the way round: Grashof's rule and the slider-crank's.
+"""The links of a single loop that can turn fully: Grashof's rule and the slider-crank's.
 
-Both rules speak of the links against one another, whichever is fixed: the shortest bar turns
-fully against all the others, or no link against any.
+Both rules concern the links relative to one another, whichever is fixed: the shortest bar turns
+fully relative to all others, or no link turns fully relative to any.
 """
 
 from __future__ import annotations
@@ -19,7 +19,7 @@ from graphkin.structure.link_axes import body, guide_line, metres
 from graphkin.structure.pairs import Joint, Pin, Sliding
 
 EVEN = 1e-9
-"""Share of the lengths below which two sums count as equal."""
+"""Relative difference below which two sums of lengths count as equal."""
 
 Kind = Literal[
     "crank-rocker",
@@ -43,14 +43,14 @@ class FourBar(Struct, frozen=True):
 
     @property
     def slack(self) -> int:
-        """+1 where the shortest bar turns fully, 0 where it just does, -1 where nothing does."""
+        """+1 where the shortest bar turns fully, 0 at the limit, -1 where no link does."""
         return {"triple rocker": -1, "change point": 0}.get(self.kind, 1)
 
     @property
     def turning(self) -> tuple[str, ...]:
-        """The links that turn fully against all others: the shortest, or none.
+        """The links that turn fully relative to all others: the shortest, or none.
 
-        Several where several are the shortest, at a change point.
+        At a change point several links may be the shortest.
         """
         if self.slack < 0:
             return ()
@@ -61,9 +61,9 @@ class FourBar(Struct, frozen=True):
 class SliderCrank(Struct, frozen=True):
     """A loop of four links with three pins and one slide.
 
-    ``guide`` carries the guide and ``block`` slides on it; ``crank`` is the bar that is pinned to
-    the guide's link and ``rod`` the one pinned to the block, lengths in m. ``offset`` is how far
-    the crank's pin on the guide's link lies from the line on which the block's pin moves.
+    ``guide`` carries the guide, and ``block`` slides on it. ``crank`` is the bar pinned to the
+    guide's link, ``rod`` the one pinned to the block; lengths are in m. ``offset`` is the distance
+    of the crank's pin on the guide's link from the path of the block's pin.
     """
 
     guide: str
@@ -84,16 +84,17 @@ class SliderCrank(Struct, frozen=True):
 
     @property
     def slack(self) -> int:
-        """+1 where the shorter bar turns fully, 0 where it just does, -1 where nothing does.
+        """+1 where the shorter bar turns fully, 0 at the limit, -1 where no link does.
 
-        Full turns iff r + |d| <= c, r the shorter bar, c the longer one, d the offset.
+        A link turns fully iff r + |d| <= c, with r the shorter bar, c the longer one and d the
+        offset.
         """
         short, long = self.lengths
         return compare(long, short + abs(self.offset))
 
     @property
     def turning(self) -> tuple[str, ...]:
-        """The links that turn fully against all others: the shorter bar, both, or none."""
+        """The links that turn fully relative to all others: the shorter bar, both, or none."""
         if self.slack < 0:
             return ()
         bars = (self.crank, self.rod)
@@ -106,8 +107,8 @@ Loop = FourBar | SliderCrank
 def grashof(fixed: float, first: float, coupler: float, last: float) -> Kind:
     """The class of a four-bar by its lengths in the order of the loop, the fixed link's first.
 
-    Grashof: with s the shortest, l the longest, p and q the others, the shortest link turns fully
-    against all others iff s + l <= p + q.
+    Grashof: with s the shortest, l the longest, and p and q the other lengths, the shortest link
+    turns fully relative to all others iff s + l <= p + q.
     """
     short, *middle, long = sorted((fixed, first, coupler, last))
     sign = compare(sum(middle), short + long)
@@ -121,7 +122,7 @@ def grashof(fixed: float, first: float, coupler: float, last: float) -> Kind:
 
 
 def compare(one: float, other: float) -> int:
-    """Sign of one length less another; 0 where they are equal but for rounding."""
+    """Sign of the difference of two lengths; 0 where they are equal but for rounding."""
     gap = one - other
     return 0 if abs(gap) <= EVEN * max(one, other) else 1 if gap > 0 else -1
 
@@ -129,7 +130,7 @@ def compare(one: float, other: float) -> int:
 def single_loops(scene: Scene) -> tuple[Loop, ...]:
     """The loops of four links with four pins, or three pins and a slide, the frame's first."""
     found: list[Loop] = []
-    if scene.cams:  # an equivalent linkage holds at its instant alone
+    if scene.cams:  # an equivalent linkage is valid only at its instant
         return ()
     bodies = Bodies(scene)
     for links, joints in four_cycles(Joints(scene)):
@@ -139,10 +140,10 @@ def single_loops(scene: Scene) -> tuple[Loop, ...]:
 
 
 def four_cycles(every: Joints) -> Iterator[tuple[tuple[str, ...], list[Joint]]]:
-    """Each ring of four links joined one to the next, once, its first-written link first.
+    """Each ring of four links, once, with its first-written link first.
 
-    Each link is joined to both neighbours by one pair each, at another place, for else these are
-    joined past it: so many links at one pin make no ring.
+    Each link is joined to both neighbours by one pair each, at different places. Otherwise the
+    neighbours are joined directly: many links at one pin form no ring.
     """
     order = every.order
     near = {name: joined_once(every, name) for name in order}
@@ -163,18 +164,18 @@ def four_cycles(every: Joints) -> Iterator[tuple[tuple[str, ...], list[Joint]]]:
 
 
 def joined_once(every: Joints, link: str) -> dict[str, Joint]:
-    """The links that one pair joins to a link, each with that pair, as written."""
+    """The links that exactly one pair joins to a link, each with that pair, in written order."""
     pairs = {other: every.between(link, (other,)) for other in every.neighbours(link)}
     return {other: joined[0] for other, joined in pairs.items() if len(joined) == 1}
 
 
 def place_of(joint: Joint) -> str | tuple[str, str]:
-    """What tells a pair from another: the point of a pin, else the two links."""
+    """The identity of a pair: the point of a pin, else the two links."""
     return joint.point if isinstance(joint, Pin) else joint.links
 
 
 class Bodies(dict[str, Mapping[str, complex]]):
-    """The points of each link in its own axes (m), found once."""
+    """The points of each link in its own axes (m), computed once."""
 
     def __init__(self, scene: Scene) -> None:
         self.scene = scene
@@ -189,7 +190,7 @@ class Bodies(dict[str, Mapping[str, complex]]):
 
 
 def loop_of(bodies: Bodies, links: Sequence[str], joints: Sequence[Joint]) -> Loop | None:
-    """A ring of four links by its pairs: link i is joined to the next by joint i."""
+    """The loop of a ring of four links, in which link i is joined to the next by joint i."""
     pins = [joint.point for joint in joints if isinstance(joint, Pin)]
     if len(set(pins)) == 4:
         lengths = [bodies.bar(link, pins[i - 1], pins[i]) for i, link in enumerate(links)]
@@ -210,9 +211,9 @@ def loop_of(bodies: Bodies, links: Sequence[str], joints: Sequence[Joint]) -> Lo
 def slider_crank(
     bodies: Bodies, slide: Sliding, ring: Sequence[str], points: Sequence[str]
 ) -> SliderCrank | None:
-    """The loop from the block over the rod and the crank to the guide's link, and its pins.
+    """The loop from the block over the rod and the crank to the guide's link, with its pins.
 
-    None for a block whose own axes do not lie along this guide, so that no offset can be told.
+    None for a block whose axes are not parallel to this guide, so that its offset is not known.
     """
     block, rod, crank, guide = ring
     at_block, middle, at_guide = points

@@ -1,4 +1,4 @@
-"""Driven links and Assur groups as records: what hangs on what, and what it is called."""
+"""Driven links and Assur groups as records: their dependencies and their names."""
 
 from __future__ import annotations
 
@@ -29,11 +29,11 @@ Joined = tuple[str, str]
 
 
 def assur_class(inner: Sequence[Joined], outer: Sequence[str]) -> tuple[int, int]:
-    """Class and order of a group: its inner pairs as the two links each, its outer pairs as one.
+    """Class and order of a group, from its inner pairs (two links each) and its outer pairs (one).
 
-    A link is a contour with as many sides as it has pairs, a loop of links one with as many sides
-    as links. Bars and blocks alone make class II. A pin of k of the group's links is k - 1 inner
-    pairs.
+    A link is a contour with as many sides as it has pairs. A loop of links is one with as many
+    sides as links. Bars and blocks alone form class II. A pin of k of the group's links is k - 1
+    inner pairs.
     """
     sides = Counter(outer)
     for pair in inner:
@@ -42,7 +42,7 @@ def assur_class(inner: Sequence[Joined], outer: Sequence[str]) -> tuple[int, int
 
 
 def loop_sizes(joined: Sequence[Joined]) -> list[int]:
-    """Numbers of links in the closed loops, as many as are independent, each as short as can be.
+    """Numbers of links in the independent closed loops, each as short as possible.
 
     Horton's minimum cycle basis: short loops through every node and edge, kept while independent.
     """
@@ -57,14 +57,14 @@ def loop_sizes(joined: Sequence[Joined]) -> list[int]:
 
 
 def reduced(loop: int, kept: Mapping[int, int]) -> int:
-    """What is left of a loop, a set of edges as bits, when those known are taken out of it."""
+    """The remainder of a loop, a set of edges as bits, after reduction by the known loops."""
     while loop and loop.bit_length() in kept:
         loop ^= kept[loop.bit_length()]
     return loop
 
 
 def short_loops(joined: Sequence[Joined]) -> Iterator[int]:
-    """For each node and edge the loop of the shortest ways from the one to both ends of it."""
+    """For each node and edge, the loop of shortest paths from the node to both ends of the edge."""
     for node in dict.fromkeys(link for pair in joined for link in pair):
         ways = shortest_ways(joined, node)
         for number, (one, other) in enumerate(joined):
@@ -73,7 +73,7 @@ def short_loops(joined: Sequence[Joined]) -> Iterator[int]:
 
 
 def shortest_ways(joined: Sequence[Joined], start: str) -> dict[str, int]:
-    """The edges, as bits, of a shortest way from one link to each that it is joined to."""
+    """The edges, as bits, of a shortest path from one link to each connected link."""
     ways, waiting = {start: 0}, [start]
     for here in waiting:
         for number, pair in enumerate(joined):
@@ -110,7 +110,7 @@ ROMAN = ("", "I", "II", "III", "IV", "V", "VI", "VII", "VIII")
 
 
 class Dyad(Struct, frozen=True):
-    """Two links and three pairs: each link joined to what is known, and to the other."""
+    """Two links and three pairs: each link is joined to known links and to the other."""
 
     links: tuple[str, str]
     left: Joint
@@ -119,7 +119,7 @@ class Dyad(Struct, frozen=True):
 
     @property
     def outer(self) -> tuple[Joint, Joint]:
-        """Its pairs with what is known."""
+        """Its pairs with known links."""
         return self.left, self.right
 
     @property
@@ -129,22 +129,22 @@ class Dyad(Struct, frozen=True):
 
     @property
     def title(self) -> str:
-        """What it is called."""
         return f"dyad {self.type}"
 
     @property
     def words(self) -> str:
-        """Its kind, class and order, its links and what it is joined to."""
+        """Its kind, class and order, its links and the pairs that join it."""
         outer = listed(pair.brief for pair in self.outer)
         of = f"{self.title} (class II, order 2) of links {listed(self.links)}"
         return f"{of}, inner {self.inner.brief}, outer {outer}"
 
 
 class OnTwoPins(Dyad, frozen=True):
-    """Two blocks on known pins in parallel guides of one link: their pins guide that link.
+    """Two blocks on known pins in parallel guides of one link, so that their pins guide that link.
 
-    Its direction follows from both pins; how far it has slid is left to what comes after. The
-    dyad is that of the blocks, of which each leads the other along the line of the guides.
+    The link's direction follows from both pins. Its position along the guides is left to later
+    groups. The dyad consists of the blocks, each of which guides the other along the line of the
+    guides.
     """
 
     inner: PinLine
@@ -156,27 +156,26 @@ class OnTwoPins(Dyad, frozen=True):
 
     @property
     def title(self) -> str:
-        """What it is called."""
         return f"guide of link {self.rail} through two pins"
 
     @property
     def words(self) -> str:
-        """Its links, the link that they guide, and by what."""
+        """Its links, the link that they guide, and the pins."""
         pins = listed(pair.brief for pair in self.outer)
         return f"{joined_words(self.links)} on {pins} guide link {self.rail}"
 
 
 class CamFollower(Struct, frozen=True):
-    """A follower that a cam sets by its law, with the equivalent linkage of the instant.
+    """A follower set by the law of a cam, with the equivalent linkage of the instant.
 
-    ``dyad`` are the link of that linkage and the follower: its plans are theirs.
+    ``dyad`` consists of the link of that linkage and the follower; its plans are used.
     """
 
     dyad: Dyad
 
     @property
     def outer(self) -> tuple[Joint, Joint]:
-        """Its pairs with what is known."""
+        """Its pairs with known links."""
         return self.dyad.outer
 
     @property
@@ -186,12 +185,11 @@ class CamFollower(Struct, frozen=True):
 
     @property
     def title(self) -> str:
-        """What it is called."""
         return f"{self.dyad.title}, set by the law of a cam"
 
     @property
     def words(self) -> str:
-        """It and its links."""
+        """Its title with its links."""
         return titled(self)
 
 
@@ -206,14 +204,14 @@ class Cylinder(Struct, frozen=True):
 
     @property
     def foot(self) -> Pin:
-        """The pin of the bar that it stands for: the far link's point under the known pin."""
+        """The pin of the equivalent bar: the far link's point under the known pin."""
         return Pin(under(self.pin.point, self.far), (self.far, self.pin.links[1]))
 
 
 class Stretched(Struct, frozen=True):
-    """A dyad of which the first bar, or both, are cylinders: tubes on known pins, rods driven.
+    """A dyad in which one or both bars are driven cylinders: tubes on known pins, with rods.
 
-    The links of the ``dyad`` are the far ones of the cylinders; its outer pins are their feet.
+    The links of the ``dyad`` are the far links of the cylinders; its outer pins are their feet.
     """
 
     cylinders: tuple[Cylinder, ...]
@@ -221,24 +219,23 @@ class Stretched(Struct, frozen=True):
 
     @property
     def drivers(self) -> tuple[Driver, ...]:
-        """What drives the cylinders."""
+        """The drivers of the cylinders."""
         return tuple(each.driver for each in self.cylinders)
 
     @property
     def outer(self) -> tuple[Joint, ...]:
-        """Its pairs with what is known."""
+        """Its pairs with known links."""
         pins = tuple(each.pin for each in self.cylinders)
         return pins if len(pins) == 2 else (*pins, self.dyad.right)
 
     @property
     def links(self) -> tuple[str, ...]:
-        """All links of the cylinders, and the other of the dyad."""
+        """All links of the cylinders, and the other link of the dyad."""
         near = [each.near for each in self.cylinders]
         return (near[0], *self.dyad.links, *near[1:])
 
     @property
     def title(self) -> str:
-        """What it is called."""
         pairs = [f"links {each.near}, {each.far}" for each in self.cylinders]
         if len(pairs) == 2:
             return f"{self.dyad.title} with driven cylinders of {pairs[0]} and of {pairs[1]}"
@@ -246,22 +243,21 @@ class Stretched(Struct, frozen=True):
 
     @property
     def words(self) -> str:
-        """It and its links."""
+        """Its title with its links."""
         return titled(self)
 
 
 Last = Tie | Driver | Contact
-"""What closes a group that is tried: a link, a given motion, a wheel that must not slip."""
+"""What closes a group with a tried link: a link, a given motion, or a wheel's no-slip condition."""
 
 
 class Higher(Struct, frozen=True):
-    """A group of class III or more: once one link is tried, the others follow as dyads.
+    """A group of class III or higher: once one link is tried, the others follow as dyads.
 
-    What closes it at last is a link between two known points, a driver's given motion, or a wheel
-    that does not slip on what it touches. Where dyads alone do not do the rest, its chain holds
-    groups within it that are tried in their turn.
-    Where its ``wheels``, pinned to known tracks, leave groups of which nothing is tried, those
-    move it ``at_instant``.
+    The group closes by a link between two known points, by a driver's given motion, or by a wheel
+    that must not slip. Where dyads alone are not enough, its chain contains inner groups with tried
+    links of their own. If ``wheels`` pinned to known tracks leave groups without a tried link,
+    those groups move it ``at_instant``.
     """
 
     tried: TriedLink
@@ -273,37 +269,37 @@ class Higher(Struct, frozen=True):
 
     @property
     def links(self) -> tuple[str, ...]:
-        """All links, that whose place is tried first and that which closes last."""
+        """All links: the tried one first, the closing one last."""
         last = self.last.links if isinstance(self.last, Tie) else ()
         return (*self.tried.links, *(link for g in self.chain for link in g.links), *last)
 
     @property
     def parts(self) -> tuple[TriedLink | Group, ...]:
-        """The link that is tried, its chain, and the link that closes it, if one does."""
+        """The tried link, its chain, and the closing link, if there is one."""
         return (self.tried, *self.chain, *((self.last,) if isinstance(self.last, Tie) else ()))
 
     @property
     def closing(self) -> str:
-        """The link, or the first of two, that a last contact makes roll."""
+        """The link, or the first of two, whose rolling the last contact checks."""
         assert isinstance(self.last, Contact)
         return next(link for link in self.last.links if link in self.links)
 
     @property
     def placing(self) -> list[Joint]:
-        """The pairs by which its parts hang on what is known before them."""
+        """The pairs by which its parts depend on earlier ones."""
         among = (getattr(part, "placed_by", ()) for part in self.parts[1:])
         outer = (getattr(part, "outer", ()) for part in self.parts[1:])
         return [self.tried.pair, *(pair for pairs in (*among, *outer) for pair in pairs)]
 
     @property
     def nested(self) -> tuple[Higher, ...]:
-        """It, and the groups within it that are tried in their turn, from the outermost inwards."""
+        """The group and the inner groups with tried links, from the outermost inwards."""
         inner = (each for each in self.chain if isinstance(each, Higher))
         return (self, *(one for each in inner for one in each.nested))
 
     @property
     def members(self) -> tuple[Group, ...]:
-        """What follows from what is tried, with that of the groups within it, in order."""
+        """The groups that follow from the tried link, with those of inner groups, in order."""
         parts = (each.members if isinstance(each, Higher) else (each,) for each in self.chain)
         return tuple(member for part in parts for member in part)
 
@@ -314,7 +310,6 @@ class Higher(Struct, frozen=True):
 
     @property
     def title(self) -> str:
-        """What it is called."""
         if isinstance(self.last, Driver):
             return "group closed by a driver within it"
         if isinstance(self.last, Contact):
@@ -324,7 +319,7 @@ class Higher(Struct, frozen=True):
 
     @property
     def words(self) -> str:
-        """Its class, its links, where it is tried, and what closes it."""
+        """Its class, its links, the tried link, and what closes it."""
         names, last = listed(sorted(self.links, key=natural)), self.last
         match last:
             case Tie():
@@ -337,11 +332,11 @@ class Higher(Struct, frozen=True):
 
 
 class Unresolved(Struct, frozen=True):
-    """What is left when no driver and no group applies.
+    """The links that remain when no driver and no group applies.
 
-    ``driven`` are the drivers that move two of its links against one another, ``tracks`` those of
-    its links that carry straight tracks of wheels, ``wedged`` the wheels between two known ones.
-    ``asked`` is what to write where a wheel on such a track may need a link that keeps it there.
+    ``driven`` are drivers between two of these links, ``tracks`` the links with straight tracks of
+    wheels, and ``wedged`` the wheels between two known tracks. ``asked`` says what to write where a
+    wheel on such a track may need a link that keeps it there.
     """
 
     links: tuple[str, ...]
@@ -352,12 +347,11 @@ class Unresolved(Struct, frozen=True):
 
     @property
     def title(self) -> str:
-        """What it is called."""
         return "a group for which no construction was found"
 
     @property
     def words(self) -> str:
-        """It and its links."""
+        """Its title with its links."""
         return titled(self)
 
 
@@ -378,5 +372,5 @@ Group = (
 
 
 def titled(group: CamFollower | Stretched | Unresolved) -> str:
-    """What a group is called, with its links."""
+    """The title of a group with its links."""
     return f"{group.title}: {joined_words(group.links)}"

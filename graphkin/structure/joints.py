@@ -1,4 +1,4 @@
-"""Which pairs each link has, and with whom: looked up once, asked often."""
+"""The pairs of each link and the links they join, found once for many queries."""
 
 from __future__ import annotations
 
@@ -48,7 +48,7 @@ class Joints:
                 yield pair
 
     def inner(self, first: str, second: str, known: Collection[str]) -> tuple[Joint, ...]:
-        """The pairs between two links, but for pins that stand already on known links."""
+        """The pairs between two links, except pins that are already located on known links."""
         return tuple(
             pair
             for pair in self.between(first, (second,))
@@ -56,19 +56,19 @@ class Joints:
         )
 
     def neighbours(self, link: str) -> list[str]:
-        """The links joined to a link by any pair, as written."""
+        """The links joined to a link by any pair, in written order."""
         return sorted(self.beside[link], key=self.order.__getitem__)
 
     def unknown(self, known: Collection[str]) -> Iterator[str]:
-        """The links that are not known, as written."""
+        """The links that are not known, in written order."""
         return (name for name in self.names if name not in known)
 
     def part(self, links: Collection[str]) -> Joints:
-        """The same pairs, where only some links are looked at as unknown."""
+        """The pairs, with only some links treated as unknown."""
         return self._but(names=tuple(name for name in self.names if name in links))
 
     def leaving(self, links: Collection[str]) -> Joints:
-        """The same pairs but those of some links, as if these were not there."""
+        """The pairs without some links, as if these did not exist."""
         others = {
             link: [pair for pair in own if not {*pair.links} & {*links}]
             for link, own in self.others.items()
@@ -80,7 +80,7 @@ class Joints:
         return self._but(found={}, others=others, owners=owners, names=names, beside=beside)
 
     def with_pins(self, pins: Sequence[tuple[Joint, Pin]]) -> Joints:
-        """The same pairs, with pins in place of some of them."""
+        """The pairs, with pins in place of some of them."""
         others = {
             link: [next((pin for held, pin in pins if held == pair), pair) for pair in pairs]
             for link, pairs in self.others.items()
@@ -89,20 +89,20 @@ class Joints:
         return self._but(found={}, others=others, owners=owners)
 
     def without(self, pairs: Collection[Joint]) -> Joints:
-        """The same pairs but some."""
+        """The pairs without some of them."""
         others = {
             link: [pair for pair in own if pair not in pairs] for link, own in self.others.items()
         }
         return self._but(found={}, others=others)
 
     def _but(self, **parts: Any) -> Joints:
-        """The same but for some of what it holds."""
+        """A copy with some attributes replaced."""
         other = object.__new__(Joints)
         vars(other).update(vars(self) | parts)
         return other
 
     def apart(self, known: Collection[str], tied: Iterable[set[str]]) -> Iterator[set[str]]:
-        """The unknown links in parts that neither pairs nor the sets ``tied`` join, as written."""
+        """The unknown links in parts not joined by pairs or the sets ``tied``, in written order."""
         left = set(self.unknown(known))
         for first in self.names:
             if first not in left:

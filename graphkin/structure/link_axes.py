@@ -1,7 +1,7 @@
-"""Where the points, guides and tracks of a link lie in its own axes, at the scene's parameters.
+"""The points, guides and tracks of a link in its own axes, at the scene's parameters.
 
-Which wheels touch and which link keeps a distance is told by these numbers. Lengths in metres,
-floats; the construction and its witness reckon their own.
+These numbers decide which wheels touch and which link keeps a distance. Lengths are floats in
+metres. The construction and the residual check compute their own.
 """
 
 from __future__ import annotations
@@ -74,12 +74,12 @@ def metres(scene: Scene, quantity: Quantity) -> float:
 
 
 def unit(scene: Scene, angle: Quantity | None) -> complex:
-    """The unit vector at an angle, the x axis where none is written."""
+    """The unit vector at an angle; the x axis without one."""
     return 1 + 0j if angle is None else complex(angle.direction(scene.values))
 
 
 def guide_line(scene: Scene, slide: Slide) -> Line:
-    """A guide in the axes of its link, along a unit vector; offsets of blocks are left out."""
+    """A guide in the axes of its link, along a unit vector; block offsets are not included."""
     if slide.along is None:
         return Line(through(scene, slide), unit(scene, slide.angle))
     points = body(scene, slide.on)
@@ -92,7 +92,7 @@ def guide_line(scene: Scene, slide: Slide) -> Line:
 
 
 def through(scene: Scene, joint: GuideOrTrack) -> Point:
-    """The point that a guide or a track is written through, in the axes of its link."""
+    """The point of a guide's or track's ``through``, in the axes of its link."""
     match joint.through:
         case str(name):
             return body(scene, joint.on)[name]

@@ -1,4 +1,4 @@
-"""The kinematic pairs of a scene: what joins which links."""
+"""The kinematic pairs of a scene, each between two links."""
 
 from __future__ import annotations
 
@@ -44,7 +44,7 @@ __all__ = [
 
 
 class Pin(Struct, frozen=True):
-    """A turning pair: two links share a point. Its letter in a dyad's type, and freedoms taken."""
+    """A turning pair, a point of two links; its dyad letter and the freedoms that it removes."""
 
     symbol: ClassVar[str] = "R"
     taken: ClassVar[int] = 2
@@ -54,22 +54,21 @@ class Pin(Struct, frozen=True):
 
     @property
     def brief(self) -> str:
-        """It in short."""
         return f"pin {self.point}"
 
     @property
     def words(self) -> str:
-        """It with the links that it joins."""
+        """The pin with the links that it joins."""
         return f"{self.brief} of {joined_words(self.links)}"
 
     @property
     def place(self) -> str:
-        """The point where it lies; ``point`` may be one link's own under it, such as A@3."""
+        """The pin's point; ``point`` may be one link's own point under it, such as A@3."""
         return ends_of(self.point)[0]
 
 
 class Sliding(Struct, frozen=True):
-    """A sliding pair: a block on a guide of another link; what a driver does to it, as written."""
+    """A sliding pair, a block on a guide of another link, with its driver words as written."""
 
     symbol: ClassVar[str] = "P"
     moved_by: ClassVar[str] = "slide"
@@ -81,7 +80,7 @@ class Sliding(Struct, frozen=True):
 
     @property
     def words(self) -> str:
-        """It with the link on which its block slides."""
+        """The slide with the link on which its block slides."""
         return f"slide of block {self.block} on {link_words(self.links[1])}"
 
     brief = words
@@ -92,17 +91,17 @@ class Sliding(Struct, frozen=True):
         return self.links[0]
 
     def led_point(self, scene: Scene, link: str) -> str:
-        """The point of one of its links that it leads along a line."""
+        """The point of one of its links that it guides along a line."""
         return scene.link(link).points[0]
 
 
 class PinLine(Sliding, frozen=True):
-    """The line on which two blocks keep each other, for both slide on parallel guides of ``rail``.
+    """The line along which two blocks guide each other, both on parallel guides of ``rail``.
 
-    ``links`` are the later written block and the first, from which the line leads; ``slides`` are
-    their pairs with the rail, and ``pins`` their pins, likewise. ``slide`` is the line as a guide
-    of the first. ``on`` is the link that carries both pins, None where two links do; ``spare`` is
-    the slide that is left out once the direction is known.
+    ``links`` are the later block and the first one, from which the line starts. ``slides`` are
+    their pairs with the rail and ``pins`` their pins, in the same order. ``slide`` is the line as a
+    guide of the first. ``on`` is the link that carries both pins, None where two links do.
+    ``spare`` is the slide that is left out once the direction is known.
     """
 
     rail: str
@@ -113,8 +112,10 @@ class PinLine(Sliding, frozen=True):
 
     @property
     def named(self) -> str:
-        """The link by which a scene says which way round the rail lies: another where that has a
-        way of its own, as a block."""
+        """The link under which a scene states the direction of the rail.
+
+        It is the rail, or another link if the rail has a way of its own as a block.
+        """
         led = next((p.links[1] for p in self.slides if p.block == self.rail), None)
         return self.rail if led is None else next(link for link in self.links if link != led)
 
@@ -128,33 +129,33 @@ class PinLine(Sliding, frozen=True):
 
 
 class ContactName(str):
-    """The name of a point of contact, which belongs to no scene: T, and T@3 as one of link 3."""
+    """The name of a contact point, which belongs to no scene: T, and T@3 as a point of link 3."""
 
     __slots__ = ()
 
 
 class SlippingName(ContactName):
-    """The name of a point of contact where wheels may slip: of either link it has its own image."""
+    """The name of a contact point where wheels may slip, with its own image on either link."""
 
     __slots__ = ()
 
 
 def is_in_scene(point: str) -> bool:
-    """Whether a scene names a point: it may ask for it, and a solution has it."""
+    """Whether a scene names a point, so that it may be requested and a solution has it."""
     return not isinstance(point, ContactName)
 
 
 def name_words(point: str) -> str:
-    """A point by its name, one of contact as such."""
+    """A point by its name; a contact point is named as one."""
     return point if is_in_scene(point) else f"the contact {point}"
 
 
 class Contact(Struct, frozen=True):
     """A wheel that rolls without slip on a straight track or on a wheel of another link.
 
-    ``links`` are the wheel's and the track's; ``track`` is the wheel rolled on, None on a straight
-    track. ``arm`` is the link that keeps the two together already, None where only the contact
-    does. ``letter`` names the place where they touch.
+    ``links`` are the wheel's and the track's. ``track`` is the wheel it rolls on, None for a
+    straight track. ``arm`` is the link that already keeps the two in contact, None where only the
+    contact does. ``letter`` names the contact point.
     """
 
     symbol: ClassVar[str] = "W"
@@ -169,12 +170,11 @@ class Contact(Struct, frozen=True):
 
     @property
     def brief(self) -> str:
-        """It in short."""
         return f"contact of {joined_words(self.links)}"
 
     @property
     def words(self) -> str:
-        """It with its wheels, or what it rolls on, and the link that keeps their distance."""
+        """The contact with its wheels, or its track, and the link that keeps their distance."""
         link, on = self.links
         track = "a track" if self.track is None else f"wheel {self.track.centre}"
         words = f"wheel {self.wheel.centre} of {link_words(link)} on {track} of {link_words(on)}"
@@ -187,17 +187,17 @@ class Contact(Struct, frozen=True):
 
     @property
     def moved_by(self) -> str:
-        """What a driver does to it, as written: a coordinate is counted along a straight track."""
+        """A driver's word for it: a coordinate is counted only along a straight track."""
         return "roll" if self.track is None else ""
 
     @property
     def taken(self) -> int:
-        """Freedoms that it takes: the slip, and the distance unless an arm keeps that."""
+        """Freedoms that it removes: the slip, and the distance unless an arm keeps it."""
         return 2 if self.arm is None else 1
 
     @property
     def alike(self) -> bool:
-        """Whether it is an open belt on wheels of one size: these turn alike, nothing touches."""
+        """Whether it is an open belt on wheels of one size, which turn alike without contact."""
         belt = self.rolling.belt
         if belt is None or belt.crossed or self.track is None:
             return False
@@ -205,7 +205,7 @@ class Contact(Struct, frozen=True):
 
     @property
     def needs(self) -> set[str]:
-        """The links that must stand before it can be seen whether it slips."""
+        """The links that must be known before its slip can be checked."""
         return {*self.links} if self.arm is None else {*self.links, self.arm}
 
     def wheel_of(self, link: str) -> Wheel:
@@ -215,23 +215,23 @@ class Contact(Struct, frozen=True):
         return wheel
 
     def sign_of(self, scene: Scene, link: str) -> str:
-        """What the wheel of one of its links is called."""
+        """The label of the wheel of one of its links."""
         return scene.link(link).wheel_sign(self.wheel_of(link))
 
     def led_point(self, scene: Scene, link: str) -> str:
-        """The point of one of its links that it leads along a line: a wheel's centre."""
+        """The point of one of its links that it guides along a line: a wheel's centre."""
         return self.wheel.centre if self.links[0] == link else scene.link(link).points[0]
 
 
 Pair = Pin | Sliding
 Leading = Sliding | Contact
-"""A pair that leads a point of one link along a line of the other."""
+"""A pair that guides a point of one link along a line of the other."""
 Joint = Pair | Contact
 """A pair that joins two links: a pin, a slide or a rolling contact."""
 
 
 def meshes(scene: Scene, contact: Contact) -> bool:
-    """Whether a contact is one of gears: of two wheels, or of a wheel on its pin with a rack.
+    """Whether a contact is one of gears: two wheels, or a wheel on its pin with a rack.
 
     Other wheels roll along their track.
     """
@@ -250,7 +250,7 @@ def pairs(scene: Scene) -> tuple[Pair, ...]:
 
 
 def all_pairs(scene: Scene) -> tuple[Joint, ...]:
-    """All pairs: pins, slides, then rolling pairs. StructureError: wheels that do not touch."""
+    """All pairs: pins, slides, rolling pairs. Raises StructureError for a gap of wheels."""
     return (*pairs(scene), *contacts(scene))
 
 
@@ -271,7 +271,7 @@ def refuse_loose(joints: Sequence[Joint]) -> None:
 
 
 def sharers(scene: Scene) -> dict[str, tuple[str, ...]]:
-    """The links that own each point, the frame first, then as written."""
+    """The links that have each point, the frame first, then in written order."""
     owners: dict[str, list[str]] = {}
     for link in scene.every_link:
         for point in link.points:
@@ -280,7 +280,7 @@ def sharers(scene: Scene) -> dict[str, tuple[str, ...]]:
 
 
 def contacts(scene: Scene) -> tuple[Contact, ...]:
-    """All rolling pairs, as written. Raises StructureError for wheels that do not touch."""
+    """All rolling pairs, in written order. Raises StructureError for wheels that do not touch."""
     if not any(link.rolls for link in scene.every_link):
         return ()
     from graphkin.scene.wheels import contact_letters
@@ -290,7 +290,7 @@ def contacts(scene: Scene) -> tuple[Contact, ...]:
 
 
 def contacts_of(scene: Scene, link: str, letters: tuple[str, ...]) -> list[Contact]:
-    """The rolling pairs that a link is written with; each may rest on the tracks before it."""
+    """The rolling pairs of a link; each may rest on the tracks before it."""
     from graphkin.structure.touching_wheels import touching
 
     found: list[Contact] = []

@@ -1,7 +1,7 @@
-"""Bars that are idle in a parallel set: of three that stay parallel two keep all the others so.
+"""Idle bars in a parallel set: of three bars that stay parallel, two keep all the others so.
 
-Two links that equal bars join, at congruent figures of pins, shift along circles against one
-another. Each bar beyond the second takes a freedom that the others have taken already.
+Two links joined by equal bars, at congruent figures of pins, translate along circles relative to
+one another. Each bar beyond the second removes a freedom that the others have removed already.
 """
 
 from __future__ import annotations
@@ -16,11 +16,11 @@ from graphkin.structure.link_axes import body
 from graphkin.structure.pairs import sharers
 
 ALIKE = 1e-9
-"""Difference of two lengths, in parts of the larger, or of two directions, that rounding leaves."""
+"""Relative difference of two lengths, or of two directions, that rounding leaves."""
 
 
 class Bar(Struct, frozen=True):
-    """A link by its pins on two others: the way between them on each of the three."""
+    """A link by its pins on two others, with the vector between them on each of the three."""
 
     link: str
     length: float
@@ -29,7 +29,7 @@ class Bar(Struct, frozen=True):
 
 
 def idle_bars(scene: Scene) -> tuple[str, ...]:
-    """The bars that parallel ones make idle, of each set all but two, the later written first.
+    """The bars that parallel ones make idle: in each set all but two, the later written first.
 
     Only a plain bar is left out: one that no driver moves, and that holds nothing else.
     """
@@ -53,7 +53,7 @@ def is_plain(scene: Scene, owners: dict[str, tuple[str, ...]], name: str) -> boo
 
 
 def joining(scene: Scene, owners: dict[str, tuple[str, ...]]) -> dict[tuple[str, str], list[Bar]]:
-    """The links that join each two others by pins of their own, in the order written."""
+    """The links that join each two others by pins of their own, in written order."""
     found: dict[tuple[str, str], list[Bar]] = {}
     bodies = {link.name: body(scene, link.name) for link in scene.every_link}
     for link in (*scene.links.values(), scene.frame):
@@ -69,7 +69,7 @@ def joining(scene: Scene, owners: dict[str, tuple[str, ...]]) -> dict[tuple[str,
 
 
 def pinned_to(link: Link, owners: dict[str, tuple[str, ...]]) -> Iterator[tuple[str, str]]:
-    """The links that share a point with one, with that point."""
+    """The links that share a point with a link, each with that point."""
     for point in link.points:
         for other in owners[point]:
             if other != link.name:
@@ -77,7 +77,7 @@ def pinned_to(link: Link, owners: dict[str, tuple[str, ...]]) -> Iterator[tuple[
 
 
 def parallel_sets(joined: dict[tuple[str, str], list[Bar]]) -> Iterator[list[Bar]]:
-    """The bars between two links, three and more, that stay parallel."""
+    """The sets of three or more bars between two links that stay parallel."""
     for bars in joined.values():
         left = bars
         while len(left) > 2:
@@ -93,7 +93,7 @@ def parallel_sets(joined: dict[tuple[str, str], list[Bar]]) -> Iterator[list[Bar
 
 
 def turned(one: Bar, other: Bar) -> complex:
-    """How the way between two pins is turned from one link to the other; 0 if not as long there."""
+    """The rotation of the vector between two pins from link to link; 0 if lengths differ."""
     near, far = other.near - one.near, other.far - one.far
     if not near or abs(abs(far) - abs(near)) > ALIKE * abs(near):
         return 0j
@@ -101,6 +101,6 @@ def turned(one: Bar, other: Bar) -> complex:
 
 
 def is_turned(one: Bar, other: Bar, turn: complex) -> bool:
-    """Whether the way between two pins is turned so from the one link to the other."""
+    """Whether the vector between two pins has a given rotation from one link to the other."""
     near, far = other.near - one.near, other.far - one.far
     return bool(near) and abs(far - turn * near) <= ALIKE * abs(near)

@@ -1,4 +1,4 @@
-"""Which wheels of two links touch or have a belt, and which link keeps their distance."""
+"""The wheels of two links that touch or have a belt, and the link that keeps their distance."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ TOUCH = 1e-9
 
 
 class RollingContact(Struct, frozen=True):
-    """The wheel that rolls, the wheel that it rolls on (None: straight), and the arm."""
+    """The wheel that rolls, the wheel it rolls on (None: a straight track), and the arm."""
 
     wheel: Wheel
     track: Wheel | None
@@ -37,22 +37,22 @@ class WheelsApart(Struct, frozen=True):
 
     @property
     def touches(self) -> bool:
-        """Whether the distance is the one at which they touch."""
+        """Whether the distance equals the one at which they touch."""
         return self.needed > 0 and miss(self) <= TOUCH * self.needed
 
 
 def miss(apart: WheelsApart) -> float:
-    """How far a distance is from the one needed."""
+    """The difference between a distance and the required one."""
     return abs(apart.distance - apart.needed)
 
 
 def touching(
     scene: Scene, name: str, rolling: Rolling, before: Sequence[tuple[Rolling, Wheel]]
 ) -> RollingContact:
-    """The wheels of a rolling pair; ``before`` are the straight tracks of the same link, so far.
+    """The wheels of a rolling pair; ``before`` are the earlier straight tracks of the same link.
 
-    Where the distance is kept, wheels are told by their radii, else the first written ones are
-    meant. Raises StructureError for wheels that are kept apart.
+    Where a link keeps the distance, the radii select the wheels. Otherwise the wheels written first
+    are taken. Raises StructureError for wheels that are held apart.
     """
     if rolling.belt is not None:
         return belted(scene, name, rolling, rolling.belt)
@@ -73,7 +73,7 @@ def touching(
 
 
 def belted(scene: Scene, name: str, rolling: Rolling, belt: Belt) -> RollingContact:
-    """The two wheels that a belt runs on; StructureError where it cannot run on them."""
+    """The two wheels of a belt. Raises StructureError where the belt cannot run on them."""
     own, other = belt.wheels
     wheel, track = scene.links[name].wheels[own], scene.link(rolling.on).wheels[other]
     arm = owner_of(scene, (wheel.centre, track.centre), (name, rolling.on))
@@ -98,7 +98,7 @@ def belted(scene: Scene, name: str, rolling: Rolling, belt: Belt) -> RollingCont
 
 
 def overlap(scene: Scene, name: str, rolling: Rolling, on: RollingContact) -> Problem:
-    """That two wheels stand too close for a belt round both."""
+    """The problem of two wheels that are too close for a belt round both."""
     assert on.track is not None and on.arm is not None
     own, other = radius(scene, on.wheel), radius(scene, on.track)
     points, centres = body(scene, on.arm), f"{on.track.centre}-{on.wheel.centre}"
@@ -114,10 +114,10 @@ def overlap(scene: Scene, name: str, rolling: Rolling, on: RollingContact) -> Pr
 
 
 def kept_centres(scene: Scene, name: str, rolling: Rolling) -> Iterator[WheelsApart]:
-    """Every two wheels whose centres one link owns, with their distance on it.
+    """Every two wheels whose centres belong to one link, with their distance on it.
 
-    Wheels outside one another touch at the sum of their radii, a ring and a wheel within it at
-    the difference; two rings cannot touch, nor a ring a wheel that is larger.
+    External wheels touch at the sum of their radii; a ring and a wheel within it touch at the
+    difference. Two rings cannot touch, nor can a ring and a larger wheel.
     """
     for wheel in scene.link(name).wheels:
         for track in scene.link(rolling.on).wheels:
@@ -131,7 +131,7 @@ def kept_centres(scene: Scene, name: str, rolling: Rolling) -> Iterator[WheelsAp
 
 
 def owner_of(scene: Scene, points: Sequence[str], but: Sequence[str]) -> str | None:
-    """The first link, the frame before all, that owns all of some points and is none of a few."""
+    """The first link, the frame before all, that has all of some points and is none of ``but``."""
     for link in scene.every_link:
         if link.name not in but and set(points) <= set(link.points):
             return link.name
@@ -141,10 +141,10 @@ def owner_of(scene: Scene, points: Sequence[str], but: Sequence[str]) -> str | N
 def kept_heights(
     scene: Scene, name: str, rolling: Rolling, before: Sequence[tuple[Rolling, Wheel]]
 ) -> Iterator[WheelsApart]:
-    """Every wheel whose centre is kept at a distance from a straight track: on its proper side.
+    """Every wheel whose centre is held at a distance from a straight track, on its proper side.
 
-    By a link that owns the centre and only slides along the track (rack and pinion), or by a
-    track before this one that is parallel to it (roller between plates).
+    A link that has the centre and only slides along the track may hold it (rack and pinion). So may
+    an earlier track parallel to this one (roller between plates).
     """
     line = track_line(scene, rolling)
     standing = stands(scene, rolling.on, line.along)
@@ -180,7 +180,7 @@ def radius(scene: Scene, wheel: Wheel) -> float:
 
 
 def gap(scene: Scene, name: str, rolling: Rolling, apart: WheelsApart) -> Problem:
-    """How far two wheels, or a wheel and its track, are from touching."""
+    """The problem of the gap between two wheels, or between a wheel and its track."""
     place, on = f"links.{name}.rolls", link_words(rolling.on)
     keeper = link_words(apart.arm)
     own = shown(scene, radius(scene, apart.wheel))
@@ -212,7 +212,7 @@ def gap(scene: Scene, name: str, rolling: Rolling, apart: WheelsApart) -> Proble
 
 
 def may_be_ring(scene: Scene, apart: WheelsApart) -> bool:
-    """Whether two wheels that do not touch would, were the larger one written as a ring."""
+    """Whether two wheels that do not touch would touch if the larger one were a ring."""
     if apart.track is None or apart.track.inside or apart.wheel.inside:
         return False
     within = abs(radius(scene, apart.track) - radius(scene, apart.wheel))
@@ -231,7 +231,7 @@ def track_line(scene: Scene, rolling: Rolling) -> Line:
 
 
 def lone_wheels(scene: Scene) -> Iterator[Problem]:
-    """Wheels that roll on nothing and on which nothing rolls."""
+    """The problems of wheels that roll on nothing and on which nothing rolls."""
     links = scene.every_link
     tracks = {rolling.on for link in links for rolling in link.rolls}
     for link in links:
@@ -244,7 +244,7 @@ def lone_wheels(scene: Scene) -> Iterator[Problem]:
 
 
 def keeper_hint(scene: Scene, loose: Sequence[str]) -> str:
-    """Words for a track from whose wheel what keeps it there is missing; empty where none is."""
+    """Words for a track without the link that keeps its wheel there; empty if there is none."""
     for name in loose:
         for rolling in scene.links[name].rolls:
             if rolling.through and rolling.on != FRAME and not rolling.keeper:
@@ -253,9 +253,10 @@ def keeper_hint(scene: Scene, loose: Sequence[str]) -> str:
 
 
 def asked_of(scene: Scene, tracks: Sequence[str]) -> str:
-    """What to write where a wheel rolls on one of some tracks that nothing keeps there.
+    """Words for what to write where a wheel rolls on a track that nothing holds.
 
-    Of a rack that slides across the track, and on which nothing hangs, which way its axes lie.
+    For a rack that slides across the track and has no other link attached, the words ask for the
+    direction of its axes.
     """
     for track in tracks:
         hung = {p for k in scene.every_link if k.name != track for p in k.points}
@@ -275,9 +276,9 @@ def asked_of(scene: Scene, tracks: Sequence[str]) -> str:
 
 
 def keeper_asked(links: Collection[str], wheel: str, track: str) -> str:
-    """Words for a track that seems to be led by links which hang on it themselves.
+    """Words for a track that seems to be guided by links which it carries itself.
 
-    What keeps its wheel where it rolls was not put in, unless a name asks for it.
+    The block that keeps its wheel in contact is only added if the scene names it.
     """
     whose = link_words(wheel)
     moving = [name for name in links if name != FRAME]

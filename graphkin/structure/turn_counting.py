@@ -1,8 +1,7 @@
-"""How far links have turned since wheels stood as at the start: the angle that each counts near.
+"""The turns of links since the start of their wheels: the angle near which each counts.
 
-Pins show the direction of a link and not how often it went round, which decides how its wheels
-stand. It is taken within half a turn of an angle: that of its start, with the whole turns that the
-scene adds.
+Pins show the direction of a link but not its number of turns, on which its wheels depend. The angle
+is taken within half a turn of a reference: its start, plus the whole turns that the scene adds.
 """
 
 from __future__ import annotations
@@ -22,21 +21,21 @@ WHOLE: Mapping[str, Tree] = {
     "deg": Number(Fraction(360)),
     "rad": Pair("*", Number(Fraction(2)), Name(CONSTANT)),
 }
-"""A turn in the units of angles."""
+"""A full turn in the units of angles."""
 
 
 def counted_near(scene: Scene) -> Mapping[str, Quantity]:
-    """The angle within half a turn of which that of each link is taken.
+    """The angle of each link within half a turn of which its angle is taken.
 
-    It counts from the start of what rolls and states its turns, else of what rolls first. Raises
-    StructureError where two state turns of one link.
+    It counts from the start of the rolling that states its turns, else of the first rolling. Raises
+    StructureError where two rollings state turns of one link.
     """
     found = {link: near(rolling, link) for link, rolling in counting(scene).items()}
     return {**found, **scene.near}
 
 
 def counting(scene: Scene) -> Mapping[str, Rolling]:
-    """What rolls and counts the angle of each link that wheels, their tracks and arms are."""
+    """The rolling that counts the angle of each wheel's, track's and arm's link."""
     found: dict[str, Rolling] = {}
     for contact in contacts(scene):
         for link in (*contact.links, *([contact.arm] if contact.arm else [])):
@@ -49,7 +48,7 @@ def counting(scene: Scene) -> Mapping[str, Rolling]:
 
 
 def stated_rolling(scene: Scene) -> dict[str, Rolling]:
-    """What rolls and states the turns of a link, by the link."""
+    """The rolling that states the turns of a link, by link."""
     found: dict[str, Rolling] = {}
     problems = []
     for each in scene.every_link:
@@ -65,7 +64,7 @@ def stated_rolling(scene: Scene) -> dict[str, Rolling]:
 
 
 def near(rolling: Rolling, link: str) -> Quantity:
-    """The angle of a link at the start, and the whole turns that are added."""
+    """The angle of a link at the start, plus the stated whole turns."""
     start = rolling.start.get(link, exact(0, "deg"))
     if link not in rolling.turns:
         return start
@@ -75,7 +74,7 @@ def near(rolling: Rolling, link: str) -> Quantity:
 
 
 def place_of_turns(scene: Scene, link: str) -> str:
-    """The key of what rolls and counts the angle of a link."""
+    """The key of the rolling that counts the angle of a link."""
     rolling = counting(scene).get(link)
     return next(
         numbered(f"{place_of(each.name)}.rolls", n, len(each.rolls))

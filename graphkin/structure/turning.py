@@ -1,4 +1,4 @@
-"""Links that slide on one another turn together: which, at what angle, and which never turn."""
+"""Links that turn together because they slide on one another, and links that never turn."""
 
 from __future__ import annotations
 
@@ -16,10 +16,10 @@ LEVEL = 1e-9
 
 
 class Stand(Struct, frozen=True):
-    """How a link stands against another on which it only slides one way.
+    """The angle and height of a link relative to another along which it only slides.
 
-    ``lean`` is the direction of its x axis in the other's axes, ``height`` (m) how far its origin
-    lies to the left of the line through the other's origin along the common direction.
+    ``lean`` is the direction of its x axis in the other link's axes. ``height`` (m) is the distance
+    of its origin to the left of the line through the other's origin in the common direction.
     """
 
     lean: complex
@@ -27,12 +27,12 @@ class Stand(Struct, frozen=True):
 
 
 def turns(scene: Scene, name: str) -> bool:
-    """False for a link that slides alone join to the frame, one after the other: it only shifts."""
+    """Whether a link can turn: False if slides alone join it to the frame, one after another."""
     return FRAME not in together(scene, name)
 
 
 def guides_under(scene: Scene, name: str) -> Iterator[str]:
-    """The link under a block, the one under that, and so on to one that does not slide."""
+    """The link below a block, the one below that, and so on to a link that does not slide."""
     seen: set[str] = set()
     while name != FRAME and name not in seen and scene.links[name].slides:
         seen.add(name)
@@ -41,7 +41,7 @@ def guides_under(scene: Scene, name: str) -> Iterator[str]:
 
 
 def together(scene: Scene, name: str) -> frozenset[str]:
-    """All links that turn with a link: slides alone lead from one to the other, or two pins do."""
+    """All links that turn with a link, because slides, or two pins, join them."""
     beside: dict[str, list[str]] = {}
     joined = [(block, slide.on) for block, slide in every_slide(scene)]
     for one, other in (*joined, *((block, on) for block, _, on in pinned_twice(scene))):
@@ -63,9 +63,9 @@ def every_slide(scene: Scene) -> Iterator[tuple[str, Slide]]:
 
 
 def pinned_twice(scene: Scene) -> Iterator[tuple[str, str, str]]:
-    """Two blocks on pins of one link, in parallel guides of another: with that on which they are.
+    """Two blocks pinned to one link and guided in parallel by another, with the link they carry.
 
-    They keep that direction, as a rod does in two bushings.
+    The link keeps the direction of the guides, like a rod in two bushings.
     """
     beside: dict[str, list[tuple[str, complex]]] = {}
     for block, slide in every_slide(scene):
@@ -90,16 +90,16 @@ def two_pins(scene: Scene, one: str, other: str, on: Link) -> bool:
 def guide_on(scene: Scene, link: str, block: str, slide: Slide) -> complex:
     """The direction of a guide in the axes of one of its two links.
 
-    A block's x axis lies along the guide that it names first.
+    A block's x axis is parallel to its first guide.
     """
     return complex(guide_line(scene, slide).along) if slide.on == link else 1 + 0j
 
 
 def stands(scene: Scene, base: str, way: complex) -> Mapping[str, Stand]:
-    """The links that move against ``base`` along ``way`` only, a unit vector in its axes.
+    """The links that move relative to ``base`` only along ``way``, a unit vector in its axes.
 
-    Slides along that direction lead to them, so that each keeps its angle and its height. A
-    block's x axis lies along the guide that it names first.
+    Slides in that direction join them, so that each link keeps its angle and its height. A block's
+    x axis is parallel to its first guide.
     """
     found, waiting = {base: Stand(1 + 0j, 0.0)}, [base]
     while waiting:
@@ -119,7 +119,7 @@ def stands(scene: Scene, base: str, way: complex) -> Mapping[str, Stand]:
 
 
 def block_stand(scene: Scene, block: str, slide: Slide, under: Stand, way: complex) -> Stand | None:
-    """How a block stands whose guide's link stands; None where the guide leads another way."""
+    """The stand of a block, from its guide's link; None if the guide is not parallel."""
     line = guide_line(scene, slide)
     lean = under.lean * line.along
     if abs(cross(way, lean)) > LEVEL:
@@ -130,7 +130,7 @@ def block_stand(scene: Scene, block: str, slide: Slide, under: Stand, way: compl
 def carrier_stand(
     scene: Scene, block: str, slide: Slide, upon: Stand, way: complex
 ) -> Stand | None:
-    """How a guide's link stands whose block stands; None where the guide leads another way."""
+    """The stand of a guide's link, from its block's; None if the guide is not parallel."""
     line = guide_line(scene, slide)
     lean = upon.lean / line.along
     if abs(cross(way, upon.lean)) > LEVEL:
@@ -139,7 +139,7 @@ def carrier_stand(
 
 
 def lift(scene: Scene, block: str, slide: Slide, lean: complex, way: complex) -> float:
-    """How much higher a block's origin stands than that of its guide's link, which has a lean."""
+    """The height of a block's origin above the origin of its guide's link, for a given lean."""
     line, points = guide_line(scene, slide), body(scene, block)
     foot = line.point + 1j * metres(scene, slide.offset) * line.along
     first = points[scene.links[block].points[0]]

@@ -1,7 +1,7 @@
-"""Groups of wheels: turned by others, driven on their track, between two known ones, in a loop.
+"""Groups of wheels: turned by others, driven on a track, between two known wheels, in a loop.
 
-In a loop no wheel follows from known links alone. Once one link is tried, each of the others is
-turned by its contact with the one before, and a contact with a known wheel says where it stands.
+In a loop no wheel follows from known links alone. Once one link is tried, each further wheel is
+turned by its contact with the one before. A contact with a known wheel then gives the position.
 """
 
 from __future__ import annotations
@@ -23,36 +23,34 @@ from graphkin.text.plain_table import listed
 
 
 class OneLink(Struct, frozen=True):
-    """What consists of one link."""
+    """A group of one link."""
 
     link: str
 
     @property
     def links(self) -> tuple[str]:
-        """The one link."""
         return (self.link,)
 
 
 class Crank(OneLink, frozen=True):
-    """A link that a driver turns about a pin whose motion is known."""
+    """A link that a driver turns about a pin with known motion."""
 
     driver: Driver
     pivot: str
 
     @property
     def against(self) -> str:
-        """Words for the link against which it turns; none for the frame."""
+        """Words for the reference link of its rotation; empty for the frame."""
         other = other_of(self.driver, self.link)
         return "" if other == FRAME else f" against link {other}"
 
     @property
     def title(self) -> str:
-        """What it is called."""
         return f"driven by a crank about {self.pivot}" + (self.against and f",{self.against}")
 
     @property
     def words(self) -> str:
-        """Its kind, class and order, its links and what it is joined to."""
+        """Its kind, class and order, its links and the pairs that join it."""
         return f"crank {self.link} about {self.pivot}{self.against} (class I)"
 
 
@@ -64,43 +62,41 @@ class Driven(OneLink, frozen=True):
 
     @property
     def outer(self) -> tuple[Joint]:
-        """Its pair with what is known."""
+        """Its pair with a known link."""
         return (self.pair,)
 
     @property
     def title(self) -> str:
-        """What it is called."""
         against = other_of(self.driver, self.link)
         beside = "frame" if against == FRAME else f"link {against}"
         return f"driven, {self.pair.moving} on {beside}"
 
     @property
     def words(self) -> str:
-        """Its kind, class and order, its links and what it is joined to."""
+        """Its kind, class and order, its links and the pairs that join it."""
         return f"link {self.link} driven (class I): {self.pair.words}"
 
 
 class Tie(OneLink, frozen=True):
-    """A link that two pairs join to known links: at two pins it is idle, on two guides a wedge."""
+    """A link that two pairs join to known links: idle on two pins, a wedge on two guides."""
 
     first: Joint
     second: Joint
 
     @property
     def outer(self) -> tuple[Joint, Joint]:
-        """Its pairs with what is known."""
+        """Its pairs with known links."""
         return self.first, self.second
 
     @property
     def title(self) -> str:
-        """What it is called."""
         if isinstance(self.first, Sliding):
             return "led by two guides"
         return "idle: joins what moves together without it"
 
     @property
     def words(self) -> str:
-        """Its link, and what holds it."""
+        """Its link, and the pairs that hold it."""
         held = listed(pair.brief for pair in self.outer)
         if isinstance(self.first, Sliding):
             led = f"link {self.link} led by {held}"
@@ -109,18 +105,18 @@ class Tie(OneLink, frozen=True):
 
 
 class TriedLink(OneLink, frozen=True):
-    """A link whose place in its pair with a known one is tried until the rest closes."""
+    """A link whose position in its pair with a known link is tried until the rest closes."""
 
     pair: Joint
 
     @property
     def words(self) -> str:
-        """What is tried of it."""
+        """The tried link and its pair."""
         return f"tried at link {self.link} on {self.pair.brief}"
 
 
 def other_of(driver: Driver, link: str) -> str:
-    """The link against which a link is driven."""
+    """The other link of a driver."""
     return driver.against if driver.link == link else driver.link
 
 
@@ -128,29 +124,28 @@ def other_of(driver: Driver, link: str) -> str:
 
 
 FREE = 1e-12
-"""Rate of a miss, for one of the tried link, below which rounding alone makes it."""
+"""Rate of a slip, per unit rate of the tried link, below which it is rounding."""
 
 
 class Geared(OneLink, frozen=True):
-    """A wheel or a rack on a pair with a known link, whose turning a contact settles."""
+    """A wheel or a rack on a pair with a known link, turned by a contact."""
 
     pair: Joint
     contact: Contact
 
     @property
     def outer(self) -> tuple[Joint, Joint]:
-        """Its pairs with what is known."""
+        """Its pairs with known links."""
         return self.pair, self.contact
 
     @property
     def title(self) -> str:
-        """What it is called."""
         does = "has a belt with" if self.is_belted else "rolls on"
         return f"{does} link {partner(self.contact, self.link)}"
 
     @property
     def words(self) -> str:
-        """What it is joined to, and what moves it."""
+        """Its pair, and the contact that moves it."""
         other = link_words(partner(self.contact, self.link))
         return f"link {self.link} on {self.pair.brief}, moved by its contact with {other}"
 
@@ -161,15 +156,15 @@ class Geared(OneLink, frozen=True):
 
     @property
     def one_way(self) -> str:
-        """Why it has no choice."""
+        """Why it has only one closure."""
         return f"link {self.link} follows from its contact in one way only"
 
 
 class Spun(Struct, frozen=True):
-    """A wheel or bar whose angle a driver gives, on a ``holder`` that follows from its contact.
+    """A wheel or bar turned by a driver, on a ``holder`` that follows from its contact.
 
-    The holder, on a known pin, is the arm of a wheel (``held`` by a pin) or the block along which
-    a bar slides that rolls on a drum.
+    The holder, on a known pin, is the arm of a wheel (``held`` by a pin). For a bar that rolls on a
+    drum, it is the block on which the bar slides.
     """
 
     link: str
@@ -181,23 +176,22 @@ class Spun(Struct, frozen=True):
 
     @property
     def outer(self) -> tuple[Joint, Joint]:
-        """Its pairs with what is known."""
+        """Its pairs with known links."""
         return self.pivot, self.contact
 
     @property
     def links(self) -> tuple[str, str]:
-        """The holder, and what it holds."""
+        """The holder, and the link it holds."""
         return (self.holder, self.link)
 
     @property
     def title(self) -> str:
-        """What it is called."""
         on = partner(self.contact, self.link)
         return f"link {self.link} turned by its driver, rolling on link {on}"
 
     @property
     def words(self) -> str:
-        """Its class, what it rolls on, and what follows from that."""
+        """Its class, the link it rolls on, and the holder that follows."""
         other = link_words(partner(self.contact, self.link))
         follows = f"link {self.holder} on {self.pivot.brief} follows"
         return f"link {self.link} driven (class I): it rolls on {other}; {follows}"
@@ -214,23 +208,21 @@ class Train(Struct, frozen=True):
 
     @property
     def placed_by(self) -> tuple[Joint, ...]:
-        """Its pairs with what is known but the pin."""
+        """Its pairs with known links except the pin."""
         return self.contacts
 
     @property
     def links(self) -> tuple[str, str]:
-        """Arm and wheel."""
         return (self.arm, self.wheel)
 
     @property
     def title(self) -> str:
-        """What it is called."""
         links = " and ".join(partner(contact, self.wheel) for contact in self.contacts)
         return f"wheel {self.wheel} on arm {self.arm}, between links {links}"
 
     @property
     def words(self) -> str:
-        """Its arm, its wheel, and what that rolls on."""
+        """Its arm, its wheel, and the links it rolls on."""
         others = listed(link_words(partner(contact, self.wheel)) for contact in self.contacts)
         arm = f"arm {self.arm} on {self.pivot.brief}"
         return f"{arm} with wheel {self.wheel}, which rolls on {others}"
@@ -239,7 +231,7 @@ class Train(Struct, frozen=True):
 class CoupledTrain(Struct, frozen=True):
     """Wheels that turn one another in a loop: once one link is tried, each follows from the next.
 
-    What closes it at last is a contact with a wheel of a known link.
+    A contact with a wheel of a known link closes the train.
     """
 
     tried: TriedLink
@@ -248,36 +240,35 @@ class CoupledTrain(Struct, frozen=True):
 
     @property
     def links(self) -> tuple[str, ...]:
-        """All links, that which is tried first."""
+        """All links, the tried one first."""
         return (self.tried.link, *(each.link for each in self.chain))
 
     @property
     def parts(self) -> tuple[TriedLink | Geared, ...]:
-        """The link that is tried, and the wheels in turn."""
+        """The tried link, and the wheels in turn."""
         return (self.tried, *self.chain)
 
     @property
     def closing(self) -> str:
-        """The link whose wheel touches that of a known link at last."""
+        """The link whose wheel touches a known link's wheel in the closing contact."""
         return next(link for link in self.last.links if link in self.links)
 
     @property
     def title(self) -> str:
-        """What it is called."""
         return "coupled train of wheels"
 
     @property
     def words(self) -> str:
-        """Its links, where it is tried, and what closes it."""
+        """Its links, the tried one, and the contact that closes it."""
         names = listed(sorted(self.links, key=natural))
         start = f"{self.title} (links {names}): {self.tried.words}"
         return f"{start}, closed by the {self.last.brief}"
 
 
 class PinnedWheel(Struct, frozen=True):
-    """A wheel, or a bar on one, that turns at the instant about where it touches a known link.
+    """A wheel, or a bar on one, that at the instant turns about its contact with a known link.
 
-    ``own`` is its link, and ``known`` the one on which or under which it rolls.
+    ``own`` is its link, and ``known`` the link that it touches.
     """
 
     contact: Contact
@@ -304,10 +295,10 @@ class PinnedWheel(Struct, frozen=True):
 def pinned_wheels(
     joints: Joints, links: Sequence[str], placing: Collection[Joint], known: Collection[str]
 ) -> tuple[PinnedWheel, ...]:
-    """The wheels among a group's links, or its bars, that roll on what is known or under it.
+    """The wheels or bars of a group that touch known links in rolling contact.
 
-    What keeps them there, if a link does, belongs to the group. One that is not among the pairs
-    ``placing`` it is idle, or the mechanism is held fast, which the rank tells.
+    A link that keeps them in contact belongs to the group. A contact that is not among the pairs
+    ``placing`` the group is idle, or locks the mechanism; the rank shows which.
     """
     return tuple(
         PinnedWheel(pair, link, partner(pair, link))
@@ -322,7 +313,7 @@ def pinned_wheels(
 
 
 def turned_wheel(joints: Joints, driver: Driver, link: str) -> Driven | None:
-    """A wheel that a driver turns against the straight track on which it rolls."""
+    """A wheel that a driver turns relative to the straight track on which it rolls."""
     for pair in joints.between(link, (driver.against,)):
         if isinstance(pair, Contact) and pair.links == (driver.link, driver.against):
             return Driven(link, driver, pair) if link == driver.link and pair.taken == 2 else None
@@ -368,9 +359,9 @@ def train_with(
 
 
 def geared_of(link: str, joined: tuple[Joint, ...], known: Collection[str]) -> Geared | None:
-    """A link with one pair and a contact that takes a single freedom; more of these are idle.
+    """A link with one pair and a contact that removes one freedom; further contacts are idle.
 
-    A contact settles a turning once the arm that keeps its distance is known too.
+    A contact determines a rotation once the arm that keeps its distance is known, too.
     """
     ones = [pair for pair in joined if isinstance(pair, Contact) and pair.arm in known]
     twos = [pair for pair in joined if pair.taken == 2]
@@ -378,12 +369,12 @@ def geared_of(link: str, joined: tuple[Joint, ...], known: Collection[str]) -> G
 
 
 def by_known(joints: Joints, wheel: Geared, known: Collection[str]) -> Geared:
-    """A wheel turned by its contact with a known link where it has one, not by way of others."""
+    """A wheel turned by its contact with a known link if it has one, not through others."""
     return geared_of(wheel.link, joints.between(wheel.link, known), known) or wheel
 
 
 def by_centres(inner: Joint, outer: tuple[Joint, Joint], links: tuple[str, str]) -> bool:
-    """Whether the wheels of a dyad's two links are pinned to one another by their centres."""
+    """Whether the wheels of a dyad's two links are pinned to one another at their centres."""
     if isinstance(inner, Contact):
         return False
     wheels = [pair.wheel for pair in outer if isinstance(pair, Contact) and pair.links[0] in links]
@@ -394,7 +385,7 @@ def by_centres(inner: Joint, outer: tuple[Joint, Joint], links: tuple[str, str])
 
 
 def tracks_held(joints: Joints, links: Sequence[str]) -> tuple[str, ...]:
-    """Those of some links on whose straight tracks wheels roll that no other link keeps there."""
+    """The links whose straight tracks carry wheels that no other link keeps in contact."""
     keepers = (None, *joints.scene.keepers)
     rolled = (pair for link in links for pair in joints.others[link] if isinstance(pair, Contact))
     tracks = (pair.links[1] for pair in rolled if pair.track is None and pair.arm in keepers)
@@ -402,7 +393,7 @@ def tracks_held(joints: Joints, links: Sequence[str]) -> tuple[str, ...]:
 
 
 def wedged_wheels(joints: Joints, known: Collection[str], links: Sequence[str]) -> tuple[str, ...]:
-    """Those of some links that roll on several straight tracks of known ones."""
+    """The links that roll on several straight tracks of known links."""
     straight = {
         link: [p for p in joints.between(link, known) if isinstance(p, Contact) and not p.track]
         for link in links
@@ -411,7 +402,7 @@ def wedged_wheels(joints: Joints, known: Collection[str], links: Sequence[str]) 
 
 
 def let_slip(joints: Joints, known: Collection[str]) -> Joints:
-    """The same pairs, without the wheels of which nothing follows until their arm is known."""
+    """The pairs without the wheels that determine nothing until their arm is known."""
     every = [pair for pairs in joints.others.values() for pair in pairs]
     rolling = (pair for pair in every if isinstance(pair, Contact) and pair.arm is not None)
     return joints.without([pair for pair in rolling if pair.arm not in known])
@@ -420,7 +411,7 @@ def let_slip(joints: Joints, known: Collection[str]) -> Joints:
 def over_rolled(
     joints: Joints, known: Collection[str], grown: Collection[str], chain: Sequence[Any]
 ) -> Contact | None:
-    """A wheel that stands with all that it touches, and of whose rolling nothing followed yet."""
+    """A wheel that is known with all that it touches, but whose rolling is not used yet."""
     used = [pair for group in chain for pair in rolled_by(group)]
     for link in (each for each in joints.unknown(known) if each in grown):
         for pair in joints.others[link]:
@@ -434,7 +425,7 @@ def over_rolled(
 def keeps_parallel(joints: Joints, contact: Contact) -> bool:
     """Whether a wheel of the same size rolls between the same two straight lines.
 
-    They stay parallel then, however the wheels roll: nothing is found from that.
+    The lines then stay parallel, however the wheels roll, so that the contact determines nothing.
     """
     own, on = contact.links
     tracks = straight_tracks(joints, own)
@@ -449,7 +440,7 @@ def keeps_parallel(joints: Joints, contact: Contact) -> bool:
 
 
 def straight_tracks(joints: Joints, wheel: str) -> dict[str, Line]:
-    """The links on whose straight tracks a wheel rolls, with the lines of these there."""
+    """The links on whose straight tracks a wheel rolls, with the lines of the tracks."""
     from graphkin.structure.touching_wheels import track_line
 
     pairs = (pair for pair in joints.others[wheel] if isinstance(pair, Contact))
@@ -461,7 +452,7 @@ def straight_tracks(joints: Joints, wheel: str) -> dict[str, Line]:
 
 
 def same_line(one: Line, other: Line) -> bool:
-    """Whether two lines along unit vectors are one, but for rounding."""
+    """Whether two lines along unit vectors coincide but for rounding."""
     ways = other.along, other.point - one.point
     return all(abs(cross(one.along, way)) <= LEVEL * abs(way) for way in ways)
 
@@ -478,8 +469,9 @@ def rolled_by(group: Any) -> Iterator[Contact]:
 def next_coupled(joints: Joints, known: Collection[str], idle: bool = False) -> CoupledTrain | None:
     """The train of fewest links that closes once one link on a known pin is tried.
 
-    One whose ratios cancel closes in every place of the link and so says nothing of it: two planets
-    between one sun and one ring. Such are found where ``idle`` is asked for, and no others.
+    A train whose ratios cancel closes in every position of the link, and so does not determine it.
+    An example is two planets between one sun and one ring. With ``idle`` only these are found,
+    otherwise only others.
     """
     contacts = [*left_over(joints, known)]
     if not contacts:
@@ -496,7 +488,7 @@ def next_coupled(joints: Joints, known: Collection[str], idle: bool = False) -> 
 
 
 def left_over(joints: Joints, known: Collection[str]) -> Iterator[Contact]:
-    """The contacts of wheels with known ones, about arms that do not stand yet."""
+    """The contacts of wheels with known ones, about arms that are not known yet."""
     for link in joints.unknown(known):
         for pair in joints.others[link]:
             if not isinstance(pair, Contact) or pair.track is None or pair.alike:
@@ -508,7 +500,7 @@ def left_over(joints: Joints, known: Collection[str]) -> Iterator[Contact]:
 
 
 def pins_held(joints: Joints, known: Collection[str], link: str) -> list[Pin]:
-    """The one pin that holds a link, where nothing else that takes two freedoms does."""
+    """The one pin that holds a link, if nothing else removes two freedoms."""
     held = [pair for pair in joints.between(link, known) if pair.taken == 2]
     return [pair for pair in held if isinstance(pair, Pin)] if len(held) == 1 else []
 
@@ -516,7 +508,7 @@ def pins_held(joints: Joints, known: Collection[str], link: str) -> list[Pin]:
 def closed(
     joints: Joints, known: Collection[str], tried: TriedLink, last: Contact
 ) -> CoupledTrain | None:
-    """The train that a tried link and a last contact make, wheel after wheel, if they make one."""
+    """The train formed by a tried link and a last contact, wheel after wheel, or None."""
     grown, chain, ends = {*known, tried.link}, list[Geared](), {*last.links, last.arm}
     while not ends <= {*grown}:
         wheel = next_wheel(joints, grown, last)
@@ -533,7 +525,7 @@ def closed(
 
 
 def next_wheel(joints: Joints, known: Collection[str], last: Contact) -> Geared | None:
-    """The first wheel, as written, that a wheel of a known link turns about a known pin."""
+    """The first wheel, in written order, that a wheel of a known link turns about a known pin."""
     for link in joints.unknown(known):
         joined = tuple(pair for pair in joints.between(link, known) if pair != last)
         wheel = geared_of(link, joined, known)
@@ -545,7 +537,7 @@ def next_wheel(joints: Joints, known: Collection[str], last: Contact) -> Geared 
 
 
 def cancels(scene: Scene, train: CoupledTrain) -> bool:
-    """Whether the last contact misses nothing however the tried link turns, by every parameter."""
+    """Whether the last contact never slips, however the tried link turns, for all parameters."""
     contacts = [*(each.contact for each in train.chain), train.last]
     radii = [w.radius for c in contacts for w in (c.wheel, c.track) if w and w.radius]
     names = sorted({name for radius in radii for name in radius.uses()} & {*scene.values})
@@ -557,7 +549,7 @@ def cancels(scene: Scene, train: CoupledTrain) -> bool:
 
 
 def rate_missed(train: CoupledTrain, values: Mapping[str, Any]) -> Any:
-    """How fast the last contact slips while the tried link turns with rate one (Willis)."""
+    """The slip rate of the last contact at unit rate of the tried link (Willis)."""
     rates: dict[str, Any] = {train.tried.link: 1}
     for wheel in train.chain:
         rates[wheel.link] = rate_rolled(wheel.contact, wheel.link, rates, values)
@@ -568,7 +560,7 @@ def rate_missed(train: CoupledTrain, values: Mapping[str, Any]) -> Any:
 def rate_rolled(
     contact: Contact, link: str, rates: Mapping[str, Any], values: Mapping[str, Any]
 ) -> Any:
-    """The rate of a wheel from those of its arm and of the wheel that it touches."""
+    """The rate of a wheel from the rates of its arm and of the wheel that it touches."""
     sizes = dict(zip(contact.links, signed_radii(contact, values), strict=True))
     other = partner(contact, link)
     arm = rates.get(contact.arm or "", 0)
@@ -576,7 +568,7 @@ def rate_rolled(
 
 
 def signed_radii(contact: Contact, values: Mapping[str, Any]) -> Sequence[Any]:
-    """The radii of wheel and track, negative for a ring and where an open belt comes from."""
+    """The radii of wheel and track, negative for a ring and for the track of an open belt."""
     belt = contact.rolling.belt
     found = []
     for wheel in (contact.wheel, contact.track):
@@ -587,7 +579,7 @@ def signed_radii(contact: Contact, values: Mapping[str, Any]) -> Sequence[Any]:
 
 
 def turned_by_smaller(scene: Scene, wheel: Geared) -> bool:
-    """Whether a wheel is turned by a smaller one, than which it is slower."""
+    """Whether a wheel is turned by a smaller one, and so turns more slowly."""
     from graphkin.structure.touching_wheels import radius
 
     contact, link = wheel.contact, wheel.link

@@ -15,18 +15,18 @@ LANGUAGES = ("en", "it", "ro")
 MINUS = "\N{MINUS SIGN}"
 SUPERSCRIPTS = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
 EUPHONIC = r"(?<!\S)([ae]) (?=\*?(?i:\1))"
-"""The Italian words for "to" and "and" before a name or word that begins with their own vowel."""
+"""The Italian words for "to" and "and" before a word that begins with the same vowel."""
 
 
 class Words:
-    """The sentences of one language, and how it writes numbers."""
+    """The sentences of one language, and its number format."""
 
     def __init__(self, language: str) -> None:
         self.language = language
 
     @cached_property
     def sentences(self) -> Mapping[str, str]:
-        """Every sentence by its key, read from its file when the first one is said."""
+        """Every sentence by its key, read from its file on first use."""
         import tomllib
         from pathlib import Path
 
@@ -34,7 +34,7 @@ class Words:
         return dict(flattened(tomllib.loads(text)))
 
     def __call__(self, key: str, **fields: object) -> Markup:
-        """The sentence under a key, with its fields filled in. Raises KeyError when missing."""
+        """The sentence under a key, with its fields filled in. Raises KeyError if it is missing."""
         said = self.sentences[key].format_map(fields)
         if self.language == "it":
             said = re.sub(EUPHONIC, r"\1d ", said)
@@ -47,15 +47,15 @@ class Words:
         return gaps_of(self.sentences[key])
 
     def open(self, key: str) -> str:
-        """The sentence under a key, its fields left as they are for a page to fill."""
+        """The sentence under a key, with its fields unchanged for a page to fill in."""
         return self(key, **{name: f"{{{name}}}" for name in self.gaps(key)})
 
     def has(self, key: str) -> bool:
-        """True when there is a sentence under a key."""
+        """Whether there is a sentence under a key."""
         return key in self.sentences
 
     def decimal(self, text: str) -> str:
-        """A number written with a point, as this language writes it, with a true minus sign."""
+        """A number with a decimal point, in this language's format, with a true minus sign."""
         return text.replace("-", MINUS).replace(".", self.sentences["decimal_mark"])
 
     def place(self, x: str, y: str) -> str:
@@ -63,12 +63,12 @@ class Words:
         return f"({x}{self('place_mark')}{y})"
 
     def fixed(self, number: float, places: int) -> str:
-        """A number with so many places after the mark; what rounds to zero is 0."""
+        """A number with ``places`` decimals; a number that rounds to zero is 0."""
         rounded = round(number, places)
         return self.decimal(f"{rounded:.{places}f}") if rounded else "0"
 
     def significant(self, number: float, digits: int = 4) -> str:
-        """A number rounded to so many significant digits, by powers of ten when far from one."""
+        """A number rounded to significant digits, with a power of ten if it is far from one."""
         if number == 0:
             return "0"
         rounded = float(f"{number:.{digits - 1}e}")
@@ -89,7 +89,7 @@ def gaps_of(sentence: str) -> frozenset[str]:
 
 @lru_cache(maxsize=8)
 def words(language: str) -> Words:
-    """The sentences of a language by its code. Raises KeyError for a language without any."""
+    """The sentences of a language by its code. Raises KeyError for an unknown language."""
     if language not in LANGUAGES:
         raise KeyError(language)
     return Words(language)

@@ -10,24 +10,25 @@ from msgspec import Struct
 
 
 class Mend(Struct, frozen=True):
-    """What should stand in a text instead of a piece of it; ``words`` say so in another way."""
+    """The replacement for a piece of a text; ``words`` replace the default wording."""
 
     old: str
     new: str
     words: str = ""
 
     def __str__(self) -> str:
-        """Read as a question: did you mean …?"""
+        """The replacement as a question: did you mean …?"""
         return self.words or f"did you mean {self.new}?"
 
 
 Hint = str | Mend
-"""What helps: in words, or as the change that mends it; the empty text is none."""
+"""A hint, as words or as the change that corrects the problem; empty for none."""
 
 
 class Written(Struct, frozen=True):
-    """The key at a problem's place, or another of its table, with a value as a text writes it;
-    ``instead`` of a key of the table where that is named.
+    """A value written under the key at a problem's place, or under another key of its table.
+
+    ``instead`` names a key of the table that it replaces.
     """
 
     value: str
@@ -36,30 +37,30 @@ class Written(Struct, frozen=True):
 
 
 class TakenOut(Struct, frozen=True):
-    """The key at a problem's place taken out."""
+    """The key at a problem's place, removed."""
 
 
 class FirstLine(Struct, frozen=True):
-    """A line put before all others."""
+    """A line inserted before all others."""
 
     line: str
 
 
 class DriverAdded(Struct, frozen=True):
-    """A driver added, at rest, by the line that says what it drives."""
+    """A driver added, at rest, by the line that names what it drives."""
 
     line: str
 
 
 class DriverTaken(Struct, frozen=True):
-    """The driver taken away whose key has a value."""
+    """The removal of the driver whose key has a given value."""
 
     key: str
     value: str
 
 
 class PointRenamed(Struct, frozen=True):
-    """A point of one link under another name."""
+    """A point of one link, renamed."""
 
     link: str
     old: str
@@ -67,17 +68,17 @@ class PointRenamed(Struct, frozen=True):
 
 
 class WrittenInto(Struct, frozen=True):
-    """A key with its value put into the table in braces that stands at a problem's place."""
+    """A key with its value added to the inline table at a problem's place."""
 
     line: str
 
 
 Change = Written | WrittenInto | TakenOut | FirstLine | DriverAdded | DriverTaken | PointRenamed
-"""What would mend a problem, each alone."""
+"""The changes of which each alone would correct a problem."""
 
 
 class InLine(Struct, frozen=True):
-    """A line of the text and the column at which it is no TOML, from 1; 0 for none."""
+    """A line of the text and the column where it is no TOML, from 1; 0 for none."""
 
     line: int
     column: int = 0
@@ -87,20 +88,20 @@ class InLine(Struct, frozen=True):
 
 
 class InTable(Struct, frozen=True):
-    """A row of a table, by the name of its file, and a column by its head or its number."""
+    """A row of a table, by the name of its file, and a column by its heading or number."""
 
     table: str
     row: int
     column: str | int = ""
 
     def __str__(self) -> str:
-        """Read as words: roster.csv, row 14, column "id"."""
+        """The place in words: roster.csv, row 14, column "id"."""
         column = f'"{self.column}"' if isinstance(self.column, str) else self.column
         return f"{self.table}, row {self.row}" + (f", column {column}" if self.column else "")
 
 
 class Setting(Struct, frozen=True):
-    """A parameter whose value is set from outside the text."""
+    """A parameter with a value set from outside the text."""
 
     name: str
 
@@ -109,20 +110,20 @@ class Setting(Struct, frozen=True):
 
 
 class Sought(Struct, frozen=True):
-    """Links and points that are to be found by drawing; none for the position as a whole."""
+    """Links and points to be found by drawing; none for the whole position."""
 
     names: tuple[str, ...] = ()
 
 
 About = tuple[str, ...] | InLine | InTable | Setting | Sought
-"""What a problem is about where its place is no key: a key with its tables, or one of these."""
+"""The subject of a problem whose place is no key: a key with its tables, or one of these."""
 
 
 class Problem(Struct, frozen=True):
-    """One thing wrong at one place, in words that help to mend it, and the changes that would.
+    """One problem at one place, with words that help to correct it and possible changes.
 
-    ``place`` is the dotted key, or words where ``about`` says what it is about; ``file`` is told
-    before it where there are several files.
+    ``place`` is the dotted key, or words where ``about`` gives the subject. ``file`` precedes the
+    place where there are several files.
     """
 
     place: str
@@ -134,7 +135,7 @@ class Problem(Struct, frozen=True):
     file: str = ""
 
     def __str__(self) -> str:
-        """Read as one sentence: file: place: found; expected …; hint."""
+        """The problem as one sentence: file: place: found; expected …; hint."""
         parts = [": ".join(filter(None, (self.file, self.place, self.found)))]
         if self.expected:
             parts.append(f"expected {self.expected}")
@@ -144,13 +145,13 @@ class Problem(Struct, frozen=True):
 
 
 MOST = 100
-"""Problems that one error carries."""
+"""The most problems in one error."""
 MORE = Problem("", "and perhaps more problems")
-"""What stands for the problems beyond those."""
+"""The replacement for further problems."""
 
 
 class GraphkinError(Exception):
-    """Base of every error that a user can mend; carries all problems found, not only the first."""
+    """Base of every error that a user can correct; it holds all problems found."""
 
     def __init__(self, problems: Problem | Iterable[Problem]) -> None:
         found = (problems,) if isinstance(problems, Problem) else tuple(problems)
@@ -159,11 +160,11 @@ class GraphkinError(Exception):
 
 
 class SceneError(GraphkinError):
-    """The scene cannot be read, or says something that cannot be."""
+    """The scene cannot be read, or contradicts itself."""
 
 
 class StructureError(GraphkinError):
-    """The mechanism cannot be put together: mobility, drivers, or a group without construction."""
+    """The mechanism cannot be analysed: mobility, drivers, or a group without construction."""
 
 
 class ClosureError(GraphkinError):
@@ -171,7 +172,7 @@ class ClosureError(GraphkinError):
 
 
 class WitnessError(GraphkinError):
-    """The independent route does not agree with the construction, so nothing is handed out."""
+    """The residual check disagrees with the construction, so that no result is returned."""
 
 
 class PageError(GraphkinError):
@@ -179,7 +180,7 @@ class PageError(GraphkinError):
 
 
 class FileError(PageError):
-    """A file cannot be written where it was to be."""
+    """A file cannot be written in its place."""
 
 
 class RosterError(GraphkinError):
@@ -187,19 +188,19 @@ class RosterError(GraphkinError):
 
 
 PLAIN_TRACEBACK = "GRAPHKIN_TRACEBACK"
-"""Set in the environment, a fault in graphkin itself shows where it happened."""
+"""Environment variable that shows the traceback of a fault in graphkin itself."""
 
 
 def fault(error: Exception) -> str:
-    """What is said of an error that nobody expected, in one line."""
+    """The message for an unexpected error, in one line."""
     what = f"{type(error).__name__}: {error}".splitlines()[0][:200]
     return f"a fault in graphkin itself ({what}); {PLAIN_TRACEBACK}=1 shows where"
 
 
 def problems_of(error: Exception) -> tuple[Problem, ...]:
-    """The problems of an error: its own, or that it is a fault in graphkin itself.
+    """The problems of an error: its own, or a fault in graphkin itself.
 
-    Raises a fault where its traceback is asked for.
+    Raises a fault where its traceback is requested.
     """
     if isinstance(error, GraphkinError):
         return error.problems
@@ -209,21 +210,21 @@ def problems_of(error: Exception) -> tuple[Problem, ...]:
 
 
 class Refusals:
-    """What was refused of many units (students, files, pictures), each of which fails alone."""
+    """The refusals of many units (students, files, pictures), each of which fails alone."""
 
     def __init__(self) -> None:
         self.found: dict[str, tuple[Problem, ...]] = {}
 
     @contextmanager
     def alone(self, unit: str) -> Iterator[None]:
-        """Work on one unit: whatever is raised is noted with its name, and the others go on."""
+        """Process one unit: any error is recorded under its name, and the others continue."""
         try:
             yield
         except Exception as error:
             self.add(unit, problems_of(error))
 
     def add(self, unit: str, problems: Iterable[Problem]) -> None:
-        """Note what is wrong with a unit."""
+        """Record the problems of a unit."""
         self.found[unit] = (*self.found.get(unit, ()), *problems)
 
     def lines(self) -> Iterator[str]:

@@ -1,4 +1,4 @@
-"""What upper rooms do for lower ones: the package says who does it, lower rooms ask by name."""
+"""Services of upper packages for lower ones: registered by the package, requested by name."""
 
 from __future__ import annotations
 
@@ -7,18 +7,18 @@ from importlib import import_module
 from typing import Any
 
 DONE_BY: dict[str, str] = {}
-"""By the name of each service the function that renders it, as module:function."""
+"""The function of each service, as module:function."""
 
 
 def register(**services: str) -> None:
-    """Say which functions render some services, each as module:function."""
+    """Register the functions of some services, each as module:function."""
     DONE_BY.update(services)
 
 
 def service(name: str) -> Callable[..., Any]:
-    """The function that renders a service, loaded where it is first used.
+    """The function of a service, loaded on first use.
 
-    Raises LookupError for one that nobody renders.
+    Raises LookupError for an unregistered service.
     """
     if name not in DONE_BY:
         raise LookupError(f"nobody renders {name!r}")

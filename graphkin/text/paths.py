@@ -1,5 +1,7 @@
-"""Paths as text, for what every start opens: pathlib and what it loads take a twentieth of the time
-of ``graphkin solve pump``."""
+"""Paths as text, without pathlib, for modules that every start loads.
+
+pathlib and its imports would take a twentieth of the time of ``graphkin solve pump``.
+"""
 
 from __future__ import annotations
 
@@ -9,23 +11,23 @@ from os.path import abspath, basename, dirname, join, realpath, splitext
 from stat import S_ISDIR, S_ISREG
 
 Named = str | os.PathLike[str]
-"""A path, as text or as pathlib writes it."""
+"""A path, as text or as a pathlib path."""
 
 
 def within(folder: Named, *names: str) -> str:
-    """The path of what lies in a folder, or further down."""
+    """The path of a file in a folder, or further down."""
     return join(folder, *names)
 
 
 def beside(module: str, *names: str) -> str:
-    """The path of what lies in the folder of a module's file, or further down."""
+    """The path of a file in the folder of a module's file, or further down."""
     return within(dirname(realpath(module)), *names)
 
 
 def mode(path: Named) -> int:
-    """The mode of a file or folder; 0 where there is none or its name can be none.
+    """The mode of a file or folder; 0 where there is none or its name is impossible.
 
-    Raises OSError where it may not be looked at.
+    Raises OSError where access is denied.
     """
     try:
         return os.stat(path).st_mode
@@ -38,22 +40,21 @@ def mode(path: Named) -> int:
 
 
 def is_file(path: Named) -> bool:
-    """Whether there is a file; raises as mode does."""
+    """Whether there is a file; raises as ``mode`` does."""
     return S_ISREG(mode(path))
 
 
 def is_folder(path: Named) -> bool:
-    """Whether there is a folder; raises as mode does."""
+    """Whether there is a folder; raises as ``mode`` does."""
     return S_ISDIR(mode(path))
 
 
 def in_folder(path: Named) -> list[str]:
-    """The names in a folder, in alphabetical order; none where there is no folder."""
+    """The names in a folder, in alphabetical order; none if there is no folder."""
     return sorted(os.listdir(path)) if is_folder(path) else []
 
 
 def name_of(path: Named) -> str:
-    """The name of a file or folder."""
     return basename(path)
 
 
@@ -63,11 +64,11 @@ def stem(path: Named) -> str:
 
 
 def folder_of(path: Named) -> str:
-    """The whole path of the folder that a file lies in."""
+    """The absolute path of the folder that contains a file."""
     return dirname(abspath(path))
 
 
 def first_bytes(path: Named, most: int) -> bytes:
-    """The bytes of a file, as far as ``most`` of them. Raises OSError."""
+    """The first ``most`` bytes of a file. Raises OSError."""
     with open(path, "rb") as stream:
         return stream.read(most)

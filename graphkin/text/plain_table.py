@@ -1,4 +1,4 @@
-"""Numbers in words and columns: six significant digits, decimal points one under the other."""
+"""Numbers in words and columns: six significant digits, decimal points aligned."""
 
 from __future__ import annotations
 
@@ -12,14 +12,14 @@ Cell = str | float | None
 
 
 def number(value: float) -> str:
-    """A number with six significant digits, never minus nought."""
+    """A number with six significant digits, never minus zero."""
     if value == 0:
         return "0"
     return f"{value:#.{DIGITS}g}".rstrip(".")
 
 
 def cleaned(value: float, largest: float) -> float:
-    """The value, or nought where it is rounding beside the largest of its kind."""
+    """The value, or zero where it is rounding relative to the largest of its kind."""
     return 0.0 if abs(value) <= NOISE * largest else value
 
 
@@ -47,20 +47,20 @@ def worded(cell: Cell) -> str:
 
 
 def at_the_point(texts: Sequence[str]) -> list[str]:
-    """Numbers padded at the right so that their points stand one under the other."""
+    """Numbers padded on the right so that their decimal points are aligned."""
     tails = [len(text) - (text.find(".") if "." in text else len(text)) for text in texts]
     most = max(tails, default=0)
     return [text + " " * (most - tail) for text, tail in zip(texts, tails, strict=True)]
 
 
 def labelled(label: str, lines: Sequence[str], width: int = 11) -> list[str]:
-    """Lines with a label before the first and the others below it."""
+    """Lines with a label before the first and the others indented."""
     width = max(width, len(label) + 1)
     return [f"{label if i == 0 else '':<{width}}{line}".rstrip() for i, line in enumerate(lines)]
 
 
 def listed(names: Iterable[str], most: int = 12) -> str:
-    """Names with commas, the last after ``and``; a long list is cut with its number."""
+    """Names with commas and a final ``and``; a long list is cut, with the number left out."""
     known = list(names)
     if len(known) > most:
         known = [*known[:most], f"{len(known) - most} more"]

@@ -1,1 +1,1 @@
-"""Pages as SVG and PDF, marks in axes of matplotlib, files written whole or not at all."""
+"""Pages as SVG and PDF, marks in matplotlib axes, and files written completely or not at all."""

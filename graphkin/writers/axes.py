@@ -1,4 +1,4 @@
-"""Put the marks of a page into axes of matplotlib, lettering and all, in millimetres with y up."""
+"""Draw the marks of a page, lettering included, in matplotlib axes, in millimetres with y up."""
 
 from __future__ import annotations
 
@@ -30,17 +30,15 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
 INCH = 25.4
-"""Millimetres to the inch."""
 POINTS = 72 / INCH
-"""Points to the millimetre."""
 SIGNS = ("pole", "point", "pin", "centre", "number")
-"""The classes of figures that stand at a place, of one size however large the drawing is."""
+"""The classes of figures with a fixed size, independent of the drawing's scale."""
 
 
 def put_marks(
     ax: Axes, marks: Sequence[Mark], origin: tuple[float, float], ink: Ink = "colour"
 ) -> None:
-    """Draw marks to scale, lettering too, a place of the page at the axes' origin, in mm."""
+    """Draw marks to scale in mm, with lettering, and a place of the page at the axes' origin."""
     page = Affine2D().translate(-origin[0], -origin[1]).scale(1, -1)
     for order, mark in enumerate(marks):
         for patch in patches(mark, style_of(mark.cls, ink), page):
@@ -51,10 +49,10 @@ def put_marks(
 def put_drawing(
     ax: Axes, marks: Sequence[Mark], field: Field, times: float, ink: Ink = "colour"
 ) -> None:
-    """Draw the marks of a field as large as the axes; sets the limits and equal scales.
+    """Draw the marks of a field in the size of the axes; set the limits and equal scales.
 
-    A unit of the axes is ``times`` a millimetre of the figure. Letters and signs keep their size
-    in the figure when the axes become larger or smaller later on.
+    One unit of the axes is ``times`` a millimetre of the figure. Letters and symbols keep their
+    size in the figure when the axes are resized later.
     """
     x, y = field(0j)
     put_to_scale(ax, marks, (x, y), times, ink)
@@ -72,8 +70,10 @@ def put_to_scale(
     ink: Ink = "colour",
     strength: float = 1.0,
 ) -> None:
-    """Draw marks into axes of which a unit is ``times`` a millimetre of the figure, a place of the
-    page at their origin. Letters and signs keep their size, lines may have less than full strength.
+    """Draw marks in axes with one unit equal to ``times`` a millimetre of the figure.
+
+    ``origin`` is the place of the page at the axes' origin. Letters and symbols keep their size.
+    ``strength`` is the opacity of lines.
     """
     page = Affine2D().translate(-origin[0], -origin[1]).scale(1 / times, -1 / times)
     for order, mark in enumerate(marks):
@@ -101,7 +101,7 @@ def size_of(ax: Axes) -> tuple[float, float]:
 
 
 def place_of(mark: Mark) -> tuple[float, float] | None:
-    """Where a text, a sign or an arrowhead stands; None for what is drawn to scale."""
+    """The place of a text, a symbol or an arrowhead; None for marks drawn to scale."""
     kind = style_class(mark)
     if isinstance(mark, Polyline) and kind == "arrowhead":
         return mark.points[0]
@@ -112,7 +112,7 @@ def place_of(mark: Mark) -> tuple[float, float] | None:
 
 
 def put(ax: Axes, patch: Patch, order: float) -> None:
-    """Put one patch into axes, those of a greater order above the others."""
+    """Add one patch to axes; a greater order is above."""
     patch.set_zorder(2 + order)
     ax.add_artist(patch)  # add_patch measures each one, and the limits are set by themselves
 

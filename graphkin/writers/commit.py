@@ -1,8 +1,8 @@
-"""Files put in their places, several as one: all are new or all as before, whenever a run ends.
+"""Several files put in place as one commit: all are new or all are old, whenever a run ends.
 
-New files, and links to those that they replace, wait in a hidden folder. A plan in it decides:
-without a plan the next run discards what waits, with one it finishes the work. A file that cannot
-be replaced takes all others back.
+New files, and links to those that they replace, wait in a hidden folder. A plan in that folder
+decides. Without a plan the next run discards the waiting files; with one it completes the commit.
+If a file cannot be replaced, all others are restored.
 """
 
 from __future__ import annotations
@@ -27,20 +27,20 @@ from graphkin.writers.lock import InUseError, alive, locked
 PATIENCE = 10.0
 """Seconds to wait for another run that writes into the same folder."""
 PAUSE = 0.05
-"""Seconds between two looks whether a folder is free."""
+"""Seconds between two checks whether a folder is free."""
 FORWARD, BACK, DRAFT = "forward.json", "back.json", "draft.json"
-"""The plan of files that go to their places, of files that are put back, and one that is begun."""
+"""The plans of a commit, of its reversal, and of an unfinished plan."""
 ASIDE = re.compile(r"\.graphkin-([0-9]+)\.part")
-"""A single file that is written aside, with its process."""
+"""A single temporary file, with its process."""
 FEW = 8
-"""Files that are flushed one by one; more are flushed by one call, where the system has it."""
+"""The most files that are flushed one by one; more are flushed by one call, if available."""
 
 
 class CommitPlan(Struct, frozen=True):
-    """The files of a commit in order, those of them that replace one, and the folders to be made.
+    """The files of a commit in order, those that replace a file, and the folders to be made.
 
-    All are named from the folder of the commit. File number i waits as i.new, what it replaces as
-    i.old.
+    All names are relative to the folder of the commit. File number i waits as i.new; the file that
+    it replaces is kept as i.old.
     """
 
     files: tuple[str, ...]
@@ -50,9 +50,9 @@ class CommitPlan(Struct, frozen=True):
 
 @contextmanager
 def held(folder: Path, patience: float = 0.0) -> Iterator[str]:
-    """Hold a folder, whole again after runs that were killed, while files are put into it.
+    """Hold a folder, restored after interrupted runs, while files are written into it.
 
-    Gives and raises what ``locked`` does; raises FileError where it cannot be made whole.
+    Yields and raises as ``locked`` does; raises FileError where the folder cannot be restored.
     """
     with locked(folder, patience) as left:
         make_whole(folder)
@@ -60,10 +60,10 @@ def held(folder: Path, patience: float = 0.0) -> Iterator[str]:
 
 
 def settle(folder: str | os.PathLike[str]) -> None:
-    """Make a folder whole again in which a run was killed, before anything in it is read.
+    """Restore a folder after an interrupted run, before anything in it is read.
 
-    A run that writes at this moment is waited for. Raises FileError where the folder cannot be
-    made whole, PageError where another run holds it for too long.
+    Waits for a run that is writing. Raises FileError where the folder cannot be restored, PageError
+    where another run holds it for too long.
     """
     root, end = Path(folder), monotonic() + PATIENCE
     while (root / UNFINISHED).is_dir():
@@ -76,13 +76,13 @@ def settle(folder: str | os.PathLike[str]) -> None:
             sleep(PAUSE)
         except OSError as error:
             if not planned(root / UNFINISHED):
-                return  # nothing was moved yet: what stands there is whole
+                return  # nothing was moved yet, so the files are complete
             found = f"an earlier run did not end, and {reason_of(error)}"
             raise FileError(Problem(str(root), found, "a folder that can be written")) from error
 
 
 def put_in_place(folder: Path, targets: Mapping[Path, bytes]) -> None:
-    """Put files in their places in a folder that this run holds, all of them or none.
+    """Put files in place in a folder that this run holds, all of them or none.
 
     Raises FileError with the file that cannot be replaced, OSError where no file can be written.
     """
@@ -111,9 +111,9 @@ def put_in_place(folder: Path, targets: Mapping[Path, bytes]) -> None:
 
 @contextmanager
 def replacing(folder: Path, target: Path) -> Iterator[BinaryIO]:
-    """A stream aside in a folder; when all is written it takes the place of one file.
+    """A stream to a temporary file that replaces one file when complete.
 
-    Raises FileError where that cannot be replaced.
+    Raises FileError where the file cannot be replaced.
     """
     aside = folder / f".graphkin-{os.getpid()}.part"
     try:
@@ -129,7 +129,7 @@ def replacing(folder: Path, target: Path) -> Iterator[BinaryIO]:
 
 
 def plan_of(folder: Path, targets: Sequence[Path]) -> CommitPlan:
-    """The plan for some targets. Raises FileError for one that lies out of the folder."""
+    """The plan for some targets. Raises FileError for a target outside the folder."""
     names = tuple(target.relative_to(folder).as_posix() for target in targets)
     inner = dict.fromkeys(way for target in targets for way in ways(folder, target))
     missing = tuple(way.relative_to(folder).as_posix() for way in inner if not way.exists())
@@ -138,12 +138,12 @@ def plan_of(folder: Path, targets: Sequence[Path]) -> CommitPlan:
 
 
 def ways(folder: Path, target: Path) -> Iterator[Path]:
-    """The folders between a folder and a target in it, the outer ones first."""
+    """The folders between a folder and a target in it, outermost first."""
     yield from reversed([way for way in target.parents if folder in way.parents])
 
 
 def checked(folder: Path, plan: CommitPlan) -> CommitPlan:
-    """A plan whose files and folders all lie in a folder. Raises FileError for any other."""
+    """A plan with all its files and folders in a folder. Raises FileError for any other."""
     whole = folder.resolve()
     for name in (*plan.files, *plan.folders):
         path = folder / name
@@ -154,7 +154,7 @@ def checked(folder: Path, plan: CommitPlan) -> CommitPlan:
 
 
 def plan_in(folder: Path, name: str) -> CommitPlan:
-    """The plan that waits in a folder. Raises FileError for one that cannot be read."""
+    """The waiting plan in a folder. Raises FileError if it is unreadable."""
     path = folder / UNFINISHED / name
     try:
         return checked(folder, msgspec.json.decode(whole_file(path), type=CommitPlan))
@@ -164,12 +164,12 @@ def plan_in(folder: Path, name: str) -> CommitPlan:
 
 
 def planned(hidden: Path) -> bool:
-    """Whether a plan waits to be finished or taken back."""
+    """Whether a plan is waiting to be completed or reversed."""
     return any((hidden / plan).is_file() for plan in (FORWARD, BACK))
 
 
 def make_whole(folder: Path) -> None:
-    """Finish what a run that was killed had decided, or take it back; discard what it had not."""
+    """Complete or reverse the commit of an interrupted run; discard one that had no plan."""
     hidden = folder / UNFINISHED
     if hidden.is_symlink():
         hidden.unlink()
@@ -190,7 +190,7 @@ def make_whole(folder: Path) -> None:
 
 
 def finish(folder: Path) -> None:
-    """Move what waits in a folder to its places; after a failure all is as it was before.
+    """Move the waiting files of a folder into place, or restore everything after a failure.
 
     Raises FileError with the file that cannot be replaced.
     """
@@ -210,12 +210,12 @@ def finish(folder: Path) -> None:
 
 
 def take_back(folder: Path) -> None:
-    """Put everything back that was moved in a folder. Raises FileError for a file that stays."""
+    """Restore everything that was moved in a folder. Raises FileError for a file that cannot be."""
     hidden, plan = folder / UNFINISHED, plan_in(folder, BACK)
     for number, name in enumerate(plan.files):
         target, old = folder / name, hidden / f"{number}.old"
         if (hidden / f"{number}.new").exists():
-            continue  # it was not moved
+            continue  # the file was not moved
         if name not in plan.replaced:
             target.unlink(missing_ok=True)
         elif os.path.lexists(old):
@@ -223,12 +223,12 @@ def take_back(folder: Path) -> None:
     for way in reversed(plan.folders):
         with suppress(OSError):
             (folder / way).rmdir()
-    (hidden / BACK).unlink()  # before what it names: it would take that for moved
+    (hidden / BACK).unlink()  # before the files it names, or it would count them as moved
     discard(hidden)
 
 
 def move(source: Path, target: Path, failed: str = "cannot be replaced") -> None:
-    """Move a file to its place. Raises FileError with that place where the system refuses."""
+    """Move a file into place. Raises FileError with its path where the system refuses."""
     try:
         source.replace(target)
     except OSError as error:
@@ -241,7 +241,7 @@ def move(source: Path, target: Path, failed: str = "cannot be replaced") -> None
 
 
 def keep(target: Path, old: Path) -> None:
-    """Keep a file under another name as well: by a link, or a copy where there are no links."""
+    """Keep a file under another name as well, by a link, or by a copy."""
     try:
         os.link(target, old, follow_symlinks=False)
     except (OSError, NotImplementedError):
@@ -249,7 +249,7 @@ def keep(target: Path, old: Path) -> None:
 
 
 def flush(paths: Sequence[Path]) -> None:
-    """Have files written to the disk, so that a loss of power leaves no plan without its files."""
+    """Flush files to the disk, so that a power failure leaves no plan without its files."""
     if len(paths) > FEW and hasattr(os, "sync"):
         os.sync()
         return
@@ -259,18 +259,18 @@ def flush(paths: Sequence[Path]) -> None:
 
 
 def discard(hidden: Path) -> None:
-    """Remove the folder in which files waited."""
+    """Remove the folder of waiting files."""
     rmtree(hidden, ignore_errors=True)
 
 
 def reason_of(error: OSError) -> str:
-    """What the system says of a failure, as the end of a sentence."""
+    """The system's reason for a failure, as the end of a sentence."""
     reason = error.strerror or str(error)
     return f"{reason[:1].lower()}{reason[1:]}"
 
 
 def cannot_write(folder: Path, error: OSError) -> PageError:
-    """The error for a file or folder that the system does not let us write."""
+    """The error for a file or folder that the system does not allow to be written."""
     found = f"cannot be written: {reason_of(error)}"
     return FileError(
         Problem(str(folder), found, "a folder that can be written", "name one with -o")

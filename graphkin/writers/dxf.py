@@ -1,4 +1,4 @@
-"""Write a page as a DXF drawing: true millimetres, y up, a layer for each class of mark."""
+"""Write a page as a DXF drawing: in true millimetres, y up, with a layer for each class of mark."""
 
 from __future__ import annotations
 
@@ -14,15 +14,15 @@ from graphkin.drawing.style import Ink, Style, style_of
 from graphkin.text.errors import PageError, Problem
 
 MILLIMETRES = 4
-"""The code of drawing units in a DXF."""
+"""The code of millimetres as the DXF drawing unit."""
 FACE = "GRAPHKIN"
 CONTINUOUS = "CONTINUOUS"
 WEIGHTS = (0, 5, 9, 13, 15, 18, 20, 25, 30, 35, 40, 50, 53, 60, 70, 80, 90, 100, 106, 120)
-"""The widths of lines that a DXF knows, in hundredths of a millimetre."""
+"""The line widths of DXF, in hundredths of a millimetre."""
 
 
 def write_dxf(page: Page, ink: Ink = "colour") -> bytes:
-    """A page as the bytes of a DXF. Raises PageError where the library for it is missing."""
+    """A page as the bytes of a DXF file. Raises PageError if the library is missing."""
     try:
         import ezdxf
         from ezdxf.enums import TextEntityAlignment
@@ -31,7 +31,7 @@ def write_dxf(page: Page, ink: Ink = "colour") -> bytes:
         raise PageError(Problem("dxf", "needs ezdxf", hint=hint)) from None
     page.check()
     before = ezdxf.options.write_fixed_meta_data_for_testing
-    ezdxf.options.write_fixed_meta_data_for_testing = True  # the same page, the same bytes
+    ezdxf.options.write_fixed_meta_data_for_testing = True  # the same page gives the same bytes
     try:
         document = ezdxf.new("R2010", units=MILLIMETRES)
         document.styles.add(FACE, font="DejaVuSans.ttf")
@@ -48,7 +48,7 @@ def write_dxf(page: Page, ink: Ink = "colour") -> bytes:
 
 
 class Drawer:
-    """Puts marks into the model space of a document, each on the layer of its class."""
+    """Draws marks in the model space of a document, each on the layer of its class."""
 
     def __init__(self, document: Any, height: float, ink: Ink, fit: Any) -> None:
         self.document = document
@@ -86,7 +86,7 @@ class Drawer:
         }
 
     def dashes(self, dash: tuple[float, ...]) -> str:
-        """The name of the line type of some dashes, in mm."""
+        """The name of the line type for some dashes, in mm."""
         if not dash:
             return CONTINUOUS
         name = "DASH_" + "_".join(f"{length:g}" for length in dash).replace(".", "P")
@@ -101,7 +101,7 @@ class Drawer:
         style: Style,
         look: dict[str, Any],
     ) -> None:
-        """A line, a broken line, a circle or an arc; what has no outline is filled."""
+        """Draw a line, polyline, circle or arc; a mark without an outline is filled."""
         if isinstance(mark, LineMark):
             ends = self.up(mark.x1, mark.y1), self.up(mark.x2, mark.y2)
             if not all(map(isclose, *ends)):
@@ -122,13 +122,13 @@ class Drawer:
                 self.space.add_lwpolyline(points, close=mark.closed, dxfattribs=look)
 
     def filled(self, style: Style, look: dict[str, Any]) -> Any:
-        """The edges of a surface filled as a style says, on the layer of its mark."""
+        """The hatch paths of a filled surface, on the layer of its mark."""
         colour = int((style.fill or style.colour).lstrip("#"), 16)
         own = {"layer": look["layer"], "true_color": colour}
         return self.space.add_hatch(dxfattribs=own).paths
 
     def lettering(self, text: Text, look: dict[str, Any]) -> None:
-        """A text, each of its runs at its own place, as wide as on the page in any face."""
+        """Draw a text, each of its runs at its own place, as wide as on the page in any font."""
         turn = rect(1.0, radians(text.rotate))
         for run in runs(text.markup, text.height):
             along = complex(text.left() + run.x, -run.y) * turn

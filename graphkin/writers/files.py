@@ -1,4 +1,4 @@
-"""Files written whole or not at all: checked first, written aside, then put in their places."""
+"""Files written completely or not at all: checked, written to temporary files, then moved."""
 
 from __future__ import annotations
 
@@ -16,25 +16,25 @@ from graphkin.writers.commit import PATIENCE, cannot_write, held, put_in_place, 
 RESERVED = frozenset(
     ["CON", "PRN", "AUX", "NUL"] + [f"{port}{i}" for port in ("COM", "LPT") for i in range(10)]
 )
-"""Names that Windows keeps for devices, whatever follows their first dot."""
+"""Names that Windows reserves for devices, with any extension."""
 LONGEST = 60
 """Characters of one part of a file name."""
 MOST_BYTES = 180
-"""Bytes of the first part of a file name, so that the rest finds room in 255."""
+"""Bytes of the first part of a file name; the rest must fit within 255."""
 SHOWN = 3
-"""Files in the way that are named."""
+"""Existing files that are named in an error."""
 PDF_ONLY = "calculation"
-"""The sheet that comes as PDF only, for it is several pages of text."""
+"""The sheet that is written only as PDF, because it is several pages of text."""
 
 
 def file_part(text: str) -> str:
-    """A name or value as part of a file name: what a file system may not like becomes _."""
+    """A name or value as part of a file name; unsafe characters become _."""
     part = re.sub(r"[^\w.+-]+", "_", text).strip("._")[:LONGEST].rstrip(".")
     return f"_{part}" if part.partition(".")[0].upper() in RESERVED else part or "_"
 
 
 def file_stem(name: str, settings: Mapping[str, str]) -> str:
-    """The name of a scene, then what is set: pump-n7."""
+    """The name of a scene, then its settings: pump-n7."""
     stem = "-".join([file_part(name), *(file_part(f"{k}{v}") for k, v in settings.items())])
     whole = stem.encode("utf-8")
     if len(whole) <= MOST_BYTES:
@@ -51,9 +51,9 @@ def rendered(
     *,
     steps: bool = False,
 ) -> dict[str, bytes]:
-    """The files of one sheet by name: an SVG, a DXF for each page, one PDF for all of them.
+    """The files of one sheet by name: an SVG and a DXF for each page, one PDF for all.
 
-    The pages of a sheet that grows by ``steps`` are numbered; else the first is the sheet itself.
+    The pages of a sheet with ``steps`` are numbered; otherwise the first page is the sheet itself.
     """
     files: dict[str, bytes] = {}
     if "svg" in formats and kind != PDF_ONLY:
@@ -76,11 +76,11 @@ def rendered(
 
 
 def write_all(folder: Path, files: Mapping[str, bytes], force: bool) -> list[Path]:
-    """Write all files into a folder, made if missing, or none of them; raises PageError.
+    """Write all files into a folder, made if missing, or none of them. Raises PageError.
 
-    Files that exist are replaced only by ``force``. A full disk, a file that cannot be replaced
-    and a folder that cannot be written leave what was there; a run that is killed is finished or
-    taken back by the next. Runs into one folder wait for each other.
+    Existing files are replaced only with ``force``. A full disk, a file that cannot be replaced and
+    a read-only folder leave everything unchanged. The next run completes or reverses an interrupted
+    one. Runs that write into one folder wait for each other.
     """
     targets = {folder / name: data for name, data in files.items()}
     try:
@@ -96,7 +96,7 @@ def write_all(folder: Path, files: Mapping[str, bytes], force: bool) -> list[Pat
 
 
 def refuse_existing(folder: Path, targets: list[Path], force: bool) -> None:
-    """Raise PageError with every target that is in the way."""
+    """Raise PageError with every existing target."""
     if folder.exists() and not folder.is_dir():
         hint = "name another folder with -o"
         raise FileError(Problem(str(folder), "is a file", "a folder", hint))
@@ -109,10 +109,10 @@ def refuse_existing(folder: Path, targets: list[Path], force: bool) -> None:
 
 
 def refuse_folder(folder: Path, names: Iterable[str] = (), *, force: bool = False) -> None:
-    """Raise PageError, before anything is worked out, where no file can be written into a folder.
+    """Raise PageError, before any work, where no file can be written into a folder.
 
-    A file without a name is written into it, or into the folder in which it is to be made; what
-    ``names`` would replace is told as by ``refuse_existing``.
+    The check writes an anonymous file into the folder, or into the folder that will contain it.
+    Files of ``names`` that exist are reported as by ``refuse_existing``.
     """
     from tempfile import TemporaryFile
 
@@ -127,7 +127,7 @@ def refuse_folder(folder: Path, names: Iterable[str] = (), *, force: bool = Fals
 
 
 def in_the_way(there: Sequence[Path]) -> Problem:
-    """The problem of files that exist: all of them in one line, the first by name."""
+    """The problem of existing files: all of them in one line, the first by name."""
     if len(there) == 1:
         hint = "--force replaces it, -o names another folder"
         return Problem(str(there[0]), "exists already", "a new file", hint)

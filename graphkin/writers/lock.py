@@ -1,4 +1,4 @@
-"""One run at a time in a folder: a lock that the system releases when its process dies."""
+"""One run at a time in a folder, by a lock that the system releases when its process ends."""
 
 from __future__ import annotations
 
@@ -17,11 +17,11 @@ from graphkin.scene.file_limits import file_bytes
 from graphkin.text.errors import PageError, Problem
 
 LOCK = ".graphkin-lock"
-"""The file that is locked."""
+"""The locked file."""
 HOLDER = ".graphkin-holder"
-"""The file that says who holds the lock."""
+"""The file that describes the holder of the lock."""
 LOCKLESS = (ENOLCK, EOPNOTSUPP)
-"""What file systems say that have no locks: their folders are written without."""
+"""Error codes of file systems without locks; their folders are written without one."""
 
 
 class InUseError(PageError):
@@ -30,11 +30,11 @@ class InUseError(PageError):
 
 @contextmanager
 def locked(folder: Path, patience: float = 0.0) -> Iterator[str]:
-    """Hold a folder while files are written into it; gives who left it without letting go.
+    """Hold a folder while files are written into it; yields the last holder if it was killed.
 
-    That is empty after a run that ended well. A process that was killed holds nothing: its lock
-    is stale, and taken over. Raises InUseError, with the process and its age, when another run
-    holds the folder, and still does after ``patience`` seconds.
+    The text is empty after a run that ended normally. A killed process holds nothing: its lock is
+    stale and taken over. Raises InUseError, with the process and its age, if another run still
+    holds the folder after ``patience`` seconds.
     """
     from filelock import FileLock, Timeout
 
@@ -52,14 +52,14 @@ def locked(folder: Path, patience: float = 0.0) -> Iterator[str]:
         note.write_text(json.dumps(sign), encoding="utf-8")
         yield holder(left) if left else ""
     finally:
-        for path in (note, folder / LOCK):  # while it is held: who waits for it sees that it went
+        for path in (note, folder / LOCK):  # while held, so that a waiting run sees it
             with suppress(OSError):  # Windows keeps an open file
                 path.unlink()
         lock.release()
 
 
 def alive(process: int) -> bool:
-    """Whether a process of this computer lives; where it cannot be asked, that it does not."""
+    """Whether a process of this computer is running; False where that cannot be determined."""
     if sys.platform == "win32":  # os.kill would end it
         return False
     try:
@@ -72,7 +72,7 @@ def alive(process: int) -> bool:
 
 
 def told(note: Path) -> dict[str, Any]:
-    """What is written of the holder; nothing where that is not there or cannot be read."""
+    """The written data of the holder; empty where they are missing or unreadable."""
     try:
         found = json.loads(file_bytes(note, 1 << 12))
     except (OSError, ValueError, RecursionError):
@@ -81,7 +81,7 @@ def told(note: Path) -> dict[str, Any]:
 
 
 def holder(sign: dict[str, Any]) -> str:
-    """Words for who holds a lock: process, host and how long."""
+    """Words for the holder of a lock: process, host and age."""
     since = sign.get("since")
     age = max(int(time()) - since, 0) if isinstance(since, int) else 0
     return f"process {sign.get('pid', '?')} on {sign.get('host', '?')}, begun {ago(age)}"

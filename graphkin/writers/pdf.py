@@ -1,4 +1,4 @@
-"""Write pages as one PDF file: true size, embedded font, text that can be searched."""
+"""Write pages as one PDF file: true size, embedded font, searchable text."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ from graphkin.drawing.richtext import FILES, TextRun, font_file, spaced_runs
 from graphkin.drawing.style import Ink, Style, style_of
 
 MM = 72 / 25.4  # points to the millimetre
-rl_config.useA85 = 0  # compressed streams need not be spelled in letters: smaller, quicker
+rl_config.useA85 = 0  # compressed streams need no ASCII encoding: smaller and faster
 
 
 def number(value: float) -> str:
@@ -34,7 +34,7 @@ def colour(code: str) -> str:
 
 @lru_cache(maxsize=128)
 def line_setting(style: Style) -> str:
-    """Write the width, colour, dashes, ends and corners of a line."""
+    """Write the width, colour, dashes, caps and joins of a line."""
     dash = " ".join(number(length * MM) for length in style.dash)
     ends = "1 J 1 j" if style.round else "0 J 0 j"
     return f"{number(style.width * MM)} w {colour(style.colour)} RG [{dash}] 0 d {ends}"
@@ -42,7 +42,7 @@ def line_setting(style: Style) -> str:
 
 @lru_cache(maxsize=2)
 def face(italic: bool) -> TTFont:
-    """Read one face and make it known to reportlab, once."""
+    """Load one face and register it with reportlab, once."""
     font = TTFont(FILES[italic], str(font_file(italic)), asciiReadable=False, shapable=False)
     pdfmetrics.registerFont(font)
     return font
@@ -55,7 +55,7 @@ def at(x: float, y: float, top: float) -> str:
 
 @lru_cache(maxsize=4096)
 def outline(mark: LineMark | Polyline | CircleMark | Arc, top: float) -> str:
-    """Write the path of a mark; much of a sheet is the same on the next one."""
+    """Write the path of a mark; the result is cached because sheets share many marks."""
     if isinstance(mark, LineMark):
         return path([(mark.x1, mark.y1), (mark.x2, mark.y2)], top)
     if isinstance(mark, Polyline):
@@ -66,13 +66,13 @@ def outline(mark: LineMark | Polyline | CircleMark | Arc, top: float) -> str:
 
 
 def path(points: Iterable[Point], top: float) -> str:
-    """Write a broken line."""
+    """Write a polyline."""
     first, *rest = (at(x, y, top) for x, y in points)
     return "\n".join([first, "m", *(f"{place}\nl" for place in rest)])
 
 
 def curve(arc: Arc, top: float) -> str:
-    """Write an arc in Bézier pieces so short that they leave the circle by no 0.001 mm."""
+    """Write an arc as Bézier pieces that deviate from the circle by less than 0.001 mm."""
     most = 45.0 if arc.r <= 100 else 22.5
     count = max(1, ceil(abs(arc.end - arc.start) / most))
     turn = radians(arc.end - arc.start) / count
@@ -90,7 +90,7 @@ def curve(arc: Arc, top: float) -> str:
 
 @lru_cache(maxsize=4096)
 def lettering(text: Text, top: float) -> tuple[tuple[str, TextRun], ...]:
-    """Write where each run of a text stands, turned with the text."""
+    """Write the place of each run of a text, rotated with the text."""
     c, s = cos(radians(text.rotate)), sin(radians(text.rotate))
     turned = f"{number(c)} {number(s)} {number(-s)} {number(c)}" if text.rotate else "1 0 0 1"
     left, found = text.left(), []
@@ -102,7 +102,7 @@ def lettering(text: Text, top: float) -> tuple[tuple[str, TextRun], ...]:
 
 
 class PdfPen:
-    """Writes the marks of one page as PDF operators; sets line and fill only where they change."""
+    """Writes the marks of one page as PDF operators; sets line and fill only when they change."""
 
     def __init__(self, canvas: Canvas, page: Page, ink: Ink) -> None:
         self.document = canvas._doc  # type: ignore[attr-defined]
@@ -122,7 +122,7 @@ class PdfPen:
             self.paint(outline(mark, self.top), style, closed)
 
     def paint(self, path: str, style: Style, closed: bool) -> None:
-        """Stroke and fill a path as its style says; open paths are never filled."""
+        """Stroke and fill a path in its style; open paths are never filled."""
         filled, stroked = bool(closed and style.fill), bool(style.width)
         if stroked:
             self.set_line(line_setting(style))
@@ -133,13 +133,13 @@ class PdfPen:
             self.code += (path, ends[stroked, filled] if closed else "S")
 
     def set_line(self, setting: str) -> None:
-        """Change how lines are drawn, if that differs from the last line."""
+        """Set the line style, if it differs from the last one."""
         if setting != self.line:
             self.line = setting
             self.code.append(setting)
 
     def set_fill(self, code: str) -> None:
-        """Change the colour of fills and lettering, if it differs from the last one."""
+        """Set the colour of fills and lettering, if it differs from the last one."""
         if code != self.filling:
             self.filling = code
             self.code.append(f"{colour(code)} rg")
@@ -154,7 +154,7 @@ class PdfPen:
         self.code.append("ET")
 
     def show(self, words: str, size: float, italic: bool) -> list[str]:
-        """Write one run in the codes of the embedded part of its face."""
+        """Write one run in the codes of the embedded subset of its face."""
         key = words, size, italic
         if key not in self.shown:
             font = face(italic)
@@ -167,7 +167,7 @@ class PdfPen:
 
 
 def write_pdf(pages: Sequence[Page], ink: Ink = "colour", title: str = "") -> bytes:
-    """Write pages as PDF, each of its own true size; the same pages give the same bytes."""
+    """Write pages as PDF, each in its own true size; the same pages give the same bytes."""
     target = BytesIO()
     canvas = Canvas(
         target,

@@ -1,4 +1,4 @@
-"""How curves look: one font, quiet colours, thin grids; the same bytes for the same data."""
+"""The style of curves: one font, quiet colours, thin grids; the same data give the same bytes."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
 COLOURS = ("#1f5fa8", "#c8501e", "#2b8a5b", "#8a4fa3", "#b8860b", "#4a5a6a", "#c2407d", "#008b9a")
-"""Ink of the curves, one after the other; told apart also in grey and by the colour-blind."""
+"""Colours of the curves in order; distinct in grey and for the colour-blind, too."""
 DASHES: tuple[Any, ...] = ("-", (0, (6, 2)), (0, (1.2, 1.6)), (0, (6, 2, 1.2, 2)))
 INK = "#26323c"
 FAINT = "#8895a0"
@@ -58,11 +58,11 @@ LOOK: dict[str, Any] = {
 
 @contextmanager
 def look() -> Iterator[None]:
-    """Draw in the look of this house, whatever a user's settings say."""
+    """Draw in the style of this package, regardless of the user's settings."""
     import matplotlib as mpl
 
     with mpl.rc_context(), catch_warnings():
-        # A title may hold signs that the font lacks; the picture shows a box for each.
+        # A title may contain characters that the font lacks; each appears as a box.
         filterwarnings("ignore", message="Glyph .* missing from font")
         mpl.rcdefaults()
         mpl.rcParams.update(LOOK)  # type: ignore[arg-type]
@@ -70,7 +70,7 @@ def look() -> Iterator[None]:
 
 
 def new_figure(width: float, height: float) -> Figure:
-    """An empty figure, sizes in inches, that leaves room for what it holds."""
+    """An empty figure, sizes in inches, with a layout that fits its contents."""
     from matplotlib.backends.backend_agg import FigureCanvasAgg
     from matplotlib.figure import Figure
 
@@ -96,20 +96,19 @@ def without_trailing_blanks(data: bytes) -> bytes:
 
 
 def figure_title(figure: Figure, text: str, **how: Any) -> None:
-    """The title of a figure as it is written: a scene's title is text and no formula."""
+    """Set the title of a figure as plain text; a scene's title is no formula."""
     figure.suptitle(text, parse_math=False, **how)
 
 
 def footnote(figure: Figure, text: str, *, size: float = 8, colour: str = FAINT) -> None:
-    """Small words below a figure, from its left edge on."""
+    """Add a small note below a figure, from its left edge."""
     figure.supxlabel(text, x=0.01, ha="left", fontsize=size, color=colour)
 
 
 def picture_files(
     figures: Iterable[tuple[str, Callable[[], Figure | None]]], formats: Sequence[str]
 ) -> dict[str, bytes]:
-    """The files of figures by the stems of their names, in each of some formats; each figure is
-    drawn in the look of this house, one after the other."""
+    """The files of figures by name, in each of some formats, drawn in this style one by one."""
     files: dict[str, bytes] = {}
     with look():
         for stem, drawn in figures:
@@ -119,14 +118,14 @@ def picture_files(
 
 
 def some_of(names: Sequence[str], most: int, noun: str) -> tuple[list[str], str]:
-    """The first of some names that a picture has room for, and words where there are more."""
+    """The first names that fit into a figure, and words for the rest."""
     if len(names) <= most:
         return list(names), ""
     return list(names[:most]), f" ({most} of {len(names)} {noun}; the table holds all)"
 
 
 def legend(ax: Axes) -> None:
-    """The legend above the panel, at the right, where no curve runs."""
+    """Draw the legend above the panel, on the right, away from the curves."""
     handles, labels = ax.get_legend_handles_labels()
     if handles:
         ax.legend(
@@ -142,31 +141,31 @@ def legend(ax: Axes) -> None:
 
 
 def panel_heading(ax: Axes, text: str, *, raised: bool = False) -> None:
-    """The heading of a panel, at the left above it; raised, above a long legend."""
+    """Draw the heading above a panel on the left; raised, above a long legend."""
     ax.set_title(text, loc="left", fontweight="bold", pad=20 if raised else None)
 
 
 def colour(number: int) -> str:
-    """The ink of the curve of a number."""
+    """The colour of the curve of a number."""
     return COLOURS[number % len(COLOURS)]
 
 
 def dash(number: int) -> Any:
-    """The stroke of the curve of a number: whole lines first, dashed once the inks are used."""
+    """The stroke of the curve of a number: solid first, dashed once the colours are used up."""
     return DASHES[(number // len(COLOURS)) % len(DASHES)]
 
 
 def subscripted(letter: str, name: str) -> str:
-    """A letter with a name below: v with B, or with B₃ for B@3."""
+    """A letter with a name as index: v with B, or with B₃ for B@3."""
     point, _, link = name.replace("_", r"\_").partition("@")
     below = f"{point}_{{{link}}}" if link else point
     return rf"${letter}_{{\mathrm{{{below}}}}}$"
 
 
 def span_of(at: Any, values: Sequence[Any]) -> tuple[float, float] | None:
-    """Bounds for an axis that curves running to infinity leave: wide enough for the rest of them.
+    """Axis limits that cut off curves running to infinity, wide enough for the rest.
 
-    None where no curve runs away, and all may be shown.
+    None where no curve runs to infinity, so that everything may be shown.
     """
     even = np.linspace(at.min(), at.max(), 1001)
     order = np.argsort(at)
@@ -188,8 +187,8 @@ def span_of(at: Any, values: Sequence[Any]) -> tuple[float, float] | None:
 
 
 GAP = 0.02
-"""Distance of two places, in parts of all, between which nothing is drawn."""
+"""Distance of two places, as a share of the whole, across which nothing is drawn."""
 RUNS_AWAY = 5.0
-"""A curve whose largest value is so many times its usual one runs to infinity."""
+"""Ratio of the largest to the usual value beyond which a curve runs to infinity."""
 KEPT = 2.0
-"""Values up to so many times the usual one stay in sight."""
+"""Multiple of the usual value up to which values stay visible."""

@@ -1,4 +1,4 @@
-"""Markup for a browser from templates, which lie beside the modules that fill them."""
+"""Browser markup from templates, which are next to the modules that fill them."""
 
 from __future__ import annotations
 
@@ -16,26 +16,26 @@ if TYPE_CHECKING:
 
 @lru_cache(maxsize=1024)
 def marked_up(markup: str) -> str:
-    """A markup of the sheets in that of a page; the symbols of a page come again and again."""
+    """A sheet's markup as browser markup; cached because symbols recur."""
     return "".join(map(tagged, pieces(markup)))
 
 
 def tagged(piece: TextPiece) -> str:
-    """A piece of text in the tags of its face and its level."""
+    """A piece of text in the tags of its face and level."""
     text = escape(piece.text)
     text = f"<i>{text}</i>" if piece.italic else text
     tag = {-1: "sub", 1: "sup"}.get(piece.level)
     return f"<{tag}>{text}</{tag}>" if tag else text
 
 
-# --- markup for a browser from templates, which lie beside the modules that fill them -------------
+# --- browser markup from templates ----------------------------------------------------------------
 
 
 HOUSE = Path(__file__).resolve().parents[1]
 
 
 def from_template(name: str, /, **values: object) -> Markup:
-    """A template by its path in the package, filled; what is no markup is escaped."""
+    """A template by its path in the package, filled in; values that are no markup are escaped."""
     from markupsafe import Markup
 
     return Markup(environment().get_template(name).render(values))
@@ -43,7 +43,7 @@ def from_template(name: str, /, **values: object) -> Markup:
 
 @lru_cache(maxsize=1)
 def environment() -> Environment:
-    """How templates are read: ``markup`` puts a markup of the sheets into tags."""
+    """The template environment; ``markup`` converts a sheet's markup into tags."""
     from jinja2 import Environment, FileSystemLoader, StrictUndefined
     from markupsafe import Markup
 

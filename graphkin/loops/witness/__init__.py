@@ -1,9 +1,9 @@
-"""The witness: a solution held against vector loops that share nothing with its construction.
+"""The residual check: a solution compared with vector loops independent of its construction.
 
-Disagreement is the absolute difference over the largest magnitude of that quantity in the scene.
-A scale never falls below a thousandth of what the other quantities make of it (v ≈ ω·L and so on),
-nor, beside singular positions, below the share that rounding has in the limit, so that the rounding
-of a quantity that is nought everywhere is not taken for a difference.
+A disagreement is the absolute difference divided by the largest magnitude of that quantity in the
+scene. A scale is at least a thousandth of the value expected from the other quantities (v ≈ ω·L and
+so on). Near singular positions it is at least the share of rounding in the limit. Otherwise the
+rounding of a quantity that is zero everywhere would count as a difference.
 """
 
 from graphkin.loops.witness.differences import sure_of

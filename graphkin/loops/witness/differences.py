@@ -1,4 +1,4 @@
-"""Every difference between a solution and the loops, over its scale, and what rounding allows."""
+"""The differences between a solution and the loops, relative to scales, with rounding bounds."""
 
 from __future__ import annotations
 
@@ -37,19 +37,19 @@ class Sizes(Protocol):
 
     @property
     def length(self) -> Reals:
-        """Metres."""
+        """In metres."""
 
     @property
     def speed(self) -> Reals:
-        """Metres per second."""
+        """In metres per second."""
 
     @property
     def acceleration(self) -> Reals:
-        """Metres per second squared."""
+        """In metres per second squared."""
 
     @property
     def omega(self) -> Reals:
-        """Radians per second."""
+        """In radians per second."""
 
 
 class MotionField(Struct, frozen=True, eq=False):
@@ -64,9 +64,9 @@ class MotionField(Struct, frozen=True, eq=False):
 
 
 class Left(Struct, frozen=True, eq=False):
-    """What is left between a value and the loops, its bound, and the size of what cancels there.
+    """The residual of a value in the loops, its bound, and the size of the terms that cancel.
 
-    At a centre that is the motion left there.
+    For a centre, the residual is the motion left at that point.
     """
 
     found: Reals
@@ -74,30 +74,30 @@ class Left(Struct, frozen=True, eq=False):
     size: Reals
 
     def over(self, scale: Reals) -> Left:
-        """All of them over a scale."""
+        """The residual, bound and size divided by a scale."""
         return Left(self.found / scale, self.bound / scale, self.size / scale)
 
 
 def left_at_centre(solved: LoopSolution, name: str, centre: Ratio, scales: Sizes) -> Left:
-    """What is left at the centre of a link against the frame, or of two links such as 2-4."""
+    """The residual at a link's centre relative to the frame, or of two links such as 2-4."""
     first, second = name.split("-") if "-" in name else (FRAME, name)
     return off_centre(solved, centre, first, second, scales)
 
 
 def left_at_pole(solved: LoopSolution, name: str, pole: Ratio, scales: Sizes) -> Left:
-    """What is left at the acceleration pole of a link."""
+    """The residual at the acceleration pole of a link."""
     left = left_at(pole, accelerations_of(solved, name), scales.length)
     return left.over(scales.acceleration)
 
 
 def left_at_inflection(solved: LoopSolution, name: str, pole: Ratio, scales: Sizes) -> Left:
-    """What is left at the inflection pole of a link."""
+    """The residual at the inflection pole of a link."""
     left = left_at(pole, bends_of(solved, name), scales.length)
     return left.over(scales.acceleration * scales.omega)
 
 
 def off_centre(solved: LoopSolution, centre: Ratio, first: str, second: str, scales: Sizes) -> Left:
-    """Velocity of the second link against the first at their centre, over the scale of speeds."""
+    """The relative velocity of two links at their centre, divided by the scale of speeds."""
     field = velocities_of(solved, first, second)
     left = left_at(centre, field, scales.length)
     aside, bound = off_ray(centre, field, scales.length)
@@ -105,7 +105,7 @@ def off_centre(solved: LoopSolution, centre: Ratio, first: str, second: str, sca
 
 
 def velocities_of(solved: LoopSolution, first: str, second: str) -> MotionField:
-    """The velocities of the second link's points against the first."""
+    """The velocities of the second link's points relative to the first."""
     motion, bounds = solved.motion, solved.rounding
     i, j = motion.index[first], motion.index[second]
     start, velocity, _ = (row[:, j] for row in motion.origin)
@@ -134,10 +134,11 @@ def accelerations_of(solved: LoopSolution, name: str) -> MotionField:
 
 
 def bends_of(solved: LoopSolution, name: str) -> MotionField:
-    """What vanishes at the inflection pole, (aω - εv)/ω³ away from the link's origin.
+    """The field that vanishes at the inflection pole, (aω - εv)/ω³ from the link's origin.
 
-    The points of the circle on it and the instantaneous centre have no acceleration across their
-    velocity: with r from the centre I that is r² = r·a_I/ω², a circle through I and I + a_I/ω².
+    The points of the inflection circle, which contains that pole and the instantaneous centre I,
+    have no acceleration normal to their velocity. With r measured from I this means r² = r·a_I/ω²:
+    a circle through I and I + a_I/ω².
     """
     motion, bounds = solved.motion, solved.rounding
     i = motion.index[name]
@@ -154,11 +155,12 @@ def bends_of(solved: LoopSolution, name: str) -> MotionField:
 
 
 def left_at(centre: Ratio, field: MotionField, length: Reals) -> Left:
-    """What motion is left at a centre, shape (N,).
+    """The residual motion at a centre, shape (N,).
 
-    Far away it is divided by the distance in lengths of the mechanism, so that a centre near
-    infinity is held to its inverse distance. Where nothing is stated (0/0) all must be at rest.
-    The centre itself was made of a motion with such errors, so that they count twice.
+    Far away, the residual is divided by the distance in lengths of the mechanism. A centre near
+    infinity is thus compared by its inverse distance. Where the centre is undefined (0/0), the
+    whole motion must vanish. The centre itself comes from a motion with such errors, so the errors
+    count twice.
     """
     way = (centre.start - field.start) * centre.size + centre.shift
     near, far = abs(np.asarray(centre.size)), abs(way)
@@ -177,10 +179,10 @@ def left_at(centre: Ratio, field: MotionField, length: Reals) -> Left:
 
 
 def off_ray(centre: Ratio, field: MotionField, length: Reals) -> tuple[Reals, Reals]:
-    """How far a centre lies off the ray perpendicular to the velocity (Chasles), and its bound.
+    """The distance of a centre from the ray normal to the velocity (Chasles), and its bound.
 
-    As in ``left_at``. This holds the direction of a centre at infinity; a complex size leaves
-    that open.
+    It is scaled as in ``left_at``. It checks the direction of a centre at infinity, unless the
+    centre's size is complex.
     """
     way = (centre.start - field.start) * centre.size + centre.shift
     near, far = abs(np.asarray(centre.size)), abs(way) / length
@@ -198,20 +200,21 @@ def off_ray(centre: Ratio, field: MotionField, length: Reals) -> tuple[Reals, Re
 
 Flags = np.ndarray[Any, np.dtype[np.bool_]]
 FLOOR = 1e-3
-"""Share of its natural size below which a scale is not taken seriously."""
+"""Share of its natural size below which a scale is not used."""
 LOST = 0.1
-"""Bound of an error, as a share of the quantity, from which no digit of it is sure."""
+"""Error bound, as a share of the quantity, above which no digit of the quantity is certain."""
 LEAST_LIMIT = 1e-9
-"""Difference that is always allowed."""
+"""Difference that is always within the limit."""
 MOST_DIGITS = 15
-"""Digits that a double has."""
+"""Digits of a double."""
 KINDS_OF = {each.attribute: each.kind for each in (*OF_POINTS, *RATES, *OF_SLIDES)}
-"""Of which derivative each quantity is; centres have none."""
+"""The kind of derivative of each quantity; centres have none."""
 
 
 class Differences(Struct, frozen=True, eq=False, dict=True):
-    """Differences by the ``names`` of their quantities, the bounds of their errors, and the sizes
-    of the quantities, all over their scales: each of shape (Q, N).
+    """Differences by the ``names`` of their quantities, with error bounds and sizes.
+
+    All are divided by their scales and have shape (Q, N).
     """
 
     names: tuple[str, ...]
@@ -221,27 +224,27 @@ class Differences(Struct, frozen=True, eq=False, dict=True):
 
     @cached_property
     def sure(self) -> Flags:
-        """Where some digit of the quantity is sure."""
+        """Where at least one digit of the quantity is certain."""
         return np.asarray(~(share(self.bound, self.size) > LOST))
 
     @cached_property
     def judged(self) -> Flags:
-        """Where the difference is judged: not where both routes know nothing; NaN is."""
+        """Where the difference is compared: where a digit is certain, or it is NaN."""
         return np.asarray(self.sure | np.isnan(self.found))
 
     @cached_property
     def limit(self) -> Reals:
-        """The largest difference that is allowed."""
+        """The largest difference within the limit."""
         return np.maximum(LEAST_LIMIT, self.bound)
 
 
 def share(bound: Reals, size: Reals) -> Reals:
-    """A bound as a share of the quantity; of a small one, as that of a thousandth."""
+    """A bound as a share of the quantity, which counts as at least ``FLOOR``."""
     return np.asarray(bound / np.maximum(size, FLOOR))
 
 
 class Magnitudes(Struct, frozen=True, eq=False):
-    """Largest magnitude of each kind of quantity in the scene that is sure, shape (N,)."""
+    """Largest magnitude of each kind of quantity, of those with a certain digit: shape (N,)."""
 
     length: Reals
     speed: Reals
@@ -251,7 +254,7 @@ class Magnitudes(Struct, frozen=True, eq=False):
 
     @classmethod
     def of(cls, motion: Motion, bounds: Rounding, length: Reals) -> Magnitudes:
-        """Measured on the loops; a quantity that is zero throughout has scale 1."""
+        """The magnitudes in the loops; a quantity that is zero throughout has scale 1."""
         points, errors = motion.points, bounds.points
         slides = np.stack(
             [largest(*pair) for pair in zip(motion.slides, bounds.slides, strict=True)]
@@ -260,7 +263,7 @@ class Magnitudes(Struct, frozen=True, eq=False):
         pushed = np.maximum(largest(points.acceleration, errors.acceleration), slides[2])
         omega = largest(motion.omega, bounds.omega)
         epsilon = largest(motion.epsilon, bounds.epsilon)
-        bar = motion.loops.size  # however far away a rack or a block has come
+        bar = motion.loops.size  # |independent of how far a rack or a block has moved
         natural = np.maximum(speed**2 / bar, omega**2 * bar)
         fastest = np.maximum(speed, FLOOR * omega * bar)
         turning = np.maximum(omega, FLOOR * speed / bar)
@@ -270,20 +273,20 @@ class Magnitudes(Struct, frozen=True, eq=False):
 
 
 def largest(values: Reals | Complexes, bounds: Reals) -> Reals:
-    """The largest magnitude in each row of which some digit is sure; zero where there is none."""
+    """The largest magnitude in each row with a certain digit; zero where there is none."""
     sizes = np.abs(values)
     return np.asarray(np.where(bounds > LOST * sizes, 0.0, sizes).max(axis=1, initial=0.0))
 
 
 def or_one(scale: Reals) -> Reals:
-    """A scale to divide by: 1 where all is at rest, so that differences stay absolute."""
+    """A scale to divide by; 1 where everything is at rest, so that differences stay absolute."""
     return np.where(scale == 0, 1.0, scale)
 
 
 def differing(solved: LoopSolution, solution: Solution, scales: Magnitudes) -> Differences:
-    """Every difference between what a solution holds and the loops, by the quantity's name.
+    """The differences between a solution and the loops, by the quantity's name.
 
-    Raises WitnessError for a quantity that no independent route gives.
+    Raises WitnessError for a quantity that has no independent route.
     """
     names: list[str] = []
     every: list[Left] = []
@@ -301,13 +304,13 @@ def differing(solved: LoopSolution, solution: Solution, scales: Magnitudes) -> D
 
 PARTS = Left.__struct_fields__
 PAIRS = BY_TARGET["centre"]
-"""The quantity of the centres of two links, which a solution holds apart."""
+"""The quantity of the centres of two links, which a solution holds separately."""
 
 
 def held(solution: Solution) -> Iterator[tuple[MotionQuantity, Mapping[str, Any]]]:
-    """Every quantity of which a solution holds anything, with its values by points, links, blocks.
+    """Every quantity that a solution holds, with its values by point, link or block.
 
-    Of two ways to one quantity it holds the first that is known.
+    Of two ways to one quantity, the first with known values counts.
     """
     first = {(each.whose, each.attribute): each for each in reversed(QUANTITIES)}
     for quantity in reversed(first.values()):
@@ -320,14 +323,14 @@ def held(solution: Solution) -> Iterator[tuple[MotionQuantity, Mapping[str, Any]
 
 
 def path_of(quantity: MotionQuantity, name: str) -> str:
-    """Where a solution holds a quantity."""
+    """The path of a quantity in a solution."""
     if quantity is PAIRS and "-" in name:
         return f"centres.{name}"
     return f"{quantity.whose}.{name}.{quantity.attribute}"
 
 
 def unwitnessed(quantity: MotionQuantity, name: str) -> WitnessError:
-    """The refusal of a quantity that nothing independent of its construction gives."""
+    """The error for a quantity that has no route independent of its construction."""
     return WitnessError(
         Problem(
             path_of(quantity, name),
@@ -338,19 +341,19 @@ def unwitnessed(quantity: MotionQuantity, name: str) -> WitnessError:
 
 
 Route = Callable[[LoopSolution, Mapping[str, Any], "Magnitudes"], Left]
-"""What is left between the values of a quantity, by name, and the loops: (N, values) each."""
+"""The residuals of a quantity's values, by name, in the loops: (N, values) each."""
 
 
 def apart(
     solved: LoopSolution, ours: Mapping[str, Any], theirs: Any, bound: Reals, scale: Reals
 ) -> Left:
-    """The differences of values from what the loops give, over their scale."""
+    """The differences of values from the loops, divided by their scale."""
     own, scale = solved.loops.numbers.columns(list(ours.values()), theirs.dtype), scale[:, None]
     return Left(abs(own - theirs) / scale, bound / scale, abs(theirs) / scale)
 
 
 def of_points(order: int, scale: str) -> Route:
-    """The route to a place, a velocity or an acceleration of points."""
+    """The route to a position, a velocity or an acceleration of points."""
 
     def route(solved: LoopSolution, ours: Mapping[str, Any], scales: Magnitudes) -> Left:
         motion, bounds = solved.motion, solved.rounding
@@ -391,7 +394,7 @@ def of_slides(part: str, scale: str) -> Route:
 
 
 def guide_of(solved: LoopSolution, block: str) -> int:
-    """The guide that a block names first. Raises WitnessError where the loops have none."""
+    """The first guide of a block. Raises WitnessError where the loops have none."""
     found = solved.loops.guide_index(block)
     if found is None:
         raise WitnessError(
@@ -401,7 +404,7 @@ def guide_of(solved: LoopSolution, block: str) -> int:
 
 
 def of_centres(left: Callable[[LoopSolution, str, Any, Magnitudes], Left]) -> Route:
-    """The route to centres: what is left of the motion at each, which should vanish."""
+    """The route to centres: the motion left at each of them, which should vanish."""
 
     def route(solved: LoopSolution, ours: Mapping[str, Any], scales: Magnitudes) -> Left:
         every = [left(solved, name, centre, scales) for name, centre in ours.items()]
@@ -425,14 +428,14 @@ ROUTES: dict[str, Route] = {
     "pole": of_centres(left_at_pole),
     "inflection": of_centres(left_at_inflection),
 }
-"""The independent route to each quantity, by its target: what has none here is refused."""
+"""The independent route to each quantity, by its target; quantities without one are refused."""
 
 
 def digits_of(differences: Differences) -> dict[str, int]:
-    """How many significant digits are sure of every position, velocity and acceleration.
+    """The number of certain significant digits of positions, velocities and accelerations.
 
-    As many as rounding leaves the loops, and no more than those in which both routes agree. Of one
-    smaller than a thousandth of the largest of its kind, digits of that thousandth.
+    It is the smaller of the digits left by rounding in the loops and those in which both routes
+    agree. A value below a thousandth of the largest of its kind counts as that thousandth.
     """
     found: dict[str, int] = {}
     apart = np.fmax(differences.bound, differences.found)[:, 0]
@@ -445,16 +448,16 @@ def digits_of(differences: Differences) -> dict[str, int]:
 
 
 def sure_digits(share: float) -> int:
-    """How many digits are sure of what may be off by a share of itself."""
+    """The number of certain digits of a value with the given relative error."""
     if not share <= LOST:
         return 0
     return min(MOST_DIGITS, int(-np.log10(max(share, 1e-99))))
 
 
 def sure_of(solution: Solution, unsure: Mapping[str, Any]) -> Solution:
-    """The solution with NaN for every quantity of which no digit is sure, by its path.
+    """The solution with NaN for every quantity, by its path, that has no certain digit.
 
-    Of a batch of N each path has flags (N,), and only the variants that they mark are lost.
+    In a batch of N, each path has flags (N,), and only the marked variants become NaN.
     """
     parts: dict[str, dict[str, Any]] = {}
     for path, where in unsure.items():
@@ -467,7 +470,7 @@ def sure_of(solution: Solution, unsure: Mapping[str, Any]) -> Solution:
 
 
 def lost(value: Any, where: Any = True) -> Any:
-    """What stands for a value of which no digit is sure, or for some rows of an array."""
+    """NaN in place of a value, or of the marked rows of an array."""
     if isinstance(value, Ratio):
         return Ratio(*(lost(part + 0j, where) for part in value))
     gone = UNKNOWN if np.iscomplexobj(value) else nan
@@ -475,7 +478,7 @@ def lost(value: Any, where: Any = True) -> Any:
 
 
 def evenness(scene: Scene) -> float:
-    """The shortest vector of the loops and arm of a wheel, in parts of the longest."""
+    """The shortest vector of the loops, or arm of a wheel, as a share of the longest."""
     loops = equations(scene)
     sizes = [abs(loops.chains.fixed).ravel(), abs(loops.slips.rows).ravel()]
     lengths = np.concatenate([part[part > 0] for part in sizes])

@@ -1,4 +1,4 @@
-"""Both routes side by side as far as a solution speaks, the branches stated, and the verdict."""
+"""The residual check: a solution compared with the vector loops, its branches, and the verdict."""
 
 from __future__ import annotations
 
@@ -46,41 +46,41 @@ from graphkin.scene.link_points import ends_of, is_under
 from graphkin.scene.model import FRAME, Closure, Scene, Side, Way
 
 NUMBERED = 12
-"""Settings of a batch, evenly spread, whose closures are numbered; it takes long."""
+"""Settings of a batch, evenly spread, whose closures are numbered; all would take too long."""
 
 Flags = np.ndarray[Any, np.dtype[np.bool_]]
 
 
 class Closed(Struct, frozen=True, eq=False, dict=True):
-    """Loops closed and derived, with the sizes of their quantities and the branches they hold."""
+    """Closed loops with their motion, the sizes of their quantities and the branch conditions."""
 
     solved: LoopSolution
 
     @cached_property
     def scales(self) -> Magnitudes:
-        """The largest magnitudes of each kind of quantity."""
+        """The largest magnitude of each kind of quantity."""
         motion = self.solved.motion
         return Magnitudes.of(motion, self.solved.rounding, breadth(motion))
 
     @cached_property
     def branches(self) -> dict[int, dict[str, Flags]]:
-        """The branch conditions, with numbers of closures and without, as far as looked at."""
+        """The branch conditions found so far, by the number of settings with numbered closures."""
         return {}
 
 
 class Concerned(Struct, frozen=True, eq=False, dict=True):
-    """The loops that a solution concerns, and the scene with the branches among them."""
+    """The loops that a solution concerns, and the scene with the branches of their links."""
 
     scene: Scene
     loops: Equations
 
     @cached_property
     def closed(self) -> dict[tuple[bytes, bool], Closed]:
-        """What was closed last, by where it started and whether it has accelerations."""
+        """The loops closed last, by start values and whether accelerations were asked for."""
         return {}
 
     def closed_from(self, start: Reals, *, accelerations: bool) -> Closed:
-        """The loops closed from some unknowns, unless they were closed from there last."""
+        """The loops closed from given unknowns; the last result is reused for the same start."""
         key = start.tobytes(), accelerations
         if key not in self.closed:
             found = closed_from(self.loops, start, accelerations=accelerations, singular=True)
@@ -89,7 +89,7 @@ class Concerned(Struct, frozen=True, eq=False, dict=True):
         return self.closed[key]
 
     def branches(self, closed: Closed, *, numbered: int) -> dict[str, Flags]:
-        """The branch conditions of closed loops."""
+        """The branch conditions of closed loops, kept once found."""
         if numbered not in closed.branches:
             found = branch_conditions(self, closed.solved, numbered=numbered)
             closed.branches[numbered] = found
@@ -97,14 +97,15 @@ class Concerned(Struct, frozen=True, eq=False, dict=True):
 
     @cached_property
     def groups(self) -> list[Group]:
-        """The groups of two links and more, in the order in which one after the other is known."""
+        """The groups of two or more links, each in the order in which it becomes known."""
         return groups(self.scene, self.loops)
 
 
 class Check(Struct, frozen=True, eq=False, dict=True):
     """The independent check of a scene, for its own parameters or for a batch of them.
 
-    Its loops are written once, and cut once to each set of links that solutions concern.
+    The loops are written once. They are reduced once for each set of links that a solution
+    concerns.
     """
 
     scene: Scene
@@ -112,23 +113,22 @@ class Check(Struct, frozen=True, eq=False, dict=True):
 
     @cached_property
     def whole(self) -> Concerned:
-        """All loops."""
         scene = by_law(self.scene)
         loops = equations(scene, self.values)
         return Concerned(scene, counted_in_order(loops))
 
     @cached_property
     def stages(self) -> list[Group]:
-        """All groups of links in the order of knowing."""
+        """All groups of links, in the order in which they become known."""
         return stages(self.whole.scene, self.whole.loops)
 
     @cached_property
     def parts(self) -> dict[frozenset[str], Concerned]:
-        """The loops within some links, those that were looked at."""
+        """The loops within a set of links, for the sets examined so far."""
         return {}
 
     def concerned(self, solution: Solution) -> Concerned:
-        """The loops that a solution speaks of, with those on which they hang."""
+        """The loops of the links in a solution, and of the links that these depend on."""
         within = links_concerned(self, solution)
         if within is None:
             return self.whole
@@ -138,9 +138,9 @@ class Check(Struct, frozen=True, eq=False, dict=True):
         return self.parts[within]
 
     def examine(self, solution: Solution, *, numbered: int = NUMBERED) -> Examined:
-        """Solve the loops from the solution's positions and compare all that the solution holds.
+        """Solve the loops from the solution's positions and compare every quantity of the solution.
 
-        Links and accelerations of which it says nothing are left alone.
+        Links and accelerations that the solution does not contain are not compared.
         """
         solution = without_linkages(self.scene, solution)
         concerned = self.concerned(solution)
@@ -154,12 +154,12 @@ class Check(Struct, frozen=True, eq=False, dict=True):
         return Examined(closed.solved, differences, branches, guessed)
 
     def compare(self, solution: Solution, *, numbered: bool = True) -> Verdict:
-        """Hold one solution against the vector loops, starting Newton's method at its positions.
+        """Compare one solution with the vector loops, with its positions as the start values.
 
-        ``guessed`` in the verdict names the links that no position tells; without ``numbered`` it
-        says nothing of branches for which all closures would have to be counted. Raises
-        WitnessError where the loops do not close or are singular, StructureError where drivers
-        are missing.
+        ``guessed`` in the verdict names the links that no position determines. Without
+        ``numbered``, branches that require a count of all closures are not checked. Raises
+        WitnessError where the loops do not close or are singular, StructureError where drivers are
+        missing.
         """
         examined = self.examine(solution, numbered=NUMBERED if numbered else 0)
         difference, quantity, limit = examined.told(0)
@@ -184,8 +184,8 @@ def branch_conditions(
 ) -> dict[str, Flags]:
     """Whether each statement of [branches] holds: arrays of shape (N,).
 
-    Numbers of closures, and ways of groups other than dyads, are verified on at most so many
-    settings of a batch, evenly spread, as are ``numbered``.
+    Closure numbers, and ways of groups other than dyads, are checked in at most ``numbered``
+    settings of a batch, evenly spread.
     """
     found: dict[str, Flags] = {}
     stated = concerned.scene.branches.items()
@@ -214,7 +214,7 @@ def branch_conditions(
 
 
 def side_slack(solved: LoopSolution, name: str, branch: Side) -> Reals:
-    """How far rounding may put a pin on the other side of the way between two others, as a sine."""
+    """How far rounding may put a pin across the line through two others, as a sine."""
     pins, names = (branch.first, branch.second, name), solved.motion.names
     start, end, place = (solved.motion.place(each) for each in pins)
     errors = solved.rounding.points.place[:, [names[each] for each in pins]].sum(axis=1)
@@ -222,7 +222,7 @@ def side_slack(solved: LoopSolution, name: str, branch: Side) -> Reals:
 
 
 def way_of_dyad(branch: Way, solved: LoopSolution, group: Group) -> Flags:
-    """Whether the slide of a dyad stands the stated way; with two slides there is one closure."""
+    """Whether the slide of a dyad faces the stated way. A dyad with two slides has one closure."""
     loops = solved.loops
     if len(group.slides) != 1:
         return np.ones(loops.numbers.count, dtype=np.bool_)
@@ -234,7 +234,7 @@ def way_of_dyad(branch: Way, solved: LoopSolution, group: Group) -> Flags:
 def picked_rows(
     branch: Way | Closure, solved: LoopSolution, group: Group, name: str, most: int
 ) -> Flags:
-    """Whether a group stands as stated, by looking for all its closures in ``most`` settings."""
+    """Whether a group is in the stated closure, from all its closures in ``most`` settings."""
     count = solved.loops.numbers.count
     holds = np.ones(count, dtype=np.bool_)
     settings = np.flatnonzero(solved.report.good)
@@ -249,7 +249,7 @@ def picked_rows(
 
 
 def evenly(count: int, most: int) -> list[int]:
-    """The numbers of at most so many of some things, evenly spread; the middle one of one."""
+    """At most ``most`` numbers below ``count``, evenly spread; the middle one if it is 1."""
     if most == 1:
         return [count // 2] if count else []
     spread = np.linspace(0, max(count - 1, 0), min(count, most))
@@ -257,7 +257,7 @@ def evenly(count: int, most: int) -> list[int]:
 
 
 def farthest(branch: Way, solved: LoopSolution, group: Group, name: str, n: int) -> bool:
-    """Whether the coordinate of a group is the largest (or least) of all its closures."""
+    """Whether a group's slide coordinate is the largest (or smallest) of all its closures."""
     from graphkin.loops.assemble import led_by
 
     loops = solved.loops
@@ -285,7 +285,7 @@ def compare(
 
 
 class Examined(Struct, frozen=True, eq=False):
-    """Both routes side by side: differences and branch conditions by name, each of shape (N,)."""
+    """The comparison of both routes: differences and branches by name, of shape (N,) each."""
 
     solved: LoopSolution
     differences: Differences
@@ -294,14 +294,14 @@ class Examined(Struct, frozen=True, eq=False):
 
     @property
     def unsure(self) -> dict[str, Flags]:
-        """The quantities of which no digit is sure in some setting, and in which: (N,) each."""
+        """Quantities without a certain digit in some setting, and in which settings: (N,) each."""
         lost = ~self.differences.judged
         somewhere = np.flatnonzero(lost.any(axis=1))
         return {self.differences.names[q]: lost[q] for q in somewhere}
 
     @property
     def worst(self) -> Reals:
-        """The largest difference of each setting in what is sure; NaN where any is unknown."""
+        """The largest certain difference of each setting; NaN where the setting fails."""
         each = self.differences
         known = np.where(self.solved.report.good, 0.0, np.nan)
         worst = np.where(each.judged, each.found, 0.0).max(axis=0, initial=0.0)
@@ -318,9 +318,10 @@ class Examined(Struct, frozen=True, eq=False):
         return np.asarray(agrees)
 
     def told(self, row: int) -> tuple[float, str, float]:
-        """The largest difference of one setting, where it was found, and the largest limit.
+        """The largest difference of one setting, the name of that quantity, and the largest limit.
 
-        Where some difference is beyond its limit: the one that is so the farthest, and its own.
+        If a difference exceeds its limit, that difference is returned with its own limit. Of
+        several, it is the one with the largest ratio to its limit.
         """
         every = self.differences
         found, limit = every.found[:, row].tolist(), every.limit[:, row].tolist()
@@ -344,15 +345,15 @@ def examine(
     *,
     numbered: int = NUMBERED,
 ) -> Examined:
-    """Both routes side by side, by ``Check.examine``."""
+    """The comparison of one solution, by ``Check.examine``."""
     return Check(scene, values).examine(solution, numbered=numbered)
 
 
 def started(scene: Scene, loops: Equations, solution: Solution) -> tuple[Reals, tuple[str, ...]]:
-    """Where Newton's method starts: at the solution's positions.
+    """The start values for Newton's method, and the links and blocks assembled for them.
 
-    What they do not tell comes from the loops' own assembly, by the branches that the scene
-    states; the links and blocks for which that was done are named.
+    The start values are the solution's positions. The loops' own assembly, in the branches that the
+    scene states, gives what these positions do not determine.
     """
     solution, scene = without_linkages(scene, solution), by_law(scene)
     places = {name: p.position for name, p in solution.points.items() if p.position is not None}
@@ -368,7 +369,7 @@ def started(scene: Scene, loops: Equations, solution: Solution) -> tuple[Reals, 
 
 
 def untold(loops: Equations, start: Start) -> tuple[str, ...]:
-    """The links whose angle no position tells, and the blocks whose coordinate none does."""
+    """The links whose angle, and the blocks whose coordinate, no position determines."""
     turnings = {k + 1 for k in range(loops.turning_count) if not start.told[k]}
     links = [link for link, k in loops.turned.of.items() if k in turnings and link != FRAME]
     blocks = [
@@ -386,10 +387,10 @@ def breadth(motion: Motion) -> Reals:
 
 
 def links_concerned(check: Check, solution: Solution) -> frozenset[str] | None:
-    """The links that a solution speaks of, and those on which they hang; None when that is all.
+    """The links in a solution and those they depend on, or None if these are all links.
 
-    A pin that several links share speaks of the one that is known first. All of them are taken
-    where some link belongs to no group, for it may be idle and still hold the others.
+    A pin of several links counts for the link that becomes known first. All links are taken where
+    one belongs to no group: it may be idle and still hold the others.
     """
     loops = check.whole.loops
     spoken, moving = set(links_named(solution)), set(loops.links) - {FRAME}
@@ -412,7 +413,7 @@ def links_concerned(check: Check, solution: Solution) -> frozenset[str] | None:
 
 
 def links_named(solution: Solution) -> Iterator[str]:
-    """Links and blocks of which anything is known, and those under a point such as A@3."""
+    """The links and blocks with a known quantity, and links named in a point such as A@3."""
     yield from (name for name, link in solution.links.items() if says_anything(link))
     yield from (name for name, slide in solution.slides.items() if says_anything(slide))
     for pair in solution.centres:
@@ -421,12 +422,11 @@ def links_named(solution: Solution) -> Iterator[str]:
 
 
 def says_anything(motion: PointMotion | LinkMotion | SlideMotion) -> bool:
-    """Whether any quantity of a motion is known."""
     return any(getattr(motion, name) is not None for name in motion.__struct_fields__)
 
 
 def has_acceleration(solution: Solution) -> bool:
-    """Whether a solution holds anything that hangs on accelerations."""
+    """Whether a solution holds an acceleration."""
     return any(
         motion_value(motion, quantity) is not None
         for quantity in QUANTITIES
@@ -436,7 +436,7 @@ def has_acceleration(solution: Solution) -> bool:
 
 
 def scene_of(loops: Equations) -> Scene:
-    """The scene of some equations, with the branches of what they hold and no others."""
+    """The scene of the equations, with only the branches of their points and links."""
     branches = {
         name: branch
         for name, branch in loops.scene.branches.items()

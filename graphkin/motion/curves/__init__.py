@@ -1,1 +1,1 @@
-"""Pictures of a whole cycle: curves over the driver, paths of points, centrodes, the ring."""
+"""Figures of a whole cycle: curves over the driver, paths of points, centrodes, the ring."""

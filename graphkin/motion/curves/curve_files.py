@@ -1,4 +1,4 @@
-"""The picture files of a cycle."""
+"""The figure files of a cycle."""
 
 from __future__ import annotations
 
@@ -19,13 +19,13 @@ FORMATS = ("svg", "png")
 
 
 def picture_files(cycle: Cycle, stem: str, formats: Sequence[str]) -> dict[str, bytes]:
-    """Every picture of a cycle by its file name, in each of the formats svg and png."""
+    """Every figure of a cycle by its file name, in each of the formats svg and png."""
     drawn = ((f"{stem}-{name}", figure) for name, figure in figures(sampled(cycle)))
     return plot_style.picture_files(drawn, formats)
 
 
 def figures(found: Sampled) -> Iterator[tuple[str, Callable[[], Figure]]]:
-    """Every figure with its name, drawn when it is called for."""
+    """Every figure with its name, drawn when called."""
     yield from over_driver.pictures(found).items()
     if plane_paths.path_points(found):
         yield "paths", partial(plane_paths.paths, found)

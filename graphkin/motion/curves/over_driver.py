@@ -1,4 +1,4 @@
-"""Curves over the driver: positions, velocities, accelerations, turning, slides."""
+"""Curves over the driver: positions, velocities, accelerations, rotation, slides."""
 
 from __future__ import annotations
 
@@ -39,15 +39,15 @@ if TYPE_CHECKING:
 Reals = np.ndarray[tuple[int], np.dtype[np.float64]]
 
 FINE = 720
-"""Places in a piece or a whole turn."""
+"""Positions in a piece or a full turn."""
 END = 3e-4
-"""Share of a piece that is left out at an end where rates grow without bound."""
+"""Share of a piece left out at an end where rates grow without bound."""
 
 
 class Sampled(Struct, frozen=True, eq=False):
-    """The motion at close places u, in rising order within each range.
+    """The motion at closely spaced u, rising within each range.
 
-    ``breaks`` are the numbers of rows before which a new range begins.
+    ``breaks`` are the row numbers at which a new range begins.
     """
 
     cycle: Cycle
@@ -60,12 +60,11 @@ class Sampled(Struct, frozen=True, eq=False):
 
     @property
     def solution(self) -> Solution:
-        """The motion in every row, as far as digits are sure."""
+        """The motion in every row, without uncertain digits."""
         return self.cycle.sure
 
     @property
     def scene(self) -> Scene:
-        """The scene."""
         return self.cycle.scene
 
     def broken(self, values: np.ndarray) -> np.ndarray:
@@ -92,12 +91,12 @@ class Sampled(Struct, frozen=True, eq=False):
 
     @property
     def per_length(self) -> float:
-        """What turns metres into the scene's unit of length."""
+        """The factor from metres to the scene's unit of length."""
         return 1 / float(SI[self.length_unit][0])
 
 
 def sampled(cycle: Cycle, fine: int = FINE) -> Sampled:
-    """A cycle at places fit for curves."""
+    """A cycle at positions suitable for curves."""
     rows, breaks, count = [], [], 0
     for pieces in cycle.path.ranges:
         parts = []
@@ -125,7 +124,7 @@ def sampled(cycle: Cycle, fine: int = FINE) -> Sampled:
 
 
 def moving_points(scene: Scene, solution: Solution) -> list[str]:
-    """The points asked, else all that are neither fixed nor on a driven link alone."""
+    """The requested points, else all that are neither fixed nor on a driven link alone."""
     asked = dict.fromkeys((*scene.ask.velocity, *scene.ask.acceleration))
     known = [name for name in asked if name in solution.points]
     if known:
@@ -142,7 +141,7 @@ def moving_points(scene: Scene, solution: Solution) -> list[str]:
 
 
 def turning_links(scene: Scene, solution: Solution) -> list[str]:
-    """The links asked, else all that turn and are not driven evenly."""
+    """The requested links, else all that turn and are not driven at constant speed."""
     asked = dict.fromkeys((*scene.ask.omega, *scene.ask.epsilon))
     known = [name for name in asked if name in solution.links]
     if known:
@@ -155,34 +154,36 @@ def turning_links(scene: Scene, solution: Solution) -> list[str]:
     ]
 
 
-# --- curves over the driver: positions, velocities, accelerations, turning, slides ----------------
+# --- the figures over the driver ------------------------------------------------------------------
 
 
 WIDTH = 8.0
 PANEL = 2.15
-"""Height of a panel in inches; 0.9 more for title and axis."""
+"""Height of a panel in inches; title and axis take 0.9 more."""
 MOST_PANELS = 6
 MOST_CURVES = 8
-"""Curves of one panel: as many as there are inks, and as one line of a legend holds."""
+"""The most curves in one panel: the number of colours, and of names in a legend's line."""
 LINE = 84
-"""Letters above a panel that lie on one line."""
+"""Letters above a panel that fit on one line."""
 NAMED = 11
-"""What the stroke and the name of a curve take of it, in letters."""
+"""Letters that the stroke and the name of a curve take up."""
 WORDS_WIDE, LETTER_TALL, NARROW = 0.03, 0.027, 0.01
-"""Words along a line: their breadth as a share of the axis, a letter and the room beside them as
-shares of a panel's height."""
+"""Words along a line: their width as a share of the axis, then a letter and the clearance.
+
+The last two are shares of a panel's height.
+"""
 TURNS = (15, 30, 45, 60, 90, 180, 360)
 """Steps of an axis of angles in degrees."""
 TICKS = 13
 LEAST_TICKS = 2
-"""Steps of an axis of angles from which on it has ticks at whole parts of a turn."""
+"""The fewest steps for ticks at whole parts of a turn on an axis of angles."""
 
 Curve = tuple[str, np.ndarray, str, object]
 """A label, values, a colour and a stroke."""
 
 
 def pictures(found: Sampled) -> dict[str, Callable[[], Figure]]:
-    """The figures of a cycle by name, each drawn when it is called for."""
+    """The figures of a cycle by name, each drawn when called."""
     scene, solution = found.scene, found.solution
     points = moving_points(scene, solution)
     drawn: dict[str, Callable[[], Figure]] = {}
@@ -269,7 +270,7 @@ def line_of(found: Sampled, link: str) -> tuple[str, ...]:
 
 
 def angle_of(found: Sampled, link: str) -> np.ndarray | None:
-    """The angle of a link's line (degrees), going on past 180 where it turns."""
+    """The angle of a link's line (degrees), continued past 180 where it turns."""
     line = line_of(found, link)
     if not line:
         return None
@@ -318,7 +319,7 @@ def of_cams(found: Sampled) -> Figure:
 def stacked(
     found: Sampled, title: str, panels: Sequence[tuple[str, str, Sequence[Curve]]]
 ) -> Figure:
-    """Panels one below the other over one axis of the driver."""
+    """Panels one below another over one axis of the driver."""
     figure = new_figure(WIDTH, PANEL * len(panels) + 0.9)
     figure_title(figure, f"{title}: {found.title}", x=0.01, ha="left", fontsize=11)
     axes = figure.subplots(len(panels), 1, sharex=True, squeeze=False)[:, 0]
@@ -344,12 +345,12 @@ def stacked(
 
 
 def axis_factor(found: Sampled) -> float:
-    """What turns u into what its axis shows."""
+    """The factor from u to the values on its axis."""
     return found.per_length if found.cycle.sweep.is_length else 1.0
 
 
 def driver_axis(found: Sampled, ax: Axes) -> None:
-    """The axis of the driver, in whole parts of a turn where it turns."""
+    """Draw the axis of the driver, in whole parts of a turn where it turns."""
     sweep = found.cycle.sweep
     low, high = float(found.at.min()), float(found.at.max())
     if sweep.what == "turn":
@@ -372,7 +373,7 @@ def driver_axis(found: Sampled, ax: Axes) -> None:
 
 
 def marked(found: Sampled) -> list[tuple[float, str, str]]:
-    """Places worth a line: dead points, change points and where the scene stands, with its ink."""
+    """Positions to mark with their colour: dead points, change points and the scene's position."""
     lines = [
         (each.at, "dead point" if each.kind == "dead" else "change point", WARNING)
         for each in found.cycle.singulars
@@ -386,14 +387,14 @@ def marked(found: Sampled) -> list[tuple[float, str, str]]:
 
 
 def singular_lines(found: Sampled, ax: Axes) -> None:
-    """Thin lines at dead and change points, and where the scene stands."""
+    """Draw thin lines at dead and change points, and at the scene's position."""
     for at, _, ink in marked(found):
         stroke = (0, (4, 3)) if ink == WARNING else ":"
         ax.axvline(at * axis_factor(found), color=ink, linewidth=0.8, linestyle=stroke, zorder=1)
 
 
 def tell_lines(found: Sampled, ax: Axes, curves: Sequence[np.ndarray]) -> None:
-    """What the lines are, in small letters along them in the first panel, away from its curves."""
+    """Label these lines in small letters along them in the first panel, away from its curves."""
     low, high = found.at.min(), found.at.max()
     bottom, top = ax.get_ylim()
     for at, words, ink in marked(found):

@@ -1,4 +1,4 @@
-"""Pictures in the plane: paths of points, and centrodes rolling on one another."""
+"""Figures in the plane: paths of points, and centrodes that roll on one another."""
 
 from __future__ import annotations
 
@@ -41,18 +41,18 @@ if TYPE_CHECKING:
 
 Box = tuple[float, float, float, float]
 MILLIMETRES = 180.0
-"""Longer side of a picture in mm."""
+"""Longer side of a figure in mm."""
 OUTLINE_FAINT = 0.6
-"""How strong the lines of the mechanism are beside the curves."""
+"""Opacity of the mechanism's lines among the curves."""
 MOST_POINTS = 60
-"""Points of a mechanism beyond which a picture shows only the part that it is about."""
+"""Points of a mechanism above which a figure shows only the links that it concerns."""
 
 
 class Outline(Struct, frozen=True):
-    """The mechanism where the scene has it; ``factor`` turns metres into the picture's unit.
+    """The mechanism in the scene's position; ``factor`` converts metres to the figure's unit.
 
-    ``drawn`` tells whether the scene itself can be drawn: else the first row of the cycle takes its
-    place. ``left_out`` says what is not drawn.
+    ``drawn`` means that the scene itself can be drawn; otherwise the first row of the cycle
+    replaces it. ``left_out`` says what is not drawn.
     """
 
     drawing: Drawing
@@ -62,7 +62,7 @@ class Outline(Struct, frozen=True):
 
     @property
     def places(self) -> Mapping[str, complex]:
-        """Where every point stands, in the unit of the picture."""
+        """Positions of all points, in the figure's unit."""
         return {name: place * self.factor for name, place in self.drawing.positions.items()}
 
     def breadth(self) -> float:
@@ -72,7 +72,7 @@ class Outline(Struct, frozen=True):
 
 
 def stand_of(cycle: Cycle, factor: float) -> Outline:
-    """Where the mechanism stands in its scene."""
+    """The mechanism in the scene's position, or in the first row of the cycle."""
     try:
         return Outline(placed(cycle.mechanism), factor, True)
     except ClosureError:
@@ -81,7 +81,7 @@ def stand_of(cycle: Cycle, factor: float) -> Outline:
 
 
 def placed(mechanism: Mechanism) -> Drawing:
-    """A mechanism without its plans."""
+    """The drawing of a mechanism without its plans."""
     trace = mechanism.trace([t for t in mechanism.program.targets if t[0] in ("position", "axis")])
     nobody = Verdict(True, 0.0, "", 0.0, 0.0, 0.0)
     scales = Scales(1.0, 1.0, triangles=False)
@@ -89,7 +89,7 @@ def placed(mechanism: Mechanism) -> Drawing:
 
 
 def stand_about(cycle: Cycle, factor: float, points: Collection[str]) -> Outline:
-    """Where the mechanism stands; of a very long one only the links that have one of the points."""
+    """The mechanism's outline; for a long mechanism, only the links with one of the points."""
     stand = stand_of(cycle, factor)
     if len(stand.places) <= MOST_POINTS:
         return stand
@@ -103,7 +103,7 @@ def stand_about(cycle: Cycle, factor: float, points: Collection[str]) -> Outline
 
 
 def draw(ax: Axes, stand: Outline, box: Box) -> None:
-    """The mechanism with the letters for which there is room, in axes that hold a ``box``."""
+    """Draw the mechanism in axes over a ``box``, with the letters that fit."""
     from graphkin.writers.axes import put_to_scale
 
     (x0, x1, y0, y1), per_metre = box, stand.factor
@@ -119,21 +119,21 @@ def draw(ax: Axes, stand: Outline, box: Box) -> None:
     put_to_scale(ax, marks, field(0j), times, strength=OUTLINE_FAINT)
 
 
-# --- pictures in the plane: paths of points, and centrodes rolling on one another -----------------
+# --- paths of points, and centrodes that roll on one another --------------------------------------
 
 
 ROOM = 0.09
-"""Free space around, in the longer side of what is drawn."""
+"""Margin around a drawing, as a share of its longer side."""
 MOST_PATHS = 16
-"""Paths in one picture: each ink twice."""
+"""Most paths in one figure: each colour twice."""
 FAR = 1.6
-"""Breadths of the mechanism beyond its box at which centrodes leave the picture."""
+"""Distance from the mechanism's box, in its breadths, at which centrodes are cut off."""
 LETTERS = 11.5
-"""Letters of a legend in an inch."""
+"""Letters of a legend per inch."""
 
 
 def path_points(found: Sampled) -> list[str]:
-    """The moving points whose paths are worth drawing: those asked, and those of couplers."""
+    """The moving points whose paths are drawn: requested points and points of couplers."""
     scene = found.scene
     fixed = set(scene.fixed_points)
     driven = {driver.link for driver in scene.drivers}
@@ -149,7 +149,7 @@ def path_points(found: Sampled) -> list[str]:
 
 
 def paths(found: Sampled) -> Figure:
-    """The path of every point of interest, the mechanism where the scene stands."""
+    """The path of every point of interest, with the mechanism in the scene's position."""
     names, more = some_of(path_points(found), MOST_PATHS, "points")
     stand = stand_about(found.cycle, found.per_length, names)
     curves = {
@@ -170,7 +170,7 @@ def paths(found: Sampled) -> Figure:
 
 
 def dotted(found: Sampled, curve: np.ndarray) -> np.ndarray:
-    """The places of a point at every twelfth of a turn; none for other drivers."""
+    """The positions of a point every 30° of the driver's turn; none for other drivers."""
     if found.cycle.sweep.what != "turn":
         return np.array([], dtype=complex)
     parts = []
@@ -193,7 +193,7 @@ def centrode_links(found: Sampled) -> list[str]:
 
 
 def both_centrodes(found: Sampled, link: str) -> Figure:
-    """The fixed centrode of a link, and the moving one where the scene stands, touching it."""
+    """The fixed centrode of a link, and the moving one that touches it in the scene's position."""
     stand = stand_about(found.cycle, found.per_length, found.scene.links[link].points)
     both = centrodes(found.cycle, link)
     assert both is not None
@@ -221,7 +221,7 @@ def both_centrodes(found: Sampled, link: str) -> Figure:
 
 
 def at_scene(found: Sampled, link: str) -> tuple[complex, complex, complex]:
-    """Origin and heading of a link, and its instantaneous centre, where the scene stands."""
+    """Origin, heading and instantaneous centre of a link in the scene's position."""
     here = found.cycle.along([found.cycle.sweep.start])
     both = centrodes(here if len(here.at) else found.cycle, link)
     assert both is not None
@@ -229,7 +229,7 @@ def at_scene(found: Sampled, link: str) -> tuple[complex, complex, complex]:
 
 
 def unbroken(found: Sampled, curve: np.ndarray, window: Box) -> np.ndarray:
-    """A curve with NaN where it runs far out of the picture, to be clipped and not joined."""
+    """A curve with NaN far outside the figure, so that it is clipped and not joined."""
     line = found.broken(curve)
     x0, x1, y0, y1 = window
     wide, high = x1 - x0, y1 - y0
@@ -255,7 +255,7 @@ def plane(found: Sampled, title: str, box: Box) -> tuple[Figure, Axes]:
 
 
 def below(ax: Axes, note: str, stand: Outline) -> None:
-    """The legend above the picture, and below it a note and what of the mechanism is left out."""
+    """Add the legend above the figure, and below it a note and what is left out."""
     note = "; ".join(filter(None, (note, stand.left_out)))
     handles, labels = ax.get_legend_handles_labels()
     figure = ax.get_figure(root=True)
@@ -276,7 +276,7 @@ def below(ax: Axes, note: str, stand: Outline) -> None:
 
 
 def box_of(parts: list[np.ndarray]) -> Box:
-    """The box around places, with room on all sides."""
+    """The box around positions, with a margin on all sides."""
     every = np.concatenate([np.ravel(part) for part in parts])
     every = every[np.isfinite(every)]
     x0, x1 = float(every.real.min()), float(every.real.max())
@@ -286,7 +286,7 @@ def box_of(parts: list[np.ndarray]) -> Box:
 
 
 def near_box(places: np.ndarray, curves: list[np.ndarray], breadth: float, touch: complex) -> Box:
-    """The box around the mechanism and what of the curves lies near it."""
+    """The box around the mechanism and the parts of the curves near it."""
     x0, x1, y0, y1 = box_of([places])
     reach = FAR * breadth
     limits = (x0 - reach, x1 + reach, y0 - reach, y1 + reach)
@@ -296,15 +296,14 @@ def near_box(places: np.ndarray, curves: list[np.ndarray], breadth: float, touch
 
 
 def inside(z: complex, box: Box) -> bool:
-    """Whether a place lies in a box."""
     return bool(box[0] <= z.real <= box[1] and box[2] <= z.imag <= box[3])
 
 
-# --- the ring of a single loop: where its driven pin passes, and what the rest of it can reach ----
+# --- the ring of a single loop: the path of its driven pin, and the reach of the rest -------------
 
 
 TURNED = np.exp(1j * np.linspace(0, 2 * np.pi, 1441))
-"""Unit vectors all round."""
+"""Unit vectors in all directions."""
 GREEN = "#2b8a5b"
 AREA = "#e3efe6"
 
@@ -332,7 +331,7 @@ def reach(found: Sampled, loop: Loop) -> Figure:
 
 
 def foot_of(band: Band, loop: Loop) -> complex:
-    """The foot of the perpendicular from the crank's pivot on the guide."""
+    """The foot of the perpendicular from the crank's pivot to the guide."""
     assert isinstance(loop.path, Ring)
     way = loop.path.centre - band.line.point
     along = band.line.along
@@ -351,7 +350,7 @@ def path_places(loop: Loop) -> np.ndarray:
 
 
 def reached(loop: Loop, places: np.ndarray) -> np.ndarray:
-    """Which places the rest of the loop can reach."""
+    """Which positions the rest of the loop can reach."""
     if isinstance(loop.reach, Ring):
         away = np.abs(places - loop.reach.centre)
         slack = 1e-9 * loop.reach.outer
@@ -362,7 +361,7 @@ def reached(loop: Loop, places: np.ndarray) -> np.ndarray:
 
 
 def area(ax: Axes, loop: Loop, factor: float, box: Box) -> None:
-    """The ring or band, lightly filled."""
+    """Draw the ring or band, lightly filled."""
     if isinstance(loop.reach, Ring):
         outer, inner = (
             (loop.reach.centre + loop.reach.outer * TURNED) * factor,
@@ -385,19 +384,19 @@ def area(ax: Axes, loop: Loop, factor: float, box: Box) -> None:
 
 
 def filled(ax: Axes, rim: np.ndarray, words: str) -> None:
-    """A lightly filled area."""
+    """Draw a lightly filled area."""
     ax.fill(rim.real, rim.imag, facecolor=AREA, edgecolor="none", zorder=0.5, label=words)
 
 
 def within(loop: Loop) -> str:
-    """What the filled area is."""
+    """The legend of the filled area."""
     if isinstance(loop.reach, Ring):
         return f"ring that {loop.pins[2]}'s two links reach about {loop.pins[3]}"
     return f"band that the rod reaches on either side of the path of {loop.pins[2]}"
 
 
 def pin_path(ax: Axes, loop: Loop, factor: float) -> None:
-    """The path of the driven pin, whole where it is within reach, dashed and red elsewhere."""
+    """Draw the driven pin's path, solid where it is within reach, dashed and red elsewhere."""
     places = path_places(loop)
     good = reached(loop, places)
     what = "circle" if isinstance(loop.path, Ring) else "line"
@@ -419,7 +418,7 @@ def pin_path(ax: Axes, loop: Loop, factor: float) -> None:
 
 
 def dead_marks(ax: Axes, found: Sampled, loop: Loop) -> None:
-    """Where the driver can go no further: the pin's places at the dead points."""
+    """Mark the pin's positions at the dead points, beyond which the driver cannot go."""
     cycle = found.cycle
     way = 1e-6 * (found.at.max() - found.at.min())
     for pieces in cycle.path.ranges:
@@ -449,7 +448,7 @@ def dead_marks(ax: Axes, found: Sampled, loop: Loop) -> None:
 
 
 def reach_note(loop: Loop) -> str:
-    """The verdict below the picture."""
+    """The verdict below the figure."""
     more = "; further groups may narrow the range" if loop.more else ""
     if loop.kind == "four-bar":
         turns = "turns fully" if loop.turns else "cannot turn fully"

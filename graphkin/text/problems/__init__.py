@@ -1,7 +1,7 @@
-"""What is said of mistakes, in the language of a page: each English sentence is its own key.
+"""Problem messages in the language of a page: each English sentence is its own key.
 
-A sentence that was said in English, its gaps filled, is found among the templates of a language and
-said with the same fillings; fillings that are sentences themselves are said in that language too.
+An English sentence with filled gaps is matched with the templates of a language, and translated
+with the same fillings. Fillings that are sentences themselves are translated, too.
 """
 
 from __future__ import annotations
@@ -18,29 +18,29 @@ HERE = Path(__file__).resolve().parent
 ENGLISH = "en"
 GAP = re.compile(r"\{\d\}")
 PARTS = (re.compile(r"; (?![^(]*\))"), re.compile(", "))
-"""What joins several sentences, and the members of a list."""
+"""The separators of sentences, and of list members."""
 WEAK = 4
-"""Letters at most of a template, such as "{1} or {2}", that fits only what can be said whole."""
+"""The most letters of a template, such as "{1} or {2}", that needs translatable fillings."""
 QUOTED = re.compile(r'"[^"]*"|\{.*?\}|\[.*?\]|\w+ = \S+')
 WORD = re.compile(r"(?<![\w-])[a-z]{3,}(?![\w-])")
-"""A word of English, not of TOML or a name."""
+"""An English word, not one of TOML or a name."""
 JOINED = re.compile(r"\b(di|a|da|su|in) (il|la|i|le|gli|l’)(?= |(?<=’))")
 STEMS = {"di": "de", "a": "a", "da": "da", "su": "su", "in": "ne"}
 ENDS = {"il": "l", "la": "lla", "i": "i", "le": "lle", "gli": "gli", "l’": "ll’"}
-"""Italian prepositions are one word with an article that follows: ``di il`` is ``del``."""
+"""Endings that contract Italian prepositions with a following article: ``di il`` is ``del``."""
 DEEPEST = 4
-"""How far fillings are looked into."""
+"""The depth to which fillings are translated."""
 
 
 class Sentences:
-    """The sentences about mistakes in one language."""
+    """The problem messages in one language."""
 
     def __init__(self, language: str) -> None:
         self.language = language
 
     @cached_property
     def templates(self) -> dict[str, str]:
-        """The sentences under their English ones."""
+        """The translations by their English sentences."""
         import tomllib
 
         text = (HERE / f"{self.language}.toml").read_text(encoding="utf-8")
@@ -48,12 +48,12 @@ class Sentences:
 
     @cached_property
     def gapped(self) -> list[tuple[tuple[str, ...], str]]:
-        """Those with gaps: what stands between these, and the English sentence; longest first."""
+        """The templates with gaps: text between gaps, and the English sentence; longest first."""
         gapped = [(tuple(GAP.split(each)), each) for each in self.templates if GAP.search(each)]
         return sorted(gapped, key=lambda pair: -sum(map(len, pair[0])))
 
     def __call__(self, said: str) -> str:
-        """An English sentence in this language; as it is where none fits."""
+        """An English sentence in this language, or unchanged if none fits."""
         found = self.said(said, 0)
         if self.language != "it" or found == said:
             return found
@@ -71,11 +71,11 @@ class Sentences:
         return said
 
     def part(self, said: str, depth: int) -> str:
-        """A part of a sentence, or what fills a gap: a name stays as it is."""
+        """A part of a sentence, or the filling of a gap; a name is unchanged."""
         return self.said(said, depth + 1) if " " in said and depth < DEEPEST else said
 
     def whole(self, said: str, depth: int) -> str | None:
-        """The sentence whose template fits; None where none does."""
+        """The sentence whose template fits, or None."""
         if said in self.templates:
             return self.templates[said]
         for between, template in self.gapped:
@@ -94,7 +94,7 @@ class Sentences:
         return None
 
     def can_say(self, said: str, depth: int) -> bool:
-        """Whether there are words for something, or it has none that need any."""
+        """Whether a text can be translated, or contains nothing to translate."""
         plain = " " not in said or not WORD.search(QUOTED.sub("", said))
         return plain or (depth < DEEPEST and self.whole(said, depth + 1) is not None)
 
@@ -106,20 +106,20 @@ def filled(template: str, fills: Mapping[str, str]) -> str:
 
 @lru_cache(maxsize=1024)
 def pattern(between: tuple[str, ...]) -> re.Pattern[str]:
-    """What fits a template: gaps as short as can be, none of which goes on into a next sentence."""
+    """The pattern of a template: gaps are as short as possible and do not cross sentences."""
     return re.compile("((?:(?!; ).)+?)".join(map(re.escape, between)), re.DOTALL)
 
 
 @lru_cache(maxsize=8)
 def sentences(language: str) -> Sentences:
-    """The sentences of a language. Raises KeyError for one without any."""
+    """The messages of a language. Raises KeyError for one without any."""
     if language not in LANGUAGES or language == ENGLISH:
         raise KeyError(language)
     return Sentences(language)
 
 
 def spoken(problem: Problem, language: str) -> Problem:
-    """A problem in another language; its hint as words."""
+    """A problem in another language, with its hint as words."""
     if language == ENGLISH:
         return problem
     say = sentences(language)
