@@ -17,7 +17,7 @@ from graphkin.accuracy.comparison import approach, ground_of, places_around
 from graphkin.accuracy.effort import QUICK
 from graphkin.accuracy.methods import BITS, DIGITS, STEPS, TOLERANCES, plain
 from graphkin.accuracy.study import LAW, Study, study
-from graphkin.accuracy.study_pictures import panel
+from graphkin.accuracy.study_pictures import scope_panel
 from graphkin.cli.report.accuracy_report import HEADS, accuracy_table
 from graphkin.construction.core.timing import Timing
 from graphkin.documents.sheet_documents import scales
@@ -185,7 +185,7 @@ def test_no_line_of_a_grid_runs_along_the_bars():
     """Also where somebody's own settings of Matplotlib ask for a grid."""
     with rc_context({"axes.grid": True}):
         axes = Figure().add_subplot()
-        panel(axes, ["all", "one"], ["C0", "C1"], [Timing(2e-6, 1e-6, 3e-6, 3)] * 2)
+        scope_panel(axes, ["all", "one"], ["C0", "C1"], [Timing(2e-6, 1e-6, 3e-6, 3)] * 2)
     assert not any(line.get_visible() for line in axes.yaxis.get_gridlines())
     assert [bar.get_width() for bar in axes.patches] == pytest.approx([2, 2])
 

@@ -12,6 +12,7 @@ import numpy as np
 import pytest
 from msgspec.structs import replace
 
+from graphkin.classroom.grading import copied_answers
 from graphkin.classroom.grading.class_marking import graded_class
 from graphkin.classroom.grading.class_report import own_work, slip_counts
 from graphkin.classroom.grading.copied_answers import copies, wrong_variants
@@ -199,7 +200,8 @@ def test_who_is_named_has_odds_of_a_thousand(suspect, some, amounts, monkeypatch
     graded = [marker_of("pump", n).mark(taker(n, f"{i}"), row) for i, (n, row) in enumerate(rows)]
     own = [marker_of("pump", n).standard.expectation for n, _ in rows]
     found = suspect(graded, own)
-    monkeypatch.setattr(f"{suspect.__module__}.STRONG", 1.0)
+    for odds in ("STRONG", "STRONG_COPY"):
+        monkeypatch.setattr(copied_answers, odds, 1.0)
     every = suspect(graded, own)
     assert list(found) == [each for each in every if each.odds >= 1000]
     assert 2 < len(found) < len(every) - 2
