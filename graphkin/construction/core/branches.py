@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Sequence
+from collections import Counter
+from collections.abc import Collection, Mapping, Sequence
 
 from msgspec.structs import replace
 
-from graphkin.scene.model import LEADING, Closure, Scene, Side, Way
+from graphkin.scene.model import FRAME, LEADING, Branch, Closure, Scene, Side, Way
 from graphkin.structure.groups import (
     Crank,
     Driven,
@@ -266,3 +267,19 @@ def closure_of(scene: Scene, group: Higher) -> int:
             (Written('"closure 1"'),),
         )
     )
+
+
+def may_be_numbered(scene: Scene) -> bool:
+    """Whether a closure is numbered in a scene where a link slides on two others."""
+    if not any(isinstance(branch, Closure) for branch in scene.branches.values()):
+        return False
+    ends = ((link.name, slide.on) for link in scene.links.values() for slide in link.slides)
+    slides = Counter(end for pair in ends for end in pair if end != FRAME)
+    return max(slides.values(), default=0) > 1
+
+
+def translated(written: Mapping[str, Branch], read: Mapping[str, Branch]) -> list[str]:
+    """What a scene's numbers of closures mean in ways; nothing where they are read as written."""
+    numbers = [f"{name} = {each}" for name, each in written.items() if read.get(name) != each]
+    ways = [f"{name} = {each}" for name, each in read.items() if written.get(name) != each]
+    return [f"{', '.join(numbers)} is {', '.join(ways)}"] if numbers else []
