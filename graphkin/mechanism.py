@@ -99,8 +99,8 @@ def kept(memory: dict[K, V], key: K, value: V) -> None:
 class Mechanism(Struct, frozen=True, dict=True):
     """A scene with its derived data; lengths in m, angles in rad, times in s.
 
-    The scene states ways where it was ``written`` with the number of a closure of links that two
-    pins guide.
+    The scene states the branches of its groups, also where it was ``written`` with the number of a
+    closure of links that are grouped otherwise.
     """
 
     scene: Scene
@@ -108,10 +108,10 @@ class Mechanism(Struct, frozen=True, dict=True):
     def __post_init__(self) -> None:
         if not may_be_numbered(self.scene):
             return
-        from graphkin.construction.numbered_ways import in_ways
+        from graphkin.construction.earlier_branches import in_present_words
 
         self.__dict__["written"] = self.scene
-        force_setattr(self, "scene", in_ways(self.scene))
+        force_setattr(self, "scene", in_present_words(self.scene))
 
     @cached_property
     def written(self) -> Scene:

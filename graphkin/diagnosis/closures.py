@@ -17,10 +17,9 @@ from graphkin.construction.core.crossings import letter_of
 from graphkin.construction.core.program import Part, Program, Step, Target
 from graphkin.construction.core.run import StepFailed
 from graphkin.construction.higher_class.closure_solver import closer_of, run_settled, ways
-from graphkin.construction.links.position import FITS
+from graphkin.construction.links.position import IdleBar, idle_bars
 from graphkin.scene.model import Branch, Scene, Side, Way
-from graphkin.structure.groups import Dyad, Group, Higher, OnTwoPins, Stretched, Tie
-from graphkin.structure.link_axes import body
+from graphkin.structure.groups import Dyad, Group, Higher, OnTwoPins, Stretched
 from graphkin.structure.pairs import Pin
 
 
@@ -54,19 +53,6 @@ class Choice(Struct, frozen=True):
     closures: tuple[GroupClosure, ...]
     key: str = ""
     is_turned: bool = False
-
-
-class IdleBar(Struct, frozen=True):
-    """An idle link between two points that stand without it, and its length (m)."""
-
-    link: str
-    ends: tuple[str, str]
-    length: float
-
-    def fits(self, places: Mapping[str, complex]) -> bool:
-        """Whether its pins stand as far apart as it is long, where both are known."""
-        known = [places[end] for end in self.ends if end in places]
-        return len(known) < 2 or abs(abs(known[1] - known[0]) - self.length) <= FITS * self.length
 
 
 class Positions(Struct, frozen=True):
@@ -114,15 +100,6 @@ def choices(scene: Scene, groups: tuple[Group, ...], program: Program) -> tuple[
             closures = numbered(positions, number, told)
         found.append(told_apart(group.links, told, closures, key_of(scene, group) or ""))
     return tuple(found)
-
-
-def idle_bars(scene: Scene, groups: tuple[Group, ...]) -> Iterator[IdleBar]:
-    """The links that join two pins of what moves without them."""
-    for group in groups:
-        match group:
-            case Tie(link=link, first=Pin(point=p), second=Pin(point=q)):
-                own = body(scene, link)
-                yield IdleBar(link, (p, q), abs(own[q] - own[p]))
 
 
 def told_by(scene: Scene, group: Group, program: Program) -> tuple[Target, ...]:

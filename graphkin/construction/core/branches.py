@@ -20,6 +20,7 @@ from graphkin.structure.groups import (
     Stretched,
 )
 from graphkin.structure.pairs import Pin
+from graphkin.structure.parallel_bars import idle_bars
 from graphkin.text.errors import Problem, StructureError, TakenOut, Written
 
 WAYS = '"forward"', '"backward"'
@@ -270,16 +271,20 @@ def closure_of(scene: Scene, group: Higher) -> int:
 
 
 def may_be_numbered(scene: Scene) -> bool:
-    """Whether a closure is numbered in a scene where a link slides on two others."""
-    if not any(isinstance(branch, Closure) for branch in scene.branches.values()):
+    """Whether a scene may number the closure of links that are grouped otherwise now.
+
+    Links that slide on two others, or sides besides where parallel bars may make one idle.
+    """
+    kinds = {type(branch) for branch in scene.branches.values()}
+    if Closure not in kinds:
         return False
     ends = ((link.name, slide.on) for link in scene.links.values() for slide in link.slides)
     slides = Counter(end for pair in ends for end in pair if end != FRAME)
-    return max(slides.values(), default=0) > 1
+    return max(slides.values(), default=0) > 1 or (Side in kinds and bool(idle_bars(scene)))
 
 
 def translated(written: Mapping[str, Branch], read: Mapping[str, Branch]) -> list[str]:
-    """What a scene's numbers of closures mean in ways; nothing where they are read as written."""
-    numbers = [f"{name} = {each}" for name, each in written.items() if read.get(name) != each]
-    ways = [f"{name} = {each}" for name, each in read.items() if written.get(name) != each]
-    return [f"{', '.join(numbers)} is {', '.join(ways)}"] if numbers else []
+    """What branches mean in present words; nothing where they are read as written."""
+    before = [f"{name} = {each}" for name, each in written.items() if read.get(name) != each]
+    now = [f"{name} = {each}" for name, each in read.items() if written.get(name) != each]
+    return [f"{', '.join(before)} is {', '.join(now)}"] if before else []
