@@ -7,8 +7,10 @@ from functools import cached_property
 from typing import TYPE_CHECKING, Any, Literal, TypeVar
 
 from msgspec import Struct
+from msgspec.structs import force_setattr
 
 from graphkin.construction.compile import write
+from graphkin.construction.core.branches import may_be_numbered
 from graphkin.construction.core.program import Program, Target
 from graphkin.construction.core.quantities import ASKED
 from graphkin.construction.core.run import StepFailed, Trace, run
@@ -76,7 +78,8 @@ def load(name: str | Path, /, **settings: object) -> Mechanism:
 def wrong_with_structure(scene: Scene) -> tuple[Problem, ...]:
     """The problems that keep the links of a scene from being put together; empty if none."""
     try:
-        write(scene, Mechanism(scene).groups)
+        mechanism = Mechanism(scene)
+        write(mechanism.scene, mechanism.groups)
     except GraphkinError as error:
         return error.problems
     return ()
@@ -94,9 +97,26 @@ def kept(memory: dict[K, V], key: K, value: V) -> None:
 
 
 class Mechanism(Struct, frozen=True, dict=True):
-    """A scene with its derived data; lengths in m, angles in rad, times in s."""
+    """A scene with its derived data; lengths in m, angles in rad, times in s.
+
+    The scene states the branches of its groups, also where it was ``written`` with the number of a
+    closure of links that are grouped otherwise.
+    """
 
     scene: Scene
+
+    def __post_init__(self) -> None:
+        if not may_be_numbered(self.scene):
+            return
+        from graphkin.construction.earlier_branches import in_present_words
+
+        self.__dict__["written"] = self.scene
+        force_setattr(self, "scene", in_present_words(self.scene))
+
+    @cached_property
+    def written(self) -> Scene:
+        """The scene as it was written."""
+        return self.scene
 
     @cached_property
     def groups(self) -> tuple[Group, ...]:

@@ -18,10 +18,9 @@ from graphkin.construction.core.program import Part, Program, Step, Target
 from graphkin.construction.core.run import StepFailed
 from graphkin.construction.higher_class.closure_solver import closer_of, run_settled, ways
 from graphkin.construction.higher_class.completeness import is_complete
-from graphkin.construction.links.position import FITS
+from graphkin.construction.links.position import IdleBar, idle_bars
 from graphkin.scene.model import Branch, Scene, Side, Way
-from graphkin.structure.groups import Dyad, Group, Higher, OnTwoPins, Stretched, Tie
-from graphkin.structure.link_axes import body
+from graphkin.structure.groups import Dyad, Group, Higher, OnTwoPins, Stretched
 from graphkin.structure.pairs import Pin
 
 
@@ -57,19 +56,6 @@ class Choice(Struct, frozen=True):
     key: str = ""
     is_turned: bool = False
     is_complete: bool | None = None
-
-
-class IdleBar(Struct, frozen=True):
-    """An idle link between two points that are located without it, and its length (m)."""
-
-    link: str
-    ends: tuple[str, str]
-    length: float
-
-    def fits(self, places: Mapping[str, complex]) -> bool:
-        """Whether the distance of its pins equals its length; True where one pin is unknown."""
-        known = [places[end] for end in self.ends if end in places]
-        return len(known) < 2 or abs(abs(known[1] - known[0]) - self.length) <= FITS * self.length
 
 
 class Positions(Struct, frozen=True):
@@ -125,15 +111,6 @@ def choices(
         choice = told_apart(group.links, told, closures, key_of(scene, group) or "")
         found.append(replace(choice, is_complete=complete))
     return tuple(found)
-
-
-def idle_bars(scene: Scene, groups: tuple[Group, ...]) -> Iterator[IdleBar]:
-    """The idle links: each joins two pins of a mechanism that moves without it."""
-    for group in groups:
-        match group:
-            case Tie(link=link, first=Pin(point=p), second=Pin(point=q)):
-                own = body(scene, link)
-                yield IdleBar(link, (p, q), abs(own[q] - own[p]))
 
 
 def told_by(scene: Scene, group: Group, program: Program) -> tuple[Target, ...]:

@@ -324,3 +324,11 @@ def test_enlarge_without_a_crank_is_told_by_check(run: Run, tmp_path: Path) -> N
     result = run("check", path)
     assert result.exit_code == 2
     assert "sheet.enlarge: the plans of this mechanism are not drawn by one crank" in result.stderr
+
+
+def test_the_number_of_a_closure_is_told_in_ways(run: Run) -> None:
+    """A link on two known pins states ways; a scene may still number its closures."""
+    path = ROOT / "tests" / "scenes" / "structure" / "pins" / "plate-by-its-closure.toml"
+    checked = run("check", path)
+    assert checked.exit_code == 0
+    assert "branches   L0 = closure 1 is L0 = forward, s0 = forward\n" in checked.stdout

@@ -70,6 +70,49 @@ def test_slots_apart_lean_against_the_line_of_their_pins():
     assert degrees(turned - line) == pytest.approx(degrees(asin(20 / hypot(70, 30))))
 
 
+def closed_plates():
+    """P1 of a plate on the x axis, 190.591 mm from P5, by the direction of the plate's own axis.
+
+    Its guide lies along the x axis, and P1 is 45 mm to its left.
+    """
+    for turn in (1, -1):
+        reach = (190.591**2 - (60 - 45 * turn) ** 2) ** 0.5
+        yield from (complex(250 + way * reach, 45 * turn) for way in (-1, 1))
+
+
+@pytest.mark.parametrize("number", [1, 2, 3, 4])
+def test_the_number_of_a_closure_is_read_as_ways(number):
+    """The closures in order: by the angle of the plate, 0 and 180 degrees, then by the tube's."""
+    text = SCENES["plate-by-its-closure"].replace("closure 1", f"closure {number}")
+    points = mechanism_of(text).solve().points
+    assert 1e3 * points["P1"].position == pytest.approx([*closed_plates()][number - 1])
+
+
+def test_a_plate_by_its_closure_slides_along():
+    """P1 goes along x, so that its distance from P5 grows at 7 mm/s."""
+    found = mechanism_of(SCENES["plate-by-its-closure"]).solve()
+    arm = 1e3 * found.points["P1"].position - complex(250, 60)
+    speed = 7 * abs(arm) / arm.real
+    assert arm.real == pytest.approx(60.000186102 - 250)
+    assert 1e3 * found.points["P1"].velocity == pytest.approx(speed)
+    gained = (7**2 - speed**2) / arm.real
+    assert 1e3 * found.points["P1"].acceleration == pytest.approx(gained)
+    assert found.links["L0"].omega == pytest.approx(0)
+
+
+def test_a_number_beyond_the_closures_is_refused():
+    text = SCENES["plate-by-its-closure"].replace("closure 1", "closure 5")
+    with pytest.raises(StructureError, match=r'branches\.L0: "closure 5" .*"forward"'):
+        mechanism_of(text).solve()
+
+
+def test_a_way_beside_the_number_is_kept():
+    """Of the plate's closures with s0 backward the first is the second of all."""
+    text = SCENES["plate-by-its-closure"] + 's0 = "backward"\n'
+    points = mechanism_of(text).solve().points
+    assert 1e3 * points["P1"].position == pytest.approx([*closed_plates()][1])
+
+
 def test_a_third_bushing_is_idle():
     groups = found("three-bushings").groups
     assert [group.link for group in groups if isinstance(group, Tie)] == ["b3"]

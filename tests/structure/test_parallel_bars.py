@@ -1,6 +1,8 @@
 """Bars that parallel ones make idle are left out before a group of higher class is tried."""
 
 import re
+from cmath import rect
+from math import radians, sqrt
 
 import pytest
 from msgspec.structs import replace
@@ -15,6 +17,7 @@ from graphkin.text.errors import StructureError
 from tests.scene_files import scene_text
 
 SCHMIDT = scene_text("structure/schmidt-three-bars")
+BY_A_SIDE = scene_text("structure/schmidt-by-a-side")
 PLATE = scene_text("structure/plate-on-parallel-bars")
 
 
@@ -43,6 +46,28 @@ def test_the_discs_of_a_schmidt_coupling_turn_alike():
     for disc in "23":
         assert links[disc].omega == pytest.approx(30)
         assert links[disc].epsilon == pytest.approx(4)
+
+
+@pytest.mark.parametrize(("side", "above"), [("right", 1), ("left", -1)])
+def test_a_side_where_nothing_is_left_to_choose_picks_the_closure(side, above):
+    """Of the closures with room for all bars: link 2 turns as link 1 and its centre is 50 mm from
+    O1, 45 mm from O3; link 3 turns as link 1."""
+    found = mechanism_of(BY_A_SIDE.replace('"right of', f'"{side} of')).solve()
+    along = (50**2 - 45**2 + 70**2) / (2 * 70)
+    centre = complex(along, above * sqrt(50**2 - along**2))
+    arm = 40 * rect(1, radians(25))
+    places = {"B1": centre + arm, "C1": centre - arm, "D1": 70 - arm}
+    for point, place in places.items():
+        assert 1e3 * found.points[point].position == pytest.approx(place)
+    speed = 30j * arm
+    for point, velocity in {"B1": speed, "C1": -speed, "D1": -speed}.items():
+        assert 1e3 * found.points[point].velocity == pytest.approx(velocity)
+
+
+def test_a_side_that_is_true_of_no_closure_of_the_number_is_refused():
+    text = BY_A_SIDE.replace("closure 1", "closure 2")
+    with pytest.raises(StructureError, match=r"branches\.D1: no group has a choice at D1"):
+        mechanism_of(text).solve()
 
 
 def test_the_plate_only_shifts():

@@ -14,6 +14,7 @@ from graphkin.cli.report.crossing_words import crossing
 from graphkin.cli.report.motion_report import flat_words, is_flat, verdict_words
 from graphkin.cli.report.solution_record import heading
 from graphkin.construction.compile import write
+from graphkin.construction.core.branches import translated
 from graphkin.construction.core.cam_profiles import CamProfile, profiles_of
 from graphkin.construction.core.crossings import crossings
 from graphkin.construction.core.drawn_scene import METRES
@@ -357,6 +358,9 @@ class Checking:
         try:
             yield from structure(scene)
             yield from labelled("groups", group_lines(decompose(scene)))
+            yield from labelled(
+                "branches", translated(self.mechanism.written.branches, scene.branches)
+            )
             yield from labelled("cams", list(cam_lines(scene)))
             yield from self.closing()
             yield from labelled("rank", self.rank())

@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Sequence
+from collections import Counter
+from collections.abc import Collection, Mapping, Sequence
 
 from msgspec.structs import replace
 
-from graphkin.scene.model import LEADING, Closure, Scene, Side, Way
+from graphkin.scene.model import FRAME, LEADING, Branch, Closure, Scene, Side, Way
 from graphkin.structure.groups import (
     Crank,
     Driven,
@@ -19,6 +20,7 @@ from graphkin.structure.groups import (
     Stretched,
 )
 from graphkin.structure.pairs import Pin
+from graphkin.structure.parallel_bars import idle_bars
 from graphkin.text.errors import Problem, StructureError, TakenOut, Written
 
 WAYS = '"forward"', '"backward"'
@@ -268,3 +270,23 @@ def closure_of(scene: Scene, group: Higher) -> int:
             (Written('"closure 1"'),),
         )
     )
+
+
+def may_be_numbered(scene: Scene) -> bool:
+    """Whether a scene may number the closure of links that are grouped otherwise now.
+
+    Links that slide on two others, or sides besides where parallel bars may make one idle.
+    """
+    kinds = {type(branch) for branch in scene.branches.values()}
+    if Closure not in kinds:
+        return False
+    ends = ((link.name, slide.on) for link in scene.links.values() for slide in link.slides)
+    slides = Counter(end for pair in ends for end in pair if end != FRAME)
+    return max(slides.values(), default=0) > 1 or (Side in kinds and bool(idle_bars(scene)))
+
+
+def translated(written: Mapping[str, Branch], read: Mapping[str, Branch]) -> list[str]:
+    """What branches mean in present words; nothing where they are read as written."""
+    before = [f"{name} = {each}" for name, each in written.items() if read.get(name) != each]
+    now = [f"{name} = {each}" for name, each in read.items() if written.get(name) != each]
+    return [f"{', '.join(before)} is {', '.join(now)}"] if before else []

@@ -2,6 +2,10 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator, Mapping
+
+from msgspec import Struct
+
 from graphkin.construction.core.bases import crank_tip
 from graphkin.construction.core.pen import Pen
 from graphkin.construction.core.program import Part, Plane
@@ -14,8 +18,9 @@ from graphkin.construction.links.dyad_by_arcs import meet_arcs
 from graphkin.construction.links.link_shapes import bar_length, local_place, place
 from graphkin.construction.links.plate_points import arc, plate_points
 from graphkin.numbers.plane import cross
-from graphkin.scene.model import Apart, Link
-from graphkin.structure.groups import Crank, Driven, Dyad, OnTwoPins, Tie
+from graphkin.scene.model import Apart, Link, Scene
+from graphkin.structure.groups import Crank, Driven, Dyad, Group, OnTwoPins, Tie
+from graphkin.structure.link_axes import body
 from graphkin.structure.pairs import Joint, Pin, Sliding
 from graphkin.text.errors import Problem, StructureError
 
@@ -195,3 +200,25 @@ def beside_guide(pen: Pen, pair: Sliding, link: str, point: str) -> str:
     if away <= FITS * breadth_about(pen, at):
         return ""
     return f"{point} stands {1e3 * away:.6g} mm beside its guide without it"
+
+
+class IdleBar(Struct, frozen=True):
+    """An idle link between two points that stand without it, and its length (m)."""
+
+    link: str
+    ends: tuple[str, str]
+    length: float
+
+    def fits(self, places: Mapping[str, complex]) -> bool:
+        """Whether its pins stand as far apart as it is long, where both are known."""
+        known = [places[end] for end in self.ends if end in places]
+        return len(known) < 2 or abs(abs(known[1] - known[0]) - self.length) <= FITS * self.length
+
+
+def idle_bars(scene: Scene, groups: tuple[Group, ...]) -> Iterator[IdleBar]:
+    """The links that join two pins of what moves without them."""
+    for group in groups:
+        match group:
+            case Tie(link=link, first=Pin(point=p), second=Pin(point=q)):
+                own = body(scene, link)
+                yield IdleBar(link, (p, q), abs(own[q] - own[p]))
