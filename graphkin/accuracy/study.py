@@ -238,9 +238,14 @@ class Flattening(Struct, frozen=True, eq=False):
         return self.sines if self.falls else self.roots
 
     def slopes(self, kind: str) -> tuple[float | None, ...]:
-        """The logarithmic slope of each error of a kind over the measure; None if unknown."""
+        """The logarithmic slope of each error of a kind over the measure; None if unknown.
+
+        Places at the start of the way, where another crossing is as flat, are left out.
+        """
         least = ABOVE * UNIT[kind] ** 0.5
-        return tuple(slope(self.measure, self.errors[kind][:, n], least) for n in range(3))
+        near = self.measure <= self.measure.max() / 2
+        measure, errors = self.measure[near], self.errors[kind][near]
+        return tuple(slope(measure, errors[:, n], least) for n in range(3))
 
 
 def flattened(approach: Approach, answers: ComparedTargets) -> Flattening:
