@@ -273,7 +273,8 @@ def from_start(course: Course, start: float, turns: int) -> Path:
         found = both_ways(course, start, max(sweep.high, start), min(sweep.low, start))
         return Path((found,), False, False)
     first = max(turns, 1)
-    far = (turns or MOST_TURNS) * TURN if wheels(course) else TURN
+    unknown = 1 if course.closers else MOST_TURNS  # closures cost too much to be followed so far
+    far = (turns or unknown) * TURN if wheels(course) else TURN
     ahead = marched(course, start, start + first * TURN)
     if goes_on(ahead):
         for count in counts(ahead, course, start, first):
@@ -302,8 +303,8 @@ def counts(ahead: Range, course: Course, start: float, turns: int) -> list[int]:
     found = list[int]()
     if dict(ahead[-1].branches) == dict(course.branches):
         found = [turns * turns_after(ahead[0].course, start, ahead[-1].course, turns)]
-    if not found or course.closers:
-        found += [turns * count for count in range(2, MOST_CLOSURES + 1)]
+    if not found:
+        found = [turns * count for count in range(2, MOST_CLOSURES + 1)]
     return [count for count in found if 0 < count <= MOST_TURNS]
 
 
