@@ -652,7 +652,7 @@ def counted_turnings(
 def turning_ends(scene: Scene, known: Mapping[str, int]) -> dict[int, tuple[str, str]]:
     """By the number of a driver that turns: the link that it turns, and the link it turns it from.
 
-    The latter is of the group that is ``known`` first, where that is told, whichever of the two the
+    The latter is of the group that is ``known`` first, if it is given, whichever of the two the
     driver names first.
     """
     found = dict[int, tuple[str, str]]()

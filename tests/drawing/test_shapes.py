@@ -13,7 +13,7 @@ from shapely import LineString, MultiLineString, Point, box
 
 from graphkin.documents.detail import within
 from graphkin.drawing.clashes import BESIDE, PAD, Clashes, OpenPlaces
-from graphkin.drawing.clearance import SAGITTA, segments
+from graphkin.drawing.clearance import SAGITTA, chords_of
 from graphkin.drawing.free_space import Space
 from graphkin.drawing.marks import Arc, CircleMark, LineMark, Text, reach
 from graphkin.drawing.shapes import NOWHERE, meeting, merged
@@ -60,7 +60,7 @@ def test_tiny_lines_in_a_row_are_taken_for_one_two_by_two_in_three_rounds(count,
 
 @given(spots, st.floats(0.2, 200), st.floats(0, 360), st.floats(1, 359))
 def test_chords_stay_with_their_arc(at, r, start, turn):
-    chords = segments(Arc(*at, r, start, start + turn, "compass"))
+    chords = chords_of(Arc(*at, r, start, start + turn, "compass"))
     path = MultiLineString([((a, b), (c, d)) for a, b, c, d in chords])
     for i in range(60):
         angle = math.radians(start + turn * i / 59)
