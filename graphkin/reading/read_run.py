@@ -17,7 +17,7 @@ from msgspec import Struct, field
 from graphkin.classroom.printing.edition import Edition
 from graphkin.classroom.printing.journal import key_of
 from graphkin.classroom.printing.print_work import PrintOrder
-from graphkin.classroom.printing.workers import chunks, engine, results
+from graphkin.classroom.printing.workers import ENDED, chunks, engine, results
 from graphkin.classroom.roster.spreadsheets import safe
 from graphkin.reading.drawn_answers import ANSWERS, answers_table, drawn_items
 from graphkin.reading.kept_readings import PICTURE, READING, kept
@@ -89,7 +89,8 @@ def read_class(
         if wanted:
             with engine(min(jobs, ceil(len(wanted) / FEWEST))) as (executor, workers):
                 work = partial(read_some, order)
-                for found in results(executor, workers, work, chunks(wanted, workers, 4)):
+                parts = chunks(wanted, workers, 4)
+                for found in results(executor, workers, work, parts, lost_reading):
                     for one in found:
                         put(out, one)
                         known[one.record.name] = one.record
@@ -106,6 +107,13 @@ def reading_key(order: ReadOrder, picture: Photograph) -> str:
     marked = [each.field for each in order.marked] if order.by_hand else []
     how = msgspec.to_builtins(order.grid), order.by_hand, marked
     return key_of(METHOD, hash_of_picture(picture), students, order.order.scene, how)
+
+
+def lost_reading(wanted: tuple[Photograph, str]) -> list[SheetRead]:
+    """The record of a photograph whose worker process ends."""
+    photograph, _ = wanted
+    record = SheetRecord(photograph.name, photograph.path.name, "", refused=ENDED)
+    return [SheetRead(record)]
 
 
 def put(out: Path, one: SheetRead) -> None:

@@ -16,8 +16,11 @@ from msgspec.structs import replace
 
 from graphkin.reading.point_reading import PointReading, ReadVerdict
 from graphkin.reading.read_sheet import SheetRecord
+from graphkin.text.errors import PageError, Problem
 
 SETTLED = "decisions.jsonl"
+MOST = 1 << 26
+"""The most bytes of the file: some half a million decisions."""
 LONGEST = 400
 """The most characters of a note."""
 
@@ -41,11 +44,18 @@ Standing = Mapping[tuple[str, int], PointDecision]
 
 
 class SettledPoints:
-    """The decisions of a folder of readings: read once, then appended line by line."""
+    """The decisions of a folder of readings: read once, then appended line by line.
+
+    Raises PageError for a file of more than ``MOST`` bytes.
+    """
 
     def __init__(self, folder: Path) -> None:
         self.path = folder / SETTLED
-        data = self.path.read_bytes() if self.path.exists() else b""
+        size = self.path.stat().st_size if self.path.exists() else 0
+        if size > MOST:
+            hint = "move the file away; the decisions in it must then be made again"
+            raise PageError(Problem(str(self.path), f"{size} bytes", f"at most {MOST} bytes", hint))
+        data = self.path.read_bytes() if size else b""
         self.whole = data.rfind(b"\n") + 1
         self.lines: list[PointDecision] = []
         for line in data[: self.whole].splitlines():

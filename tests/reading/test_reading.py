@@ -67,7 +67,7 @@ from graphkin.reading.settled_points import (
 from graphkin.studio.guard import Guard
 from graphkin.studio.session import PageRequestError
 from graphkin.text import words
-from graphkin.text.errors import Refusals
+from graphkin.text.errors import PageError, Refusals
 from tests.bench.reading import lab_of
 from tests.chosen import EVERY
 from tests.reading.camera import Picture, Shot, photograph, scan
@@ -1164,6 +1164,14 @@ def test_a_line_that_was_cut_short_costs_no_other(tmp_path: Path) -> None:
     SettledPoints(tmp_path).add(PointDecision("p", 5, "wrong", (2.0, 2.0)))
     lines = (tmp_path / SETTLED).read_bytes().splitlines()
     assert [msgspec.json.decode(line)["step"] for line in lines] == [4, 5]
+
+
+def test_a_file_of_decisions_is_read_up_to_a_size(tmp_path):
+    path = tmp_path / SETTLED
+    with path.open("wb") as stream:
+        stream.truncate(1 << 27)
+    with pytest.raises(PageError, match=f"{path}: {1 << 27} bytes; expected at most"):
+        SettledPoints(tmp_path)
 
 
 def test_one_seed_is_one_picture(a_class: Path, code: str) -> None:

@@ -17,7 +17,7 @@ from graphkin.classroom.printing.file_names import in_the_way, inside, stems
 from graphkin.classroom.printing.journal import Entry, Journal, hash_of, key_of
 from graphkin.classroom.printing.personal import lost
 from graphkin.classroom.printing.print_work import Made, PrintOrder, StudentSheets, make
-from graphkin.classroom.printing.workers import chunks, engine, results
+from graphkin.classroom.printing.workers import ENDED, chunks, engine, results
 from graphkin.classroom.roster.language_names import unknown_lines
 from graphkin.classroom.roster.student import Student
 from graphkin.classroom.roster.taker import Taker
@@ -191,7 +191,7 @@ class PrintRun:
         jobs = min(means.jobs, ceil(len(wanted) / FEWEST))
         with engine(jobs, means.cluster) as (executor, workers):
             work = partial(make, self.order)
-            for found in results(executor, workers, work, chunks(wanted, workers)):
+            for found in results(executor, workers, work, chunks(wanted, workers), lost_sheets):
                 self.put(found)
                 for one in found:
                     if one.problems:
@@ -267,6 +267,13 @@ class PrintRun:
             for one in self.edition.takers
             if one.code not in refused
         ]
+
+
+def lost_sheets(wanted: StudentSheets) -> list[Made]:
+    """The result for a student whose worker process ends."""
+    return [
+        Made(wanted.taker.code, {}, (Problem("print", ENDED, hint="--jobs 1 needs the least"),))
+    ]
 
 
 def part_of(code: str, view: str, kind: str) -> str:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import os
 import signal
+from collections import deque
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from concurrent.futures import (
     FIRST_COMPLETED,
@@ -14,8 +15,9 @@ from concurrent.futures import (
     ProcessPoolExecutor,
     wait,
 )
+from concurrent.futures.process import BrokenProcessPool
 from contextlib import contextmanager
-from itertools import islice
+from itertools import chain, islice
 from typing import Any, TypeVar
 
 from graphkin.text.errors import PageError, Problem
@@ -124,28 +126,61 @@ def results(
     workers: int,
     work: Callable[[Sequence[Given]], Result],
     parts: Iterable[Sequence[Given]],
+    lost: Callable[[Given], Result] | None = None,
 ) -> Iterator[Result]:
     """The result of each part, as it arrives; only as many parts wait as the workers need.
 
-    Raises PageError if a worker dies or the connection to it breaks.
+    Where the system ends a process, the items in work are done again one at a time. ``lost`` gives
+    the result for an item whose process ends again. Raises PageError if a process dies and there is
+    no ``lost``, or if the connection to a cluster breaks.
     """
     if executor is None:
         yield from map(work, parts)
         return
-    waiting: set[Future[Result]] = set()
+    waiting: dict[Future[Result], Sequence[Given]] = {}
     left = iter(parts)
     try:
         while True:
-            more = islice(left, (1 + AHEAD) * workers - len(waiting))
-            waiting |= {executor.submit(work, part) for part in more}
+            for part in islice(left, (1 + AHEAD) * workers - len(waiting)):
+                waiting[executor.submit(work, part)] = part
             if not waiting:
                 return
-            done, waiting = wait(waiting, return_when=FIRST_COMPLETED)
+            done, _ = wait(waiting, return_when=FIRST_COMPLETED)
             for future in done:
-                yield future.result()
+                found = future.result()
+                del waiting[future]
+                yield found
     except (BrokenExecutor, CancelledError, OSError) as error:
-        hint = "for want of memory? --jobs 1 needs the least; the same command goes on"
-        raise PageError(Problem("print", "a worker ended suddenly", hint=hint)) from error
+        if lost is None or not isinstance(error, BrokenProcessPool):
+            hint = "for want of memory? --jobs 1 needs the least; the same command goes on"
+            raise PageError(Problem("print", "a worker ended suddenly", hint=hint)) from error
     finally:
         for future in waiting:
             future.cancel()
+    assert lost is not None
+    yield from one_by_one(work, chain.from_iterable(waiting.values()), lost)
+    with processes(workers) as fresh:
+        yield from results(fresh, workers, work, left, lost)
+
+
+def one_by_one(
+    work: Callable[[Sequence[Given]], Result],
+    items: Iterable[Given],
+    lost: Callable[[Given], Result],
+) -> Iterator[Result]:
+    """The result of each item, alone in a process; ``lost`` for an item that ends its process."""
+    left = deque(items)
+    while left:
+        with processes(1) as pool:
+            while left:
+                try:
+                    found = pool.submit(work, [left[0]]).result()
+                except BrokenProcessPool:
+                    yield lost(left.popleft())
+                    break
+                left.popleft()
+                yield found
+
+
+ENDED = "the system ended the process that worked on it, twice; is the memory full?"
+"""What is said of an item whose process ends."""

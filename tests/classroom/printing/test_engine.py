@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
+import os
 from concurrent.futures import Future, ThreadPoolExecutor
 
 import pytest
 
-from graphkin.classroom.printing.workers import AHEAD, results
+from graphkin.classroom.printing.workers import AHEAD, processes, results
 from graphkin.text.errors import PageError
 
 
@@ -38,3 +39,19 @@ def test_a_broken_way_to_the_workers_is_told():
 
     with Cut(1) as pool, pytest.raises(PageError, match="a worker ended suddenly"):
         list(results(pool, 1, sum, [(1,)]))
+
+
+def doubled(items):
+    """Twice each item; the system ends the process that works on a 7."""
+    if 7 in items:
+        os._exit(9)
+    return [2 * item for item in items]
+
+
+def test_an_item_that_ends_its_process_fails_alone():
+    parts = [range(i, i + 4) for i in range(0, 32, 4)]
+    with processes(2) as pool:
+        found = list(results(pool, 2, doubled, parts, lambda item: [-item]))
+    assert sorted(each for some in found for each in some) == sorted(
+        -i if i == 7 else 2 * i for i in range(32)
+    )

@@ -17,6 +17,7 @@ from graphkin.classroom.printing import print_work
 from graphkin.classroom.printing.edition import read_edition
 from graphkin.classroom.printing.journal import JOURNAL
 from graphkin.classroom.printing.print_run import Means, Outcome, PrintRequest, print_class
+from graphkin.classroom.printing.print_work import make as make_sheets
 from graphkin.text.errors import PLAIN_TRACEBACK, PageError
 from graphkin.writers import commit
 from graphkin.writers.lock import LOCK, locked
@@ -130,8 +131,10 @@ def test_kill_9_in_the_middle_and_the_next_run_ends_it(whole, make):
         journal = folder / "print" / JOURNAL
         two_students = 2  # a chunk: its lines come before its files, the next chunk's after them
         until(
-            lambda: process.poll()
-            or (journal.exists() and journal.read_bytes().count(b"\n") > two_students)
+            lambda: (
+                process.poll()
+                or (journal.exists() and journal.read_bytes().count(b"\n") > two_students)
+            )
         )
         assert process.poll() is None
         with pytest.raises(PageError, match=f"process {process.pid} on"):
@@ -271,18 +274,23 @@ def test_hostile_ids_write_nothing_outside(make, tmp_path):
     assert all(name.isascii() for name in new)
 
 
-def test_a_worker_that_dies_is_told(make, monkeypatch):
+def test_a_student_whose_worker_dies_is_named_and_the_others_are_printed(make, monkeypatch):
     folder = make("dead", [str(i) for i in range(8)])
     monkeypatch.setattr(running, "make", dies)
-    with pytest.raises(PageError, match="a worker ended suddenly"):
-        printed(folder, jobs=2)
+    outcome = printed(folder, jobs=2)
+    ((taker, problems),) = outcome.refused
+    assert taker.student.id == "5"
+    assert "the system ended the process" in str(problems[0])
+    assert outcome.made == 7
     monkeypatch.undo()
-    assert printed(folder).made == 8
+    assert printed(folder).made == 1
 
 
-def dies(_order, _wanted):
-    """A worker that the system ends."""
-    os._exit(9)
+def dies(order, wanted):
+    """A worker that the system ends at one student."""
+    if any(one.taker.student.id == "5" for one in wanted):
+        os._exit(9)
+    return make_sheets(order, wanted)
 
 
 def test_a_cluster_gives_the_same_bytes(whole, make):
