@@ -7,6 +7,8 @@ from random import Random
 import pytest
 
 from graphkin.construction.compile import write
+from graphkin.construction.core.kind import constructions
+from graphkin.construction.higher_class.closed_group import ClosedGroup
 from graphkin.diagnosis.closures import choices
 from graphkin.loops.assemble import assemble
 from graphkin.mechanism import Mechanism
@@ -76,6 +78,11 @@ def test_of_a_chain_of_discs_one_dyad_of_bars_remains(discs, seed):
     assert mechanism.witness(found).agrees
     for n in range(1, discs + 1):
         assert found.links[f"d{n}"].omega == pytest.approx(12)
+
+
+def test_the_closures_are_counted_by_a_link_whose_angle_differs():
+    (group,) = constructions(mechanism_of(SCHMIDT).program, ClosedGroup)
+    assert group.counted == "4"
 
 
 @pytest.mark.parametrize("text", [SCHMIDT, BY_A_SIDE, PLATE])
