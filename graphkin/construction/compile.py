@@ -29,6 +29,7 @@ from graphkin.structure.groups import (
     Geared,
     Group,
     Higher,
+    KeptParallel,
     Spun,
     Stretched,
     Tie,
@@ -112,6 +113,10 @@ def work_of(group: Group) -> tuple[Work, Work, Work]:
             return position.dyad, *both(GroupImages.dyad)
         case Tie():
             return position.tie, *both(GroupImages.tie)
+        case KeptParallel():
+            from graphkin.construction.links import parallel_link
+
+            return parallel_link.place, *both(parallel_link.move)
         case CamFollower():
             from graphkin.construction.cams import cam
 

@@ -1,24 +1,21 @@
-"""Choosing between two equivalent rods: the one that is not flat in the scene's position.
+"""Rods that lie flat: in line with their cranks, where a dyad of the two has no sure crossing.
 
-Coupled wheels pass the position where one rod is in line with its cranks by means of a second rod.
+Where parallel bars keep a rod or a wheel parallel, its direction places it there, too.
 """
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-
 from msgspec.structs import replace
 
 from graphkin.construction.compile import write
+from graphkin.construction.core.branches import choosing
 from graphkin.construction.core.program import Program
 from graphkin.construction.core.run import StepFailed, run
 from graphkin.numbers.arithmetic import FLOAT
 from graphkin.scene.model import Scene, Side
 from graphkin.structure.decomposition import decompose
-from graphkin.structure.groups import CoupledTrain, Dyad, Group, Higher, Tie
-from graphkin.structure.joints import partner
-from graphkin.structure.pairs import Pin
-from graphkin.text.errors import StructureError
+from graphkin.structure.groups import Group, Tie
+from graphkin.structure.parallel_bars import parallel_sets
 
 FLAT = 1e-6
 """Sine of a crossing below which a rod counts as flat."""
@@ -27,16 +24,12 @@ Laid = tuple[tuple[Group, ...], Program]
 
 
 def laid(scene: Scene, groups: tuple[Group, ...]) -> Laid:
-    """The groups as drawn, and their program: an idle rod replaces a rod that is flat."""
+    """The groups as drawn, and their program: parallel bars place what a flat rod does not."""
     first = groups, write(scene, groups)
     if not any(isinstance(group, Tie) for group in groups) or not is_flat(scene, first[1]):
         return first
-    others = (
-        found
-        for dyad, tie, wheel in exchangeable(groups)
-        for found in exchanged(scene, dyad, tie, wheel)
-    )
-    return next((found for found in others if not is_flat(scene, found[1])), first)
+    other = without_idle_sides(scene)
+    return first if other is scene else ((found := decompose(other)), write(other, found))
 
 
 def is_flat(scene: Scene, program: Program) -> bool:
@@ -49,37 +42,16 @@ def is_flat(scene: Scene, program: Program) -> bool:
     return bool(min(margins.values(), default=1.0) < FLAT)
 
 
-def exchangeable(groups: tuple[Group, ...]) -> Iterator[tuple[Dyad, Tie, str]]:
-    """Each RRR dyad with an idle rod that also joins one of its links to known links."""
-    if any(isinstance(group, CoupledTrain | Higher) for group in groups):
-        return
-    for tie in groups:
-        if not isinstance(tie, Tie) or not all(isinstance(pair, Pin) for pair in tie.outer):
-            continue
-        ends = {partner(pair, tie.link) for pair in tie.outer}
-        for dyad in groups:
-            if isinstance(dyad, Dyad) and dyad.type == "RRR":
-                led = [link for link in dyad.links if link in ends]
-                if len(led) == 1:
-                    yield dyad, tie, led[0]
+def without_idle_sides(scene: Scene) -> Scene:
+    """The scene without the sides of pins of parallel bars, where these leave no choice.
 
-
-def exchanged(scene: Scene, dyad: Dyad, tie: Tie, led: str) -> Iterator[Laid]:
-    """The groups with an idle rod in place of a dyad's rod, on either side, where this fits."""
-    rod = next(link for link in dyad.links if link != led)
-    names = [name for name in scene.links if name != tie.link]
-    names.insert(names.index(rod), tie.link)
-    other = replace(scene, links={name: scene.links[name] for name in names})
-    groups = decompose(other)
-    new = next((g for g in groups if isinstance(g, Dyad) and {*g.links} == {tie.link, led}), None)
-    if new is None or new.type != "RRR":
-        return
-    assert isinstance(dyad.inner, Pin) and isinstance(new.inner, Pin)
-    assert isinstance(new.left, Pin) and isinstance(new.right, Pin)
-    branches = {name: way for name, way in scene.branches.items() if name != dyad.inner.point}
-    for side in (1, -1):
-        branches[new.inner.point] = Side(new.left.place, new.right.place, side)
-        try:
-            yield groups, write(replace(other, branches=dict(branches)), groups)
-        except StructureError:
-            continue
+    The same where it states none.
+    """
+    pins = {p for each in parallel_sets(scene) for ends in each.pins for p in ends}
+    idle = {pin for pin in pins if isinstance(scene.branches.get(pin), Side)}
+    if not idle:
+        return scene
+    branches = {name: each for name, each in scene.branches.items() if name not in idle}
+    left = idle & {*choosing(decompose(replace(scene, branches=branches)))}
+    branches = {name: each for name, each in scene.branches.items() if name not in idle - left}
+    return replace(scene, branches=branches)

@@ -42,7 +42,7 @@ from graphkin.construction.velocity.turned_velocity import TurnedVelocity
 from graphkin.drawing.symbol_markup import bar, escape, symbol
 from graphkin.numbers.plane import Ratio, Vector
 from graphkin.scene.findings import natural
-from graphkin.scene.model import Driver, Scene, lengths_of
+from graphkin.scene.model import FRAME, Driver, Scene, lengths_of
 from graphkin.structure.decomposition import decompose
 from graphkin.structure.driver_count import count
 from graphkin.structure.groups import (
@@ -54,6 +54,7 @@ from graphkin.structure.groups import (
     Geared,
     Group,
     Higher,
+    KeptParallel,
     OnTwoPins,
     Spun,
     Stretched,
@@ -88,6 +89,12 @@ def group_words(words: Words, group: Group, unseen: frozenset[str] = frozenset()
             return words("calculation.group_pins", links=links, rail=escape(group.rail))
         case Dyad():
             return words("calculation.group_dyad", links=links, type=group.type)
+        case KeptParallel():
+            bars = words("list_mark").join(map(escape, group.bars))
+            if group.lead == FRAME:
+                return words("calculation.group_shifting", links=links, bars=bars)
+            lead = escape(group.lead)
+            return words("calculation.group_parallel", links=links, lead=lead, bars=bars)
         case CamFollower():
             return words("calculation.group_cam", links=links, type=group.dyad.type)
         case Stretched():

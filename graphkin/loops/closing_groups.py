@@ -19,6 +19,7 @@ from msgspec import Struct
 
 from graphkin.loops.equations import Equations, joined, part_of, tied_by
 from graphkin.loops.loop_motion import setting_of
+from graphkin.loops.parallels import spare_bars
 from graphkin.loops.rigid_bodies import Complexes, Reals
 from graphkin.scene.model import FRAME, Closure, Scene, Side, Way
 from graphkin.text.errors import StructureError
@@ -194,6 +195,7 @@ class Net:
         self.order = {link: n for n, link in enumerate(loops.links)}
         self.joints = by_link(joints(loops))
         self.ties = by_link(tied(scene, loops))
+        self.spare = spare_bars(loops.bodies, busy(scene, loops))
 
     def near(self, links: Iterable[str]) -> tuple[tuple[Joint, ...], tuple[Joint, ...]]:
         """The joints and the ties of some links, in order."""
@@ -230,12 +232,25 @@ class Net:
         return {point for link in links for point in self.loops.bodies[link]}
 
     def ready(self, links: tuple[str, ...], known: frozenset[str]) -> Group | None:
-        """The group that the links form, or None if they are not determined."""
+        """The group that the links form, or None if they are not determined.
+
+        A spare bar determines nothing but itself.
+        """
+        if len(links) > 1 and not self.spare.isdisjoint(links):
+            return None
         group = group_of(links, known, *self.near(links))
         taken = sum(joint.takes for joint in (*group.inner, *group.outer, *group.ties))
         if taken >= 3 * len(links) and determined(self.scene, self.loops, group, taken):
             return group
         return None
+
+
+def busy(scene: Scene, loops: Equations) -> set[str]:
+    """The links that guides, wheels or drivers join to others."""
+    guides = ((guide.block, guide.on) for guide in loops.guides)
+    wheels = ((*gear.links, gear.arm) for gear in loops.gears)
+    drivers = (tied_by(driver) for driver in scene.drivers)
+    return {link for links in (*guides, *wheels, *drivers) for link in links}
 
 
 def by_link(every: tuple[Joint, ...]) -> dict[str, list[tuple[int, Joint]]]:
@@ -265,7 +280,7 @@ def larger(net: Net, known: frozenset[str]) -> Group | None:
 
     None where there are more than ``MOST`` sets of one size.
     """
-    unknown = [link for link in net.loops.links if link not in known]
+    unknown = [link for link in net.loops.links if link not in known and link not in net.spare]
     for size in range(3, min(LARGEST, len(unknown)) + 1):
         if comb(len(unknown), size) > MOST:
             return None

@@ -40,6 +40,7 @@ from graphkin.loops.no_slip import (
     turnings,
     waiting,
 )
+from graphkin.loops.parallels import Parallel, parallels
 from graphkin.loops.rigid_bodies import (
     Body,
     Complexes,
@@ -384,6 +385,7 @@ class Parts(Struct, frozen=True, eq=False):
     starts: Mapping[str, Point]
     gears: tuple[Gear, ...]
     guides: tuple[Guide, ...]
+    parallel: tuple[Parallel, ...]
     turned: Turnings
     slips: tuple[NoSlip, ...]
     near: Mapping[str, Real]
@@ -615,12 +617,13 @@ def parts_of(scene: Scene, values: Mapping[str, Any] | None = None) -> Parts:
     gears, arms = gears_of(scene, bodies, numbers)
     bodies |= arms
     slides = guides_of(scene, bodies, starts, numbers)
-    turned = turnings(tuple(bodies), slides)
+    parallel = tuple(parallels(bodies))
+    turned = turnings(tuple(bodies), slides, parallel)
     refuse_unknown_lean(turned, slides)
     guides, rolled = tracks_of(scene, bodies, starts, slides, turned, numbers)
     slips = slips_of(gears, rolled, guides, numbers)
     near = starting_angles(scene, slips, numbers)
-    return Parts(numbers, bodies, starts, gears, guides, turned, slips, near)
+    return Parts(numbers, bodies, starts, gears, guides, parallel, turned, slips, near)
 
 
 def equations(
@@ -657,7 +660,7 @@ def joined(
         scene = replace(
             scene, drivers=tuple(d for d in scene.drivers if names.issuperset(tied_by(d)))
         )
-        turned = turnings(tuple(bodies), guides)
+        turned = turnings(tuple(bodies), guides, parts.parallel)
     tree = Tree(bodies, guides, turned)
     links = tuple(bodies)
     refuse_loose(links, tree)

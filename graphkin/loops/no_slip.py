@@ -13,6 +13,7 @@ import numpy as np
 from msgspec import Struct, field
 from msgspec.structs import replace
 
+from graphkin.loops.parallels import Parallel
 from graphkin.loops.rigid_bodies import Body, Guide, Numbers, Reals, radius, written_line
 from graphkin.numbers.arithmetic import Point, Real
 from graphkin.scene.model import FRAME, Rolling, Scene, Wheel
@@ -59,12 +60,15 @@ class Turnings(Struct, frozen=True):
 Found = tuple[dict[str, int], dict[str, Point], dict[str, Real]]
 
 
-def turnings(links: Sequence[str], guides: Sequence[Guide]) -> Turnings:
-    """Collect the links that slide on one another into turnings.
+def turnings(
+    links: Sequence[str], guides: Sequence[Guide], parallel: Sequence[Parallel]
+) -> Turnings:
+    """Collect the links that slide on one another, or that bars keep parallel, into turnings.
 
     The x axis of a block is parallel to its first guide.
     """
-    tied = [guide for guide in guides if guide.first and guide.turns_alike]
+    tied = [(g.on, g.block, g.along) for g in guides if g.first and g.turns_alike]
+    tied += [(*each.bodies, each.along) for each in parallel if {*each.bodies} <= {*links}]
     of: dict[str, int] = {}
     lean: dict[str, Point] = {}
     angle: dict[str, Real] = {}
@@ -91,17 +95,20 @@ def refuse_unknown_lean(turned: Turnings, guides: Sequence[Guide]) -> None:
             )
 
 
-def spread(seed: str, tied: Sequence[Guide], found: Found) -> None:
-    """Add every link that turns with the seed, guide by guide."""
+def spread(seed: str, tied: Sequence[tuple[str, str, Point]], found: Found) -> None:
+    """Add every link that turns with the seed, from link to link.
+
+    ``tied`` holds two links each, with the direction of the second in the axes of the first.
+    """
     of, lean, angle = found
     waiting = [seed]
     while waiting:
         here = waiting.pop()
-        for guide in tied:
-            if guide.on == here and guide.block not in of:
-                other, along, turn = guide.block, guide.along, np.angle(guide.along)
-            elif guide.block == here and guide.on not in of:
-                other, along, turn = guide.on, 1 / guide.along, -np.angle(guide.along)
+        for first, second, way in tied:
+            if first == here and second not in of:
+                other, along, turn = second, way, np.angle(way)
+            elif second == here and first not in of:
+                other, along, turn = first, 1 / way, -np.angle(way)
             else:
                 continue
             of[other], lean[other], angle[other] = of[here], lean[here] * along, angle[here] + turn

@@ -13,6 +13,7 @@ from typing import Any
 from msgspec import Struct
 from msgspec.structs import replace
 
+from graphkin.construction.flat_rods import without_idle_sides
 from graphkin.motion.driving import (
     COORDINATES,
     GRID,
@@ -145,9 +146,10 @@ def sweep_of(
     """The sweep of a scene, over one driver's position or over the time.
 
     With ``driver``, that driver moves and the others are at rest; by default the only driver moves,
-    or the time runs. ``low`` and ``high`` (degrees, metres or seconds) set the window. Raises
-    SceneError.
+    or the time runs. ``low`` and ``high`` (degrees, metres or seconds) set the window. Sides that
+    parallel bars decide are left out. Raises SceneError.
     """
+    scene = without_idle_sides(scene)
     number = chosen(scene, driver)
     what: What = "time" if number is None else scene.drivers[number - 1].kind
     start = 0.0

@@ -12,7 +12,7 @@ from itertools import combinations
 from msgspec.structs import replace
 
 from graphkin.numbers.plane import cross
-from graphkin.scene.model import FRAME, Cam, Driver, Scene, Slide
+from graphkin.scene.model import FRAME, Cam, Driver, Scene, Side, Slide
 from graphkin.scene.quantity import exact
 from graphkin.structure.groups import (
     CamFollower,
@@ -23,6 +23,7 @@ from graphkin.structure.groups import (
     Geared,
     Group,
     Higher,
+    KeptParallel,
     Last,
     OnTwoPins,
     Spun,
@@ -34,6 +35,7 @@ from graphkin.structure.groups import (
 from graphkin.structure.joints import Joints, partner
 from graphkin.structure.link_axes import body, guide_line, metres
 from graphkin.structure.pairs import Joint, Pair, Pin, PinLine, Sliding
+from graphkin.structure.parallel_bars import is_spare, way_between
 from graphkin.structure.turning import LEVEL, guide_on
 from graphkin.structure.wheel_groups import (
     by_centres,
@@ -268,6 +270,25 @@ def left_by(group: Group, joints: Joints) -> Joints:
     return joints.without([group.inner.spare]) if isinstance(group, OnTwoPins) else joints
 
 
+def next_parallel(
+    joints: Joints, known: Collection[str], *, unstated: bool = False
+) -> KeptParallel | None:
+    """The first link on a known pin, in written order, that bars keep parallel to a known link.
+
+    Links for whose pins the scene states a side can be left to the dyad of which that is the side:
+    with ``unstated``, they are.
+    """
+    scene = joints.scene
+    for link in joints.unknown(known) if joints.parallel else ():
+        stated = (isinstance(scene.branches.get(p), Side) for p in scene.link(link).points)
+        if unstated and any(stated):
+            continue
+        pins = [pair for pair in joints.between(link, known) if isinstance(pair, Pin)]
+        if pins and (way := way_between(joints.parallel, link, known)):
+            return KeptParallel(link, pins[0], *way)
+    return None
+
+
 def next_tie(joints: Joints, known: Collection[str]) -> Tie | None:
     """The first link, in written order, that two pins or slides join to known links.
 
@@ -303,10 +324,12 @@ def decompose(scene: Scene) -> tuple[Group, ...]:
     while len(known) <= len(scene.links):
         group = (
             next_driven(joints, known, waiting)
+            or next_parallel(joints, known, unstated=True)
             or next_group(joints, known)
             or next_stretched(joints, known, waiting)
             or next_tie(joints, known)
             or next_on_two_pins(joints, known, waiting)
+            or next_parallel(joints, known)
             or next_tried(joints, known, waiting)
             or unresolved(joints, known, waiting)
         )
@@ -317,22 +340,7 @@ def decompose(scene: Scene) -> tuple[Group, ...]:
 
 
 def next_tried(joints: Joints, known: Collection[str], waiting: list[Driver]) -> Group | None:
-    """The next group of higher class; the code for these is loaded only when it is needed.
-
-    Bars made idle by parallel ones are left out first, because they would seem to close a group.
-    """
-    from graphkin.structure.parallel_bars import idle_bars
-
-    if idle := {*idle_bars(joints.scene)} - {*known}:
-        found = tried(joints.leaving(idle), known, waiting)
-        if found is not None:
-            return found
-    return tried(joints, known, waiting)
-
-
-def tried(joints: Joints, known: Collection[str], waiting: list[Driver]) -> Group | None:
     """The next group that closes after some of its links are tried."""
-
     return (
         next_coupled(joints, known)
         or next_higher(joints, known, waiting)
@@ -542,10 +550,15 @@ def closing(
             last = over_rolled(joints, known, grown, chain)
         if isinstance(last, Tie) and not isinstance(last.first, Pin):
             return
-        if last is not None:
+        spare = (
+            last if isinstance(last, Tie) and is_spare(joints.parallel, last.link, grown) else None
+        )
+        if last is not None and spare is None:
             break
         group = (
-            next_driven(joints, grown, left)
+            spare
+            or next_driven(joints, grown, left)
+            or next_parallel(joints, grown)
             or next_group(joints, grown)
             or next_stretched(joints, grown, left)
             or next_on_two_pins(joints, grown, left)
@@ -598,6 +611,8 @@ def supports(group: Group) -> set[str]:
             found |= needed_by(group.last)
         return found - set(group.links)
     found = {link for pair in getattr(group, "outer", ()) for link in pair.links}
+    if isinstance(group, KeptParallel):
+        found.add(group.lead)
     if isinstance(group, Crank | Driven | Spun):
         found |= {group.driver.link, group.driver.against}
     return found - set(group.links)

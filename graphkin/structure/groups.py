@@ -9,13 +9,15 @@ from msgspec import Struct
 
 from graphkin.scene.findings import natural
 from graphkin.scene.link_points import under
-from graphkin.scene.model import Driver, joined_words
+from graphkin.scene.model import Driver, joined_words, link_words
 from graphkin.structure.pairs import Contact, Joint, Pin, PinLine, Sliding
+from graphkin.structure.parallel_bars import ParallelSet
 from graphkin.structure.wheel_groups import (
     CoupledTrain,
     Crank,
     Driven,
     Geared,
+    OneLink,
     PinnedWheel,
     Spun,
     Tie,
@@ -95,6 +97,7 @@ __all__ = [
     "Geared",
     "Group",
     "Higher",
+    "KeptParallel",
     "OnTwoPins",
     "PinnedWheel",
     "Spun",
@@ -163,6 +166,37 @@ class OnTwoPins(Dyad, frozen=True):
         """Its links, the link that they guide, and the pins."""
         pins = listed(pair.brief for pair in self.outer)
         return f"{joined_words(self.links)} on {pins} guide link {self.rail}"
+
+
+class KeptParallel(OneLink, frozen=True):
+    """A link on a known pin that sets of parallel bars keep parallel to a known link ``lead``.
+
+    ``sets`` lead from the known link to this one.
+    """
+
+    pivot: Pin
+    lead: str
+    sets: tuple[ParallelSet, ...]
+
+    @property
+    def outer(self) -> tuple[Joint]:
+        """Its pin on a known link."""
+        return (self.pivot,)
+
+    @property
+    def bars(self) -> tuple[str, ...]:
+        """The bars of all sets."""
+        return tuple(bar for each in self.sets for bar in each.bars)
+
+    @property
+    def title(self) -> str:
+        return f"kept parallel to {link_words(self.lead)}"
+
+    @property
+    def words(self) -> str:
+        """Its link, its pin, and the bars that keep its direction."""
+        held = f"link {self.link} on {self.pivot.brief}"
+        return f"{held}, {self.title} by bars {listed(self.bars)}"
 
 
 class CamFollower(Struct, frozen=True):
@@ -361,6 +395,7 @@ Group = (
     | Dyad
     | CamFollower
     | Stretched
+    | KeptParallel
     | Geared
     | Spun
     | Train

@@ -3,10 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Collection, Iterable, Iterator, Sequence
+from functools import cached_property
 from typing import Any
 
 from graphkin.scene.model import FRAME, Scene
 from graphkin.structure.pairs import Joint, Pin, all_pairs, refuse_loose, sharers
+from graphkin.structure.parallel_bars import ParallelSet, parallel_sets
 
 
 class Joints:
@@ -67,17 +69,10 @@ class Joints:
         """The pairs, with only some links treated as unknown."""
         return self._but(names=tuple(name for name in self.names if name in links))
 
-    def leaving(self, links: Collection[str]) -> Joints:
-        """The pairs without some links, as if these did not exist."""
-        others = {
-            link: [pair for pair in own if not {*pair.links} & {*links}]
-            for link, own in self.others.items()
-            if link not in links
-        }
-        owners = {p: tuple(k for k in own if k not in links) for p, own in self.owners.items()}
-        names = tuple(name for name in self.names if name not in links)
-        beside = {k: near - {*links} for k, near in self.beside.items() if k not in links}
-        return self._but(found={}, others=others, owners=owners, names=names, beside=beside)
+    @cached_property
+    def parallel(self) -> tuple[ParallelSet, ...]:
+        """The sets of bars that keep two links parallel."""
+        return parallel_sets(self.scene)
 
     def with_pins(self, pins: Sequence[tuple[Joint, Pin]]) -> Joints:
         """The pairs, with pins in place of some of them."""

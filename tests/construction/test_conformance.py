@@ -64,6 +64,7 @@ OWN = {
         TESTS / "motion" / "scenes" / "planet-on-coupler.toml",
         TESTS / "scenes" / "construction" / "wheels-that-speed-up.toml",
         TESTS / "scenes" / "structure" / "pins" / "rod-in-two-bushings.toml",
+        TESTS / "scenes" / "structure" / "plate-on-parallel-bars.toml",
     )
 }
 """Scenes of tests that draw what no example does."""

@@ -1,18 +1,22 @@
-"""Bars that parallel ones make idle are left out before a group of higher class is tried."""
+"""Links that three or more parallel bars keep parallel: their direction needs no trial."""
 
-import re
 from cmath import rect
 from math import radians, sqrt
+from random import Random
 
 import pytest
-from msgspec.structs import replace
 
 from graphkin.construction.compile import write
+from graphkin.construction.core.kind import constructions
+from graphkin.construction.higher_class.closed_group import ClosedGroup
 from graphkin.diagnosis.closures import choices
+from graphkin.loops.assemble import assemble
 from graphkin.mechanism import Mechanism
+from graphkin.motion.cycle import cycle
+from graphkin.motion.jumps import jumps
 from graphkin.scene.read_scene import read_text
-from graphkin.structure.groups import Higher, Tie
-from graphkin.structure.parallel_bars import idle_bars
+from graphkin.structure.groups import Higher
+from graphkin.structure.parallel_bars import parallel_sets
 from graphkin.text.errors import StructureError
 from tests.scene_files import scene_text
 
@@ -25,20 +29,80 @@ def mechanism_of(text):
     return Mechanism(read_text(text, "scene", None, {}))
 
 
-@pytest.mark.parametrize(("text", "idle"), [(SCHMIDT, {"6", "9"}), (PLATE, {"b3", "b4"})])
-def test_of_each_parallel_set_all_bars_but_two_are_idle(text, idle):
+@pytest.mark.parametrize(("text", "bars"), [(SCHMIDT, ["456", "789"]), (PLATE, ["b1b2b3b4"])])
+def test_parallel_bars_form_sets(text, bars):
     """Three bars a side of a Schmidt coupling, four bars under a plate, at unequal distances."""
-    mechanism = mechanism_of(text)
-    assert {*idle_bars(mechanism.scene)} == idle
-    assert {group.link for group in mechanism.groups if isinstance(group, Tie)} == idle
-    (higher,) = (group for group in mechanism.groups if isinstance(group, Higher))
-    assert idle.isdisjoint(higher.links)
+    sets = parallel_sets(mechanism_of(text).scene)
+    assert ["".join(each.bars) for each in sets] == bars
 
 
-@pytest.mark.parametrize("text", [SCHMIDT, PLATE])
+def chain(discs, seed):
+    """Discs in series, three bars between each two, with the links written in a random order.
+
+    Each disc has its pins in a figure of its own. The first bars of all sets but the last two are
+    driven, so that one dyad of bars remains.
+    """
+    rng = Random(seed)
+    figures = [[(rng.randint(-40, 40), rng.randint(-40, 40)) for _ in "123"] for _ in range(discs)]
+    links = {"d1": {"O": (0, 0)}, f"d{discs}": {"P": (0, 0)}}
+    for n in range(1, discs):
+        for k in range(3):
+            links.setdefault(f"d{n}", {})[f"A{n}{k}"] = figures[n][k]
+            links.setdefault(f"d{n + 1}", {})[f"B{n}{k}"] = figures[n][k]
+    names = [*links, *(f"b{n}{k}" for n in range(1, discs) for k in range(3))]
+    rng.shuffle(names)
+    text = [
+        'graphkin = 1\ntitle = "Chain"\nunits = { length = "mm", angle = "deg", speed = "rad/s" }'
+    ]
+    text.append(f"[frame]\nO = [0, 0]\nP = [{40 * discs}, 11]")
+    for name in names:
+        text.append(f"[links.{name}]")
+        if name in links:
+            text += [f"{point} = [{x}, {y}]" for point, (x, y) in links[name].items()]
+        else:
+            text.append(f"A{name[1:]}-B{name[1:]} = {60 + int(name[1])}")
+    drivers = [("d1", 20, 12), *((f"b{n}0", 25 + 9 * n, 5 - n) for n in range(1, discs - 2))]
+    for link, angle, speed in drivers:
+        text.append(f'[[drivers]]\nturn = "{link}"\nangle = {angle}\nspeed = {speed}')
+    text.append(f'[branches]\nd{discs - 1} = "closure 1"')
+    return "\n".join(text)
+
+
+@pytest.mark.parametrize(("discs", "seed"), [(3, 1), (3, 2), (4, 3), (5, 4)])
+def test_of_a_chain_of_discs_one_dyad_of_bars_remains(discs, seed):
+    """Every disc turns as the first; both routes agree, with all bars in place."""
+    mechanism = mechanism_of(chain(discs, seed))
+    tried = [group for group in mechanism.groups if isinstance(group, Higher)]
+    assert [len(group.links) for group in tried] == [3]
+    found = mechanism.solve()
+    assert mechanism.witness(found).agrees
+    for n in range(1, discs + 1):
+        assert found.links[f"d{n}"].omega == pytest.approx(12)
+
+
+def test_the_closures_are_counted_by_a_link_whose_angle_differs():
+    (group,) = constructions(mechanism_of(SCHMIDT).program, ClosedGroup)
+    assert group.counted == "4"
+
+
+@pytest.mark.parametrize("text", [SCHMIDT, BY_A_SIDE, PLATE])
 def test_the_independent_route_agrees_with_all_bars_in_place(text):
+    """It numbers the closures, too, and finds the position without the construction."""
     mechanism = mechanism_of(text)
-    assert mechanism.witness(mechanism.solve(), numbered=False).agrees
+    found = mechanism.solve()
+    assert mechanism.witness(found).agrees
+    own = assemble(mechanism.scene).motion
+    for name, point in found.points.items():
+        assert own.place(name)[0] == pytest.approx(point.position, abs=1e-9)
+
+
+@pytest.mark.parametrize("text", [BY_A_SIDE, PLATE])
+def test_a_turn_passes_where_bars_are_in_line_with_their_pins(text):
+    """In line, two bars alone could cross there; the third one forbids it."""
+    found = cycle(mechanism_of(text), steps=40)
+    assert found.ranges == ((0.0, 360.0),)
+    assert found.path.returns and not found.singulars
+    assert found.witnessed.agrees.all() and not jumps(found)
 
 
 def test_the_discs_of_a_schmidt_coupling_turn_alike():
@@ -76,30 +140,19 @@ def test_the_plate_only_shifts():
     assert links["b3"].omega == pytest.approx(links["b1"].omega)
 
 
-def test_the_bars_are_idle_in_any_order_of_the_links():
-    scene = mechanism_of(PLATE).scene
-    backwards = replace(scene, links=dict(reversed(scene.links.items())))
-    assert {*idle_bars(backwards)} == {"b1", "b2"}
-
-
 @pytest.mark.parametrize(
     "change", [("F3-G3 = 90", "F3-G3 = 90.01"), ("G3 = [130, -20]", "G3 = [130.01, -20]")]
 )
 def test_a_bar_that_is_nearly_parallel_is_refused(change):
     """A length or a pin that differs by 0.01 mm: no closure has room for all four bars."""
     scene = mechanism_of(PLATE.replace(*change)).scene
-    assert "b3" not in idle_bars(scene)
+    assert [each.bars for each in parallel_sets(scene)] == [("b1", "b2", "b4")]
     with pytest.raises(StructureError, match=r"links\.b3: .* a length that fits"):
         Mechanism(scene).solve()
 
 
-def test_the_driven_bar_of_a_set_is_kept():
-    text = re.sub(r"turn = .*\n", 'turn = "b3"\n', PLATE)
-    assert {*idle_bars(mechanism_of(text).scene)} == {"b4", "b2"}
-
-
-def test_closures_without_room_for_an_idle_bar_are_told():
+def test_bars_that_could_only_cross_are_not_listed_as_closures():
     mechanism = mechanism_of(PLATE)
     program = write(mechanism.scene, mechanism.groups, fitted=False)
     (choice,) = choices(mechanism.scene, mechanism.groups, program)
-    assert [each.unfit for each in choice.closures] == ["b3", "", "b3", ""]
+    assert [each.unfit for each in choice.closures] == ["", ""]

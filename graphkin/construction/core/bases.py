@@ -17,6 +17,7 @@ from graphkin.structure.groups import (
     Geared,
     Group,
     Higher,
+    KeptParallel,
     Spun,
     Stretched,
     Tie,
@@ -96,6 +97,8 @@ def bases(scene: Scene, group: Group | TriedLink) -> tuple[Base, ...]:
             first, second = dyad_bases(scene, dyad)
             tubes = [base_of(scene, each.near, each.pin.point, None) for each in cylinders]
             return own_first(first), tubes[0], own_first(second), *tubes[1:]
+        case KeptParallel(link=link, pivot=Pin(point=pivot)):
+            return (base_of(scene, link, pivot, None),)
         case Geared():
             return (geared_base(scene, group),)
         case Spun(link=link, holder=arm, pivot=pivot, held=Pin(point=centre), contact=contact):
@@ -126,7 +129,7 @@ def own_first(base: Base) -> Base:
 
 
 def leads_of(group: Group | TriedLink) -> dict[str, str]:
-    """The links that turn with another link because of a sliding pair, and that other link."""
+    """The links that turn with another because of a slide or of parallel bars, and that other."""
     match group:
         case CamFollower(dyad=dyad):
             return leads_of(dyad)
@@ -140,6 +143,8 @@ def leads_of(group: Group | TriedLink) -> dict[str, str]:
             return {link: partner(contact, link)}
         case Spun(link=link, holder=block, held=Sliding()):
             return {block: link}
+        case KeptParallel(link=link, lead=lead):
+            return {link: lead}
         case Tie(link=link, second=Sliding() as pair):
             return {link: partner(pair, link)}
         case TriedLink(link=link, pair=Sliding() as pair):

@@ -20,7 +20,7 @@ from graphkin.structure.groups import (
     Stretched,
 )
 from graphkin.structure.pairs import Pin
-from graphkin.structure.parallel_bars import idle_bars
+from graphkin.structure.parallel_bars import parallel_sets
 from graphkin.text.errors import Problem, StructureError, TakenOut, Written
 
 WAYS = '"forward"', '"backward"'
@@ -282,7 +282,7 @@ def may_be_numbered(scene: Scene) -> bool:
         return False
     ends = ((link.name, slide.on) for link in scene.links.values() for slide in link.slides)
     slides = Counter(end for pair in ends for end in pair if end != FRAME)
-    return max(slides.values(), default=0) > 1 or (Side in kinds and bool(idle_bars(scene)))
+    return max(slides.values(), default=0) > 1 or (Side in kinds and bool(parallel_sets(scene)))
 
 
 def translated(written: Mapping[str, Branch], read: Mapping[str, Branch]) -> list[str]:

@@ -25,7 +25,7 @@ from graphkin.construction.links.plate_points import plate_points
 from graphkin.numbers.arithmetic import Point, Real
 from graphkin.numbers.plane import Line, cross, dot
 from graphkin.scene.model import FRAME, Driver
-from graphkin.structure.groups import Dyad, Group, Higher, Stretched, Tie, TriedLink
+from graphkin.structure.groups import Dyad, Group, Higher, KeptParallel, Stretched, Tie, TriedLink
 from graphkin.structure.joints import partner
 from graphkin.structure.pairs import Pin, Sliding
 
@@ -127,11 +127,13 @@ def position(pen: Pen, group: Higher, each: Each) -> None:
 def counted_by(pen: Pen, group: Higher) -> str:
     """The first written link whose angle differs between closures.
 
-    Known links fix the angles of links that slide on them, or that drivers turn against them.
+    Known links fix the angles of links that slide on them, that drivers turn against them, or that
+    bars keep parallel to them.
     """
     scene = pen.scene
     joined = [{k.name, slide.on} for k in scene.links.values() for slide in k.slides]
     joined += [{driver.link, driver.against} for driver in scene.drivers if driver.kind == "turn"]
+    joined += [{each.link, each.lead} for each in group.members if isinstance(each, KeptParallel)]
     held = {FRAME, *pen.bases} - set(group.links)
     while more := {link for pair in joined if pair & held for link in pair} - held:
         held |= more
