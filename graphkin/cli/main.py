@@ -44,6 +44,8 @@ LATER = {
     "variants": "graphkin.cli.class_commands:variants",
     "ranges": "graphkin.cli.class_commands:ranges",
     "studio": "graphkin.cli.studio_command:studio",
+    "manual": "graphkin.cli.manual_command:manual",
+    "help": "graphkin.cli.manual_command:help_on",
 }
 """The commands of other modules, as ``module:function``."""
 HELP = {"help_option_names": ["-h", "--help"], "max_content_width": 96}
@@ -80,6 +82,7 @@ def app(context: click.Context) -> None:
       graphkin cycle pump --set n=7 -o cycles    its motion over the whole range, as curves
       graphkin accuracy pump -o accuracy         the time that accuracy costs, as pictures
       graphkin check mine.toml                   the mistakes in my own scene
+      graphkin help slides                       what a key of a scene means
 
     \b
     Exit status: 0 success; 1 the independent check disagrees, or something asked cannot

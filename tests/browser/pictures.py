@@ -1,4 +1,4 @@
-"""The pictures of pages in the README: ``python -m tests.browser.pictures [FOLDER]``."""
+"""The pictures of pages in the manual: ``python -m tests.browser.pictures [FOLDER]``."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ from graphkin.studio.server import serve
 from tests.browser.opening import ARGS
 from tests.studio.pump import desk_in, running
 
-FOLDER = Path(__file__).resolve().parents[2] / "examples"
+FOLDER = Path(__file__).resolve().parents[2] / "graphkin" / "manual" / "pictures"
 SIZE = {"width": 1440, "height": 900}
 
 

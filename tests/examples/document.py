@@ -7,14 +7,15 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from pathlib import Path
 
+from graphkin.manual.pages import anchor_of
+from graphkin.manual.pages import divided as divided_by_headings
+
 ROOT = Path(__file__).resolve().parents[2]
 EXAMPLES = ROOT / "examples"
-SCENES_PAGE = EXAMPLES / "SCENES.md"
-CLASSES_PAGE = EXAMPLES / "CLASSES.md"
 README = ROOT / "README.md"
 CONTRIBUTING = ROOT / "CONTRIBUTING.md"
 VERSION = "graphkin ="
-FENCE = re.compile(r"^```(\w+)\n(.*?)^```$", re.MULTILINE | re.DOTALL)
+FENCE = re.compile(r"^```(\w+) ?(.*?)\n(.*?)^```$", re.MULTILINE | re.DOTALL)
 ROW = re.compile(r"^\| (\d+) \| (.+) \| `(.+)` \|$", re.MULTILINE)
 CODE = re.compile(r"`([^`]+)`")
 LINK = re.compile(r"\]\((?!https?:)([^)#\s]*)(?:#([^)\s]+))?\)")
@@ -22,10 +23,10 @@ LINK = re.compile(r"\]\((?!https?:)([^)#\s]*)(?:#([^)\s]+))?\)")
 
 @dataclass(frozen=True)
 class Block:
-    """A fenced block: the heading above it, its language, its line and its text."""
+    """A fenced block: its language, the word after it, its line and its text."""
 
-    heading: str
     language: str
+    name: str
     line: int
     text: str
 
@@ -39,31 +40,16 @@ class Mistake:
     message: str
 
 
-def blocks(page: Path, language: str) -> list[Block]:
-    """The fenced blocks of a page in one language."""
-    text = page.read_text(encoding="utf-8")
+def blocks_in(text: str) -> list[Block]:
+    """The fenced blocks of a text."""
     return [
-        Block(heading_above(text[: found.start()]), found[1], line_of(text, found), found[2])
-        for found in FENCE.finditer(text)
-        if found[1] == language
+        Block(found[1], found[2], line_of(text, found), found[3]) for found in FENCE.finditer(text)
     ]
-
-
-def whole_above(page: Path, line: int) -> str:
-    """The last whole scene of a page that begins above a line: one with the format's version."""
-    wholes = [b for b in blocks(page, "toml") if b.text.startswith(VERSION) and b.line < line]
-    return wholes[-1].text
-
-
-def heading_above(text: str) -> str:
-    """The last heading of a text."""
-    return re.findall(r"^#+ (.+)$", text, re.MULTILINE)[-1]
 
 
 def anchors(page: Path) -> set[str]:
     """What a link to a heading of a page may end with."""
-    headings = re.findall(r"^#+ (.+)$", page.read_text(encoding="utf-8"), re.MULTILINE)
-    return {re.sub(r"[^\w\- ]", "", each.lower()).replace(" ", "-") for each in headings}
+    return {anchor_of(title) for _, title, _ in divided_by_headings(page.read_text("utf-8"))}
 
 
 def links(page: Path) -> Iterator[tuple[Path, str]]:
@@ -112,11 +98,3 @@ def key_of(line: str) -> str:
     """The key of a line such as ``time = 2``; empty for a comment or an empty line."""
     key, equals, _ = line.partition("=")
     return key.strip() if equals and not line.startswith("#") else ""
-
-
-def commands(page: Path) -> Iterator[tuple[str, str]]:
-    """Each command of a console block, and what it answers."""
-    for block in blocks(page, "console"):
-        for piece in block.text.split("$ ")[1:]:
-            command, _, answer = piece.partition("\n")
-            yield command, answer

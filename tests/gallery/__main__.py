@@ -18,8 +18,6 @@ from tests.gallery.pixels import picture, stacked, write_png
 
 README = {
     "pump-n7-acceleration-key": (Subject("pump", n=7), "acceleration"),
-    "oscillating-slide-acceleration-key": (Subject("oscillating-slide"), "acceleration"),
-    "gears-ring-velocity-key": (Subject("gears-ring"), "velocity"),
 }
 """The README's pictures, and which sheet of what they show."""
 CONTACT, LARGE = 90, 100

@@ -12,6 +12,7 @@ from tests.gallery.pages import SCENES, STUDENTS, Subject, pages_of, subjects
 from tests.gallery.pixels import GUTTER, picture, side_by_side, stacked
 
 ROOT = Path(__file__).resolve().parents[2]
+PICTURES = ROOT / "graphkin" / "manual" / "pictures"
 WHITE = 255
 
 
@@ -25,9 +26,9 @@ def test_every_lab_and_every_scene_is_shown_once():
 
 def test_the_pictures_of_the_readme_are_those_that_the_command_makes():
     text = (ROOT / "README.md").read_text(encoding="utf-8")
-    linked = re.findall(r"!\[[^]]*\]\(examples/(\S+-key)\.png\)", text)
+    linked = re.findall(r"!\[[^]]*\]\(graphkin/manual/pictures/(\S+-key)\.png\)", text)
     assert sorted(linked) == sorted(README)
-    assert all((ROOT / "examples" / f"{name}.png").is_file() for name in linked)
+    assert all((PICTURES / f"{name}.png").is_file() for name in linked)
     guide = (ROOT / "CONTRIBUTING.md").read_text(encoding="utf-8")
     assert "python -m tests.gallery -o" in guide
 

@@ -1,6 +1,6 @@
-"""The marking desk at its first doubtful point, and a marked drawing, as pictures for the README.
+"""The marking desk at its first doubtful point, and a marked drawing, as pictures for the manual.
 
-    python -m tests.reading.desk_pictures FOLDER -o examples
+    python -m tests.reading.desk_pictures FOLDER -o graphkin/manual/pictures
 
 FOLDER is what ``python -m tests.bench.reading N -o FOLDER`` keeps.
 """

@@ -1,6 +1,6 @@
-"""Three hard photographs as they were read and one that is refused, as a picture for the README.
+"""Three hard photographs as they were read and one that is refused, as a picture for the manual.
 
-    python -m tests.reading.hard_pictures FOLDER -o examples/hard-photographs.jpg
+    python -m tests.reading.hard_pictures FOLDER -o graphkin/manual/pictures/hard-photographs.jpg
 
 FOLDER is what ``python -m tests.bench.reading N -o FOLDER`` keeps.
 """

@@ -29,6 +29,7 @@ ORDER = (
     "documents",
     "web",
     "classroom",
+    "manual",
     "studio",
     "reading",
     "cli",
@@ -39,7 +40,7 @@ FACES = {"__init__", "__main__"}
 command line."""
 BESIDE = {"__pycache__", "py.typed"}
 """Entries that are no room."""
-MOST = 20
+MOST = 21
 """Entries of the package that one takes in at a glance."""
 
 
@@ -171,6 +172,7 @@ HEAVY = {
     "reportlab",
     "svgwrite",
     "jinja2",
+    "markdown_it",
     "pikepdf",
     "filelock",
 }

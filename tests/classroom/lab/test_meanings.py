@@ -1,38 +1,19 @@
-"""Every field and every slip has a meaning, on the page of classes and in a new lab's rubric."""
+"""Every field and every slip has a meaning, also in a new lab's rubric."""
 
 from __future__ import annotations
 
 import re
-from collections.abc import Mapping
 
 import pytest
 
 from graphkin.classroom.lab.items import all_fields
-from graphkin.classroom.lab.new_lab import QUANTITY, fields_of, kinds, new_lab, slips
+from graphkin.classroom.lab.new_lab import QUANTITY, fields_of, new_lab, slips
 from graphkin.classroom.lab.read_lab import read_lab
 from graphkin.classroom.lab.slip_names import NAMES
 from graphkin.construction.core.quantities import CENTRES, RATES, SHEETS, SLIDING, VECTORS
 from graphkin.mechanism import load
 from graphkin.text import words
-from tests.classroom.lab.singles import LABS, ROOT
-
-CLASSES = ROOT / "examples" / "CLASSES.md"
-
-
-def table(heads: tuple[str, str], rows: Mapping[str, str]) -> str:
-    """What the page says, in its form."""
-    lines = [f"| {heads[0]} | {heads[1]} |", "|---|---|"]
-    return "\n".join([*lines, *(f"| `{name}` | {told} |" for name, told in rows.items())]) + "\n"
-
-
-@pytest.mark.parametrize(
-    ("heads", "rows"),
-    [(("field", "what it is"), kinds()), (("slip", "what the student did"), slips())],
-    ids=["fields", "slips"],
-)
-def test_the_page_of_classes_has_all_of_them(heads, rows):
-    text = CLASSES.read_text(encoding="utf-8")
-    assert table(heads, rows) in text, f"write this into CLASSES.md:\n{table(heads, rows)}"
+from tests.classroom.lab.singles import LABS
 
 
 def test_every_quantity_of_a_form_has_a_meaning():
