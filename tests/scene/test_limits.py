@@ -10,9 +10,13 @@ from pathlib import Path
 import pytest
 
 from graphkin.scene import scene_files
-from graphkin.scene.file_limits import NUMBER, OTHER_LETTER, PARTS, PLAIN, VALUE
+from graphkin.scene.file_limits import NUMBER, PARTS, PLAIN, VALUE
 from graphkin.scene.read_scene import read_scene, read_text
 from graphkin.text.errors import MORE, Problem, SceneError
+
+OTHER_LETTER = (
+    "“{letter}” ({code}) is no letter of a name: these are A to Z and a to z without accents"
+)
 
 HEAD = 'graphkin = 1\nunits = { length = "m", angle = "deg", speed = "rad/s" }\n'
 DRIVER = "[[drivers]]\nturn = 1\nangle = 0\nspeed = 1\n"

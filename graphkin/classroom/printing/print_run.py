@@ -22,7 +22,7 @@ from graphkin.classroom.roster.language_names import unknown_lines
 from graphkin.classroom.roster.student import Student
 from graphkin.classroom.roster.taker import Taker
 from graphkin.drawing.style import Ink
-from graphkin.text.errors import PageError, Problem
+from graphkin.text.errors import PageError, Problem, message
 from graphkin.writers.commit import held, put_in_place, reason_of, replacing
 from graphkin.writers.pdf_join import PdfPart, join
 
@@ -106,8 +106,8 @@ def print_class(edition: Edition, wishes: PrintRequest, means: Means, tell: Tell
 
 def stopped(folder: Path, error: OSError) -> PageError:
     """The error of a run that could not write: a full disk, or a folder without permission."""
-    found = f"cannot be written: {reason_of(error)}"
-    hint = "what was finished is kept; when that is mended, the same command goes on"
+    found = message("cannot be written: {error}", error=reason_of(error))
+    hint = message("what was finished is kept; when that is mended, the same command goes on")
     return PageError(Problem(str(error.filename or folder), found, hint=hint))
 
 

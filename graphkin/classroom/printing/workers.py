@@ -18,7 +18,7 @@ from contextlib import contextmanager
 from itertools import islice
 from typing import Any, TypeVar
 
-from graphkin.text.errors import PageError, Problem
+from graphkin.text.errors import PageError, Problem, message
 
 CHUNK = 25
 """The most students in a chunk."""
@@ -107,13 +107,16 @@ def cluster(address: str) -> Iterator[tuple[Executor, int]]:
     try:
         from distributed import Client
     except ImportError as error:
-        found = "needs dask.distributed, which is not installed"
-        hint = "install graphkin[cluster]"
+        found = message("needs dask.distributed, which is not installed")
+        hint = message("install graphkin[cluster]")
         raise PageError(Problem(f"--engine {address}", found, hint=hint)) from error
     try:
         client = Client(f"tcp://{address.removeprefix(CLUSTER)}", timeout=10)
     except (OSError, ValueError) as error:
-        found, expected = "does not answer", f"{CLUSTER}HOST:PORT of a Dask scheduler"
+        found, expected = (
+            message("does not answer"),
+            message("{cluster}HOST:PORT of a Dask scheduler", cluster=CLUSTER),
+        )
         raise PageError(Problem(f"--engine {address}", found, expected)) from error
     with client:
         yield client.get_executor(), max(1, sum(client.nthreads().values()))
@@ -144,8 +147,8 @@ def results(
             for future in done:
                 yield future.result()
     except (BrokenExecutor, CancelledError, OSError) as error:
-        hint = "for want of memory? --jobs 1 needs the least; the same command goes on"
-        raise PageError(Problem("print", "a worker ended suddenly", hint=hint)) from error
+        hint = message("for want of memory? --jobs 1 needs the least; the same command goes on")
+        raise PageError(Problem("print", message("a worker ended suddenly"), hint=hint)) from error
     finally:
         for future in waiting:
             future.cancel()
