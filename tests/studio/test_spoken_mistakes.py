@@ -17,8 +17,6 @@ from tests.scene.test_problems import CASES, SAID
 from tests.studio.pump import PUMP, desk_in, ordered, seen
 
 ROOT = Path(__file__).resolve().parents[2] / "graphkin"
-ENGLISH_ROOMS = ("accuracy", "classroom", "cli", "motion", "reading", "web", "writers")
-"""The rooms whose messages may be in English only: mostly commands say them."""
 ENGLISH = re.compile(
     r"\b(?:the|is|of|and|not|which|with|than|has|have|that|these|does|one|another|give|write|take)\b"
 )
@@ -26,15 +24,14 @@ CODE = re.compile(r'"[^"]*"|\{[^{}]*\}|\[[^]]*\]')
 FOREIGN = ("it", "ro")
 
 
-def templates() -> dict[str, str]:
-    """The template of every message that the package makes, with the room that makes it."""
-    found: dict[str, str] = {}
+def templates() -> set[str]:
+    """The template of every message that the package makes."""
+    found: set[str] = set()
     for path in sorted(ROOT.rglob("*.py")):
         for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):
             if isinstance(node, ast.Call) and ast.unparse(node.func) == "message":
-                room = path.relative_to(ROOT).parts[0].removesuffix(".py")
-                found |= dict.fromkeys(literals(node.args[0]), room)
-    return {each: room for each, room in found.items() if words_in(each)}
+                found.update(literals(node.args[0]))
+    return {each for each in found if words_in(each)}
 
 
 def literals(node: ast.expr) -> Iterator[str]:
@@ -60,9 +57,8 @@ def fields_of(template: str) -> set[tuple[str, str | None, str | None]]:
 def test_every_template_has_a_translation_with_the_same_fields_and_there_are_no_others(language):
     made, own = templates(), translations(language)
     assert len(made) > 900
-    wanted = {each for each, room in made.items() if room not in ENGLISH_ROOMS}
-    assert not wanted - own.keys()
-    assert not own.keys() - made.keys()
+    assert not made - own.keys()
+    assert not own.keys() - made
     for english, said in own.items():
         assert fields_of(said) == fields_of(english), english
 
