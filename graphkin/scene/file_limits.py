@@ -244,9 +244,9 @@ HEADING = message("a heading ends as it begins: [links.2], [[drivers]]")
 UNCLOSED = message("the quote of this text is not closed")
 OPEN = message("put its quote at its end")
 DATE = message("a date is no value of a scene: put it in quotes")
-UNSEEN = message("a sign that cannot be seen stands here: take it out")
+UNSEEN = message("remove the invisible character here")
 COMMENT = message("a comment begins with #")
-NOUGHT = message("a number has no zero in front: 12")
+NOUGHT = message("write the number without a leading zero: 12")
 NUMBER = message(
     'a number stands here, in the unit that units states, or an expression in quotes: "2*n"'
 )
@@ -258,7 +258,7 @@ MEASURED = frozenset(
 COUNTED = frozenset(("value", "min", "max", "step", "teeth", "time"))
 """Keys of numbers without a unit."""
 ADVICE = (
-    ("expected '='", message("between a key and its value stands =")),
+    ("expected '='", message("write = between a key and its value")),
     ("expected ']", HEADING),
     ('expected "', OPEN),
     ("invalid initial character for a key", message("keys have letters, digits, _ and -")),

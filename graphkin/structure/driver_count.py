@@ -497,8 +497,8 @@ def driven_twice(scene: Scene, driver: Driver, loose: Sequence[str]) -> Problem:
 def hanging(loose: Sequence[str]) -> Message:
     """Words for links that no driver moves."""
     if len(loose) == 1:
-        return message("{name} hangs on no driver", name=loose[0])
-    return message("{names} hang on no driver", names=", ".join(loose))
+        return message("no driver moves link {name}", name=loose[0])
+    return message("no driver moves links {names}", names=", ".join(loose))
 
 
 def drivable(scene: Scene) -> list[str]:

@@ -134,7 +134,7 @@ def decision(
         told.add(
             places["reason"],
             found,
-            message("why, in at most {most} characters", most=LONGEST),
+            message("a reason of at most {most} characters", most=LONGEST),
         )
     if len(told.problems) > before or taker is None:
         return None

@@ -159,7 +159,7 @@ def with_marks(
             twice.append(
                 Problem(
                     message("{table}, row {row}", table=book.name, row=line + 1),
-                    message('"{who}" stands there twice', who=who),
+                    message('"{who}" is in the table twice', who=who),
                 )
             )
         lines[line] = who

@@ -107,7 +107,7 @@ def print_class(edition: Edition, wishes: PrintRequest, means: Means, tell: Tell
 def stopped(folder: Path, error: OSError) -> PageError:
     """The error of a run that could not write: a full disk, or a folder without permission."""
     found = message("cannot be written: {error}", error=reason_of(error))
-    hint = message("what was finished is kept; when that is mended, the same command goes on")
+    hint = message("finished files are kept: correct this, then run the same command to continue")
     return PageError(Problem(str(error.filename or folder), found, hint=hint))
 
 

@@ -147,7 +147,9 @@ def results(
             for future in done:
                 yield future.result()
     except (BrokenExecutor, CancelledError, OSError) as error:
-        hint = message("for want of memory? --jobs 1 needs the least; the same command goes on")
+        hint = message(
+            "the memory may be too small: run the same command with --jobs 1 to continue"
+        )
         raise PageError(Problem("print", message("a worker ended suddenly"), hint=hint)) from error
     finally:
         for future in waiting:
