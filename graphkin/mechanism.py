@@ -33,7 +33,7 @@ from graphkin.scene.read_scene import read_scene
 from graphkin.structure.decomposition import decompose
 from graphkin.structure.driver_count import refuse_drivers
 from graphkin.structure.groups import CoupledTrain, Group, Higher
-from graphkin.text.errors import GraphkinError, Problem, SceneError, Setting
+from graphkin.text.errors import GraphkinError, Problem, SceneError, Setting, joined, message
 from graphkin.text.hooks import service
 
 if TYPE_CHECKING:
@@ -315,14 +315,19 @@ class Mechanism(Struct, frozen=True, dict=True):
         """Parameters as arrays of floats of one length. Raises SceneError as ``batch`` does."""
         strangers = sorted(set(parameters) - set(self.scene.values))
         if strangers:
-            known = ", ".join(self.scene.values) or "none: the scene has no parameters"
-            raise SceneError([Problem(name, "is no parameter", known) for name in strangers])
+            known = joined(", ", self.scene.values) or message("none: the scene has no parameters")
+            raise SceneError(
+                [Problem(name, message("is no parameter"), known) for name in strangers]
+            )
         arrays = {name: np.atleast_1d(value) for name, value in parameters.items()}
         refuse_shapes(arrays)
         strange = [name for name, array in arrays.items() if array.dtype.kind not in "iuf"]
         if strange:
             raise SceneError(
-                [Problem(name, "holds what is no number", "real numbers") for name in strange]
+                [
+                    Problem(name, message("holds what is no number"), message("real numbers"))
+                    for name in strange
+                ]
             )
         alike = np.broadcast_arrays(*arrays.values())
         floats = [np.asarray(array, dtype=float) for array in alike]
@@ -398,14 +403,27 @@ def point_of(scene: Scene, name: str) -> str:
 def refuse_shapes(arrays: Mapping[str, NDArray[Any]]) -> None:
     """Raise SceneError for arrays that do not hold one number for each variant."""
     problems = [
-        Problem(name, f"an array of {array.ndim} dimensions", "one number for each variant")
+        Problem(
+            name,
+            message("an array of {ndim} dimensions", ndim=array.ndim),
+            message("one number for each variant"),
+        )
         for name, array in arrays.items()
         if array.ndim > 1
     ]
     sizes = {n: len(array) for n, array in arrays.items() if array.ndim == 1 and array.size != 1}
     longest = max(sizes, key=lambda name: sizes[name], default="")
     problems += [
-        Problem(name, f"{size} values beside {sizes[longest]} of {longest}", "as many, or one")
+        Problem(
+            name,
+            message(
+                "{size} values beside {other} of {longest}",
+                size=size,
+                other=sizes[longest],
+                longest=longest,
+            ),
+            message("as many, or one"),
+        )
         for name, size in sizes.items()
         if size != sizes[longest]
     ]
@@ -426,9 +444,15 @@ def refuse_out_of_range(scene: Scene, given: Mapping[str, Any]) -> None:
             limit = float(bound.number({}))
             outside = array[(array < limit) if is_low else (array > limit)]
             if outside.size:
-                found = f"{outside.size} values outside the range, such as {outside.flat[0]:g}"
-                words = f"at {'least' if is_low else 'most'} {limit:g}"
-                place = f"parameter {name}"
+                found = message(
+                    "{size} values outside the range, such as {example:g}",
+                    size=outside.size,
+                    example=outside.flat[0],
+                )
+                words = message(
+                    "at least {limit:g}" if is_low else "at most {limit:g}", limit=limit
+                )
+                place = message("parameter {name}", name=name)
                 problems.append(Problem(place, found, words, about=(Setting(name),)))
     if problems:
         raise SceneError(problems)

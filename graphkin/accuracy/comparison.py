@@ -23,7 +23,7 @@ from graphkin.numbers.kinds import ball_kind, is_real_ball
 from graphkin.scene.link_points import is_under
 from graphkin.scene.model import Scene
 from graphkin.structure.pairs import is_in_scene
-from graphkin.text.errors import ClosureError, GraphkinError, Problem, WitnessError
+from graphkin.text.errors import ClosureError, GraphkinError, Problem, WitnessError, message
 
 AROUND = {"turn": 60.0}
 """The distance, in degrees, that a turning driver is moved from the scene's position."""
@@ -185,7 +185,9 @@ def approach(ground: Ground, groups: int, each: int, share: float = 0.0) -> Appr
     piece = ground.piece
     low, high = piece.low.at, piece.high.at
     if not low < high:
-        raise ClosureError(Problem("accuracy", "the driver cannot move", "a range to move in"))
+        raise ClosureError(
+            Problem("accuracy", message("the driver cannot move"), message("a range to move in"))
+        )
     count = groups * each
     at = low + (np.arange(count) + 0.5) * (high - low) / count
     return Approach(placed(piece.course, at, single=False), np.arange(count), "range", None)
@@ -365,8 +367,10 @@ def reference_of(
         raise WitnessError(
             Problem(
                 "reference",
-                f"no position near the scene's own can be certified with {bits} bits",
-                "a position that is not singular within such a ball",
+                message(
+                    "no position near the scene's own can be certified with {bits} bits", bits=bits
+                ),
+                message("a position that is not singular within such a ball"),
             )
         )
     sizes = np.array([sizes_of(each, answers) for each in found])

@@ -8,7 +8,7 @@ from graphkin.documents.sheet_documents import language_of
 from graphkin.drawing.style import Ink
 from graphkin.mechanism import Mechanism
 from graphkin.scene import scene_files
-from graphkin.text.errors import Problem, SceneError
+from graphkin.text.errors import Problem, SceneError, message
 from graphkin.web.step_page import Form, Tell, silent, step_page, task_page
 from graphkin.web.your_turn import TurnOwner
 
@@ -70,9 +70,9 @@ def hand_out_page(
         raise SceneError(
             Problem(
                 "--view overlay",
-                "is laid over a drawing on paper, and html is a page for a screen",
-                "--format svg, pdf or dxf",
-                "leave html out of --format, or write another --view; nothing is written",
+                message("is laid over a drawing on paper, and html is a page for a screen"),
+                message("--format svg, pdf or dxf"),
+                message("leave html out of --format, or write another --view; nothing is written"),
             )
         )
     if view != "task":

@@ -198,7 +198,7 @@ def quiz(
     from graphkin.documents.sheet_documents import language_of
     from graphkin.mechanism import Mechanism
     from graphkin.scene.read_scene import read_text
-    from graphkin.text.errors import Problem, SceneError
+    from graphkin.text.errors import Problem, SceneError, message
     from graphkin.writers.files import refuse_folder, write_all
 
     whole = read_edition(Path(name)) if (Path(name) / MANIFEST).is_file() else None
@@ -206,8 +206,10 @@ def quiz(
     lang = lang or (whole.language if whole else "")
     refuse_folder(folder, [f"{lab.name}-moodle.xml"], force=force)
     if not lab.rubric.points:
-        hint = "give points in [marks] of lab.toml"
-        raise SceneError(Problem(lab.name, "no field earns marks", "a field that does", hint))
+        hint = message("give points in [marks] of lab.toml")
+        raise SceneError(
+            Problem(lab.name, message("no field earns marks"), message("a field that does"), hint)
+        )
     fair, unfair = variants_of(lab, count)
     for each in unfair[:SHOWN]:
         told = ", ".join(f"{key} = {value}" for key, value in each.settings.items())
@@ -215,7 +217,7 @@ def quiz(
     if len(unfair) > SHOWN:
         complain(f"and {len(unfair) - SHOWN} more unfair variants")
     if not fair:
-        raise SceneError(Problem(lab.name, "no variant is fair", "one at least"))
+        raise SceneError(Problem(lab.name, message("no variant is fair"), message("one at least")))
     scene = lab.scene.read_text(encoding="utf-8-sig")
     words = language_of(Mechanism(read_text(scene, lab.name)), lang)
     order = PrintOrder(lab, scene, words.language, "colour")

@@ -29,6 +29,7 @@ from graphkin.text.errors import (
     StructureError,
     WitnessError,
     fault,
+    message,
 )
 
 if TYPE_CHECKING:
@@ -375,8 +376,8 @@ class FolderType(click.Path):
         if not str(value).strip():
             self.fail("the name of the folder is empty; . is the current one", param, ctx)
         if Path(value).is_file():
-            hint = "name another folder with -o"
-            raise FileError(Problem(str(value), "is a file", "a folder", hint))
+            hint = message("name another folder with -o")
+            raise FileError(Problem(str(value), message("is a file"), message("a folder"), hint))
         return super().convert(value, param, ctx)
 
 

@@ -10,7 +10,7 @@ import click
 from graphkin.cli.options import FAILED, folder_option, jobs_option, lang_option, tell
 from graphkin.cli.print_command import progress
 from graphkin.cli.studio_command import browser_option, port_option, refuse_without, show
-from graphkin.text.errors import PageError, Problem
+from graphkin.text.errors import PageError, Problem, message, verbatim
 
 if TYPE_CHECKING:
     from graphkin.reading.read_sheet import Grid
@@ -119,15 +119,16 @@ def read_grid(path: Path | None) -> Grid:
 
     if path is None:
         return Grid()
-    expected = '{"x": [mm, …], "y": [mm, …]}'
+    expected = message('{{"x": [mm, …], "y": [mm, …]}}')
     try:
         grid = msgspec.json.decode(file_bytes(path, 1 << 20), type=Grid)
     except (OSError, ValueError) as error:
-        reason = getattr(error, "strerror", None) or "is no such JSON"
-        raise PageError(Problem(f"--grid {path}", str(reason).lower(), expected)) from None
+        reason = getattr(error, "strerror", None)
+        found = verbatim(str(reason).lower()) if reason else message("is no such JSON")
+        raise PageError(Problem(f"--grid {path}", found, expected)) from None
     if not 0 < len(grid.x) * len(grid.y) <= MOST_PLACES:
-        found = f"has {len(grid.x) * len(grid.y)} places"
-        raise PageError(Problem(f"--grid {path}", found, f"1 to {MOST_PLACES}"))
+        found = message("has {count} places", count=len(grid.x) * len(grid.y))
+        raise PageError(Problem(f"--grid {path}", found, message("1 to {most}", most=MOST_PLACES)))
     return grid
 
 

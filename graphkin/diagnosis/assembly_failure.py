@@ -24,24 +24,45 @@ from graphkin.numbers.arithmetic import FLOAT, np
 from graphkin.scene.model import Driver, Scene
 from graphkin.scene.quantity import LENGTHS, shortest
 from graphkin.structure.driver_count import driver_name
-from graphkin.text.errors import ClosureError, Problem, Sought, Written
+from graphkin.text.errors import (
+    NO_WORDS,
+    ClosureError,
+    Message,
+    Problem,
+    Sought,
+    Written,
+    both,
+    either,
+    joined,
+    message,
+)
 
 
-def in_line(scene: Scene, program: Program, number: int, nearly: str = "") -> str:
+def in_line(scene: Scene, program: Program, number: int, *, nearly: bool = False) -> Message:
     """Words for bars and guides in line, parallel or square at a failed or flat crossing.
 
-    ``nearly`` precedes these words where the crossing is only flat.
+    They are nearly so where the crossing is only flat.
     """
     step = program.steps[number]
     kind = step.of
-    if isinstance(kind, Determined) and (words := kind.in_line(program.steps, nearly)):
+    if isinstance(kind, Determined) and (words := kind.in_line(program.steps, nearly=nearly)):
         return words
     if links := closed_by(step):
         bars = arms(scene, links)
         if bars:
-            return f"the lines {', '.join(bars[:-1])} and {bars[-1]} {nearly}meet in one point"
-        return f"two closures of links {', '.join(links)} {nearly}meet"
-    return parallel(program, step, nearly)
+            return message(
+                "the lines {bars} nearly meet in one point"
+                if nearly
+                else "the lines {bars} meet in one point",
+                bars=both((", ".join(bars[:-1]), bars[-1])),
+            )
+        return message(
+            "two closures of links {links} nearly meet"
+            if nearly
+            else "two closures of links {links} meet",
+            links=", ".join(links),
+        )
+    return parallel(program, step, nearly=nearly)
 
 
 def closed_by(step: Step) -> tuple[str, ...]:
@@ -63,20 +84,33 @@ def arms(scene: Scene, links: Sequence[str]) -> list[str]:
     return []
 
 
-def parallel(program: Program, step: Step, nearly: str = "") -> str:
+def parallel(program: Program, step: Step, *, nearly: bool = False) -> Message:
     """Words for the lines that are parallel, or perpendicular, when a crossing fails.
 
     Perpendiculars to two bars are parallel when the bars are.
     """
     lines = [program.steps[arg] for arg in step.args]
-    unnamed = f"its two lines are {nearly}parallel"
+    unnamed = message(
+        "its two lines are nearly parallel" if nearly else "its two lines are parallel"
+    )
     if len(lines) != 2 or any(line.action is None for line in lines):
         return unnamed
     (first, square), (second, other) = (line_words(line) for line in lines)
     if not first or not second:
         return unnamed
-    how = "parallel" if square == other else "perpendicular to each other"
-    return f"{first} and {second} are {nearly}{how}"
+    if square == other:
+        return message(
+            "{one} and {other} are nearly parallel" if nearly else "{one} and {other} are parallel",
+            one=first,
+            other=second,
+        )
+    return message(
+        "{one} and {other} are nearly perpendicular to each other"
+        if nearly
+        else "{one} and {other} are perpendicular to each other",
+        one=first,
+        other=second,
+    )
 
 
 def line_words(line: Step) -> tuple[str, bool]:
@@ -86,14 +120,19 @@ def line_words(line: Step) -> tuple[str, bool]:
     return (runs.what, runs.square) if runs is not None else ("", False)
 
 
-def beside_dead_point(scene: Scene, program: Program, number: int) -> str:
+def beside_dead_point(scene: Scene, program: Program, number: int) -> Message:
     """Words for what is nearly in line at a flat crossing, and the driver positions to change."""
     drivers = zip(scene.drivers, program.drives, strict=False)
     needed = set(program.behind((number,)))
     causes = [driver for driver, drive in drivers if drive.position in needed]
-    places = [f"{driver_name(driver)} from {stands(scene, driver)}" for driver in causes[:MOST]]
-    words = in_line(scene, program, number, "nearly ")
-    return f"{words}: move {' or '.join(places)} to another position" if places else words
+    places = either(
+        message("{driver} from {ranges}", driver=driver_name(driver), ranges=stands(scene, driver))
+        for driver in causes[:MOST]
+    )
+    words = in_line(scene, program, number, nearly=True)
+    if not places:
+        return words
+    return message("{words}: move {places} to another position", words=words, places=places)
 
 
 def stands(scene: Scene, driver: Driver) -> str:
@@ -113,18 +152,26 @@ FLAT = 1e-6
 BLIND = 2.0**-26
 """Sine of a crossing, the root of eps, below which no digit of a velocity is correct."""
 MOVING = (Part.POSITION, Part.VELOCITY, Part.ACCELERATION)
-DEAD = (
-    "at this dead point, or so near to one that doubles cannot tell (solve --digits can), the "
-    "driver's speed determines no other: change the driver's position"
+DEAD = message(
+    "at this dead point, or so near to one that doubles cannot tell (solve --digits "
+    "can), the driver's speed determines no other: change the driver's position"
 )
 
-BY_DIGITS = "; solve --digits finds it where doubles cannot tell"
+BY_DIGITS = message("solve --digits finds it where doubles cannot tell")
 """Addition to a hint where numbers with more digits may find what doubles do not."""
 
-AT_DEAD = "at this dead point the driver's speed determines no other: change the driver's position"
+AT_DEAD = message(
+    "at this dead point the driver's speed determines no other: change the driver's position"
+)
 
-MERGE = f"merge here, or so near that balls of {BITS[-1]} bits do not tell"
-ALONE = "it closes at this dead point alone: change the lengths"
+PLACES = {
+    Part.SHAPE: message("shape"),
+    Part.POSITION: message("position"),
+    Part.VELOCITY: message("velocity"),
+    Part.ACCELERATION: message("acceleration"),
+}
+"""The parts of the work, as the place of a problem."""
+ALONE = message("it closes at this dead point alone: change the lengths")
 
 
 # --- why a step fails ----------------------------------------------------------------------------
@@ -160,8 +207,10 @@ def to_balls_too(problem: Problem) -> Problem:
     """The problem, rewritten for a position that balls of many bits do not find either."""
     if problem.hint == DEAD:
         return replace(problem, hint=AT_DEAD)
-    hint = problem.hint
-    return replace(problem, hint=hint.removesuffix(BY_DIGITS)) if isinstance(hint, str) else problem
+    parts = [*problem.help.fields.values()]
+    if parts[1:] == [BY_DIGITS]:
+        return replace(problem, hint=parts[0])
+    return problem
 
 
 def missed(scene: Scene, program: Program, number: int, found: Meeting) -> Problem:
@@ -183,38 +232,47 @@ def lost(scene: Scene, program: Program, number: int, found: Meeting) -> Problem
     loci = step.of.loci if isinstance(step.of, Determined) else Determined.loci
     depth, moved = -found.missed, found.rounded - found.missed
     return Problem(
-        f"position of {step.name}",
-        f"{step.name} cannot be found in doubles: {loci} cross, by {measured(scene, depth)}, "
-        f"but the crossings before enlarge rounding to {measured(scene, moved)}",
-        "crossings that are less flat, one after the other",
-        "solve --digits finds it",
+        message("position of {name}", name=step.name),
+        message(
+            "{name} cannot be found in doubles: {loci} cross, by {depth}, but the "
+            "crossings before enlarge rounding to {moved}",
+            name=step.name,
+            loci=loci,
+            depth=measured(scene, depth),
+            moved=measured(scene, moved),
+        ),
+        message("crossings that are less flat, one after the other"),
+        message("solve --digits finds it"),
         about=(Sought((step.name,)),),
     )
 
 
 def not_found(
-    program: Program, number: int, reason: str, hint: str, expected: str = LOCI
+    program: Program, number: int, reason: Message, hint: Message, expected: Message = LOCI
 ) -> Problem:
     """The problem of a step that finds nothing, with the reason."""
     step = program.steps[number]
     words, names = sought(step)
-    what = " of ".join(filter(None, (step.part.value, words)))
+    place = PLACES[step.part]
+    if words:
+        place = message("{part} of {words}", part=place, words=words)
     kind = construction(step)
-    link = kind.found_link if isinstance(kind, PlacesLink) else ""
-    turned = f"how link {link} stands" if link else ""
-    found = f"{step.name or turned or 'a value'} cannot be found: {reason}"
-    return Problem(what, found, expected, hint, about=(Sought(names),))
+    what: str = step.name or message("a value")
+    if not step.name and isinstance(kind, PlacesLink) and kind.found_link:
+        what = message("how link {link} stands", link=kind.found_link)
+    found = message("{what} cannot be found: {reason}", what=what, reason=reason)
+    return Problem(place, found, expected, hint, about=(Sought(names),))
 
 
 def sought(step: Step) -> tuple[str, tuple[str, ...]]:
     """The object of a step, in words and by name: its letter, else its links or points."""
     if links := closed_by(step):
-        return f"links {', '.join(links)}", links
+        return message("links {names}", names=", ".join(links)), links
     kind = construction(step)
     if step.name or kind is None:
         return step.name, (step.name,) if step.name else ()
     if isinstance(kind, PlacesLink) and kind.found_link:
-        return f"link {kind.found_link}", (kind.found_link,)
+        return message("link {on}", on=kind.found_link), (kind.found_link,)
     points = tuple(filter(None, kind.points))
     return "-".join(points), points
 
@@ -225,7 +283,7 @@ def undetermined(step: Step, args: Sequence[Any]) -> Problem | None:
     None for other steps.
     """
     found = step.of.undetermined(args) if isinstance(step.of, Determined) else None
-    return replace(found, hint=f"{found.hint}{BY_DIGITS}") if found else None
+    return replace(found, hint=joined("; ", (found.help, BY_DIGITS))) if found else None
 
 
 def no_such_closure(scene: Scene, failed: StepFailed, error: ClosingError) -> Problem:
@@ -233,19 +291,28 @@ def no_such_closure(scene: Scene, failed: StepFailed, error: ClosingError) -> Pr
     closed = closed_by(failed.step)
     links = ", ".join(closed)
     if not error.ways:
-        found = f"links {links} do not close{least_miss(scene, failed)}"
+        found = least_miss(scene, failed)
         hint = where_it_closes(scene)
         return Problem("position", found, LOCI, hint, about=(Sought(),))
-    elsewhere = ""
+    elsewhere = NO_WORDS
     known = closings(scene)
     if any(each.ranges for each in known):
-        elsewhere = f"; with closure {error.asked} {closes_where(scene, known)}"
-    ways = "1 way" if error.ways == 1 else f"{error.ways} ways"
+        elsewhere = message(
+            "with closure {asked} {closes}", asked=error.asked, closes=closes_where(scene, known)
+        )
+    ways = message("1 way") if error.ways == 1 else message("{ways} ways", ways=error.ways)
     return Problem(
         f"branches.{branch_of(scene, closed)}",
-        f"links {links} close in {ways} here, closure {error.asked} is asked",
-        '"closure 1"' if error.ways == 1 else f'"closure 1" to "closure {error.ways}"',
-        "graphkin check lists them" + elsewhere,
+        message(
+            "links {links} close in {ways} here, closure {asked} is asked",
+            links=links,
+            ways=ways,
+            asked=error.asked,
+        ),
+        message('"closure 1"')
+        if error.ways == 1
+        else message('"closure 1" to "closure {ways}"', ways=error.ways),
+        joined("; ", (message("graphkin check lists them"), elsewhere)),
         tuple(Written(f'"closure {n}"') for n in range(1, error.ways + 1)),
     )
 
@@ -254,12 +321,21 @@ def merging(scene: Scene, step: Step, error: MergingError) -> Problem:
     """The problem of a closure number that is undecided because two closures merge."""
     closed = closed_by(step)
     links = ", ".join(closed)
-    merge = f"closures {error.first} and {error.first + 1} of links {links} {MERGE}"
     return Problem(
         f"branches.{branch_of(scene, closed)}",
-        f"{merge}, so that closure {error.asked} is not decided",
-        f"closure 1 to {error.first - 1}" if error.first > 1 else "a position where none merge",
-        "move the driver",
+        message(
+            "closures {first} and {second} of links {links} merge here, or so near that balls of "
+            "{bits} bits do not tell, so that closure {asked} is not decided",
+            first=error.first,
+            second=error.first + 1,
+            links=links,
+            bits=BITS[-1],
+            asked=error.asked,
+        ),
+        message("closure 1 to {last}", last=error.first - 1)
+        if error.first > 1
+        else message("a position where none merge"),
+        message("move the driver"),
     )
 
 
@@ -268,13 +344,14 @@ def branch_of(scene: Scene, links: Sequence[str]) -> str:
     return next((name for name in links if name in scene.branches), links[0])
 
 
-def least_miss(scene: Scene, failed: StepFailed) -> str:
-    """Words for the smallest gap by which a higher-class group fails to close."""
+def least_miss(scene: Scene, failed: StepFailed) -> Message:
+    """Words for a higher-class group that does not close, with the smallest gap where known."""
+    links = ", ".join(closed_by(failed.step))
     closer = closer_of(failed.step)
     assert closer is not None
     trying = closer.trying
     if trying.first.facing is not None or trying.several:
-        return ""
+        return message("links {links} do not close", links=links)
     known = [np.atleast_1d(value) for value in failed.args_found]
     tried = trying.grid(known, 1).ravel()
     here = [np.repeat(array, len(tried)) for array in known]
@@ -284,33 +361,45 @@ def least_miss(scene: Scene, failed: StepFailed) -> str:
         missed = np.abs(trying.misfits(here, tried[:, None], rows)[:, 0])
         least = np.nanmin(missed, initial=least)
     if not np.isfinite(least):
-        return ", wherever the first of them is tried"
-    return f": they miss each other by {measured(scene, least)}"
+        return message(
+            "links {links} do not close, wherever the first of them is tried", links=links
+        )
+    return message(
+        "links {links} do not close: they miss each other by {gap}",
+        links=links,
+        gap=measured(scene, least),
+    )
 
 
-def why(scene: Scene, program: Program, failed: StepFailed) -> str:
+def why(scene: Scene, program: Program, failed: StepFailed) -> Message:
     """Words for the reason of a failed step: loci that miss each other, or parallel lines."""
     if isinstance(failed.__cause__, MergingError):
         first = failed.__cause__.first
-        return f"closures {first} and {first + 1} merge here as far as the ball tells"
+        return message(
+            "closures {first} and {second} merge here as far as the ball tells",
+            first=first,
+            second=first + 1,
+        )
     kind = failed.step.of
-    own = kind.failing() if isinstance(kind, Determined) else ""
+    own = kind.failing() if isinstance(kind, Determined) else NO_WORDS
     return own or in_line(scene, program, failed.number)
 
 
-def why_not(scene: Scene, program: Program, number: int, found: Meeting) -> str:
+def why_not(scene: Scene, program: Program, number: int, found: Meeting) -> Message:
     """Words for two loci that miss each other, or touch without crossing."""
     step = program.steps[number]
     if found.missed >= TOUCH * found.size:
         return miss_words(scene, step, found.missed)
-    words = f"{in_line(scene, program, number)}, a dead point"
-    return f"{words}, but {miss_words(scene, step, found.missed)}" if found.apart else words
+    words = message("{words}, a dead point", words=in_line(scene, program, number))
+    if not found.apart:
+        return words
+    return message("{words}, but {gap}", words=words, gap=miss_words(scene, step, found.missed))
 
 
-def miss_words(scene: Scene, step: Step, missed: float) -> str:
+def miss_words(scene: Scene, step: Step, missed: float) -> Message:
     """Words for the gap between the loci of a step."""
     apart = step.of.apart if isinstance(step.of, Determined) else Determined.apart
-    return f"{apart} by {measured(scene, missed)}"
+    return message("{apart} by {gap}", apart=apart, gap=measured(scene, missed))
 
 
 # --- whether loci meet, decided apart from where they do -----------------------------------------
@@ -368,7 +457,9 @@ def refuse_blind(scene: Scene, trace: Trace) -> None:
             continue
         if (anywhere := undetermined(step, [trace.values[arg] for arg in step.args])) is not None:
             raise ClosureError(anywhere)
-        words = f"{in_line(scene, program, number)} as far as doubles tell, a dead point"
+        words = message(
+            "{words} as far as doubles tell, a dead point", words=in_line(scene, program, number)
+        )
         raise ClosureError(not_found(program, number, words, DEAD))
 
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from functools import reduce
 from typing import TYPE_CHECKING, Any
 
 from msgspec import Struct
@@ -11,6 +12,7 @@ from graphkin.numbers.arithmetic import np
 from graphkin.scene.model import Scene
 from graphkin.scene.quantity import LENGTHS
 from graphkin.structure.driver_count import driver_name
+from graphkin.text.errors import NO_WORDS, Message, joined, message
 
 if TYPE_CHECKING:
     from graphkin.motion.course import Course
@@ -32,13 +34,6 @@ MOST = 3
 """The most drivers whose ranges are reported."""
 LISTED = 6
 """The most ranges reported for one driver."""
-FREE = {
-    (False, False): "{0} to {1} {2}",
-    (True, False): "up to {1} {2}",
-    (False, True): "{0} {2} and more",
-    (True, True): "of any size",
-}
-"""Words for a range of a sliding driver, by whether it exceeds the search below and above."""
 Range = tuple[float, float]
 
 
@@ -55,22 +50,24 @@ class ClosingRanges(Struct, frozen=True):
     tried: int = 0
 
     @property
-    def bound(self) -> str:
+    def bound(self) -> Message:
         """Words for a search that was bounded or left out; empty otherwise."""
         if self.tried:
-            return (
-                f"not searched: {self.tried} links are tried at once, which takes seconds for "
-                "each position of the driver"
+            return message(
+                "not searched: {count} links are tried at once, which takes seconds for each "
+                "position of the driver",
+                count=self.tried,
             )
         if not self.searched:
-            return ""
-        return (
-            f"searched at {self.searched} positions of the driver; "
-            "what lies between two of them is not seen"
+            return NO_WORDS
+        return message(
+            "searched at {count} positions of the driver; what lies between two of them is not "
+            "seen",
+            count=self.searched,
         )
 
 
-def where_it_closes(scene: Scene) -> str:
+def where_it_closes(scene: Scene) -> Message:
     """Words for the positions of each driver at which the whole mechanism can be drawn."""
     return closes_where(scene, closings(scene))
 
@@ -80,38 +77,66 @@ def closings(scene: Scene) -> list[ClosingRanges]:
     return [closing(scene, n) for n in range(1, len(scene.drivers[:MOST]) + 1)]
 
 
-def closes_where(scene: Scene, known: Sequence[ClosingRanges]) -> str:
+def closes_where(scene: Scene, known: Sequence[ClosingRanges]) -> Message:
     """Words for the ranges of each driver."""
-    if left_out := next((found.bound for found in known if found.tried), ""):
-        return f"where it closes is {left_out}"
-    bound = next((f" ({found.bound})" for found in known if found.bound), "")
+    if left_out := next((found.bound for found in known if found.tried), None):
+        return message("where it closes is {left_out}", left_out=left_out)
+    words = closes_for(scene, known)
+    bound = next((found.bound for found in known if found.bound), None)
+    return message("{words} ({bound})", words=words, bound=bound) if bound else words
+
+
+def closes_for(scene: Scene, known: Sequence[ClosingRanges]) -> Message:
+    """Words for the ranges of each driver, without the bound of the search."""
     if len(scene.drivers) == 1:
-        noun = "angle" if scene.drivers[0].kind == "turn" else "position"
+        turns = scene.drivers[0].kind == "turn"
         if known[0].ranges:
-            return f"it closes for driver {noun}s {reached_words(scene, known[0].ranges)}{bound}"
-        return f"it closes for no {noun} of the driver: check the lengths{bound}"
+            return message(
+                "it closes for driver angles {ranges}"
+                if turns
+                else "it closes for driver positions {ranges}",
+                ranges=reached_words(scene, known[0].ranges),
+            )
+        return message(
+            "it closes for no angle of the driver: check the lengths"
+            if turns
+            else "it closes for no position of the driver: check the lengths"
+        )
     told = [
-        f"{driver_name(driver)} from {reached_words(scene, found.ranges, n)}"
+        message(
+            "{driver} from {ranges}",
+            driver=driver_name(driver),
+            ranges=reached_words(scene, found.ranges, n),
+        )
         for n, (driver, found) in enumerate(zip(scene.drivers, known, strict=False), 1)
         if found.ranges
     ]
     if not told:
-        words = "no driver alone can close it: check lengths, sides and the drivers' positions"
-        return f"{words}{bound}"
-    return f"it closes, the other drivers as they stand, for {'; or for '.join(told)}{bound}"
+        return message(
+            "no driver alone can close it: check lengths, sides and the drivers' positions"
+        )
+    return message(
+        "it closes, the other drivers as they stand, for {ranges}",
+        ranges=reduce(
+            lambda one, other: message("{one}; or for {other}", one=one, other=other), told
+        ),
+    )
 
 
-def reached_words(scene: Scene, found: Sequence[Range], number: int = 1) -> str:
+def reached_words(scene: Scene, found: Sequence[Range], number: int = 1) -> Message:
     """The ranges of one driver, counted from 1, in the scene's units; empty without any."""
     if scene.drivers[number - 1].kind == "turn":
-        words = [f"{low:.2f}° to {high:.2f}°" for low, high in found]
+        words = [message("{low:.2f}° to {high:.2f}°", low=low, high=high) for low, high in found]
     else:
         words = [slid_words(scene, each, number) for each in found]
-    more = f" and {len(words) - LISTED} more ranges" if len(words) > LISTED else ""
-    return ", ".join(words[:LISTED]) + more
+    some = joined(", ", words[:LISTED])
+    more = len(words) - LISTED
+    if more <= 0:
+        return some
+    return message("{ranges} and {count} more ranges", ranges=some, count=more)
 
 
-def slid_words(scene: Scene, found: Range, number: int) -> str:
+def slid_words(scene: Scene, found: Range, number: int) -> Message:
     """Words for one range of a sliding driver."""
     from graphkin.motion.driving import GRID
 
@@ -120,7 +145,15 @@ def slid_words(scene: Scene, found: Range, number: int) -> str:
     step = (sweep.high - sweep.low) / GRID
     free = low <= sweep.low + step, high >= sweep.high - step
     first, last = (f"{end / float(LENGTHS[unit]):.6g}" for end in found)
-    return FREE[free].format(first, last, unit)
+    ends = {"first": first, "last": last, "unit": unit}
+    match free:
+        case (False, False):
+            return message("{first} to {last} {unit}", **ends)
+        case (True, False):
+            return message("up to {last} {unit}", last=last, unit=unit)
+        case (False, True):
+            return message("{first} {unit} and more", first=first, unit=unit)
+    return message("of any size")
 
 
 def closing(scene: Scene, number: int = 1) -> ClosingRanges:

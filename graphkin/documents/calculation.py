@@ -27,7 +27,7 @@ from graphkin.drawing.richtext import (
 )
 from graphkin.drawing.symbol_markup import escape
 from graphkin.text import Words
-from graphkin.text.errors import PageError, Problem
+from graphkin.text.errors import PageError, Problem, message
 
 EQUATION_LETTER, NOTE = 2.5, 1.8
 """Heights of symbols and of the notes on what is known of them, in mm."""
@@ -239,9 +239,9 @@ def broken(
             raise PageError(
                 Problem(
                     "calculation",
-                    f"does not fit: {plain(line)}",
-                    "a shorter relation",
-                    "shorten the names of the points",
+                    message("does not fit: {line}", line=plain(line)),
+                    message("a shorter relation"),
+                    message("shorten the names of the points"),
                 )
             )
         written = line if solved else dotted(line, room)

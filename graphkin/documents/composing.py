@@ -20,7 +20,7 @@ from msgspec.structs import replace
 
 from graphkin.drawing.field import ABOVE, HEIGHT, LEAST_FIELD, MARGIN, WIDTH
 from graphkin.drawing.scale import Extent, Scales, digits, preferred, preferred_scales, ratio
-from graphkin.text.errors import PageError, Problem
+from graphkin.text.errors import PageError, Problem, message
 
 TIMES = (5.0, 4.0, 3.0, 2.5, 2.0, 1.5, 1.0, 0.75, 0.5, 0.4, 0.3, 0.25, 0.2, 0.15, 0.1, 0.05, 0.02)
 """Possible enlargements of plans relative to the vectors on the mechanism."""
@@ -249,7 +249,9 @@ def least(box: Extent) -> float:
     """The kL at which a mechanism just leaves room for a plan. Raises PageError for a dot."""
     needed = max(1000 * box.width / (WIDTH - NARROW), 1000 * box.height / HEIGHT)
     if not needed > 0:
-        raise PageError(Problem("scale", "the mechanism has no extent", "points apart"))
+        raise PageError(
+            Problem("scale", message("the mechanism has no extent"), message("points apart"))
+        )
     return float(needed)
 
 
@@ -306,16 +308,25 @@ def no_room(needs: Needs, stated: Stated, seconds: float) -> Problem:
     """The problem of stated scale factors that leave no room for the drawings."""
     if stated.ka:
         ka = digits(stated.ka / 1000)
-        found = f"does not fit: at {ka} (m/s²)/mm the acceleration plan leaves its field"
-        return Problem("sheet.ka", found, "a larger one", "write a larger ka, or leave it out")
+        found = message(
+            "does not fit: at {ka} (m/s²)/mm the acceleration plan leaves its field", ka=ka
+        )
+        return Problem(
+            "sheet.ka",
+            found,
+            message("a larger one"),
+            message("write a larger ka, or leave it out"),
+        )
     free = Stated(0.0, stated.times, 0.0)
     fits = largest(needs, free, seconds, times_of(free, TIMES, 1.0))
-    found = f"does not fit: at {ratio(stated.scale or 1.0)} the drawing leaves its fields"
+    found = message(
+        "does not fit: at {scale} the drawing leaves its fields", scale=ratio(stated.scale or 1.0)
+    )
     if fits is None:
-        return Problem("sheet", found, "drawings of a size", "leave [sheet] out")
+        return Problem("sheet", found, message("drawings of a size"), message("leave [sheet] out"))
     kL = next(kL for kL in preferred_scales(least(needs.bare)) if fits_at(needs, free, kL))
-    hint = f"write scale = {digits(kL)}, or leave it out"
-    return Problem("sheet.scale", found, f"{ratio(kL)} or smaller", hint)
+    hint = message("write scale = {kL}, or leave it out", kL=digits(kL))
+    return Problem("sheet.scale", found, message("{kL} or smaller", kL=ratio(kL)), hint)
 
 
 def fits_at(needs: Needs, stated: Stated, kL: float) -> bool:

@@ -30,7 +30,7 @@ from graphkin.drawing.field import A3_TITLE_BLOCK, ABOVE, AREA, BELOW, MARGIN, M
 from graphkin.drawing.frame import sheet_frame
 from graphkin.drawing.marks import Mark, Page, Text, reach
 from graphkin.drawing.richtext import extent, flowed, narrow_words
-from graphkin.text.errors import PageError, Problem
+from graphkin.text.errors import PageError, Problem, message
 
 LEADING = 4.6
 """Distance of the lines of data in mm."""
@@ -167,8 +167,8 @@ def one_sheet(drawing: Drawing, view: str, moved: Set[Moved], said: int) -> list
             marks.append(Text(x, y, line, "caption", 2.5, name="data"))
             y += LEADING
         if y > LOW + LEADING:
-            found = f"does not fit: {len(lines)} lines of data"
-            raise PageError(Problem("data", found, "data for one sheet"))
+            found = message("does not fit: {count} lines of data", count=len(lines))
+            raise PageError(Problem("data", found, message("data for one sheet")))
     top = y + GAP
     right: Rect = (MIDDLE + 6, top, AREA[2], LOW)
     if Moved.CONSTRUCTION in moved:

@@ -10,7 +10,7 @@ from graphkin.documents.sentences import sentences
 from graphkin.drawing.field import MARKED, Rect
 from graphkin.drawing.marks import Mark, Text
 from graphkin.drawing.richtext import are_clear, flowed, words_of
-from graphkin.text.errors import PageError, Problem
+from graphkin.text.errors import Message, PageError, Problem, message
 
 LOOKS = ((2.5, 5.6, 3.6), (2.2, 4.9, 3.4), (1.8, 4.0, 3.4))
 """Heights of lettering, each with the largest and the least distance of its lines, in mm."""
@@ -44,7 +44,7 @@ def listed(drawing: Drawing, x: float, y: float, width: float, bottom: float) ->
         if height == LOOKS[-1][0] or are_clear([line for _, line in lines], height, leading):
             break
     else:
-        raise too_long(len(lines), "ask for less on one sheet")
+        raise too_long(len(lines), message("ask for less on one sheet"))
     return written(lines, x, y, height, leading)
 
 
@@ -107,7 +107,9 @@ def in_columns(drawing: Drawing, columns: Sequence[Rect], begun: int) -> list[Ma
             marks, after = filled(sets, columns, height, leading, begun)
             if after == len(said):
                 return marks
-    raise too_long(sum(map(len, sets[0])), "view the steps, a sentence on each page: --view steps")
+    raise too_long(
+        sum(map(len, sets[0])), message("view the steps, a sentence on each page: --view steps")
+    )
 
 
 def on_sheets(drawing: Drawing, columns: Sequence[Rect], begun: int) -> Iterator[list[Mark]]:
@@ -161,9 +163,12 @@ def filled(
     return marks, len(sets[0])
 
 
-def too_long(lines: int, hint: str) -> PageError:
+def too_long(lines: int, hint: Message) -> PageError:
     """The problem of a construction with too many lines."""
-    found, expected = f"does not fit: {lines} lines", "a shorter construction"
+    found, expected = (
+        message("does not fit: {lines} lines", lines=lines),
+        message("a shorter construction"),
+    )
     return PageError(Problem("construction", found, expected, hint))
 
 

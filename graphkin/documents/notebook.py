@@ -16,7 +16,7 @@ from graphkin.drawing.marks import Mark, Text
 from graphkin.drawing.scale import Extent
 from graphkin.drawing.style import Ink
 from graphkin.mechanism import Mechanism, Which
-from graphkin.text.errors import PageError, Problem, SceneError
+from graphkin.text.errors import PageError, Problem, SceneError, joined, message
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -62,16 +62,22 @@ def chosen(drawings: list[Drawing], which: Which) -> Drawing:
     from graphkin.construction.core.naming import has_plan
 
     if which not in get_args(Which):
-        raise SceneError(Problem("plot", f"{which!r} is no drawing", ", ".join(get_args(Which))))
+        raise SceneError(
+            Problem(
+                "plot",
+                message("{which!r} is no drawing", which=which),
+                joined(", ", get_args(Which)),
+            )
+        )
     for drawing in drawings:
         if which == "mechanism" or (which == drawing.kind and has_plan(drawing)):
             return drawing
     raise SceneError(
         Problem(
             "plot",
-            f"nothing of the {which} plan is asked",
-            ", ".join(["mechanism", *(drawing.kind for drawing in drawings if has_plan(drawing))]),
-            f"ask for {'an' if which == 'acceleration' else 'a'} {which} under [ask]",
+            message("nothing of the {which} plan is asked", which=which),
+            joined(", ", ("mechanism", *(each.kind for each in drawings if has_plan(each)))),
+            message("ask for {which} under [ask]", which=which),
         )
     )
 
@@ -125,7 +131,12 @@ def lettered(board: FieldContent, width: float, height: float) -> list[Mark]:
     lost = [label for label in board.unplaced if label.markup not in shown]
     if len(lost) > sum(map(must_be_named, board.labels)):
         problem = no_place_for(lost)
-        found = f"axes of {width:.0f} × {height:.0f} mm are too small: {problem.found}"
-        hint = "a larger figure, or fewer axes in it"
+        found = message(
+            "axes of {width:.0f} × {height:.0f} mm are too small: {found}",
+            width=width,
+            height=height,
+            found=problem.found,
+        )
+        hint = message("a larger figure, or fewer axes in it")
         raise PageError(Problem("plot", found, problem.expected, hint))
     return [*field.marks, *field.details]

@@ -17,7 +17,7 @@ from graphkin.construction.core.drawn_scene import METRES
 from graphkin.mechanism import Mechanism
 from graphkin.scene.model import FRAME, Link, Scene
 from graphkin.structure.link_axes import guide_line
-from graphkin.text.errors import PageError, Problem
+from graphkin.text.errors import PageError, Problem, message
 
 ALPHABET = f"{digits}{ascii_uppercase}{ascii_lowercase}_-"
 LETTERS = f"{ascii_uppercase}{ascii_lowercase}"
@@ -48,24 +48,44 @@ def pmks_file(mechanism: Mechanism) -> bytes:
 
 def unknown(scene: Scene) -> Iterator[Problem]:
     """The problems of a scene that PMKS+ does not support."""
-    hint = "leave pmks out"
+    hint = message("leave pmks out")
     for link in scene.links.values():
         place = f"links.{link.name}"
         if link.has_wheels or link.cam or link.profiles:
-            yield Problem(place, "PMKS+ has no wheels, cams or profiles", "pins and guides", hint)
+            yield Problem(
+                place,
+                message("PMKS+ has no wheels, cams or profiles"),
+                message("pins and guides"),
+                hint,
+            )
         if any(slide.on != FRAME for slide in link.slides) or len(link.slides) > 1:
-            yield Problem(place, "PMKS+ has no moving guides", "a block on a fixed guide", hint)
+            yield Problem(
+                place,
+                message("PMKS+ has no moving guides"),
+                message("a block on a fixed guide"),
+                hint,
+            )
         elif link.slides and len(link.points) > 1:
-            found = "PMKS+ has no block with more than one point"
-            yield Problem(place, found, "a block on a fixed guide", hint)
+            found = message("PMKS+ has no block with more than one point")
+            yield Problem(place, found, message("a block on a fixed guide"), hint)
     cranks = [driver for driver in scene.drivers if driver.kind == "turn"]
     cranks = [driver for driver in cranks if driver.against == FRAME]
     pivoted = [d for d in cranks if {*scene.link(d.link).points} & {*scene.frame.points}]
     if len(scene.drivers) != 1 or not pivoted:
-        yield Problem("drivers", "PMKS+ moves one crank about a fixed pin", "one crank", hint)
+        yield Problem(
+            "drivers",
+            message("PMKS+ moves one crank about a fixed pin"),
+            message("one crank"),
+            hint,
+        )
     points = {point for link in (scene.frame, *scene.links.values()) for point in link.points}
     if len(points) + sum(bool(link.slides) for link in scene.links.values()) > len(LETTERS):
-        yield Problem("links", f"more than {len(LETTERS)} joints", "fewer points", hint)
+        yield Problem(
+            "links",
+            message("more than {count} joints", count=len(LETTERS)),
+            message("fewer points"),
+            hint,
+        )
 
 
 class PmksText:

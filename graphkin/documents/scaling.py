@@ -20,7 +20,7 @@ from graphkin.numbers.arithmetic import np
 from graphkin.scene.model import Sheet
 from graphkin.scene.quantity import Quantity
 from graphkin.text import Words, words
-from graphkin.text.errors import PageError, Problem, SceneError
+from graphkin.text.errors import Message, PageError, Problem, SceneError, message
 
 
 def targets_of(mechanism: Mechanism, kind: str) -> tuple[Target, ...]:
@@ -86,9 +86,9 @@ def stated(mechanism: Mechanism) -> Stated:
     (said,) = stated_of(sheet, mechanism.scene.values, 1)
     if any(said.times.values()) and not the_crank(mechanism):
         key = "enlarge" if sheet.enlarge else "rule"
-        found = "the plans of this mechanism are not drawn by one crank"
-        hint = "leave it out: they are then drawn as large as they fit"
-        raise SceneError(Problem(f"sheet.{key}", found, "one driver, which turns", hint))
+        found = message("the plans of this mechanism are not drawn by one crank")
+        hint = message("leave it out: they are then drawn as large as they fit")
+        raise SceneError(Problem(f"sheet.{key}", found, message("one driver, which turns"), hint))
     return said
 
 
@@ -199,33 +199,51 @@ def refuse_dots(scales: Scales, sheets: Sequence[Drawing], stated: Sequence[str]
     across = min(1000 * sheet.reach / scales.kL for sheet in sheets)
     if across < LEAST_ACROSS and "scale" in stated:
         most = scales.kL * across / LEAST_ACROSS
-        found = f"at 1:{digits(scales.kL)} the mechanism is drawn {across:.2g} mm across"
-        smaller = f"a smaller scale, {digits(not_above(most))} or less"
+        found = message(
+            "at 1:{kL} the mechanism is drawn {across:.2g} mm across",
+            kL=digits(scales.kL),
+            across=across,
+        )
+        smaller = message("a smaller scale, {most} or less", most=digits(not_above(most)))
         raise dot("scale", found, smaller, LEAST_ACROSS)
     if across < LEAST_ACROSS and "enlarge" in stated:
         times = digits(scales.of_bar("velocity"))
-        found = f"at {times} times the mechanism is drawn {across:.2g} mm across"
-        raise dot("enlarge", found, "a smaller enlarge", LEAST_ACROSS)
+        found = message(
+            "at {times} times the mechanism is drawn {across:.2g} mm across",
+            times=times,
+            across=across,
+        )
+        raise dot("enlarge", found, message("a smaller enlarge"), LEAST_ACROSS)
     for sheet in sheets:
         longest = 1000 * abs(sheet.at_scale(sheet.plane, sheet.largest)) / scales.kL
         if longest >= LEAST or not sheet.settled(sheet.largest):
             continue
-        found = f"the longest {sheet.kind} is drawn {longest:.2g} mm long"
+        found = message(
+            "the longest acceleration is drawn {longest:.2g} mm long"
+            if sheet.kind == "acceleration"
+            else "the longest velocity is drawn {longest:.2g} mm long",
+            longest=longest,
+        )
         if sheet.kind == "acceleration" and "ka" in stated:
             ka = scales.ka / 1000
             most = not_above(ka * longest / LEAST)
-            raise dot(
-                "ka", f"at {digits(ka)} (m/s²)/mm {found}", f"a smaller ka, {digits(most)} or less"
-            )
+            found = message("at {ka} (m/s²)/mm {found}", ka=digits(ka), found=found)
+            raise dot("ka", found, message("a smaller ka, {most} or less", most=digits(most)))
         own = scales.of_bar(sheet.kind)
         if "enlarge" in stated and own < 1:
-            raise dot("enlarge", f"at {digits(own)} times {found}", "a larger enlarge")
+            raise dot(
+                "enlarge",
+                message("at {own} times {found}", own=digits(own), found=found),
+                message("a larger enlarge"),
+            )
 
 
-def dot(key: str, found: str, what: str, least: float = LEAST) -> PageError:
+def dot(key: str, found: Message, what: Message, least: float = LEAST) -> PageError:
     """The error of a scale factor that is too coarse, with a hint what to write."""
-    hint = f"write {what}, or leave it out"
-    return PageError(Problem(f"sheet.{key}", found, f"{least:g} mm or more", hint))
+    hint = message("write {what}, or leave it out", what=what)
+    return PageError(
+        Problem(f"sheet.{key}", found, message("{least:g} mm or more", least=least), hint)
+    )
 
 
 def not_above(number: float) -> float:

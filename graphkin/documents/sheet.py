@@ -50,7 +50,7 @@ from graphkin.scene.link_points import lettered
 from graphkin.scene.model import Link
 from graphkin.scene.requests import LINKS_ASKED
 from graphkin.text import Words
-from graphkin.text.errors import PageError, Problem
+from graphkin.text.errors import PageError, Problem, message
 from graphkin.text.markup import names_in
 
 BLANK = ". . . . . . . . ."
@@ -266,9 +266,9 @@ def in_lines(
     raise PageError(
         Problem(
             "data",
-            f"does not fit: {len(lines)} lines of small lettering",
-            "fewer lines above the drawings",
-            "shorten names and notes, or split the scene",
+            message("does not fit: {count} lines of small lettering", count=len(lines)),
+            message("fewer lines above the drawings"),
+            message("shorten names and notes, or split the scene"),
         )
     )
 

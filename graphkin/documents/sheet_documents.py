@@ -29,7 +29,7 @@ from graphkin.mechanism import Mechanism
 from graphkin.motion.motion_curves import curves_of
 from graphkin.scene.model import Scene
 from graphkin.text import LANGUAGES, Words, words
-from graphkin.text.errors import Problem, SceneError, Sought, WitnessError
+from graphkin.text.errors import Problem, SceneError, Sought, WitnessError, either, message
 
 CALCULATED = ("key", "task")
 """The views that come with calculation pages."""
@@ -59,7 +59,11 @@ def hand_out(
     spoken, mechanism = language_of(mechanism, language), mechanism.spoken(language)
     if mechanism.scene.sheet.sheets != len(SHEETS):
         raise SceneError(
-            Problem("sheet.sheets", "one sheet for both plans is not drawn yet", "2, or left out")
+            Problem(
+                "sheet.sheets",
+                message("one sheet for both plans is not drawn yet"),
+                message("2, or left out"),
+            )
         )
     verdict = proved(mechanism, sheet_motion(mechanism))
     drawings = drawings_of(mechanism, verdict, spoken)
@@ -119,7 +123,11 @@ def language_of(mechanism: Mechanism, language: str | None) -> Words:
     code = language or mechanism.scene.sheet.language
     if code not in LANGUAGES:
         raise SceneError(
-            Problem("sheet.language", f'"{code}" is not a language', " or ".join(LANGUAGES))
+            Problem(
+                "sheet.language",
+                message('"{code}" is not a language', code=code),
+                either(LANGUAGES),
+            )
         )
     return words(code)
 
@@ -140,23 +148,32 @@ def lost(verdict: Verdict) -> Problem:
     """The problem of quantities without a reliable digit; its place is the first of them."""
     return Problem(
         verdict.unsure[0],
-        "no digit of it is sure: the rounding of doubles, which flat crossings and angles of many "
-        "turns enlarge, exceeds it",
-        "crossings that are less flat, one after the other",
-        "move the driver; no sheet is handed out",
+        message(
+            "no digit of it is sure: the rounding of doubles, which flat crossings and "
+            "angles of many turns enlarge, exceeds it"
+        ),
+        message("crossings that are less flat, one after the other"),
+        message("move the driver; no sheet is handed out"),
     )
 
 
 def disagreements(scene: Scene, verdict: Verdict) -> Iterator[Problem]:
     """The reasons why the independent route disagrees: the numbers, the branches, or both."""
-    refused = "no sheet is handed out"
+    refused = message("no sheet is handed out")
     if verdict.differs:
         difference = f"{verdict.largest_difference:.1e}"
-        found = f"construction and vector loops differ by {difference}"
-        yield Problem(verdict.quantity, found, f"at most {verdict.limit:.1e}", refused)
+        found = message(
+            "construction and vector loops differ by {difference}", difference=difference
+        )
+        yield Problem(
+            verdict.quantity, found, message("at most {limit:.1e}", limit=verdict.limit), refused
+        )
     if verdict.branches:
-        found = f"{verdict.not_as_stated(scene.branches)} does not hold by the vector loops"
-        yield Problem("branches", found, "a construction that stands as stated", refused)
+        found = message(
+            "{branches} does not hold by the vector loops",
+            branches=verdict.not_as_stated(scene.branches),
+        )
+        yield Problem("branches", found, message("a construction that stands as stated"), refused)
 
 
 def nearly_singular(mechanism: Mechanism) -> Problem:
@@ -166,9 +183,12 @@ def nearly_singular(mechanism: Mechanism) -> Problem:
     number = min(margins, key=lambda step: float(margins[step]))
     return Problem(
         "position",
-        f"the lines at {letter_of(mechanism.program, number)} cross at a sine of "
-        f"{float(margins[number]):.1e}, nearly singular",
-        f"at least {FAIR:g}",
+        message(
+            "the lines at {point} cross at a sine of {sine:.1e}, nearly singular",
+            point=letter_of(mechanism.program, number),
+            sine=float(margins[number]),
+        ),
+        message("at least {least:g}", least=FAIR),
         beside_dead_point(mechanism.scene, mechanism.program, number),
         about=(Sought(),),
         file=mechanism.scene.name,
@@ -191,7 +211,11 @@ def drawings_of(
     ]
     if not drawings:
         raise SceneError(
-            Problem("ask", "asks for nothing that is drawn", "velocities, accelerations, centres …")
+            Problem(
+                "ask",
+                message("asks for nothing that is drawn"),
+                message("velocities, accelerations, centres …"),
+            )
         )
     stand = None if held else mechanism_field(drawings)
     return [replace(each, stand=stand, again=i > 0) for i, each in enumerate(drawings)]

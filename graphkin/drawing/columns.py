@@ -13,7 +13,7 @@ from msgspec.structs import replace
 from graphkin.drawing.field import Rect
 from graphkin.drawing.marks import LineMark, Mark, Text, box
 from graphkin.drawing.richtext import extent
-from graphkin.text.errors import PageError, Problem
+from graphkin.text.errors import PageError, Problem, message
 
 HEIGHT, SMALL = 2.5, 1.8
 """Letter heights in mm: the preferred one and the least."""
@@ -301,10 +301,20 @@ def no_room(tables: Sequence[ColumnTable], width: float) -> Problem:
         for i in range(len(row.cells) - 2)
     )
     if widest > tables[0].widths[0]:
-        found = f"does not fit: {name} is {widest:.0f} mm long in the smallest lettering"
-        expected = f"about {tables[0].widths[0]:.0f} mm"
-        return Problem("tables", found, expected, "shorten the names of its points")
+        found = message(
+            "does not fit: {name} is {widest:.0f} mm long in the smallest lettering",
+            name=name,
+            widest=widest,
+        )
+        expected = message("about {width:.0f} mm", width=tables[0].widths[0])
+        return Problem("tables", found, expected, message("shorten the names of its points"))
     rows = sum(len(table.rows) for table in tables)
-    found = f"does not fit: {rows} rows are too many for the {width:.0f} mm above the title block"
-    hint = "ask for fewer velocities, accelerations or links on one sheet, or split the scene"
-    return Problem("tables", found, "fewer rows", hint)
+    found = message(
+        "does not fit: {rows} rows are too many for the {width:.0f} mm above the title block",
+        rows=rows,
+        width=width,
+    )
+    hint = message(
+        "ask for fewer velocities, accelerations or links on one sheet, or split the scene"
+    )
+    return Problem("tables", found, message("fewer rows"), hint)

@@ -13,7 +13,7 @@ from graphkin.drawing.field import A4_AREA, A4_FRAME, TITLE_HEIGHT, TITLE_WIDTH,
 from graphkin.drawing.marks import LineMark, Mark, Text, box
 from graphkin.drawing.richtext import extent, flowed, plain, words_of
 from graphkin.drawing.symbol_markup import escape
-from graphkin.text.errors import PageError, Problem
+from graphkin.text.errors import PageError, Problem, message
 
 A3 = (420.0, 297.0)
 FILING, EDGE, BAND, FIELD = 20.0, 10.0, 5.0, 50.0  # margins, grid border's width, field length
@@ -170,10 +170,10 @@ def fitting(
             return lines, height
     raise PageError(
         Problem(
-            f"title block, {name.replace('_', ' ')}",
-            f"“{text}” does not fit in the smallest lettering",
-            f"text for {room:g} × {depth:g} mm",
-            "shorten the text",
+            message("title block, {name}", name=name.replace("_", " ")),
+            message("“{text}” does not fit in the smallest lettering", text=text),
+            message("text for {room:g} × {depth:g} mm", room=room, depth=depth),
+            message("shorten the text"),
         )
     )
 
@@ -257,8 +257,16 @@ def ends(y: float, words: tuple[str, str], name: str) -> list[Mark]:
         lines = flowed(words_of(first), " ", room, height)
         if len(lines) > 2:
             fits = len(plain(" ".join(lines[:2])))
-            found = f"“{plain(first)}” is too long: {len(plain(first))} letters"
-            raise PageError(Problem(name, found, f"about {fits} letters", "shorten it"))
+            found = message(
+                "“{text}” is too long: {count} letters",
+                text=plain(first),
+                count=len(plain(first)),
+            )
+            raise PageError(
+                Problem(
+                    name, found, message("about {fits} letters", fits=fits), message("shorten it")
+                )
+            )
     low = y + CLOSE * (len(lines) - 1) / 2
     marks: list[Mark] = [
         Text(left, low - CLOSE * (len(lines) - 1 - i), line, "title", height, "start", name)

@@ -32,7 +32,7 @@ from graphkin.drawing.placement import CLEAR, HOPELESS, Spot, Wish, place
 from graphkin.drawing.richtext import extent, flowed_pieces, plain, words_of
 from graphkin.drawing.shapes import Array, Box, struck
 from graphkin.drawing.style import OWN_LINES, VECTORS
-from graphkin.text.errors import PageError, Problem
+from graphkin.text.errors import PageError, Problem, message
 
 NUMBER = 2.3
 """Radius of the circle around a link's number, in mm."""
@@ -688,9 +688,9 @@ def no_place_for(labels: Sequence[Label]) -> Problem:
     names = ", ".join(label.name or plain(label.markup) for label in labels)
     return Problem(
         "labels",
-        f"does not fit: no free place for {names}",
-        "room for every name",
-        "ask for less on one sheet, or choose a position in which less falls together",
+        message("does not fit: no free place for {names}", names=names),
+        message("room for every name"),
+        message("ask for less on one sheet, or choose a position in which less falls together"),
     )
 
 

@@ -17,7 +17,7 @@ from msgspec import Struct
 from msgspec.structs import replace
 
 from graphkin.drawing.richtext import extent
-from graphkin.text.errors import PageError, Problem
+from graphkin.text.errors import Message, PageError, Problem, message
 
 Point = tuple[float, float]
 Anchor = Literal["start", "middle", "end"]
@@ -265,22 +265,33 @@ def fits(mark: Mark, width: float, height: float) -> bool:
     return False
 
 
-def fault(mark: Mark, width: float, height: float) -> tuple[str, str] | None:
+def fault(mark: Mark, width: float, height: float) -> tuple[Message, Message] | None:
     """The problem (found, expected) of a mark that cannot be drawn on a page of this size in mm."""
     if not all(map(isfinite, numbers(mark))):
-        return "a coordinate that is not a finite number", "finite millimetres"
+        return message("a coordinate that is not a finite number"), message("finite millimetres")
     if isinstance(mark, CircleMark | Arc) and mark.r <= 0:
-        return f"radius {mark.r:g} mm", "a radius above zero"
+        return message("radius {radius:g} mm", radius=mark.r), message("a radius above zero")
     if isinstance(mark, Text) and mark.height <= 0:
-        return f"lettering {mark.height:g} mm high", "a height above zero"
+        found = message("lettering {height:g} mm high", height=mark.height)
+        return found, message("a height above zero")
     if isinstance(mark, Arc) and abs(mark.end - mark.start) >= 360:
-        return f"an arc over {abs(mark.end - mark.start):g}°", "less than 360° (else a circle)"
+        found = message("an arc over {over:g}°", over=abs(mark.end - mark.start))
+        return found, message("less than 360° (else a circle)")
     if isinstance(mark, Polyline) and len(mark.points) < 2:
-        return f"a broken line of {len(mark.points)} points", "two points or more"
+        found = message("a broken line of {count} points", count=len(mark.points))
+        return found, message("two points or more")
     left, top, right, bottom = reach(mark)
     if left < -SLACK or top < -SLACK or right > width + SLACK or bottom > height + SLACK:
-        found = f"reaches x {left:.2f} to {right:.2f}, y {top:.2f} to {bottom:.2f} mm"
-        return found, f"a mark within the page of {width:g} × {height:g} mm"
+        found = message(
+            "reaches x {left:.2f} to {right:.2f}, y {top:.2f} to {bottom:.2f} mm",
+            left=left,
+            right=right,
+            top=top,
+            bottom=bottom,
+        )
+        return found, message(
+            "a mark within the page of {width:g} × {height:g} mm", width=width, height=height
+        )
     return None
 
 

@@ -16,7 +16,7 @@ from itertools import pairwise
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 from graphkin.text import paths
-from graphkin.text.errors import PageError, Problem
+from graphkin.text.errors import Message, PageError, Problem, message
 
 if TYPE_CHECKING:
     from pathlib import Path
@@ -66,7 +66,11 @@ def missing(text: str, italic: bool) -> PageError:
     signs = sorted(set(text) - measures(italic).keys())
     names = ", ".join(f"“{sign}” (U+{ord(sign):04X})" for sign in signs)
     return PageError(
-        Problem(f"text “{text}”", f"{names} not in the sheet's font", "Latin, Greek, mathematics")
+        Problem(
+            message("text “{text}”", text=text),
+            message("{names} not in the sheet's font", names=names),
+            message("Latin, Greek, mathematics"),
+        )
     )
 
 
@@ -177,10 +181,10 @@ def plain(markup: str) -> str:
     return "".join(piece.text for piece in pieces(markup))
 
 
-def broken(markup: str, found: str) -> PageError:
+def broken(markup: str, found: Message) -> PageError:
     """The error for a markup that cannot be read."""
-    hint = "write \\* \\_ \\^ \\{ \\} for the signs themselves"
-    return PageError(Problem(f"markup “{markup}”", found, hint=hint))
+    hint = message("write \\* \\_ \\^ \\{{ \\}} for the signs themselves")
+    return PageError(Problem(message("markup “{markup}”", markup=markup), found, hint=hint))
 
 
 def pieces(markup: str) -> list[TextPiece]:
@@ -194,7 +198,7 @@ def pieces(markup: str) -> list[TextPiece]:
             level = 0
         elif token[0] in "_^":
             if level:
-                raise broken(markup, "a script within a script")
+                raise broken(markup, message("a script within a script"))
             level = -1 if token[0] == "_" else 1
             if token[1:] != "{":
                 add(found, TextPiece(literal(markup, token[1:]), italic, level))
@@ -202,14 +206,14 @@ def pieces(markup: str) -> list[TextPiece]:
         else:
             add(found, TextPiece(literal(markup, token), italic, level))
     if italic or level:
-        raise broken(markup, "an italic or a script that does not end")
+        raise broken(markup, message("an italic or a script that does not end"))
     return found
 
 
 def literal(markup: str, token: str) -> str:
     """The characters of a token."""
     if token in ("", "*", "_", "^", "\\"):
-        raise broken(markup, "a sign of the markup that stands alone")
+        raise broken(markup, message("a sign of the markup that stands alone"))
     return known(token[1:] if token[0] == "\\" else token)
 
 

@@ -7,7 +7,7 @@ closure numbers in the scene select one of them; if they do not, the scene is re
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from itertools import combinations
 from typing import Any
 
@@ -43,7 +43,17 @@ from graphkin.loops.newton import (
 from graphkin.loops.rigid_bodies import Complexes, Guide, Reals
 from graphkin.loops.rounding import PositionBounds
 from graphkin.scene.model import FRAME, Closure, Scene, Side, Way
-from graphkin.text.errors import GraphkinError, Problem, Sought, StructureError, WitnessError
+from graphkin.text.errors import (
+    GraphkinError,
+    Message,
+    Problem,
+    Sought,
+    StructureError,
+    WitnessError,
+    joined,
+    message,
+    verbatim,
+)
 
 STARTS = {1: 12, 2: 48}
 """Random starts in the search for closures, by the number of links in the group."""
@@ -391,8 +401,8 @@ def anywhere(loops: Equations) -> Reals:
     raise WitnessError(
         Problem(
             "loops",
-            f"the loops do not close from any of {TRIES} starts",
-            "lengths for which the mechanism can be assembled",
+            message("the loops do not close from any of {tries} starts", tries=TRIES),
+            message("lengths for which the mechanism can be assembled"),
         )
     )
 
@@ -417,8 +427,8 @@ def refuse_undetermined(loops: Equations, order: list[Group]) -> None:
         raise StructureError(
             Problem(
                 "drivers",
-                f"nothing determines the motion of {words('link', left)}",
-                "as many drivers as the mechanism has freedoms",
+                message("nothing determines the motion of {left}", left=links_words(left)),
+                message("as many drivers as the mechanism has freedoms"),
             )
         )
 
@@ -432,9 +442,11 @@ def picked(scene: Scene, loops: Equations, part: Equations, group: Group, found:
     if not len(found):
         raise WitnessError(
             Problem(
-                words("link", group.links),
-                "they do not close" if len(group.links) > 1 else "it does not close",
-                "lengths and driver positions for which the mechanism can be assembled",
+                links_words(group.links),
+                message("they do not close")
+                if len(group.links) > 1
+                else message("it does not close"),
+                message("lengths and driver positions for which the mechanism can be assembled"),
                 about=(Sought(tuple(group.links)),),
             )
         )
@@ -451,10 +463,16 @@ def picked(scene: Scene, loops: Equations, part: Equations, group: Group, found:
         return np.asarray(found[fitting[0]])
     problem = Problem(
         "branches",
-        f"{words('link', group.links)} close in {len(found)} ways, of which {len(fitting)} "
-        f"{'fits' if len(fitting) == 1 else 'fit'} what is stated",
+        message(
+            "{links} close in {count} ways, of which 1 fits what is stated"
+            if len(fitting) == 1
+            else "{links} close in {count} ways, of which {fitting} fit what is stated",
+            links=links_words(group.links),
+            count=len(found),
+            fitting=len(fitting),
+        ),
         suggestion(group, loops),
-        "; ".join(described(part, group, found, motion)),
+        joined("; ", described(part, group, found, motion)),
     )
     raise StructureError(problem) if len(fitting) else WitnessError(problem)
 
@@ -511,20 +529,25 @@ def led_by(link: str, group: Group, loops: Equations, part: Equations) -> int | 
     return next((j for j, guide in enumerate(part.guides) if spot(guide) == led), None)
 
 
-def suggestion(group: Group, loops: Equations) -> str:
+def suggestion(group: Group, loops: Equations) -> Message:
     """A statement for [branches] that would select one closure."""
     first = next(link for link in loops.links if link in group.links)
     if group.slides and len(group.links) <= 2:
         block = loops.guides[group.slides[0].slide].block
-        return f'{block} = "forward" or "backward"'
+        return message('{block} = "forward" or "backward"', block=block)
     if group.is_dyad:
         ends = sorted(group.outer, key=lambda joint: group.links[0] not in joint.links)
         left, right = (joint.pin for joint in ends)
-        return f'{group.inner[0].pin} = "left of {left}-{right}" or "right of …"'
-    return f'{first} = "closure 1", …'
+        return message(
+            '{pin} = "left of {left}-{right}" or "right of …"',
+            pin=group.inner[0].pin,
+            left=left,
+            right=right,
+        )
+    return verbatim(f'{first} = "closure 1", …')
 
 
-def described(part: Equations, group: Group, found: Reals, motion: Motion) -> list[str]:
+def described(part: Equations, group: Group, found: Reals, motion: Motion) -> list[Message]:
     """A line for each closure with the positions (m) of the pins that the group places."""
     mine = {point for link in group.links for point in part.bodies[link]}
     before = {point for link in group.known for point in part.bodies.get(link, ())}
@@ -535,9 +558,17 @@ def described(part: Equations, group: Group, found: Reals, motion: Motion) -> li
         where = ", ".join(
             f"{pin} ({z.real:.4g}, {z.imag:.4g}) m" for pin, z in zip(pins, spots, strict=True)
         )
-        lines.append(f"closure {n + 1}: {where}" if where else f"closure {n + 1}")
+        lines.append(
+            message(
+                "closure {number}: {places}" if where else "closure {number}",
+                number=n + 1,
+                places=where,
+            )
+        )
     return lines
 
 
-def words(noun: str, names: list[str] | tuple[str, ...]) -> str:
-    return f"{noun}{'s' if len(names) > 1 else ''} {', '.join(names)}"
+def links_words(names: Sequence[str]) -> Message:
+    if len(names) == 1:
+        return message("link {name}", name=names[0])
+    return message("links {names}", names=", ".join(names))

@@ -55,7 +55,7 @@ from graphkin.loops.rigid_bodies import (
 from graphkin.numbers.arithmetic import Point, Real
 from graphkin.scene.model import FRAME, LEADING, Driver, Scene
 from graphkin.scene.wheels import angle_less_cycles as whole_turned
-from graphkin.text.errors import Problem, StructureError
+from graphkin.text.errors import Problem, StructureError, message
 
 if TYPE_CHECKING:
     from graphkin.numbers.cam_motions import Rise
@@ -283,10 +283,15 @@ def driven_slide(number: int, driver: Driver, guides: Sequence[Guide]) -> int:
     raise StructureError(
         Problem(
             f"drivers.{number + 1}",
-            f"link {driver.link} does not {driver.kind} on link {driver.against}",
-            "a block and the link that carries its guide"
+            message(
+                "link {link} does not {kind} on link {against}",
+                link=driver.link,
+                kind=driver.kind,
+                against=driver.against,
+            ),
+            message("a block and the link that carries its guide")
             if driver.kind == "slide"
-            else "a wheel and the link that carries its straight track",
+            else message("a wheel and the link that carries its straight track"),
         )
     )
 
@@ -720,8 +725,8 @@ def refuse_loose(links: Sequence[str], tree: Tree) -> None:
         raise StructureError(
             Problem(
                 f"links.{name}",
-                "no pin, guide or track joins this link to the frame",
-                f"a point shared with another link, {LEADING}",
+                message("no pin, guide or track joins this link to the frame"),
+                message("a point shared with another link, {leading}", leading=LEADING),
             )
             for name in loose
         )

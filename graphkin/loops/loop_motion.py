@@ -11,7 +11,7 @@ from msgspec import Struct
 from graphkin.loops.equations import Equations
 from graphkin.loops.rigid_bodies import Complexes, Guide, Reals
 from graphkin.scene.link_points import ends_of
-from graphkin.text.errors import Problem, StructureError
+from graphkin.text.errors import Problem, StructureError, message
 
 Spot = tuple[str, int, str]
 """A guide, by its block, its number on the block, and whether it is a track."""
@@ -169,7 +169,11 @@ class Motion(Struct, frozen=True, eq=False):
         if point not in self.names or (carrier and carrier not in self.index):
             known = ", ".join(self.names)
             raise StructureError(
-                Problem("points", f"no link has the point {name}", f"one of {known}")
+                Problem(
+                    "points",
+                    message("no link has the point {name}", name=name),
+                    message("one of {names}", names=known),
+                )
             )
         p = self.names[point]
         if carrier:

@@ -20,7 +20,7 @@ from graphkin.loops.no_slip import within_half_a_turn
 from graphkin.loops.rigid_bodies import Complexes, Reals
 from graphkin.loops.rounding import Rounding, rounding, straight
 from graphkin.scene.model import FRAME
-from graphkin.text.errors import Problem, StructureError, WitnessError
+from graphkin.text.errors import NO_WORDS, Problem, StructureError, WitnessError, message
 
 LOOSE = 1e-9
 """Share of a unit direction below which the linear equations determine an unknown."""
@@ -565,9 +565,14 @@ def refuse_undriven(loops: Equations) -> None:
         raise StructureError(
             Problem(
                 "drivers",
-                f"{loops.unknown_count} unknowns but only {loops.equation_count} loop and driver "
-                "equations",
-                f"{missing} more driver{'s' if missing > 1 else ''}",
+                message(
+                    "{unknown_count} unknowns but only {equation_count} loop and driver equations",
+                    unknown_count=loops.unknown_count,
+                    equation_count=loops.equation_count,
+                ),
+                message(
+                    "1 more driver" if missing == 1 else "{missing} more drivers", missing=missing
+                ),
             )
         )
 
@@ -578,25 +583,33 @@ def refuse_failure(loops: Equations, unknowns: Reals, report: Report) -> None:
         return
     if not report.closed[0]:
         spare = loops.equation_count - loops.unknown_count
-        hint = (
-            f"equations beyond the unknowns ({spare}) must be met, too: what is over-constrained "
-            "closes only with lengths that fit"
+        hint = message(
+            "equations beyond the unknowns ({spare}) must be met, too: what is "
+            "over-constrained closes only with lengths that fit",
+            spare=spare,
         )
         raise WitnessError(
             Problem(
                 "loops",
-                f"the loops do not close: after {report.iterations} iterations "
-                f"{report.remains[0]:.3g} m remain open, most at {widest(loops, unknowns)}",
-                "lengths and driver positions for which the mechanism can be assembled",
-                hint if spare > 0 else "",
+                message(
+                    "the loops do not close: after {iterations} iterations {remains:.3g} m "
+                    "remain open, most at {place}",
+                    iterations=report.iterations,
+                    remains=report.remains[0],
+                    place=widest(loops, unknowns),
+                ),
+                message("lengths and driver positions for which the mechanism can be assembled"),
+                hint if spare > 0 else NO_WORDS,
             )
         )
     raise WitnessError(
         Problem(
             "loops",
-            "singular position, or so near to one that rounding hides the difference",
-            "a position in which the drivers' speeds determine all others",
-            "which positions are singular depends on the driver: drive another link or move on",
+            message("singular position, or so near to one that rounding hides the difference"),
+            message("a position in which the drivers' speeds determine all others"),
+            message(
+                "which positions are singular depends on the driver: drive another link or move on"
+            ),
         )
     )
 
@@ -606,7 +619,10 @@ def widest(loops: Equations, unknowns: Reals) -> str:
     gaps = np.abs(scaled(loops, unknowns)[0][0])
     chains = len(loops.closing)
     joints = np.hypot(gaps[:chains], gaps[chains : 2 * chains])
-    drivers = [f"driver {number}" for number in range(1, len(loops.drives.turns) + 1)]
+    drivers = [
+        message("driver {number}", number=number)
+        for number in range(1, len(loops.drives.turns) + 1)
+    ]
     every = np.concatenate([joints, gaps[2 * chains :]])
     words = [*loops.closing, *loops.slips.words, *drivers]
     return words[int(np.argmax(np.nan_to_num(every, nan=np.inf)))]

@@ -17,7 +17,7 @@ from graphkin.loops.parallels import Parallel
 from graphkin.loops.rigid_bodies import Body, Guide, Numbers, Reals, radius, written_line
 from graphkin.numbers.arithmetic import Point, Real
 from graphkin.scene.model import FRAME, Rolling, Scene, Wheel
-from graphkin.text.errors import Problem, StructureError
+from graphkin.text.errors import Message, Problem, StructureError, message
 
 
 class Chain(Struct, frozen=True):
@@ -89,8 +89,12 @@ def refuse_unknown_lean(turned: Turnings, guides: Sequence[Guide]) -> None:
             raise StructureError(
                 Problem(
                     f"links.{guide.block}.slides",
-                    f"the angle between this block and link {guide.on} is not known",
-                    hint=f"write link {guide.on} as the block that slides on {guide.block}",
+                    message("the angle between this block and link {on} is not known", on=guide.on),
+                    hint=message(
+                        "write link {on} as the block that slides on {block}",
+                        on=guide.on,
+                        block=guide.block,
+                    ),
                 )
             )
 
@@ -194,13 +198,25 @@ class Tree:
                 if holder.setdefault(point, link) == link:
                     continue
                 if not {(point, link), (point, holder[point])} <= self.spent:
-                    words = f"pin {point} of links {holder[point]} and {link}"
+                    words = message(
+                        "pin {point} of links {one} and {other}",
+                        point=point,
+                        one=holder[point],
+                        other=link,
+                    )
                     found[words] = self.at(holder[point], point).minus(self.at(link, point))
         for index, guide in enumerate(self.guides):
             if index not in self.passed:
                 stand = self.on_guide(index).along(index, 1)
                 head = self.step(self.origins[guide.block], guide.block, self.head(index))
-                words = f"{guide.word} {guide.number + 1} of link {guide.block} on link {guide.on}"
+                words = message(
+                    "guide {number} of link {block} on link {on}"
+                    if guide.turns_alike
+                    else "track {number} of link {block} on link {on}",
+                    number=guide.number + 1,
+                    block=guide.block,
+                    on=guide.on,
+                )
                 found[words] = head.minus(stand)
         return found
 
@@ -284,9 +300,12 @@ class Slips(Struct, frozen=True, eq=False):
     apart: tuple[CountedApart, ...]
 
     @property
-    def words(self) -> list[str]:
+    def words(self) -> list[Message]:
         """The description of each row."""
-        return [f"the contact of link {wheel} with {on}" for wheel, on, *_ in self.links]
+        return [
+            message("the contact of link {wheel} with {on}", wheel=wheel, on=on)
+            for wheel, on, *_ in self.links
+        ]
 
     def residual(self, unknowns: Reals) -> Reals:
         """The slip (m): shape (N, R)."""
@@ -380,8 +399,15 @@ def touching(
         raise StructureError(
             Problem(
                 f"links.{name}.rolls",
-                f"the wheels of links {name} and {rolling.on} do not touch",
-                f"radii that make the distance {first}-{second} on link {best.arm}",
+                message(
+                    "the wheels of links {name} and {on} do not touch", name=name, on=rolling.on
+                ),
+                message(
+                    "radii that make the distance {first}-{second} on link {arm}",
+                    first=first,
+                    second=second,
+                    arm=best.arm,
+                ),
             )
         )
     return best

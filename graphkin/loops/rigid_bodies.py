@@ -31,7 +31,7 @@ from graphkin.scene.model import (
     Wheel,
 )
 from graphkin.scene.quantity import Quantity
-from graphkin.text.errors import Problem, StructureError
+from graphkin.text.errors import Problem, StructureError, message
 
 Reals = np.ndarray[Any, np.dtype[np.float64]]
 Complexes = np.ndarray[Any, np.dtype[np.complex128]]
@@ -116,10 +116,6 @@ class Guide(Struct, frozen=True):
         """Whether its two links turn alike, as on all guides except a track."""
         return self.moved_by == "slide"
 
-    @property
-    def word(self) -> str:
-        return "guide" if self.turns_alike else "track"
-
 
 def bodies_of(scene: Scene, numbers: Numbers) -> tuple[dict[str, Body], dict[str, Point]]:
     """Points of every link from its own first point, and that point's place in the written axes."""
@@ -143,8 +139,8 @@ def placed_points(link: Link, numbers: Numbers) -> dict[str, Point]:
                 raise StructureError(
                     Problem(
                         f"links.{link.name}.{placing.point}",
-                        "the lengths give no such point",
-                        "sides of a triangle, each shorter than the other two together",
+                        message("the lengths give no such point"),
+                        message("sides of a triangle, each shorter than the other two together"),
                     )
                 )
             placed[placing.point] = place

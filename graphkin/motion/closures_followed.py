@@ -22,7 +22,7 @@ from graphkin.motion.driving import TURN
 from graphkin.motion.turns_counted import name_of
 from graphkin.motion.turns_followed import Followed, following, led
 from graphkin.scene.model import Closure
-from graphkin.text.errors import ClosureError, Problem
+from graphkin.text.errors import ClosureError, Problem, message
 
 Reals = np.ndarray[Any, np.dtype[Any]]
 
@@ -295,6 +295,13 @@ def within(each: Bracket, at: Reals, numbers: Reals) -> list[Bracket]:
 def too_many(course: Course) -> ClosureError:
     """The error for a motion that would be followed through more positions than allowed."""
     sweep = course.sweep
-    found = f"from {sweep.low:.10g} to {sweep.high:.10g} {sweep.unit} it has to be tried at more"
-    most = f"at most {MOST} positions of the driver"
-    return ClosureError(Problem("the cycle", found, most, "show less with --from and --to"))
+    found = message(
+        "from {low:.10g} to {high:.10g} {unit} it has to be tried at more",
+        low=sweep.low,
+        high=sweep.high,
+        unit=sweep.unit,
+    )
+    most = message("at most {most} positions of the driver", most=MOST)
+    return ClosureError(
+        Problem(message("the cycle"), found, most, message("show less with --from and --to"))
+    )

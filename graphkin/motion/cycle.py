@@ -21,7 +21,15 @@ from graphkin.motion.pieces import Path, Piece, reachable_ranges
 from graphkin.motion.sweep import Sweep, sweep_of
 from graphkin.numbers.plane import Ratio
 from graphkin.scene.model import FRAME, Branch, Scene
-from graphkin.text.errors import ClosureError, GraphkinError, Problem, SceneError
+from graphkin.text.errors import (
+    ClosureError,
+    GraphkinError,
+    Problem,
+    SceneError,
+    both,
+    joined,
+    message,
+)
 
 if TYPE_CHECKING:
     from graphkin.construction.core.cam_profiles import CamProfile
@@ -186,13 +194,28 @@ def refuse_steps(mechanism: Mechanism, sweep: Sweep, steps: int, turns: int = 1)
     """
     most = FULL // max(len(mechanism.program.answers), 1) // max(turns, 1)
     if not 1 <= steps <= most:
-        found = f"{steps} steps of {len(mechanism.program.answers)} quantities"
-        raise SceneError(Problem("--steps", found, f"1 to {most} steps for this mechanism"))
+        found = message(
+            "{steps} steps of {count} quantities", steps=steps, count=len(mechanism.program.answers)
+        )
+        raise SceneError(
+            Problem("--steps", found, message("1 to {most} steps for this mechanism", most=most))
+        )
     least = 4 * float(np.spacing(max(abs(sweep.low), abs(sweep.high))))
     if (step := (sweep.high - sweep.low) / steps) < least:
-        found = f"{sweep.low:.17g} to {sweep.high:.17g} in {steps} steps of {step:.1e} {sweep.unit}"
-        hint = "show more, or in fewer steps"
-        raise SceneError(Problem("--from, --to", found, f"steps of at least {least:.1e}", hint))
+        found = message(
+            "{low:.17g} to {high:.17g} in {steps} steps of {step:.1e} {unit}",
+            low=sweep.low,
+            high=sweep.high,
+            steps=steps,
+            step=step,
+            unit=sweep.unit,
+        )
+        hint = message("show more, or in fewer steps")
+        raise SceneError(
+            Problem(
+                "--from, --to", found, message("steps of at least {least:.1e}", least=least), hint
+            )
+        )
 
 
 def no_rows(sweep: Sweep, path: Path, steps: int) -> Problem:
@@ -201,18 +224,29 @@ def no_rows(sweep: Sweep, path: Path, steps: int) -> Problem:
     A driver has no room where a dead point lies on both sides.
     """
     known = path.spans
-    ends = " and ".join(f"from {low:.10g} to {high:.10g}" for low, high in known[:LISTED])
-    ends += f" {sweep.unit}" + (
-        f" and in {len(known) - LISTED} more ranges" * (len(known) > LISTED)
+    some = both(
+        message("from {low:.10g} to {high:.10g}", low=low, high=high)
+        for low, high in known[:LISTED]
     )
+    ends = joined(" ", (some, sweep.unit))
+    if len(known) > LISTED:
+        more = len(known) - LISTED
+        ends = message("{ends} and in {count} more ranges", ends=ends, count=more)
     if max(high - low for low, high in known) > (sweep.high - sweep.low) / (1000 * steps):
-        found = f"it closes {ends}, where none of {steps} steps falls"
-        return Problem("--steps", found, "smaller steps", "ask for more, or for a smaller window")
+        found = message(
+            "it closes {ends}, where none of {steps} steps falls", ends=ends, steps=steps
+        )
+        return Problem(
+            "--steps",
+            found,
+            message("smaller steps"),
+            message("ask for more, or for a smaller window"),
+        )
     return Problem(
-        "the cycle",
-        f"it closes {ends} only, where nothing moves",
-        "positions that are not singular",
-        "change the lengths: at this dead point everything is in line",
+        message("the cycle"),
+        message("it closes {ends} only, where nothing moves", ends=ends),
+        message("positions that are not singular"),
+        message("change the lengths: at this dead point everything is in line"),
     )
 
 

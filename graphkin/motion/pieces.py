@@ -30,7 +30,7 @@ from graphkin.motion.period import (
 from graphkin.motion.sweep import Sweep
 from graphkin.motion.turns_counted import Turned
 from graphkin.motion.turns_followed import led
-from graphkin.text.errors import ClosureError, Problem, SceneError
+from graphkin.text.errors import ClosureError, Problem, SceneError, joined, message
 
 ALIKE = 1e-8
 """Degrees within which two positions count as one."""
@@ -139,10 +139,10 @@ def reachable_ranges(sweep: Sweep, branches: Branches | None = None) -> Path:
     if not ranges:
         raise ClosureError(
             Problem(
-                "the cycle",
-                "it closes for no position of the driver",
-                "lengths that can be assembled",
-                "graphkin check shows what is wrong",
+                message("the cycle"),
+                message("it closes for no position of the driver"),
+                message("lengths that can be assembled"),
+                message("graphkin check shows what is wrong"),
             )
         )
     return shown(sweep, replace(first, ranges=tuple(ranges)))
@@ -179,13 +179,21 @@ def shown(sweep: Sweep, path: Path) -> Path:
     ranges = tuple(found for found in (within(sweep, each) for each in path.ranges) if found)
     if ranges:
         return replace(path, ranges=ranges)
-    spans = [f"{low:.10g} to {high:.10g}" for low, high in path.spans]
+    spans = joined(
+        ", ",
+        (message("from {low:.10g} to {high:.10g}", low=low, high=high) for low, high in path.spans),
+    )
     raise ClosureError(
         Problem(
             "--from, --to",
-            f"it closes nowhere from {sweep.low:.10g} to {sweep.high:.10g} {sweep.unit}",
-            "a window that the driver reaches",
-            f"it closes from {', from '.join(spans)} {sweep.unit}",
+            message(
+                "it closes nowhere from {low:.10g} to {high:.10g} {unit}",
+                low=sweep.low,
+                high=sweep.high,
+                unit=sweep.unit,
+            ),
+            message("a window that the driver reaches"),
+            message("it closes {spans} {unit}", spans=spans, unit=sweep.unit),
         )
     )
 
@@ -208,9 +216,15 @@ def refuse_far(sweep: Sweep) -> None:
     ways = (ends[1] - ends[0]) / sweep.usual
     if ways > MOST_WAYS:
         unit = sweep.unit
-        most = f"at most {MOST_WAYS * sweep.usual:.6g} {unit}"
-        found = f"{sweep.low:.10g} to {sweep.high:.10g} {unit}, followed from {sweep.start:.6g}"
-        hint = "give a window that is narrower, or nearer to where the scene stands"
+        most = message("at most {most:.6g} {unit}", most=MOST_WAYS * sweep.usual, unit=unit)
+        found = message(
+            "{low:.10g} to {high:.10g} {unit}, followed from {start:.6g}",
+            low=sweep.low,
+            high=sweep.high,
+            unit=unit,
+            start=sweep.start,
+        )
+        hint = message("give a window that is narrower, or nearer to where the scene stands")
         raise SceneError(Problem("--from, --to", found, most, hint))
 
 
@@ -408,8 +422,17 @@ def marched(course: Course, start: float, stop: float) -> Range:
             return tuple(pieces) if forward else tuple(reversed(pieces))
         course = beyond(course, event, 1 if forward else -1)
         here = event
-    found = f"more than {MOST_PIECES} change points from {start:.6g} to {stop:.6g}"
-    raise ClosureError(Problem("the cycle", found, "fewer", "show less with --from and --to"))
+    found = message(
+        "more than {most} change points from {start:.6g} to {stop:.6g}",
+        most=MOST_PIECES,
+        start=start,
+        stop=stop,
+    )
+    raise ClosureError(
+        Problem(
+            message("the cycle"), found, message("fewer"), message("show less with --from and --to")
+        )
+    )
 
 
 def strangers(path: Path) -> tuple[str, ...]:

@@ -28,7 +28,7 @@ from graphkin.motion.window import usual, window
 from graphkin.scene.expression import TIME, Name
 from graphkin.scene.model import Branch, Driver, Scene
 from graphkin.scene.quantity import LENGTHS, Quantity
-from graphkin.text.errors import Problem, SceneError
+from graphkin.text.errors import Problem, SceneError, message
 
 
 class Sweep(Struct, frozen=True, eq=False):
@@ -166,11 +166,17 @@ def chosen(scene: Scene, driver: int | None) -> int | None:
     """The swept driver, counted from 1; None where the time is swept."""
     drivers = scene.drivers
     if not drivers:
-        raise SceneError(Problem("drivers", "none", "a driver to be moved"))
+        raise SceneError(Problem("drivers", message("none"), message("a driver to be moved")))
     if driver is not None:
         if not 1 <= driver <= len(drivers):
-            expected = f"1 to {len(drivers)}" if len(drivers) > 1 else "1, the only driver"
-            raise SceneError(Problem("--driver", f"there is no driver {driver}", expected))
+            expected = (
+                message("1 to {most}", most=len(drivers))
+                if len(drivers) > 1
+                else message("1, the only driver")
+            )
+            raise SceneError(
+                Problem("--driver", message("there is no driver {driver}", driver=driver), expected)
+            )
         return driver
     return None if len(drivers) > 1 or law_of_time(scene) else 1
 

@@ -18,7 +18,7 @@ from graphkin.motion.driving import (
 from graphkin.numbers.arithmetic import np
 from graphkin.scene.expression import TIME
 from graphkin.scene.model import FRAME, Driver, Link, Scene
-from graphkin.text.errors import Problem, SceneError
+from graphkin.text.errors import Problem, SceneError, message, verbatim
 
 DOUBLINGS = 60
 """Doublings of the time in the search for a driver's first full turn."""
@@ -40,7 +40,7 @@ def window(
     """
     for option, bound in (("--from", low), ("--to", high)):
         if bound is not None and not isfinite(bound):
-            raise SceneError(Problem(option, f"{bound:g}", "a finite number"))
+            raise SceneError(Problem(option, verbatim(f"{bound:g}"), message("a finite number")))
     if what == "turn" and low is None and high is None:
         return start, start + TURN, True
     if what == "turn":
@@ -60,8 +60,13 @@ def window(
         first = least if low is None else low
         last = most if high is None else high
     if not first < last:
-        found = f"{first:.10g} to {last:.10g} {COORDINATES[what].unit}"
-        raise SceneError(Problem("--from, --to", found, "a window that grows"))
+        found = message(
+            "{first:.10g} to {last:.10g} {unit}",
+            first=first,
+            last=last,
+            unit=COORDINATES[what].unit,
+        )
+        raise SceneError(Problem("--from, --to", found, message("a window that grows")))
     return first, last, False
 
 
@@ -133,9 +138,9 @@ def whole_turn(scene: Scene) -> float:
     raise SceneError(
         Problem(
             "drivers",
-            "no driver makes a whole turn or turns back again and again",
-            "a time to end",
-            "say with --from and --to which seconds to show",
+            message("no driver makes a whole turn or turns back again and again"),
+            message("a time to end"),
+            message("say with --from and --to which seconds to show"),
         )
     )
 

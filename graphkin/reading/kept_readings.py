@@ -8,7 +8,7 @@ import msgspec
 
 from graphkin.reading.read_sheet import SheetRecord
 from graphkin.scene.file_limits import whole_file
-from graphkin.text.errors import PageError, Problem
+from graphkin.text.errors import PageError, Problem, message
 
 READING, PICTURE = ".reading.json", ".jpg"
 """The file name endings of a record and of its picture."""
@@ -28,6 +28,10 @@ def records_in(out: Path) -> list[SheetRecord]:
     names = sorted(path.name.removesuffix(READING) for path in out.glob(f"*{READING}"))
     found = [record for name in names if (record := kept(out, name)) is not None]
     if not found:
-        hint = "graphkin read CLASS PHOTOS -o DIR makes it"
-        raise PageError(Problem(str(out), "holds no reading", "a folder of graphkin read", hint))
+        hint = message("graphkin read CLASS PHOTOS -o DIR makes it")
+        raise PageError(
+            Problem(
+                str(out), message("holds no reading"), message("a folder of graphkin read"), hint
+            )
+        )
     return found

@@ -21,7 +21,7 @@ from msgspec.structs import replace
 
 from graphkin.numbers.arithmetic import np
 from graphkin.scene.file_limits import file_bytes
-from graphkin.text.errors import FileError, Problem
+from graphkin.text.errors import FileError, Problem, message
 from graphkin.writers.files import file_part
 
 KINDS = (".jpg", ".jpeg", ".png", ".heic", ".heif", ".pdf")
@@ -44,7 +44,7 @@ HALVES = "-left", "-right"
 """The name endings for pictures of a sheet's halves."""
 MOST_PAGES = 2000
 """The most pages of a PDF file; a longer file is refused."""
-EXPECTED = "a JPEG, PNG, HEIC or PDF file"
+EXPECTED = message("a JPEG, PNG, HEIC or PDF file")
 
 
 class Photograph(Struct, frozen=True):
@@ -83,13 +83,13 @@ def photographs(paths: list[Path]) -> list[Photograph]:
         if path.is_dir():
             inside = list(pictures_in(path))
             if not any(each.suffix.lower() in KINDS for each in inside):
-                problems.append(Problem(str(path), "holds no picture", EXPECTED))
+                problems.append(Problem(str(path), message("holds no picture"), EXPECTED))
             for file in inside:
                 found += pages_of(file)
         elif path.exists():
             found += pages_of(path)
         else:
-            problems.append(Problem(str(path), "is not there", EXPECTED))
+            problems.append(Problem(str(path), message("is not there"), EXPECTED))
     if problems:
         raise FileError(problems)
     found = list({(str(each.path), each.page): each for each in found}.values())

@@ -16,7 +16,7 @@ from msgspec.structs import replace
 
 from graphkin.reading.point_reading import PointReading, ReadVerdict
 from graphkin.reading.read_sheet import SheetRecord
-from graphkin.text.errors import PageError, Problem
+from graphkin.text.errors import PageError, Problem, message
 
 SETTLED = "decisions.jsonl"
 MOST = 1 << 26
@@ -53,8 +53,14 @@ class SettledPoints:
         self.path = folder / SETTLED
         size = self.path.stat().st_size if self.path.exists() else 0
         if size > MOST:
-            hint = "move the file away; the decisions in it must then be made again"
-            raise PageError(Problem(str(self.path), f"{size} bytes", f"at most {MOST} bytes", hint))
+            raise PageError(
+                Problem(
+                    str(self.path),
+                    message("{size} bytes", size=size),
+                    message("at most {most} bytes", most=MOST),
+                    message("move the file away; the decisions in it must then be made again"),
+                )
+            )
         data = self.path.read_bytes() if size else b""
         self.whole = data.rfind(b"\n") + 1
         self.lines: list[PointDecision] = []

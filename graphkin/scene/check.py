@@ -11,6 +11,7 @@ from collections.abc import Iterator
 
 from graphkin.scene.findings import Findings, listed, nearest, numbered
 from graphkin.scene.known_names import (
+    THE_MECHANISM,
     check_guide,
     known_link,
     known_point,
@@ -34,7 +35,7 @@ from graphkin.scene.quantity import Quantity, shortest
 from graphkin.scene.read_joints import check_profiles
 from graphkin.scene.requests import ANY_LINK, WAYS_OF_LINK, sides
 from graphkin.scene.wheels import check_centres, check_driven, check_tracks
-from graphkin.text.errors import SceneError, Written
+from graphkin.text.errors import NO_WORDS, Message, SceneError, Written, either, message, verbatim
 
 
 def check_scene(scene: Scene, findings: Findings) -> None:
@@ -56,7 +57,11 @@ def check_namespace(scene: Scene, findings: Findings) -> None:
     points = scene.points
     for name in scene.links:
         if name in points:
-            findings.add(f"links.{name}", f"{name} is a point too", "one name for one thing")
+            findings.add(
+                f"links.{name}",
+                message("{name} is a point too", name=name),
+                message("one name for one thing"),
+            )
 
 
 def check_capitals(scene: Scene, findings: Findings) -> None:
@@ -81,8 +86,13 @@ def check_capitals(scene: Scene, findings: Findings) -> None:
         if owners[other] != owners[point]:
             name = owners[point][0]
             place = f"{place_of(name)}.{point}"
-            found = f"no other link has {point}"
-            findings.add(place, found, other, f"{other} is written with another capital")
+            found = message("no other link has {point}", point=point)
+            findings.add(
+                place,
+                found,
+                verbatim(other),
+                message("{other} is written with another capital", other=other),
+            )
 
 
 def check_link(scene: Scene, link: Link, findings: Findings) -> None:
@@ -105,8 +115,12 @@ def check_guides(scene: Scene, link: Link, findings: Findings) -> None:
         if other is None or order.index(on) >= order.index(link.name):
             continue
         if link.name in [slide.on for slide in other.slides]:
-            found = f"links {on} and {link.name} slide on one another, guides in a circle"
-            expected = "slides in one of the two links only"
+            found = message(
+                "links {on} and {name} slide on one another, guides in a circle",
+                on=on,
+                name=link.name,
+            )
+            expected = message("slides in one of the two links only")
             findings.add(f"{place_of(link.name)}.slides", found, expected)
 
 
@@ -124,10 +138,18 @@ def check_alone(scene: Scene, findings: Findings) -> None:
             continue
         pinned = any(shared[point] > 1 for point in link.points)
         if not link.points:
-            findings.add(place, "a link without points", "points, such as P = [0, 0] or P-Q = 30")
+            findings.add(
+                place,
+                message("a link without points"),
+                message("points, such as P = [0, 0] or P-Q = 30"),
+            )
         elif not (pinned or link.paths or link.wheels or link.name in carriers):
-            found = f"link {link.name} touches no other"
-            findings.add(place, found, f"a point that another link has too, {LEADING}")
+            found = message("link {name} touches no other", name=link.name)
+            findings.add(
+                place,
+                found,
+                message("a point that another link has too, {leading}", leading=LEADING),
+            )
 
 
 def check_branches(scene: Scene, findings: Findings) -> None:
@@ -142,19 +164,34 @@ def check_branches(scene: Scene, findings: Findings) -> None:
         if name not in points and name not in scene.links:
             known = [*points, *scene.links]
             free = (each for each in known if each not in scene.branches)
-            findings.add(place, f"{name} is no point or link", listed(known), nearest(name, free))
+            findings.add(
+                place,
+                message("{name} is no point or link", name=name),
+                listed(known),
+                nearest(name, free),
+            )
         elif isinstance(branch, Side):
             if name not in points:
                 hint = ways_hint(scene, name, branch)
-                findings.add(place, f"a side for link {name}", WAYS_OF_LINK, hint, ANY_LINK)
+                findings.add(
+                    place,
+                    message("a side for link {name}", name=name),
+                    WAYS_OF_LINK,
+                    hint,
+                    ANY_LINK,
+                )
             for point in (branch.first, branch.second):
-                known_point(point, points, "the mechanism", place, findings)
+                known_point(point, points, THE_MECHANISM, place, findings)
             if name in (branch.first, branch.second):
-                findings.add(place, f"{name} on a side of itself", "a line of two other points")
+                findings.add(
+                    place,
+                    message("{name} on a side of itself", name=name),
+                    message("a line of two other points"),
+                )
         elif isinstance(branch, Way) and is_of_several_ways(scene, name):
             continue
         elif name not in scene.links:
-            found = f"forward, backward or a closure for point {name}"
+            found = message("forward, backward or a closure for point {name}", name=name)
             findings.add(place, found, *sides(name, scene.links, branch))
 
 
@@ -165,13 +202,16 @@ def is_of_several_ways(scene: Scene, point: str) -> bool:
     return any(point in scene.link(name).points for name in near if name != FRAME)
 
 
-def ways_hint(scene: Scene, name: str, side: Side) -> str:
+def ways_hint(scene: Scene, name: str, side: Side) -> Message:
     """A hint on where a side written under a link belongs: a block takes a way, a pin a side."""
     pin = side_of_pin(scene, name, side)
     if scene.links[name].paths:
-        ways = f'{name} = "forward" or "backward"'
-        return f"link {name} {LEADING}: {ways}; a side is for a pin"
-    return f"sides are written under the pin's name: {pin}"
+        return message(
+            'link {name} {leading}: {name} = "forward" or "backward"; a side is for a pin',
+            name=name,
+            leading=LEADING,
+        )
+    return message("sides are written under the pin's name: {pin}", pin=pin)
 
 
 def side_of_pin(scene: Scene, name: str, side: Side) -> str:
@@ -197,23 +237,33 @@ def check_bare(scene: Scene, link: Link, findings: Findings) -> None:
     point = link.points[0]
     if carries(scene, link.name) or is_driven(scene, link.name):
         return
-    found = f"link {link.name} has the point {point} alone and no slides: nothing keeps it"
+    found = message(
+        "link {name} has the point {point} alone and no slides: nothing keeps it",
+        name=link.name,
+        point=point,
+    )
     findings.add(
         place_of(link.name),
         found,
-        "slides = { on = …, … } for a block, or a second point for a bar",
+        message("slides = {{ on = …, … }} for a block, or a second point for a bar"),
         lent_slides(scene, link),
     )
 
 
-def lent_slides(scene: Scene, link: Link) -> str:
+def lent_slides(scene: Scene, link: Link) -> Message:
     """A hint where another link at the same pin has the slides that seem to belong to this one."""
     others = [
         other.name
         for other in scene.links.values()
         if other is not link and other.slides and link.points[0] in other.points
     ]
-    return f"link {others[0]} has slides: are they link {link.name}'s?" if others else ""
+    return (
+        message(
+            "link {others} has slides: are they link {name}'s?", others=others[0], name=link.name
+        )
+        if others
+        else NO_WORDS
+    )
 
 
 def check_locked(scene: Scene, link: Link, findings: Findings) -> None:
@@ -224,13 +274,19 @@ def check_locked(scene: Scene, link: Link, findings: Findings) -> None:
             continue
         shared = [point for point in link.points if point in scene.link(slide.on).points]
         if shared:
-            found = (
-                f"link {link.name} slides on {link_words(slide.on)} and is pinned to it at "
-                f"{shared[0]}: it cannot move against it"
+            found = message(
+                "link {name} slides on {on} and is pinned to it at {shared}: it cannot "
+                "move against it",
+                name=link.name,
+                on=link_words(slide.on),
+                shared=shared[0],
             )
             where = f"{numbered(place, index, len(link.slides))}.on"
-            expected, on = f"a link that does not have {shared[0]}", meant(scene, link)
-            hint = f"did you mean on = {on}?" if on else ""
+            expected, on = (
+                message("a link that does not have {shared}", shared=shared[0]),
+                meant(scene, link),
+            )
+            hint = message("did you mean on = {on}?", on=on) if on else NO_WORDS
             findings.add(where, found, expected, hint, (Written(on),) if on else ())
 
 
@@ -281,13 +337,19 @@ def check_driver(scene: Scene, driver: Driver, place: str, findings: Findings) -
     if link is None or against is None:
         return
     if driver.link == driver.against:
-        what = "the frame, which is at rest" if driver.link == FRAME else "itself"
+        what = message("the frame, which is at rest") if driver.link == FRAME else message("itself")
         ends = other_ends(scene, link) if driver.kind == "slide" else []
-        expected = " or ".join(f"{end.key} = {end.value}" for end in ends) or "a link that moves"
-        findings.add(f"{place}.{driver.kind}", f"against {what}", expected, changes=tuple(ends))
+        ways = either(f"{end.key} = {end.value}" for end in ends)
+        expected = ways or message("a link that moves")
+        findings.add(
+            f"{place}.{driver.kind}",
+            message("against {what}", what=what),
+            expected,
+            changes=tuple(ends),
+        )
         return
     for point in driver.of or ():
-        known_point(point, link.points, f"link {link.name}", f"{place}.of", findings)
+        known_point(point, link.points, link_words(link.name), f"{place}.of", findings)
     if driver.kind == "turn" or findings.inside(place_of(link.name)):
         return
     if driver.kind == "slide":
@@ -313,13 +375,22 @@ def check_slid(scene: Scene, driver: Driver, link: Link, place: str, findings: F
         on, against = link_words(guides[0]), link_words(driver.against)
         findings.add(
             place,
-            f"link {link.name} slides on {on}, not on {against}",
-            f"against = {quoted(guides[0])}",
+            message(
+                "link {name} slides on {on}, not on {against}",
+                name=link.name,
+                on=on,
+                against=against,
+            ),
+            message("against = {guides}", guides=quoted(guides[0])),
         )
         return
     can = [quoted(each.name) for each in scene.links.values() if each.slides]
-    found = f"link {link.name} has no guide to slide along"
-    expected = f"slide = {' or '.join(can[:3])}" if can else "a link with slides = { … }"
+    found = message("link {name} has no guide to slide along", name=link.name)
+    expected = (
+        message("slide = {can}", can=either(can[:3]))
+        if can
+        else message("a link with slides = {{ … }}")
+    )
     findings.add(f"{place}.slide", found, expected, changes=tuple(map(Written, can[:3])))
 
 
@@ -328,8 +399,14 @@ def check_repeated(scene: Scene, findings: Findings) -> None:
     seen = Counter((driver.kind, driver.link, driver.against) for driver in scene.drivers)
     for (kind, link, against), times in seen.items():
         if times > 1:
-            found = f"{kind} = {link} against {against} is given {times} times"
-            findings.add("drivers", found, "one driver for one motion")
+            found = message(
+                "{kind} = {link} against {against} is given {times} times",
+                kind=kind,
+                link=link,
+                against=against,
+                times=times,
+            )
+            findings.add("drivers", found, message("one driver for one motion"))
 
 
 FARTHEST = 1e9
@@ -357,10 +434,14 @@ def check_far(scene: Scene, findings: Findings) -> None:
     if far > FARTHEST * min(bars) and far > BESIDE * sum(bars):
         findings.add(
             "frame",
-            f"it lies {metres_written(far)} m from the origin, and the shortest length is "
-            f"{metres_written(min(bars))} m: coordinates of 16 digits are too coarse for that",
-            f"at most {metres_written(FARTHEST * min(bars))} m",
-            "put the origin near the mechanism",
+            message(
+                "it lies {far} m from the origin, and the shortest length is {bars} m: "
+                "coordinates of 16 digits are too coarse for that",
+                far=metres_written(far),
+                bars=metres_written(min(bars)),
+            ),
+            message("at most {farthest} m", farthest=metres_written(FARTHEST * min(bars))),
+            message("put the origin near the mechanism"),
         )
 
 

@@ -20,7 +20,7 @@ from msgspec import Struct
 
 from graphkin.numbers.arithmetic import Kind, np
 from graphkin.scene.findings import shown, visible
-from graphkin.text.errors import Hint, Mend
+from graphkin.text.errors import NO_WORDS, Hint, Mend, Message, message
 
 FUNCTIONS = ("sqrt", "sin", "cos", "tan")
 """Functions of one number; sine, cosine and tangent take degrees."""
@@ -60,7 +60,7 @@ REST = r"\bmod\b"
 class UnreadableError(ValueError):
     """An expression or a number that cannot be read: what was found, and a hint."""
 
-    def __init__(self, found: str, hint: Hint = "") -> None:
+    def __init__(self, found: Message, hint: Hint = NO_WORDS) -> None:
         super().__init__(found)
         self.found = found
         self.hint = hint
@@ -108,11 +108,16 @@ def parse(text: str, *, counting: bool = False) -> Tree:
     ``counting`` allows remainders (``number mod 30``), which exist only for exact numbers.
     """
     if len(text) > LONGEST:
-        raise UnreadableError(f"an expression of {len(text)} characters", f"at most {LONGEST}")
+        raise UnreadableError(
+            message("an expression of {count} characters", count=len(text)),
+            message("at most {most}", most=LONGEST),
+        )
     flat = " ".join(text.split())
     if "mod" in text and re.search(REST, text):
         if not counting:
-            raise UnreadableError('"mod" in an expression', "only formulas of a lab.toml have it")
+            raise UnreadableError(
+                message('"mod" in an expression'), message("only formulas of a lab.toml have it")
+            )
         refuse_foreign(re.sub(REST, "*", text))
         flat = re.sub(REST, "%", flat)
     else:
@@ -121,7 +126,9 @@ def parse(text: str, *, counting: bool = False) -> Tree:
         with ONE_AT_A_TIME:
             body = ast.parse(flat, mode="eval").body
     except (SyntaxError, ValueError, RecursionError, MemoryError):
-        raise UnreadableError(f"{shown(' '.join(text.split()))} is not an expression") from None
+        raise UnreadableError(
+            message("{split} is not an expression", split=shown(" ".join(text.split())))
+        ) from None
     return convert(body, flat, 0)
 
 
@@ -131,36 +138,39 @@ def unit_hint(text: str) -> Hint:
     measured = re.fullmatch(MEASURED, bare) if bare.endswith((*RATES, *UNITS)) else None
     rest = measured[1].strip() if measured else ""
     if not measured or not rest or rest[-1] in "+-*/(":
-        return ""
-    hint = f"the unit is stated once in units: write {rest}"
+        return NO_WORDS
+    hint = message("the unit is stated once in units: write {rest}", rest=rest)
     if len(measured[2]) > 1 or measured[2] == "°":
         return Mend(bare, rest, hint)
-    return f"{hint}; a product has its *"
+    return message("{hint}; a product has its *", hint=hint)
 
 
 def refuse_foreign(text: str) -> None:
     """Refuse characters and forms that no expression has, each with a hint on how to write it."""
     hint = unit_hint(text)
     if hint:
-        raise UnreadableError(f"{shown(text.strip())} has a unit", hint)
+        raise UnreadableError(message("{strip} has a unit", strip=shown(text.strip())), hint)
     foreign = next((c for c in text if not (c.isascii() and c.isalnum()) and c not in MARKS), "")
     if foreign:
         hints: dict[str, Hint] = {
-            "^": Mend("^", "**", "write a power as **"),
-            ",": Mend(",", ".", "write a decimal point"),
-            "°": Mend("°", "", "leave out °"),
+            "^": Mend("^", "**", message("write a power as **")),
+            ",": Mend(",", ".", message("write a decimal point")),
+            "°": Mend("°", "", message("leave out °")),
         }
-        raise UnreadableError(f"'{visible(foreign)}' in an expression", hints.get(foreign, ""))
+        raise UnreadableError(
+            message("'{foreign}' in an expression", foreign=visible(foreign)),
+            hints.get(foreign, NO_WORDS),
+        )
     if not text.strip():
-        raise UnreadableError("an empty expression")
+        raise UnreadableError(message("an empty expression"))
     joined = re.search(JUXTAPOSED, text) if runs_on(text) else None
     if joined:
         hint = (
-            "write plain digits"
+            message("write plain digits")
             if joined.group()[-1] in "_xXoObBjJ"
-            else "write a product with *: 2*n"
+            else message("write a product with *: 2*n")
         )
-        raise UnreadableError(f'"{joined.group()}" in an expression', hint)
+        raise UnreadableError(message('"{part}" in an expression', part=joined.group()), hint)
 
 
 def runs_on(text: str) -> bool:
@@ -175,7 +185,9 @@ def runs_on(text: str) -> bool:
 def convert(node: ast.expr, text: str, depth: int) -> Tree:
     """The tree for a node of Python's syntax tree. Raises UnreadableError if it is not allowed."""
     if depth > DEEPEST:
-        raise UnreadableError(f"an expression nested more than {DEEPEST} deep")
+        raise UnreadableError(
+            message("an expression nested more than {deepest} deep", deepest=DEEPEST)
+        )
     match node:
         case ast.Constant():
             return Number(decimal(text[node.col_offset : node.end_col_offset]))
@@ -198,10 +210,12 @@ def refuse(node: ast.expr, text: str) -> NoReturn:
     part = visible(text[node.col_offset : node.end_col_offset]).replace("%", "mod")
     if isinstance(node, ast.Call) and isinstance(node.func, ast.Name):
         raise UnreadableError(
-            f'"{part}" in an expression', f"functions of one number are {', '.join(FUNCTIONS)}"
+            message('"{part}" in an expression', part=part),
+            message("functions of one number are {functions}", functions=", ".join(FUNCTIONS)),
         )
     raise UnreadableError(
-        f'"{part}" in an expression', "it may hold + - * / **, brackets and functions"
+        message('"{part}" in an expression', part=part),
+        message("it may hold + - * / **, brackets and functions"),
     )
 
 
@@ -212,12 +226,15 @@ def decimal(text: str) -> Fraction:
             raise InvalidOperation
         number = Decimal(text)
     except InvalidOperation:
-        raise UnreadableError(f"{text[:40]} is not a finite decimal number") from None
+        raise UnreadableError(
+            message("{text} is not a finite decimal number", text=text[:40])
+        ) from None
     if len(number.as_tuple().digits) > DIGITS:
-        raise UnreadableError(f"a number of more than {DIGITS} digits")
+        raise UnreadableError(message("a number of more than {digits} digits", digits=DIGITS))
     if number and abs(number.adjusted()) > FARTHEST:
         raise UnreadableError(
-            f"{text[:40]} is out of range", f"numbers lie between 1e-{FARTHEST} and 1e{FARTHEST}"
+            message("{text} is out of range", text=text[:40]),
+            message("numbers lie between 1e-{farthest} and 1e{farthest}", farthest=FARTHEST),
         )
     return Fraction(number) if number else Fraction(0)
 
@@ -225,7 +242,10 @@ def decimal(text: str) -> Fraction:
 def integer(value: int) -> Fraction:
     """The exact value of a whole number, refused when it has too many digits."""
     if value.bit_length() > FARTHEST * 10 // 3:
-        raise UnreadableError("a whole number with too many digits", f"at most 1e{FARTHEST}")
+        raise UnreadableError(
+            message("a whole number with too many digits"),
+            message("at most 1e{farthest}", farthest=FARTHEST),
+        )
     return Fraction(value)
 
 
@@ -266,9 +286,9 @@ class EvaluationError(ArithmeticError):
     """A value that does not exist or is unbounded: what was found, and what was expected."""
 
 
-BOUNDLESS = "a number that grows without bound", "a number between 1e-60 and 1e60"
-NO_QUOTIENT = "division by zero", "a divisor that is not 0"
-NO_ROOT = "the square root of a negative number", "0 or more under the root"
+BOUNDLESS = message("a number that grows without bound"), message("a number between 1e-60 and 1e60")
+NO_QUOTIENT = message("division by zero"), message("a divisor that is not 0")
+NO_ROOT = message("the square root of a negative number"), message("0 or more under the root")
 
 
 def evaluate(tree: Tree, values: Mapping[str, Any], kind: Kind) -> Any:
@@ -313,7 +333,8 @@ def joined(sign: str, left: Any, right: Any, kind: Kind) -> Any:
             found = left - right * (quotient(left, right) // 1)
         case _:
             raise EvaluationError(
-                "the rest of a number that is not rational", "whole numbers, decimals or fractions"
+                message("the rest of a number that is not rational"),
+                message("whole numbers, decimals or fractions"),
             )
     return bounded(found) if exact else found
 
@@ -340,8 +361,12 @@ def bounded(value: Fraction) -> Fraction:
 def power(base: Any, exponent: Any, kind: Kind) -> Any:
     """A power with an exponent of at most 64; whole powers of exact numbers stay exact."""
     if not hasattr(exponent, "shape") and abs(exponent) > LARGEST_POWER:
-        expected = f"an exponent from -{LARGEST_POWER} to {LARGEST_POWER}"
-        raise EvaluationError(f"an exponent above {LARGEST_POWER}", expected)
+        expected = message(
+            "an exponent from -{largest_power} to {largest_power}", largest_power=LARGEST_POWER
+        )
+        raise EvaluationError(
+            message("an exponent above {largest_power}", largest_power=LARGEST_POWER), expected
+        )
     if isinstance(exponent, Fraction) and exponent.denominator == 1:
         whole = int(exponent)
         if whole < 0:
@@ -350,7 +375,8 @@ def power(base: Any, exponent: Any, kind: Kind) -> Any:
     if not hasattr(base, "shape") and not hasattr(exponent, "shape"):
         if base < 0:
             raise EvaluationError(
-                "a broken power of a negative number", "a whole exponent, or a base of 0 or more"
+                message("a broken power of a negative number"),
+                message("a whole exponent, or a base of 0 or more"),
             )
         if base == 0 and exponent < 0:
             raise EvaluationError(*NO_QUOTIENT)
@@ -384,7 +410,8 @@ def rational_ratio(function: str, degrees: Fraction) -> Fraction | None:
     if function == "tan":
         if whole % 180 == 90:
             raise EvaluationError(
-                "the tangent of a right angle", "an angle that is no odd multiple of 90°"
+                message("the tangent of a right angle"),
+                message("an angle that is no odd multiple of 90°"),
             )
         tangent = TANGENTS.get(whole % 180)
         return None if tangent is None else Fraction(tangent)
@@ -506,7 +533,10 @@ def quotient_rule(left: Tree, right: Tree, name: str) -> Tree:
 def power_rule(base: Tree, exponent: Tree, name: str) -> Tree:
     """The derivative of a power. Raises EvaluationError when the exponent contains the name."""
     if name in names(exponent):
-        raise EvaluationError(f"an exponent that holds {name}", f"an exponent without {name}")
+        raise EvaluationError(
+            message("an exponent that holds {name}", name=name),
+            message("an exponent without {name}", name=name),
+        )
     inner = differentiated(base, name)
     if NOUGHT in (exponent, inner):
         return NOUGHT

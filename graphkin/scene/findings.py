@@ -5,7 +5,20 @@ from __future__ import annotations
 from collections.abc import Iterable
 
 from graphkin.text import paths
-from graphkin.text.errors import MOST, About, Change, Hint, Mend, Problem, SceneError
+from graphkin.text.errors import (
+    MOST,
+    NO_WORDS,
+    About,
+    Change,
+    Hint,
+    Mend,
+    Message,
+    Problem,
+    SceneError,
+    joined,
+    message,
+    verbatim,
+)
 
 LISTED = 12
 BEGUN = 3
@@ -27,9 +40,9 @@ class Findings:
     def add(
         self,
         place: str,
-        found: str,
-        expected: str = "",
-        hint: Hint = "",
+        found: Message,
+        expected: Message = NO_WORDS,
+        hint: Hint = NO_WORDS,
         changes: tuple[Change, ...] = (),
         about: tuple[About, ...] = (),
     ) -> None:
@@ -59,7 +72,7 @@ class Findings:
 
 WHOLE = ("graphkin", "title", "time", "module")
 """Top-level keys that hold no table: written below a heading, they belong to that table."""
-ABOVE = "it belongs at the top of the file, above the first heading in brackets"
+ABOVE = message("it belongs at the top of the file, above the first heading in brackets")
 
 
 class Table:
@@ -93,7 +106,7 @@ class Table:
         raw = self.take(key)
         if raw is None or isinstance(raw, bool):
             return raw is True
-        self.findings.add(self.at(key), shown(raw), "true or false")
+        self.findings.add(self.at(key), shown(raw), message("true or false"))
         return False
 
     def choice(self, key: str, words: tuple[str, ...], default: str = "") -> str:
@@ -105,8 +118,8 @@ class Table:
         if isinstance(raw, str) and raw in words:
             return raw
         if raw is not None or not default:
-            hint = nearest(raw, words) if isinstance(raw, str) else ""
-            found = "is missing" if raw is None else shown(raw)
+            hint = nearest(raw, words) if isinstance(raw, str) else NO_WORDS
+            found = message("is missing") if raw is None else shown(raw)
             self.findings.add(self.at(key), found, listed(words), hint)
         return default or words[0]
 
@@ -114,7 +127,7 @@ class Table:
         """A table within this one; an empty table where the key is absent."""
         raw = self.take(key)
         if raw is not None and not isinstance(raw, dict):
-            self.findings.add(self.at(key), shown(raw), "a table")
+            self.findings.add(self.at(key), shown(raw), message("a table"))
         return Table(self.at(key), raw if isinstance(raw, dict) else {}, self.findings)
 
     def finish(self) -> None:
@@ -123,13 +136,13 @@ class Table:
             if key not in self.known:
                 misplaced = self.place and key in WHOLE
                 hint = ABOVE if misplaced else nearest(key, self.known)
-                self.findings.add(self.at(key), "unknown key", listed(self.known), hint)
+                self.findings.add(self.at(key), message("unknown key"), listed(self.known), hint)
 
 
 def plain_text(place: str, raw: object, findings: Findings) -> str:
     """A printable text in NFC form; a text with control or bidirectional characters is refused."""
     if not isinstance(raw, str):
-        findings.add(place, shown(raw), "a text in quotes")
+        findings.add(place, shown(raw), message("a text in quotes"))
         return ""
     if raw.isprintable() and all(letter < COMBINING for letter in raw):
         return raw
@@ -137,7 +150,11 @@ def plain_text(place: str, raw: object, findings: Findings) -> str:
 
     for character in raw:
         if character not in "\n\t" and unicodedata.category(character) in ("Cc", "Cf", "Cs"):
-            findings.add(place, f"the control character {character!a}", "printable text")
+            findings.add(
+                place,
+                message("the control character {character!a}", character=character),
+                message("printable text"),
+            )
             return ""
     return unicodedata.normalize("NFC", raw)
 
@@ -157,7 +174,7 @@ def numbered(place: str, index: int, count: int) -> str:
 def nearest(name: str, known: Iterable[str]) -> Hint:
     """A correction of an unknown name to the nearest known one; "" when none is near."""
     near = near_name(name, known)
-    return Mend(name, near) if near else ""
+    return Mend(name, near) if near else NO_WORDS
 
 
 def near_name(name: str, known: Iterable[str]) -> str:
@@ -216,11 +233,11 @@ def near_file(path: str, files: Iterable[str]) -> str:
     return known.get(near_name(paths.stem(path), known), "")
 
 
-def listed(names: Iterable[str]) -> str:
+def listed(names: Iterable[str]) -> Message:
     """A list of names in words: "one of A, B, C"."""
     every = sorted(dict.fromkeys(names), key=natural)
-    some = ", ".join(every[:LISTED]) + (", …" if len(every) > LISTED else "")
-    return f"one of {some}" if len(every) > 1 else some
+    some = joined(", ", [*every[:LISTED], *(["…"] if len(every) > LISTED else [])])
+    return message("one of {names}", names=some) if len(every) > 1 else some
 
 
 def natural(name: str) -> tuple[bool, int, str]:
@@ -228,20 +245,20 @@ def natural(name: str) -> tuple[bool, int, str]:
     return (False, int(name), "") if name.isdigit() else (True, 0, name)
 
 
-def shown(raw: object) -> str:
+def shown(raw: object) -> Message:
     """A raw value as an error shows it: short, on one line, without invisible characters."""
     match raw:
         case bool():
-            return str(raw).lower()
+            return verbatim(str(raw).lower())
         case str():
-            return f'"{visible(raw)}"'
-        case int():
-            return str(raw) if raw.bit_length() < 200 else "a very large whole number"
+            return verbatim(f'"{visible(raw)}"')
+        case int() if raw.bit_length() >= 200:
+            return message("a very large whole number")
         case list():
-            return f"a list of {len(raw)}"
+            return message("a list of {count}", count=len(raw))
         case dict():
-            return "a table"
-    return visible(str(raw))
+            return message("a table")
+    return verbatim(visible(str(raw)))
 
 
 def shown_key(key: str) -> str:

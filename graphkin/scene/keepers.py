@@ -29,6 +29,7 @@ from graphkin.scene.model import (
     of_one_size,
 )
 from graphkin.scene.quantity import Quantity, exact
+from graphkin.text.errors import message
 
 ON_LINE = 1e-12
 """Distance from a track, relative to the length along it, within which a point lies on it."""
@@ -205,12 +206,16 @@ def keeper_of(
     place = f"{numbered(place, index, len(own.rolls))}.link"
     if made is None:
         if asked:
-            found = f"{shown(asked)}: this wheel is kept where it rolls"
-            measures.findings.add(place, found, "no name here")
+            found = message("{asked}: this wheel is kept where it rolls", asked=shown(asked))
+            measures.findings.add(place, found, message("no name here"))
         return None
     called = asked or next_name({each: link for each, link in every.items() if each != FRAME})
     if called in every:
-        measures.findings.add(place, f"link {called} is there already", "the name of a new link")
+        measures.findings.add(
+            place,
+            message("link {called} is there already", called=called),
+            message("the name of a new link"),
+        )
         return None
     return replace(made, name=called)
 

@@ -6,24 +6,32 @@ from collections.abc import Collection
 
 from graphkin.scene.findings import Findings, listed, nearest
 from graphkin.scene.model import FRAME, GuideOrTrack, Link, Scene, Slide, link_words
+from graphkin.text.errors import Message, message
+
+THE_MECHANISM = message("the mechanism")
 
 
 def known_link(scene: Scene, name: str, place: str, findings: Findings) -> Link | None:
     """The link with a name; None, with a problem noted, when there is none."""
     if name == FRAME or name in scene.links:
         return scene.link(name)
-    found = f"link {name} is not in [links]"
+    found = message("link {name} is not in [links]", name=name)
     findings.add(place, found, listed((FRAME, *scene.links)), nearest(name, scene.links))
     return None
 
 
 def known_point(
-    name: str, points: Collection[str], where: str, place: str, findings: Findings
+    name: str, points: Collection[str], where: Message, place: str, findings: Findings
 ) -> bool:
     """Whether a point is among those of ``where``; a problem is noted when it is not."""
     if name not in points:
-        expected = listed(points) or "a point that is written"
-        findings.add(place, f"{name} is no point of {where}", expected, nearest(name, points))
+        expected = listed(points) or message("a point that is written")
+        findings.add(
+            place,
+            message("{name} is no point of {where}", name=name, where=where),
+            expected,
+            nearest(name, points),
+        )
     return name in points
 
 
@@ -42,7 +50,9 @@ def check_guide(
 ) -> None:
     """Note a guide or track on its own or an unknown link, or through points which that lacks."""
     if joint.on == link.name:
-        findings.add(f"{place}.on", f"link {link.name} itself", "another link")
+        findings.add(
+            f"{place}.on", message("link {name} itself", name=link.name), message("another link")
+        )
         return
     on = known_link(scene, joint.on, f"{place}.on", findings)
     if on is None:
@@ -55,10 +65,23 @@ def check_guide(
             if point in on.points or point not in link.points:
                 known_point(point, on.points, where, f"{place}.along", findings)
             else:
-                found = f"{point} is a point of link {link.name}, not of {where}"
-                hint = f"to slide {where} along this link, write slides in {where}"
-                if joint.on != FRAME:
-                    hint += f", with on = {quoted(link.name)}"
+                found = message(
+                    "{point} is a point of link {name}, not of {where}",
+                    point=point,
+                    name=link.name,
+                    where=where,
+                )
+                if joint.on == FRAME:
+                    hint = message(
+                        "to slide {where} along this link, write slides in {where}", where=where
+                    )
+                else:
+                    hint = message(
+                        "to slide {where} along this link, write slides in {where}, "
+                        "with on = {name}",
+                        where=where,
+                        name=quoted(link.name),
+                    )
                 findings.add(f"{place}.along", found, listed(on.points), hint)
 
 

@@ -11,6 +11,7 @@ from graphkin.scene.known_names import known_link
 from graphkin.scene.model import Ask, Driver, Scene
 from graphkin.scene.phrases import FRAME_WORD, LONGEST_NAME
 from graphkin.scene.requests import LANGUAGES
+from graphkin.text.errors import message
 
 Names = Mapping[str, str]
 """Names for links, by their names in the scene."""
@@ -24,7 +25,10 @@ def read_names(table: Table, findings: Findings) -> dict[str, Names]:
         found[language] = {link: own.text(link) for link in own.raw}
         for link, name in found[language].items():
             if not is_printable_name(name):
-                expected = f"a letter, then letters, digits or _, at most {LONGEST_NAME}"
+                expected = message(
+                    "a letter, then letters, digits or _, at most {most}",
+                    most=LONGEST_NAME,
+                )
                 findings.add(own.at(link), shown(name), expected)
     table.known.extend(LANGUAGES)
     table.finish()
@@ -44,9 +48,17 @@ def check_names(scene: Scene, findings: Findings) -> None:
         for link, name in names.items():
             place = f"names.{language}.{link}"
             if known_link(scene, link, place, findings) is scene.frame:
-                findings.add(place, "the frame, which has no name on a sheet", "a moving link")
+                findings.add(
+                    place,
+                    message("the frame, which has no name on a sheet"),
+                    message("a moving link"),
+                )
             elif name in used:
-                findings.add(place, f"{shown(name)} is another thing's name", "a name of its own")
+                findings.add(
+                    place,
+                    message("{name} is another thing's name", name=shown(name)),
+                    message("a name of its own"),
+                )
             used.add(name)
 
 

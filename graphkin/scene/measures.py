@@ -12,7 +12,7 @@ from msgspec.structs import replace
 from graphkin.scene.expression import FARTHEST, TIME, Number, UnreadableError, decimal, integer
 from graphkin.scene.findings import Findings, listed, nearest, shown
 from graphkin.scene.quantity import Quantity, exact, expression
-from graphkin.text.errors import Hint, SceneError
+from graphkin.text.errors import NO_WORDS, Hint, SceneError, message, verbatim
 
 Pair = tuple[Quantity, Quantity]
 LARGEST = 10**FARTHEST
@@ -63,8 +63,10 @@ class Measures:
         try:
             read = quantity(raw, unit, place)
         except UnreadableError as error:
-            found = "nothing" if raw is None else error.found
-            self.findings.add(place, found, "a number or an expression in quotes", error.hint)
+            found = message("nothing") if raw is None else error.found
+            self.findings.add(
+                place, found, message("a number or an expression in quotes"), error.hint
+            )
             return exact(1, unit, place)
         if self.knows_names(read, law) and self.exists(read, positive):
             return read
@@ -81,7 +83,7 @@ class Measures:
     def point(self, place: str, raw: object) -> Pair:
         """Two coordinates, from ``[x, y]``."""
         if not isinstance(raw, list) or len(raw) != 2:
-            self.findings.add(place, shown(raw), "two coordinates [x, y]")
+            self.findings.add(place, shown(raw), message("two coordinates [x, y]"))
             raw = [1, 1]
         return self.length(f"{place}[0]", raw[0]), self.length(f"{place}[1]", raw[1])
 
@@ -93,12 +95,16 @@ class Measures:
         unknown = sorted(used - self.values.keys() - {TIME})
         names = [key for key in self.values if key != TIME]
         known = listed(names)
-        number = f"a number in {read.unit}" if read.unit else "a number"
+        number = message("a number in {unit}", unit=read.unit) if read.unit else message("a number")
         for name in unknown:
             self.findings.add(
                 read.place,
-                f"{shown(read.text)} uses {name}, which is no parameter",
-                f"{number}, or an expression with {known}" if known else number,
+                message(
+                    "{text} uses {name}, which is no parameter", text=shown(read.text), name=name
+                ),
+                message("{number}, or an expression with {known}", number=number, known=known)
+                if known
+                else number,
                 nearest(name, names),
             )
         if TIME not in used:
@@ -106,18 +112,18 @@ class Measures:
         if not law:
             self.findings.add(
                 read.place,
-                f"{shown(read.text)} uses the time t",
-                "t only in a driver's angle or position",
+                message("{text} uses the time t", text=shown(read.text)),
+                message("t only in a driver's angle or position"),
             )
         elif TIME not in self.values:
             self.findings.add(
                 read.place,
-                f"{shown(read.text)} uses the time t, and the scene has no time",
-                "time = … (in s) at the top of the file",
+                message("{text} uses the time t, and the scene has no time", text=shown(read.text)),
+                message("time = … (in s) at the top of the file"),
             )
         return law and not unknown and TIME in self.values
 
-    def exists(self, read: Quantity, positive: bool = False, hint: Hint = "") -> bool:
+    def exists(self, read: Quantity, positive: bool = False, hint: Hint = NO_WORDS) -> bool:
         """Whether a quantity has a value in range, and a positive one where required."""
         try:
             value = read.number(self.values)
@@ -126,14 +132,14 @@ class Measures:
             return False
         tiny = positive and 0 < value * LARGEST < 1
         if tiny or abs(value) > LARGEST:
-            found = f"{shown(read.text)} is out of range"
-            expected = f"a number between 1e-{FARTHEST} and 1e{FARTHEST}"
+            found = message("{text} is out of range", text=shown(read.text))
+            expected = message("a number between 1e-{farthest} and 1e{farthest}", farthest=FARTHEST)
             self.findings.add(read.place, found, expected, hint)
             return False
         if positive and value <= 0:
-            found = read.written(self.values)
+            found = verbatim(read.written(self.values))
             if found != read.text:
-                found = f"{shown(read.text)} is {found}"
-            self.findings.add(read.place, found, "a number above 0")
+                found = message("{text} is {found}", text=shown(read.text), found=found)
+            self.findings.add(read.place, found, message("a number above 0"))
             return False
         return True

@@ -16,6 +16,7 @@ from msgspec.structs import astuple, replace
 from graphkin.numbers.arithmetic import FLOAT, Kind, Point
 from graphkin.scene.expression import TIME
 from graphkin.scene.quantity import Quantity
+from graphkin.text.errors import Message, message
 from graphkin.text.plain_table import listed
 
 if TYPE_CHECKING:
@@ -138,9 +139,9 @@ class Slide(Struct, frozen=True):
     pin: bool = False
     rollers: tuple[str, ...] = ()
 
-    def named(self, block: str) -> str:
+    def named(self, block: str) -> Message:
         """The description of the guide of a block."""
-        return f"the guide of block {block} on {link_words(self.on)}"
+        return message("the guide of block {block} on {on}", block=block, on=link_words(self.on))
 
     def called(self, names: Mapping[str, str]) -> Slide:
         """The slide with links renamed."""
@@ -199,9 +200,9 @@ class Rolling(Struct, frozen=True):
     belt: Belt | None = None
     keeper: str = ""
 
-    def named(self, wheel: str) -> str:
+    def named(self, wheel: str) -> Message:
         """The description of the contact of a wheel."""
-        return f"the contact of link {wheel} with {link_words(self.on)}"
+        return message("the contact of link {wheel} with {on}", wheel=wheel, on=link_words(self.on))
 
     def called(self, names: Mapping[str, str]) -> Rolling:
         """The rolling contact with links renamed."""
@@ -338,9 +339,9 @@ class Cam(Struct, frozen=True):
 JOINED = ("slides", "rolls", "belt", "wheel", "wheels")
 """The keys of a link's joints other than points."""
 KEYWORDS = frozenset((*JOINED, "touches", "profiles", "cam"))
-LEADING = "slides or rolls"
+LEADING = message("slides or rolls")
 """The keys, in words, of joints that guide a link along another."""
-LINK_KEYS = "slides, rolls, belt, wheel, touches or profiles"
+LINK_KEYS = message("slides, rolls, belt, wheel, touches or profiles")
 """The keys, in words, of a link other than its points."""
 
 
@@ -400,9 +401,9 @@ class Link(Struct, frozen=True):
         )
 
 
-def link_words(name: str) -> str:
+def link_words(name: str) -> Message:
     """A link by its name; link 0 is the frame."""
-    return "the frame" if name == FRAME else f"link {name}"
+    return message("the frame") if name == FRAME else message("link {on}", on=name)
 
 
 def joined_words(names: Sequence[str]) -> str:

@@ -13,7 +13,17 @@ from graphkin.scene.measures import quantity
 from graphkin.scene.model import Parameter
 from graphkin.scene.phrases import is_name
 from graphkin.scene.quantity import Quantity, exact, shortest
-from graphkin.text.errors import Mend, Problem, SceneError, Setting
+from graphkin.text.errors import (
+    NO_WORDS,
+    Mend,
+    Message,
+    Problem,
+    SceneError,
+    Setting,
+    joined,
+    message,
+    verbatim,
+)
 
 MOST = 200
 
@@ -22,14 +32,26 @@ def read_parameters(table: Table, findings: Findings) -> dict[str, Parameter]:
     """The parameters of a scene: each is a bare number, or ``{ value, min, max, step }``."""
     parameters: dict[str, Parameter] = {}
     if len(table.raw) > MOST:
-        findings.add(table.place, f"{len(table.raw)} parameters", f"at most {MOST}")
+        findings.add(
+            table.place,
+            message("{count} parameters", count=len(table.raw)),
+            message("at most {most}", most=MOST),
+        )
         return parameters
     for name, raw in table.raw.items():
         place = table.at(name)
         if not is_name(name):
-            findings.add(place, "no name of a parameter", "a letter, then letters, digits or _")
+            findings.add(
+                place,
+                message("no name of a parameter"),
+                message("a letter, then letters, digits or _"),
+            )
         elif name in RESERVED:
-            findings.add(place, f"{name} has a meaning of its own in expressions", "another name")
+            findings.add(
+                place,
+                message("{name} has a meaning of its own in expressions", name=name),
+                message("another name"),
+            )
         else:
             inner = raw if isinstance(raw, dict) else {"value": raw}
             where = place if not isinstance(raw, dict) else f"{place}.value"
@@ -44,9 +66,13 @@ def read_parameter(name: str, table: Table, place: str) -> Parameter:
     table.finish()
     parameter = Parameter(name, value, least, most, step)
     if least and most and plain(least) > plain(most):
-        table.findings.add(table.at("min"), f"{least.text} is above max", f"at most {most.text}")
+        table.findings.add(
+            table.at("min"),
+            message("{least} is above max", least=least.text),
+            message("at most {most}", most=most.text),
+        )
     elif step and plain(step) <= 0:
-        table.findings.add(table.at("step"), step.text, "a number above 0")
+        table.findings.add(table.at("step"), verbatim(step.text), message("a number above 0"))
     else:
         table.findings.extend(out_of_range(parameter, plain(value), place))
     return parameter
@@ -64,22 +90,27 @@ def rational(place: str, raw: object, findings: Findings) -> Quantity | None:
         read = quantity(raw, "", place)
         value = None if read.uses() else read.number({})
     except UnreadableError as error:
-        found = "nothing" if raw is None else error.found
+        found = message("nothing") if raw is None else error.found
         comma = isinstance(raw, str) and "," in raw
-        hint = Mend(",", ".", "write a decimal point") if comma else error.hint
-        findings.add(place, found, "a number", hint)
+        hint = Mend(",", ".", message("write a decimal point")) if comma else error.hint
+        findings.add(place, found, message("a number"), hint)
         return None
     except SceneError as error:
         findings.extend(error.problems)
         return None
     if isinstance(value, Fraction):
         return read
-    says = "is not rational", "a whole number, decimal or fraction"
+    text = shown(read.text)
     if isinstance(read.tree, Name) and read.uses():
-        says = "is no number", "a number"
+        found, expected = message("{text} is no number", text=text), message("a number")
     elif read.uses():
-        says = f"uses {', '.join(sorted(read.uses()))}", "a number, without parameters"
-    findings.add(place, f"{shown(read.text)} {says[0]}", says[1])
+        used = ", ".join(sorted(read.uses()))
+        found = message("{text} uses {names}", text=text, names=used)
+        expected = message("a number, without parameters")
+    else:
+        found = message("{text} is not rational", text=text)
+        expected = message("a whole number, decimal or fraction")
+    findings.add(place, found, expected)
     return None
 
 
@@ -91,29 +122,43 @@ def plain(read: Quantity) -> Fraction:
 def out_of_range(parameter: Parameter, value: Fraction, place: str) -> list[Problem]:
     """The problem of a value outside its parameter's range or off its steps, if any."""
     wrong, given = misfit(parameter, value), f"{parameter.name} = {shortest(value)}"
-    return [Problem(place, f"{given} is {wrong}", range_words(parameter))] if wrong else []
+    return (
+        [
+            Problem(
+                place, message("{text} is {found}", text=given, found=wrong), range_words(parameter)
+            )
+        ]
+        if wrong
+        else []
+    )
 
 
-def misfit(parameter: Parameter, value: Fraction) -> str:
+def misfit(parameter: Parameter, value: Fraction) -> Message:
     """What is wrong with a value of a parameter, in words; "" for an allowed value."""
     least, most, step = parameter.minimum, parameter.maximum, parameter.step
     if (least and value < plain(least)) or (most and value > plain(most)):
-        return "out of range"
+        return message("out of range")
     start = plain(least) if least else plain(parameter.value)
-    return "off the step" if step and (value - start) % plain(step) else ""
+    return message("off the step") if step and (value - start) % plain(step) else NO_WORDS
 
 
-def range_words(parameter: Parameter) -> str:
+def range_words(parameter: Parameter) -> Message:
     """The range of a parameter in words: ``n from 1 to 30 in steps of 1``."""
-    words = [parameter.name]
-    if parameter.minimum:
-        words.append(f"from {parameter.minimum.written({})}")
-    if parameter.maximum:
-        words.append(f"{'to' if parameter.minimum else 'up to'} {parameter.maximum.written({})}")
-    if parameter.step:
-        start = "" if parameter.minimum else f" from {parameter.value.written({})}"
-        words.append(f"in steps of {parameter.step.written({})}{start}")
-    return " ".join(words)
+    least, most, step = parameter.minimum, parameter.maximum, parameter.step
+    words: list[str] = [parameter.name]
+    if least and most:
+        bounds = {"least": least.written({}), "most": most.written({})}
+        words.append(message("from {least} to {most}", **bounds))
+    elif least:
+        words.append(message("from {least}", least=least.written({})))
+    elif most:
+        words.append(message("up to {most}", most=most.written({})))
+    if step and least:
+        words.append(message("in steps of {step}", step=step.written({})))
+    elif step:
+        start = parameter.value.written({})
+        words.append(message("in steps of {step} from {start}", step=step.written({}), start=start))
+    return joined(" ", words)
 
 
 def set_values(
@@ -124,8 +169,13 @@ def set_values(
     for name, raw in settings.items():
         wrong = Findings()
         if name not in parameters:
-            expected = listed(parameters) or "no setting, for the scene has no parameters"
-            wrong.add("", f"{shown(name)} is no parameter", expected, nearest(name, parameters))
+            expected = listed(parameters) or message("no setting, for the scene has no parameters")
+            wrong.add(
+                "",
+                message("{name} is no parameter", name=shown(name)),
+                expected,
+                nearest(name, parameters),
+            )
         elif (read := rational("", raw, wrong)) is not None:
             values[name] = plain(read)
             wrong.extend(out_of_range(parameters[name], values[name], ""))
@@ -136,4 +186,4 @@ def set_values(
 def of_setting(name: str, problems: Iterable[Problem]) -> Iterator[Problem]:
     """The problems of a setting from outside, attributed to that setting."""
     about = Setting(name)
-    return (replace(each, place=str(about), about=(about,)) for each in problems)
+    return (replace(each, place=about.message, about=(about,)) for each in problems)

@@ -10,7 +10,7 @@ from msgspec import Struct
 from graphkin.scene.findings import Findings, nearest, shown, shown_key
 from graphkin.scene.link_points import ends_of, is_under, under
 from graphkin.scene.model import FRAME, LINK_KEYS, Branch, Closure, Side, Way
-from graphkin.text.errors import Hint, Mend
+from graphkin.text.errors import NO_WORDS, Hint, Mend, Message, message
 
 FRAME_WORD = "frame"
 LONGEST_NAME = 40
@@ -53,22 +53,29 @@ def point_name(place: str, name: object, findings: Findings) -> str | None:
     """The name of a point; None, with a problem recorded, if it is not valid."""
     if isinstance(name, str) and is_name(name):
         if name.lower() == FRAME_WORD:
-            findings.add(place, f"a point named {name}", "a name that is not the frame's")
+            findings.add(
+                place,
+                message("a point named {name}", name=name),
+                message("a name that is not the frame's"),
+            )
             return None
         return name
     if name is None:
-        findings.add(place, "is missing", "the name of a point")
+        findings.add(place, message("is missing"), message("the name of a point"))
         return None
     findings.add(
         place,
-        f"{shown(name)} is no name of a point",
-        f"a letter, then letters, digits or _, at most {LONGEST_NAME}",
+        message("{name} is no name of a point", name=shown(name)),
+        message("a letter, then letters, digits or _, at most {most}", most=LONGEST_NAME),
     )
     return None
 
 
+NAME_OF_LINK = message("the name of a link")
+
+
 def link_name(
-    place: str, raw: object, findings: Findings, meant: str = "the name of a link"
+    place: str, raw: object, findings: Findings, meant: Message = NAME_OF_LINK
 ) -> str | None:
     """The name of a link, written as text or whole number; ``frame`` and 0 are the frame."""
     if isinstance(raw, int) and not isinstance(raw, bool) and 0 <= raw < 10**6:
@@ -79,10 +86,12 @@ def link_name(
         if is_link_name(raw):
             return raw
     if raw is None:
-        findings.add(place, "is missing", meant)
+        findings.add(place, message("is missing"), meant)
     else:
         findings.add(
-            place, f"{shown(raw)} is no name of a link", "a number or a name, as in [links]"
+            place,
+            message("{raw} is no name of a link", raw=shown(raw)),
+            message("a number or a name, as in [links]"),
         )
     return None
 
@@ -101,8 +110,8 @@ def line_words(place: str, raw: object, findings: Findings) -> tuple[str, str] |
     ends = line(phrase(raw)[0]) if isinstance(raw, str) and len(phrase(raw)) == 1 else None
     if ends is not None:
         return ends
-    found = "is missing" if raw is None else shown(raw)
-    findings.add(place, found, 'two points with a dash, such as "A-B"')
+    found = message("is missing") if raw is None else shown(raw)
+    findings.add(place, found, message('two points with a dash, such as "A-B"'))
     return None
 
 
@@ -149,14 +158,18 @@ def phrase_hint(raw: object, begins: Collection[str]) -> Hint:
     """A correction of a phrase that should begin with one of some words; empty if there is none."""
     words = phrase(raw) if isinstance(raw, str) else []
     if not words:
-        return ""
+        return NO_WORDS
     ends = words[-1].split("-")
     for end in ends if len(words) == 3 and len(ends) == 2 else ():
         if re.fullmatch(r"0\w*", end) and is_name(f"O{end[1:]}"):
             meant = f"O{end[1:]}"
-            told = f"{end} begins with a zero: did you mean {meant}, with the letter?"
+            told = message(
+                "{end} begins with a zero: did you mean {meant}, with the letter?",
+                end=end,
+                meant=meant,
+            )
             return Mend(end, meant, told)
-    return "" if words[0] in begins else nearest(words[0], begins)
+    return NO_WORDS if words[0] in begins else nearest(words[0], begins)
 
 
 def key_points(place: str, key: str, findings: Findings) -> tuple[str, ...] | None:
@@ -165,14 +178,16 @@ def key_points(place: str, key: str, findings: Findings) -> tuple[str, ...] | No
     if len(parts) > 3 or not all(is_name(part) for part in parts):
         findings.add(
             place,
-            f"{shown_key(key)} is no key of a link",
-            f"P, P-Q (a length), P-Q-R (an angle at Q), {LINK_KEYS}",
+            message("{key} is no key of a link", key=shown_key(key)),
+            message("P, P-Q (a length), P-Q-R (an angle at Q), {link_keys}", link_keys=LINK_KEYS),
         )
         return None
     names = [point_name(place, part, findings) for part in parts]
     if None in names:
         return None
     if len(set(parts)) < len(parts):
-        findings.add(place, f"{key} names one point twice", "different points")
+        findings.add(
+            place, message("{key} names one point twice", key=key), message("different points")
+        )
         return None
     return tuple(parts)

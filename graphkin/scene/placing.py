@@ -24,9 +24,9 @@ from graphkin.scene.phrases import (
     side_words,
 )
 from graphkin.scene.quantity import Quantity, exact, shortest
-from graphkin.text.errors import Hint, Mend
+from graphkin.text.errors import NO_WORDS, Hint, Mend, Message, both, either, message
 
-PHRASES = '"left of A-B", "right of A-B", "on A-B" or "beyond B on A-B"'
+PHRASES = message('"left of A-B", "right of A-B", "on A-B" or "beyond B on A-B"')
 
 
 class LinkKeys(Struct):
@@ -71,14 +71,22 @@ def read_key(sketch: LinkKeys, key: str, raw: object, place: str, measures: Meas
         pair = frozenset(points)
         if pair in sketch.lengths:
             twin = "-".join(reversed(points))
-            measures.findings.add(place, f"the length {twin} is written above", "one of the two")
+            measures.findings.add(
+                place,
+                message("the length {twin} is written above", twin=twin),
+                message("one of the two"),
+            )
             sketch.broken = True
         sketch.lengths[pair] = measures.length(place, raw, positive=True)
     else:
         first, vertex, last = points
         if (last, vertex, first) in sketch.angles:
             twin = f"{last}-{vertex}-{first}"
-            measures.findings.add(place, f"the angle {twin} is written above", "one of the two")
+            measures.findings.add(
+                place,
+                message("the angle {twin} is written above", twin=twin),
+                message("one of the two"),
+            )
             sketch.broken = True
         sketch.angles[first, vertex, last] = measures.angle(place, raw)
 
@@ -96,8 +104,10 @@ def misspelt(key: str, raw: object, place: str, findings: Findings) -> bool:
         return False
     if held is raw and sum(bool(nearest(each, POLAR)) for each in raw) > 1:
         return False
-    expected = f"a point by {{from, length, angle}}, or {', '.join(sorted(KEYWORDS))}"
-    findings.add(place, "unknown table", expected, nearest(key, KEYWORDS))
+    expected = message(
+        "a point by {{from, length, angle}}, or {keywords}", keywords=", ".join(sorted(KEYWORDS))
+    )
+    findings.add(place, message("unknown table"), expected, nearest(key, KEYWORDS))
     return True
 
 
@@ -111,7 +121,9 @@ def read_point(sketch: LinkKeys, point: str, raw: object, place: str, measures: 
     else:
         words = (side_words(raw) or on_words(raw)) if isinstance(raw, str) else None
         if words is None:
-            expected = f"coordinates [x, y], {{from, length, angle}}, {PHRASES}"
+            expected = message(
+                "coordinates [x, y], {{from, length, angle}}, {phrases}", phrases=PHRASES
+            )
             measures.findings.add(place, shown(raw), expected, phrase_hint(raw, PLACES))
             sketch.broken = True
         else:
@@ -141,9 +153,9 @@ def explain(sketch: LinkKeys, waiting: list[str], placed: set[str], findings: Fi
         names = ", ".join(waiting)
         findings.add(
             sketch.place,
-            f"nothing places {names}",
-            "each point by points written before it",
-            "give coordinates [x, y], or lengths and a side",
+            message("nothing places {names}", names=names),
+            message("each point by points written before it"),
+            message("give coordinates [x, y], or lengths and a side"),
         )
 
 
@@ -154,16 +166,18 @@ def refuse_circle(sketch: LinkKeys, points: Iterable[str], findings: Findings) -
         while (polar := sketch.polars.get(circle[-1])) and polar.start not in circle:
             circle.append(polar.start)
         if polar is not None and polar.start == point:
-            found = f"{', '.join(circle)} are placed from one another, in a circle"
+            found = message(
+                "{circle} are placed from one another, in a circle", circle=", ".join(circle)
+            )
             if len(circle) == 1:
-                found = f"{point} is placed from itself"
-            expected = f"coordinates of one point, such as {point} = [0, 0]"
+                found = message("{point} is placed from itself", point=point)
+            expected = message("coordinates of one point, such as {point} = [0, 0]", point=point)
             findings.add(f"{sketch.place}.{point}", found, expected)
             return True
     return False
 
 
-def missing(sketch: LinkKeys, point: str, placed: set[str]) -> tuple[str, str, Hint]:
+def missing(sketch: LinkKeys, point: str, placed: set[str]) -> tuple[Message, Message, Hint]:
     """What one point lacks: found, expected and hint; empty if it only waits for another point."""
     polar, words = sketch.polars.get(point), sketch.words.get(point)
     if polar is not None:
@@ -172,19 +186,32 @@ def missing(sketch: LinkKeys, point: str, placed: set[str]) -> tuple[str, str, H
         return missing_lengths(sketch, point, placed)
     bare = bare_turn(sketch, point, placed) or bare_base(sketch, point, placed)
     if bare:
-        return (f"the length {bare} is missing", f"{bare} = …", "")
+        return (
+            message("the length {bare} is missing", bare=bare),
+            message("{bare} = …", bare=bare),
+            NO_WORDS,
+        )
     ends = [end for end in sketch.points if end in placed and sketch.between(end, point)]
     if len(ends) >= 2:
         a, b = ends[:2]
         return (
-            f"{point} has the lengths {a}-{point} and {b}-{point} but no side",
-            f'{point} = "left of {a}-{b}" or "right of {a}-{b}"',
-            "",
+            message(
+                "{point} has the lengths {a}-{point} and {b}-{point} but no side",
+                point=point,
+                a=a,
+                b=b,
+            ),
+            message('{point} = "left of {a}-{b}" or "right of {a}-{b}"', point=point, a=a, b=b),
+            NO_WORDS,
         )
     if len(ends) == 1:
         bar = f"{ends[0]}-{point}"
         base = any({ends[0], point} == {on.first, on.second} for on in sketch.words.values())
-        hint = f"write {bar} above the other lengths, for they begin with it" if base else ""
+        hint = (
+            message("write {bar} above the other lengths, for they begin with it", bar=bar)
+            if base
+            else NO_WORDS
+        )
         lines = [
             f"{p}-{q}"
             for p, q in combinations(sketch.points, 2)
@@ -192,13 +219,17 @@ def missing(sketch: LinkKeys, point: str, placed: set[str]) -> tuple[str, str, H
         ]
         if len(lines) == 1 and not hint:
             said = f"on {lines[0]}"
-            hint = f'if {point} lies on the line, write {point} = "{said}" with one of its lengths'
+            hint = message(
+                'if {point} lies on the line, write {point} = "{said}" with one of its lengths',
+                point=point,
+                said=said,
+            )
         return (
-            f"one length, {bar}, does not place {point}",
-            "a second length and a side, an angle, or coordinates [x, y]",
+            message("one length, {bar}, does not place {point}", bar=bar, point=point),
+            message("a second length and a side, an angle, or coordinates [x, y]"),
             hint,
         )
-    return ("", "", "")
+    return NO_WORDS, NO_WORDS, NO_WORDS
 
 
 def bare_turn(sketch: LinkKeys, point: str, placed: set[str]) -> str:
@@ -224,7 +255,9 @@ def bare_base(sketch: LinkKeys, point: str, placed: set[str]) -> str:
     return ""
 
 
-def missing_lengths(sketch: LinkKeys, point: str, placed: set[str]) -> tuple[str, str, Hint]:
+def missing_lengths(
+    sketch: LinkKeys, point: str, placed: set[str]
+) -> tuple[Message, Message, Hint]:
     """What a point with a side or a line lacks."""
     words = sketch.words[point]
     ends = (words.first, words.second)
@@ -232,23 +265,35 @@ def missing_lengths(sketch: LinkKeys, point: str, placed: set[str]) -> tuple[str
     if lost[0]:
         return lost
     if any(end not in placed for end in ends):
-        return ("", "", "")
+        return NO_WORDS, NO_WORDS, NO_WORDS
     bare = [f"{end}-{point}" for end in ends if sketch.between(end, point) is None]
     if isinstance(words, Side):
-        return (f"{point} has a side but not the length {' and '.join(bare)}", "both lengths", "")
-    return (f"{point} is on a line but nothing says how far", f"the length {' or '.join(bare)}", "")
+        return (
+            message("{point} has a side but not the length {bare}", point=point, bare=both(bare)),
+            message("both lengths"),
+            NO_WORDS,
+        )
+    return (
+        message("{point} is on a line but nothing says how far", point=point),
+        message("the length {bare}", bare=either(bare)),
+        NO_WORDS,
+    )
 
 
 def unknown(
     sketch: LinkKeys, what: str, ends: tuple[str, ...] | list[str], itself: str = ""
-) -> tuple[str, str, Hint]:
+) -> tuple[Message, Message, Hint]:
     """The problem of a placing that names no other point of this link; empty if it does."""
     others = [point for point in sketch.points if point != itself]
     for end in ends:
         if end not in sketch.points:
             hint = nearest(end, others)
-            return (f"{what} names {end}, no point of this link", listed(others), hint)
-    return ("", "", "")
+            return (
+                message("{what} names {end}, no point of this link", what=what, end=end),
+                listed(others),
+                hint,
+            )
+    return NO_WORDS, NO_WORDS, NO_WORDS
 
 
 def spare(
@@ -260,9 +305,9 @@ def spare(
     for _, quantity in (*left, *turns):
         findings.add(
             quantity.place,
-            "one measure too many: its points are placed without it",
-            "as many measures as place each point once",
-            "leave it out, or leave out another",
+            message("one measure too many: its points are placed without it"),
+            message("as many measures as place each point once"),
+            message("leave it out, or leave out another"),
         )
 
 
@@ -276,8 +321,12 @@ def read_shape(table: Table, measures: Measures) -> tuple[tuple[str, ...], tuple
     """The points of a link in the order written and their placings; problems are recorded."""
     sketch = read_sketch(table, measures)
     if len(sketch.points) > MOST_POINTS:
-        found = f"{len(sketch.points)} points"
-        measures.findings.add(table.place, found, f"at most {MOST_POINTS} on one link")
+        found = message("{count} points", count=len(sketch.points))
+        measures.findings.add(
+            table.place,
+            found,
+            message("at most {most} on one link", most=MOST_POINTS),
+        )
         return tuple(sketch.points), ()
     lay_end_to_end(sketch)
     begin_with_axis(sketch)
@@ -365,12 +414,21 @@ class Placer:
         if first in self.sketch.words or first in self.sketch.polars:
             if self.is_placed_by_itself(first):
                 others = [point for point in self.sketch.points if point != first]
-                line = f'"on {"-".join(others[:2])}"' if others[1:] else "a second point before it"
-                self.findings.add(place, f"{first} is placed by itself", line)
+                line = (
+                    message('"on {others}"', others="-".join(others[:2]))
+                    if others[1:]
+                    else message("a second point before it")
+                )
+                self.findings.add(place, message("{first} is placed by itself", first=first), line)
             elif not refuse_circle(self.sketch, [first], self.findings):
-                found = f"the link's first key begins with {first}, which makes {first} its origin"
+                found = message(
+                    "the link's first key begins with {first}, which makes {first} its origin",
+                    first=first,
+                )
                 self.findings.add(
-                    place, found, f"a length or coordinates of other points above {first}"
+                    place,
+                    found,
+                    message("a length or coordinates of other points above {first}", first=first),
                 )
             self.sketch.broken = True
         nought = exact(0, unit, place)
@@ -540,10 +598,20 @@ class TriangleLayout:
         if not self.sound or (not flat and longest < rest):
             return
         lengths = ", ".join(f"{which} {shortest(side)}" for side, which in sides)
-        found = f"{lengths} make {'a flat triangle' if flat else 'no triangle'}"
-        expected = f"{name} shorter than the other two together, {shortest(rest)}"
+        found = message("{lengths} make no triangle", lengths=lengths)
+        if flat:
+            found = message("{lengths} make a flat triangle", lengths=lengths)
+        expected = message(
+            "{name} shorter than the other two together, {rest}", name=name, rest=shortest(rest)
+        )
         beyond = {f"{a}-{c}": f"beyond {b} on", f"{b}-{c}": f"beyond {a} on"}.get(name, "on")
-        hint = f'if {c} lies on the line, write {c} = "{beyond} {a}-{b}" with one of its lengths'
+        hint = message(
+            'if {c} lies on the line, write {c} = "{beyond} {a}-{b}" with one of its lengths',
+            c=c,
+            beyond=beyond,
+            a=a,
+            b=b,
+        )
         key = placing.from_second.place.rpartition(".")[0]
         longest_key = (*key.split("."), name)
         self.findings.add(f"{key}.{c}", found, expected, hint, about=(longest_key,))
@@ -566,20 +634,41 @@ class TriangleLayout:
         base, far = self.distance(a, b, between), self.value(length)
         if not self.sound or base == 0:
             return
-        sizes = f"{shortest(far)} from {start}, and {a}-{b} is {shortest(base)}"
+        sizes = message(
+            "{far} from {start}, and {a}-{b} is {base}",
+            far=shortest(far),
+            start=start,
+            a=a,
+            b=b,
+            base=shortest(base),
+        )
         end = b if start == a else a
         if words.beyond is None and far > base:
             hint = instead(f"on {a}-{b}", f"beyond {end} on {a}-{b}")
-            self.findings.add(length.place, f"{point} is {sizes}", f"at most {a}-{b}", hint)
+            self.findings.add(
+                length.place,
+                message("{text} is {found}", text=point, found=sizes),
+                message("at most {a}-{b}", a=a, b=b),
+                hint,
+            )
         elif words.beyond == end and far < base:
             hint = instead(f"beyond {end} on {a}-{b}", f"on {a}-{b}")
-            self.findings.add(length.place, f"{point} is {sizes}", f"more than {a}-{b}", hint)
+            self.findings.add(
+                length.place,
+                message("{text} is {found}", text=point, found=sizes),
+                message("more than {a}-{b}", a=a, b=b),
+                hint,
+            )
 
     def coincide(self, place: str, one: str, other: str) -> None:
         """Record two coinciding points where a line through them is needed."""
-        self.findings.add(place, f"{one} and {other} lie at one spot", "a line through two points")
+        self.findings.add(
+            place,
+            message("{one} and {other} lie at one spot", one=one, other=other),
+            message("a line through two points"),
+        )
 
 
 def instead(old: str, new: str) -> Mend:
     """The replacement of one phrase by another."""
-    return Mend(old, new, f'did you mean "{new}"?')
+    return Mend(old, new, message('did you mean "{new}"?', new=new))

@@ -29,7 +29,7 @@ from graphkin.scene.expression import (
     with_error,
 )
 from graphkin.scene.findings import shown
-from graphkin.text.errors import Problem, SceneError
+from graphkin.text.errors import Message, Problem, SceneError, message
 
 LENGTHS = {
     "mm": Fraction(1, 1000),
@@ -100,8 +100,8 @@ class Quantity(Struct, frozen=True, eq=False):
         except OverflowError:
             raise SceneError(self.problem(values, *BOUNDLESS)) from None
         except KeyError as error:
-            found = f"no value for {error.args[0]}"
-            raise SceneError(self.problem(values, found, "a value of each name")) from None
+            found = message("no value for {name}", name=error.args[0])
+            raise SceneError(self.problem(values, found, message("a value of each name"))) from None
         if isinstance(value, float) and not math.isfinite(value):
             raise SceneError(self.problem(values, *BOUNDLESS))
         return value
@@ -149,7 +149,8 @@ class Quantity(Struct, frozen=True, eq=False):
     def derivative(self, name: str) -> Quantity:
         """The exact derivative by a name; by the time ``t``, the unit becomes per second."""
         if size(self.tree) > HEAVIEST:
-            raise SceneError(self.problem({}, "a derivative of too many parts", "a shorter law"))
+            found = message("a derivative of too many parts")
+            raise SceneError(self.problem({}, found, message("a shorter law")))
         try:
             tree = differentiated(self.tree, name)
         except EvaluationError as error:
@@ -166,11 +167,13 @@ class Quantity(Struct, frozen=True, eq=False):
         tree = Pair("-", self.tree, Number(Fraction(number)))
         return Quantity(f"({self.text}) - {number}", tree, self.unit, self.place)
 
-    def problem(self, values: Mapping[str, Any], what: str, expected: str) -> Problem:
+    def problem(self, values: Mapping[str, Any], what: Message, expected: Message) -> Problem:
         """The problem of this number, with the parameter values used."""
         known = [f"{name} = {values[name]}" for name in sorted(self.uses()) if name in values]
-        given = f" with {', '.join(known)}" if known else ""
-        return Problem(self.place, f"{shown(self.text)} gives {what}{given}", expected)
+        found = message("{text} gives {what}", text=shown(self.text), what=what)
+        if known:
+            found = message("{gives} with {known}", gives=found, known=", ".join(known))
+        return Problem(self.place, found, expected)
 
 
 def reckoned(tree: Tree, values: Mapping[str, Any], kind: Kind) -> Any:
@@ -185,7 +188,11 @@ def per_second(unit: str) -> str:
     """The unit of a time derivative: deg, deg/s, deg/s². Raises SceneError beyond."""
     rate = f"{unit}²" if unit.endswith("/s") else f"{unit}/s"
     if rate not in SI:
-        raise SceneError(Problem("", f"no unit for the derivative of a number in {unit or '1'}"))
+        raise SceneError(
+            Problem(
+                "", message("no unit for the derivative of a number in {value}", value=unit or "1")
+            )
+        )
     return rate
 
 

@@ -23,7 +23,7 @@ from graphkin.scene.measures import Measures
 from graphkin.scene.model import FRAME, Cam, CamLever, CamPiece, Conjugate, Link, Slide, link_words
 from graphkin.scene.phrases import SIDES, is_link_name, is_name, link_name
 from graphkin.scene.quantity import Quantity, exact
-from graphkin.text.errors import Written
+from graphkin.text.errors import Written, either, message
 
 LEAST_POINTS = 4
 MOST_POINTS = 72
@@ -44,39 +44,49 @@ def read_table(
     """
     findings, before = measures.findings, len(measures.findings.problems)
     if not LEAST_POINTS <= len(raw) <= MOST_POINTS:
-        expected = f"{LEAST_POINTS} to {MOST_POINTS} points [angle, lift]"
-        findings.add(place, f"{len(raw)} points", expected)
+        expected = message(
+            "{least_points} to {most} points [angle, lift]",
+            least_points=LEAST_POINTS,
+            most=MOST_POINTS,
+        )
+        findings.add(place, message("{count} points", count=len(raw)), expected)
         return ()
     lifted = measures.angle if swings else measures.length
     angles, lifts = list[Fraction](), list[Quantity]()
     for index, pair in enumerate(raw):
         where = numbered(place, index, len(raw))
         if not isinstance(pair, list) or len(pair) != 2:
-            findings.add(where, shown(pair), "two numbers [angle, lift]")
+            findings.add(where, shown(pair), message("two numbers [angle, lift]"))
             continue
         read, lift = measures.angle(where, pair[0]), lifted(where, pair[1])
         if read.uses():
-            findings.add(where, shown(pair), "an angle without parameters")
+            findings.add(where, shown(pair), message("an angle without parameters"))
             continue
         angle = Fraction(read.number({}))
         if angles and angle <= angles[-1]:
-            found = f"{float(angle):g} after {float(angles[-1]):g}"
-            findings.add(where, found, "angles that grow")
+            found = message("{to:g} after {low:g}", to=float(angle), low=float(angles[-1]))
+            findings.add(where, found, message("angles that grow"))
         if lift.number(measures.values) < 0:
-            hint = "the base circle is the smallest: let the table begin at the lowest place"
-            findings.add(where, shown(pair), "a lift of 0 or more", hint)
+            hint = message(
+                "the base circle is the smallest: let the table begin at the lowest place"
+            )
+            findings.add(where, shown(pair), message("a lift of 0 or more"), hint)
         angles.append(angle)
         lifts.append(lift)
     if len(findings.problems) > before:
         return ()
     whole = Fraction(360) if measures.units["angle"] == "deg" else None
     if angles[0] != 0 or not lifts[0].is_zero():
-        findings.add(numbered(place, 0, len(raw)), shown(raw[0]), "[0, 0]")
+        findings.add(numbered(place, 0, len(raw)), shown(raw[0]), message("[0, 0]"))
     if whole is None:
-        findings.add(place, "a table with angles in rad", 'units = { angle = "deg", … }')
+        findings.add(
+            place, message("a table with angles in rad"), message('units = {{ angle = "deg", … }}')
+        )
     elif angles[-1] >= whole:
-        hint = "after a whole turn the table begins again"
-        findings.add(numbered(place, len(raw) - 1, len(raw)), shown(raw[-1]), "less than 360", hint)
+        hint = message("after a whole turn the table begins again")
+        findings.add(
+            numbered(place, len(raw) - 1, len(raw)), shown(raw[-1]), message("less than 360"), hint
+        )
     if len(findings.problems) > before or whole is None:
         return ()
     return cubics(angles, lifts, whole, measures.units["angle" if swings else "length"])
@@ -163,11 +173,11 @@ def tridiagonal(
 
 TIPS = ("roller", "knife", "flat")
 MOST_PIECES = 24
-CAM = "the link of the cam"
-CARRIED = "a cam pinned to the link that carries its follower, or sliding on it"
-OTHER_CAMS = (
-    "a cam whose follower is joined to other links than it is written for an instant: a straight "
-    "flank as a guide on it, an arc with touches, by its centre of curvature"
+CAM = message("the link of the cam")
+CARRIED = message("a cam pinned to the link that carries its follower, or sliding on it")
+OTHER_CAMS = message(
+    "a cam whose follower is joined to other links than it is written for an instant: "
+    "a straight flank as a guide on it, an arc with touches, by its centre of curvature"
 )
 """What to write where no link carries both the cam and its follower."""
 
@@ -196,7 +206,9 @@ def with_cams(
             continue
         raw = table.take("cam")
         if not isinstance(raw, dict):
-            measures.findings.add(table.at("cam"), shown(raw), "a table { on = …, law = [ … ] }")
+            measures.findings.add(
+                table.at("cam"), shown(raw), message("a table {{ on = …, law = [ … ] }}")
+            )
             continue
         count += 1
         own = Table(table.at("cam"), raw, measures.findings)
@@ -238,17 +250,19 @@ def read_cam(
     slides = seat is not None and seat.slides
     tip = table.choice("tip", TIPS)
     if tip == "flat" and slides:
-        hint = (
+        hint = message(
             "a plate lifts a roller or a knife, and a straight flank under a face is a guide on it"
         )
-        findings.add(table.at("tip"), "a flat face on a plate that slides", listed(TIPS[:2]), hint)
+        findings.add(
+            table.at("tip"), message("a flat face on a plate that slides"), listed(TIPS[:2]), hint
+        )
     base = measures.length(table.at("base"), table.take("base"), positive=True)
     raw = table.take("roller")
     if tip == "roller" and raw is None:
-        findings.add(table.at("roller"), "is missing", "the radius of the roller")
+        findings.add(table.at("roller"), message("is missing"), message("the radius of the roller"))
     elif tip != "roller" and raw is not None:
-        said, change = f"a roller on a {tip} follower", Written('"roller"', "tip")
-        findings.add(table.at("roller"), said, 'tip = "roller"', changes=(change,))
+        said, change = message("a roller on a {tip} follower", tip=tip), Written('"roller"', "tip")
+        findings.add(table.at("roller"), said, message('tip = "roller"'), changes=(change,))
     if tip == "roller" and raw is not None:
         roller = measures.length(table.at("roller"), raw, positive=True)
     else:
@@ -268,15 +282,21 @@ def read_cam(
         table.flag("backward")
     table.finish()
     if not is_name(centre) or any(centre in link.points for link in links.values()):
-        taken = f"{shown(centre)} for the centre of curvature"
-        findings.add(table.at("centre"), taken, "the name of a new point")
+        taken = message("{centre} for the centre of curvature", centre=shown(centre))
+        findings.add(table.at("centre"), taken, message("the name of a new point"))
     if not is_link_name(name) or name in links:
-        findings.add(table.at("link"), f"{shown(name)}", "the name of a new link")
+        findings.add(
+            table.at("link"), message("{name}", name=shown(name)), message("the name of a new link")
+        )
     if len(findings.problems) > before or on is None or seat is None:
         return None
     point, lever = found or (links[follower].points[0], None)
     if lever and lever.pin == seat.pivot:
-        findings.add(table.at("on"), f"both links turn about {seat.pivot}", "a cam on another pin")
+        findings.add(
+            table.at("on"),
+            message("both links turn about {pivot}", pivot=seat.pivot),
+            message("a cam on another pin"),
+        )
         return None
     parts = on, seat.pivot, tip, base, roller, law, start, sense, centre, name, point, lever
     return Cam(*parts, conjugate, seat.carrier, seat.slides)
@@ -306,7 +326,7 @@ def conjugate_of(
         return None
     findings, place = measures.findings, table.at("conjugate")
     if not isinstance(raw, dict):
-        findings.add(place, shown(raw), "a table { at = …, roller = … }")
+        findings.add(place, shown(raw), message("a table {{ at = …, roller = … }}"))
         return None
     own = Table(place, raw, findings)
     at = own.text("at", "")
@@ -314,7 +334,9 @@ def conjugate_of(
     own.finish()
     free = [p for p in links[follower].points if p != first and p not in held]
     if at not in free:
-        findings.add(own.at("at"), shown(at), listed(free) or "another point of the follower")
+        findings.add(
+            own.at("at"), shown(at), listed(free) or message("another point of the follower")
+        )
         return None
     return Conjugate(at, roller)
 
@@ -336,16 +358,21 @@ def lever_of(
         table.take("side"), table.take("face")
         return None
     if len(pins) != 1 or not tips:
-        found = f"link {follower} has {len(pins)} pins on {link_words(seat.carrier)}"
-        expected = "one, and the tip as another of its points"
+        found = message(
+            "link {follower} has {count} pins on {carrier}",
+            follower=follower,
+            count=len(pins),
+            carrier=link_words(seat.carrier),
+        )
+        expected = message("one, and the tip as another of its points")
         findings.add(table.place, found, expected)
         table.take("side"), table.take("face")
         return None
     side = table.choice("side", tuple(SIDES))
     raw = table.take("face")
     if raw is not None and tip != "flat":
-        found, change = f"a face on a {tip} follower", Written('"flat"', "tip")
-        findings.add(table.at("face"), found, 'tip = "flat"', changes=(change,))
+        found, change = message("a face on a {tip} follower", tip=tip), Written('"flat"', "tip")
+        findings.add(table.at("face"), found, message('tip = "flat"'), changes=(change,))
     face = measures.length(table.at("face"), 0 if raw is None else raw)
     return tips[0], CamLever(pins[0], SIDES[side], face)
 
@@ -383,31 +410,54 @@ def seat_of(follower: str, on: str, table: Table, links: Mapping[str, Link]) -> 
     findings, own = table.findings, links[follower]
     if on not in links or on == follower:
         expected = listed(name for name in links if name != follower)
-        findings.add(table.at("on"), f"link {on}", f"the link of the cam: {expected}")
+        findings.add(
+            table.at("on"),
+            message("link {on}", on=on),
+            message("the link of the cam: {expected}", expected=expected),
+        )
         return None
     if not is_lever(follower, on, links):
         carriers = [own.slides[0].on]
         if len(own.slides) > 1 or carriers[0] not in links or not own.points or on in carriers:
-            found = f"link {follower} does not slide on a guide beside the cam"
-            expected = "a follower with slides = { on = 0, … }, its first point the roller's centre"
+            found = message(
+                "link {follower} does not slide on a guide beside the cam", follower=follower
+            )
+            expected = message(
+                "a follower with slides = {{ on = 0, … }}, its first point the roller's centre"
+            )
             findings.add(table.place, found, expected, OTHER_CAMS)
             return None
     else:
         carriers = pinned_to(follower, on, links)
         if not carriers:
-            found = f"link {follower} neither slides on a guide nor swings about a pin"
-            expected = "slides = { on = 0, … }, or one point of the frame and the tip as the next"
+            found = message(
+                "link {follower} neither slides on a guide nor swings about a pin",
+                follower=follower,
+            )
+            expected = message(
+                "slides = {{ on = 0, … }}, or one point of the frame and the tip as the next"
+            )
             findings.add(table.place, found, expected)
             return None
     for name in carriers:
         if seat := seated(on, name, links):
             return seat
-    who = " or ".join(map(link_words, carriers))
+    who = either(map(link_words, carriers))
     if on == FRAME and any(s.on == FRAME for name in carriers for s in links[name].slides):
-        hint = "let the plate slide and the follower's guide stand still: both move alike"
-        findings.add(table.at("on"), f"a plate at rest along which {who} slides", CARRIED, hint)
+        hint = message("let the plate slide and the follower's guide stand still: both move alike")
+        findings.add(
+            table.at("on"),
+            message("a plate at rest along which {who} slides", who=who),
+            CARRIED,
+            hint,
+        )
         return None
-    found = f"{link_words(on)} has not one pin on {who}, which carries link {follower}"
+    found = message(
+        "{on} has not one pin on {who}, which carries link {follower}",
+        on=link_words(on),
+        who=who,
+        follower=follower,
+    )
     findings.add(table.at("on"), found, CARRIED, OTHER_CAMS)
     return None
 
@@ -422,12 +472,19 @@ def read_law(
     findings, raw, place = measures.findings, table.take("law"), table.at("law")
     if isinstance(raw, list) and is_table(raw):
         if slides:
-            findings.add(place, "a table of a plate that slides", "pieces with to, rise, motion")
+            findings.add(
+                place,
+                message("a table of a plate that slides"),
+                message("pieces with to, rise, motion"),
+            )
             return ()
         return read_table(place, raw, measures, swings=swings)
     if not isinstance(raw, list) or not 0 < len(raw) <= MOST_PIECES:
-        found = "is missing" if raw is None else shown(raw)
-        expected = f"at most {MOST_PIECES} pieces: [ {{ to = 120, rise = 20, motion = … }}, … ]"
+        found = message("is missing") if raw is None else shown(raw)
+        expected = message(
+            "at most {most} pieces: [ {{ to = 120, rise = 20, motion = … }}, … ]",
+            most=MOST_PIECES,
+        )
         findings.add(place, found, expected)
         return ()
     pieces, bad = [], len(findings.problems)
@@ -436,7 +493,7 @@ def read_law(
         if isinstance(each, dict):
             pieces.append(read_piece(Table(where, each, findings), measures, swings, slides))
         else:
-            findings.add(where, shown(each), "a table { to = …, rise = …, motion = … }")
+            findings.add(where, shown(each), message("a table {{ to = …, rise = …, motion = … }}"))
     if len(findings.problems) > bad:
         return ()
     check_law(place, pieces, measures, slides=slides)
@@ -455,8 +512,10 @@ def read_piece(table: Table, measures: Measures, swings: bool, slides: bool) -> 
         return CamPiece(to, rise, "uniform")
     motion = table.choice("motion", tuple(MOTIONS))
     if raw is None:
-        hint = "a dwell has neither rise nor motion"
-        table.findings.add(table.at("rise"), "is missing", "how far it lifts", hint)
+        hint = message("a dwell has neither rise nor motion")
+        table.findings.add(
+            table.at("rise"), message("is missing"), message("how far it lifts"), hint
+        )
     return CamPiece(to, rise, motion)
 
 
@@ -468,21 +527,26 @@ def check_law(place: str, pieces: list[CamPiece], measures: Measures, *, slides:
     for index, piece in enumerate(pieces):
         to = float(piece.to.number(values))
         if to <= low:
-            found = f"{to:g} after {low:g}"
-            grow = "lengths that grow" if slides else "angles that grow"
+            found = message("{to:g} after {low:g}", to=to, low=low)
+            grow = message("lengths that grow") if slides else message("angles that grow")
             findings.add(f"{numbered(place, index, len(pieces))}.to", found, grow)
         low, lift = to, lift + float(piece.rise.number(values))
         if lift < -1e-9 * abs(float(piece.rise.number(values))):
             where = f"{numbered(place, index, len(pieces))}.rise"
-            found = f"the follower stands {-lift:g} below where the law begins"
-            hint = "the base circle is the smallest: let the law begin at its lowest place"
-            findings.add(where, found, "0 or more", hint)
+            found = message("the follower stands {lift:g} below where the law begins", lift=-lift)
+            hint = message("the base circle is the smallest: let the law begin at its lowest place")
+            findings.add(where, found, message("0 or more"), hint)
     if slides:
         return
     whole = 360.0 if unit == "deg" else 6.283185307179586
     if abs(low - whole) > 1e-9 * whole:
-        findings.add(place, f"ends at {low:g}", '360 (in rad "2*pi")', "a cam turns round")
+        findings.add(
+            place,
+            message("ends at {low:g}", low=low),
+            message('360 (in rad "2*pi")'),
+            message("a cam turns round"),
+        )
     size = max(abs(float(piece.rise.number(values))) for piece in pieces)
     if abs(lift) > 1e-9 * size:
-        found = f"the rises add up to {lift:g}"
-        findings.add(place, found, "0: after a whole turn the follower stands as before")
+        found = message("the rises add up to {lift:g}", lift=lift)
+        findings.add(place, found, message("0: after a whole turn the follower stands as before"))

@@ -5,28 +5,33 @@ from __future__ import annotations
 from math import degrees
 
 from graphkin.scene.findings import Findings, Table, numbered, one_or_many, shown
-from graphkin.scene.known_names import known_point, place_of
+from graphkin.scene.known_names import THE_MECHANISM, known_point, place_of
 from graphkin.scene.measures import FloatText, Measures, Pair
 from graphkin.scene.model import FRAME, At, Link, Profile, Scene, Slide, link_words
 from graphkin.scene.phrases import line_words, link_name, point_name
 from graphkin.scene.quantity import Quantity
+from graphkin.text.errors import message
 
 MOST = 20
-GUIDE = "the link that carries the guide, 0 for the frame"
+GUIDE = message("the link that carries the guide, 0 for the frame")
 
 
 def tables(table: Table, key: str) -> list[Table]:
     """The tables of a key that may hold one table or a list of them."""
     raws = one_or_many(table.take(key))
     if len(raws) > MOST:
-        table.findings.add(table.at(key), f"a list of {len(raws)}", f"at most {MOST}")
+        table.findings.add(
+            table.at(key),
+            message("a list of {count}", count=len(raws)),
+            message("at most {most}", most=MOST),
+        )
     found = []
     for index, raw in enumerate(raws[:MOST]):
         place = numbered(table.at(key), index, len(raws))
         if isinstance(raw, dict):
             found.append(Table(place, raw, table.findings))
         else:
-            table.findings.add(place, shown(raw), "a table { … }, or a list of them")
+            table.findings.add(place, shown(raw), message("a table {{ … }}, or a list of them"))
     return found
 
 
@@ -46,8 +51,10 @@ def read_slide(table: Table, measures: Measures) -> Slide:
         along = line_words(table.at("along"), raw, measures.findings)
         for key in ("through", "angle"):
             if table.take(key) is not None:
-                expected = 'either along = "P-Q", or through and angle'
-                measures.findings.add(table.at(key), f"{key} beside along", expected)
+                expected = message('either along = "P-Q", or through and angle')
+                measures.findings.add(
+                    table.at(key), message("{key} beside along", key=key), expected
+                )
     raw = table.take("offset")
     offset = measures.length(table.at("offset"), 0 if raw is None else raw)
     pin = table.flag("pin")
@@ -59,10 +66,12 @@ def read_line(table: Table, measures: Measures) -> tuple[str | Pair | None, Quan
     """A line, by a point on it and its angle to the x axis of its link."""
     raw, turned = table.take("through"), table.take("angle")
     if raw is None:
-        expected = 'through = "P" or [x, y], with an angle, or along = "P-Q"'
-        measures.findings.add(table.place, "no through", expected)
+        expected = message('through = "P" or [x, y], with an angle, or along = "P-Q"')
+        measures.findings.add(table.place, message("no through"), expected)
     elif turned is None:
-        measures.findings.add(table.place, "through without an angle", "angle = …")
+        measures.findings.add(
+            table.place, message("through without an angle"), message("angle = …")
+        )
     through: str | Pair | None
     if isinstance(raw, list):
         through = measures.point(table.at("through"), raw)
@@ -71,13 +80,13 @@ def read_line(table: Table, measures: Measures) -> tuple[str | Pair | None, Quan
     elif isinstance(raw, str) and not isinstance(raw, FloatText):
         through = point_name(table.at("through"), raw, measures.findings)
     else:
-        through, expected = None, 'the name of a point, "P", or two coordinates [x, y]'
+        through, expected = None, message('the name of a point, "P", or two coordinates [x, y]')
         measures.findings.add(table.at("through"), shown(raw), expected)
     angle = None if turned is None else measures.angle(table.at("angle"), turned)
     return through, angle
 
 
-OTHERWISE = "a profile is an arc: it needs a radius"
+OTHERWISE = message("a profile is an arc: it needs a radius")
 """The hint where the centre of a profile is on the profile."""
 FULL = 360
 """The whole circle of a profile, in degrees."""
@@ -111,17 +120,22 @@ def check_profiles(scene: Scene, link: Link, findings: Findings) -> None:
         if about:
             known_point(about, link.points, link_words(link.name), f"{where}.about", findings)
         if through:
-            known_point(through, points, "the mechanism", f"{where}.through", findings)
+            known_point(through, points, THE_MECHANISM, f"{where}.through", findings)
         if about and about == through:
-            found, expected = f"about {about} and through it", "a point where it touches"
+            found, expected = (
+                message("about {about} and through it", about=about),
+                message("a point where it touches"),
+            )
             findings.add(f"{where}.through", found, expected, OTHERWISE)
         elif sound and at_one_spot(scene, link, profile):
-            found = f"{about} and {through} are written at one spot"
-            findings.add(where, found, "a centre and another place", OTHERWISE)
+            found = message(
+                "{about} and {through} are written at one spot", about=about, through=through
+            )
+            findings.add(where, found, message("a centre and another place"), OTHERWISE)
         over = degrees(float(profile.arc.si(scene.values))) if profile.arc else FULL
         if not 0 < over <= FULL:
-            expected = "more than 0° and at most 360°, the whole circle"
-            findings.add(f"{where}.arc", f"an arc over {over:g}°", expected)
+            expected = message("more than 0° and at most 360°, the whole circle")
+            findings.add(f"{where}.arc", message("an arc over {over:g}°", over=over), expected)
 
 
 def at_one_spot(scene: Scene, link: Link, profile: Profile) -> bool:

@@ -24,7 +24,16 @@ from graphkin.scene.read_joints import read_profiles, read_slides
 from graphkin.scene.requests import read_ask, read_branches, read_languages, read_sheet
 from graphkin.scene.wheels import read_drums, read_tracks, read_wheels
 from graphkin.text import paths
-from graphkin.text.errors import FirstLine, GraphkinError, Mend, Problem, SceneError
+from graphkin.text.errors import (
+    NO_WORDS,
+    FirstLine,
+    GraphkinError,
+    Mend,
+    Problem,
+    SceneError,
+    both,
+    message,
+)
 from graphkin.text.hooks import service
 
 FORMAT = 1
@@ -86,8 +95,16 @@ def read_into(
     """The scene in a text, with its problems noted. Raises SceneError if there are any."""
     top = Table("", tables_of(text, findings), findings)
     if not top.raw:
-        found = "nothing but comments" if text.strip("\ufeff \t\r\n") else "the file is empty"
-        raise SceneError(Problem("", found, f"a scene, its first line graphkin = {FORMAT}"))
+        found = (
+            message("nothing but comments")
+            if text.strip("\ufeff \t\r\n")
+            else message("the file is empty")
+        )
+        raise SceneError(
+            Problem(
+                "", found, message("a scene, its first line graphkin = {format}", format=FORMAT)
+            )
+        )
     check_version(top, findings)
     scene = assembled(top, name, source, settings, findings)
     asked = top.table("ask")
@@ -120,14 +137,30 @@ def check_version(top: Table, findings: Findings) -> None:
     """Check the format version; a newer version stops the reading at once."""
     version = top.take("graphkin")
     if version is None:
-        found = "the version of the format is missing"
+        found = message("the version of the format is missing")
         line = FirstLine(f"graphkin = {FORMAT}")
-        findings.add("", found, f"the first line graphkin = {FORMAT}", changes=(line,))
+        findings.add(
+            "", found, message("the first line graphkin = {format}", format=FORMAT), changes=(line,)
+        )
     elif isinstance(version, bool) or not isinstance(version, int) or version < 1:
-        findings.add("", f"graphkin = {shown(version)}", f"graphkin = {FORMAT}")
+        findings.add(
+            "",
+            message("graphkin = {version}", version=shown(version)),
+            message("graphkin = {version}", version=FORMAT),
+        )
     elif version > FORMAT:
-        found = f"graphkin = {shown(version)}: this scene is written for a newer graphkin"
-        raise SceneError(Problem("", found, f"graphkin = {FORMAT}", "update graphkin"))
+        found = message(
+            "graphkin = {version}: this scene is written for a newer graphkin",
+            version=shown(version),
+        )
+        raise SceneError(
+            Problem(
+                "",
+                found,
+                message("graphkin = {version}", version=FORMAT),
+                message("update graphkin"),
+            )
+        )
 
 
 def assembled(
@@ -180,11 +213,11 @@ def read_units(table: Table, findings: Findings) -> dict[str, str]:
         raw = table.take(key)
         units[key] = raw if isinstance(raw, str) and raw in choices else choices[0]
         if raw is None and not lost:
-            findings.add(table.at(key), f"no unit of {key}", listed(choices))
+            findings.add(table.at(key), message("no unit of {key}", key=key), listed(choices))
         elif raw is not None and raw != units[key]:
             spelt = str(raw).strip().lower()
             meant = SPELLINGS.get(spelt, spelt)
-            hint = Mend(str(raw), meant) if meant in choices else ""
+            hint = Mend(str(raw), meant) if meant in choices else NO_WORDS
             findings.add(table.at(key), shown(raw), listed(choices), hint)
     table.finish()
     return units
@@ -215,21 +248,26 @@ def read_links(
     """
     table = top.table("links")
     if not table.raw and not measures.findings.inside(table.place):
-        measures.findings.add("links", "no link", "a table [links.NAME] for each moving link")
+        measures.findings.add(
+            "links", message("no link"), message("a table [links.NAME] for each moving link")
+        )
     if len(table.raw) > MOST_LINKS:
-        found = f"{len(table.raw)} links"
-        raise SceneError(Problem("links", found, f"at most {MOST_LINKS}"))
+        found = message("{count} links", count=len(table.raw))
+        raise SceneError(Problem("links", found, message("at most {most}", most=MOST_LINKS)))
     links: dict[str, Link] = {}
     written: dict[str, Table] = {}
     for name, raw in table.raw.items():
         place = table.at(name)
         if name in (FRAME, FRAME_WORD):
-            measures.findings.add(place, "the frame among the links", "[frame]")
+            measures.findings.add(place, message("the frame among the links"), message("[frame]"))
         elif not is_link_name(name):
-            expected = f"a number, or a letter and letters, digits or _, at most {LONGEST_NAME}"
-            measures.findings.add(place, "no name of a link", expected)
+            expected = message(
+                "a number, or a letter and letters, digits or _, at most {most}",
+                most=LONGEST_NAME,
+            )
+            measures.findings.add(place, message("no name of a link"), expected)
         elif not isinstance(raw, dict):
-            measures.findings.add(place, shown(raw), "a table with its points")
+            measures.findings.add(place, shown(raw), message("a table with its points"))
         else:
             written[name] = Table(place, raw, measures.findings)
             links[name] = read_link(name, written[name], measures, module)
@@ -254,7 +292,9 @@ def read_link(name: str, table: Table, measures: Measures, module: Quantity | No
     if name == FRAME:
         for key in ("slides", "belt", "touches", "cam"):
             if table.take(key) is not None:
-                measures.findings.add(table.at(key), "the frame is at rest", "a moving link")
+                measures.findings.add(
+                    table.at(key), message("the frame is at rest"), message("a moving link")
+                )
         drums = read_drums(table, measures)
         return Link(FRAME, points, placings, (), wheels, drums, profiles)
     slides = read_slides(table, measures)
@@ -263,7 +303,9 @@ def read_link(name: str, table: Table, measures: Measures, module: Quantity | No
 
 
 MOST = 50
-DERIVED = "speed and acceleration are the derivatives of a law, which must be finite at its time"
+DERIVED = message(
+    "speed and acceleration are the derivatives of a law, which must be finite at its time"
+)
 KINDS: tuple[DriverKind, ...] = get_args(DriverKind)
 
 
@@ -271,11 +313,15 @@ def read_drivers(top: Table, links: Mapping[str, Link], measures: Measures) -> t
     """The drivers of a scene, from ``[[drivers]]``."""
     raw = top.take("drivers")
     if raw is None or raw == []:
-        measures.findings.add("drivers", "no driver", "[[drivers]] with turn = LINK, angle, speed")
+        measures.findings.add(
+            "drivers", message("no driver"), message("[[drivers]] with turn = LINK, angle, speed")
+        )
         return ()
     if not isinstance(raw, list) or len(raw) > MOST:
         measures.findings.add(
-            "drivers", shown(raw), f"[[drivers]] in double brackets, at most {MOST}"
+            "drivers",
+            shown(raw),
+            message("[[drivers]] in double brackets, at most {most}", most=MOST),
         )
         return ()
     drivers = []
@@ -285,7 +331,7 @@ def read_drivers(top: Table, links: Mapping[str, Link], measures: Measures) -> t
             driver = read_driver(Table(place, each, measures.findings), links, measures)
             drivers += [driver] if driver else []
         else:
-            measures.findings.add(place, shown(each), "a table with turn, angle and speed")
+            measures.findings.add(place, shown(each), message("a table with turn, angle and speed"))
     return tuple(drivers)
 
 
@@ -293,10 +339,12 @@ def read_driver(table: Table, links: Mapping[str, Link], measures: Measures) -> 
     """One driver; None, with a problem noted, when it does not name exactly one motion."""
     kinds = [kind for kind in KINDS if kind in table]
     if len(kinds) != 1:
-        found = " and ".join(kinds) or "nothing driven"
-        expected = "one of " + ", ".join(f"{kind} = LINK" for kind in KINDS)
+        found = both(kinds) or message("nothing driven")
+        expected = message("one of {names}", names=", ".join(f"{kind} = LINK" for kind in KINDS))
         hints = [hint for key in table.raw if (hint := nearest(key, KINDS))]
-        measures.findings.add(table.place, found, expected, "" if kinds or not hints else hints[0])
+        measures.findings.add(
+            table.place, found, expected, NO_WORDS if kinds or not hints else hints[0]
+        )
         return None
     kind = kinds[0]
     link = link_name(table.at(kind), table.take(kind), measures.findings)
@@ -338,7 +386,11 @@ def read_motion(
         return position, exact(0), exact(0)
     raw = table.take("speed")
     if raw is None and not measures.findings.inside(position.place):
-        measures.findings.add(table.place, "no speed", f"speed = … in {speed}, 0 if it stands")
+        measures.findings.add(
+            table.place,
+            message("no speed"),
+            message("speed = … in {speed}, 0 if it stands", speed=speed),
+        )
     rate = measures.number(table.at("speed"), 0 if raw is None else raw, speed)
     raw = table.take("acceleration")
     return (
@@ -355,10 +407,16 @@ def read_position(table: Table, key: str, unit: str, measures: Measures) -> Quan
     if raw is None and other in table:
         table.take(other)
         measures.findings.add(
-            table.at(other), f"this driver has no {other}", f"{key} = … in {unit}"
+            table.at(other),
+            message("this driver has no {other}", other=other),
+            message("{key} = … in {unit}", key=key, unit=unit),
         )
     elif raw is None:
-        measures.findings.add(table.place, f"no {key}", f"{key} = … in {unit}")
+        measures.findings.add(
+            table.place,
+            message("no {key}", key=key),
+            message("{key} = … in {unit}", key=key, unit=unit),
+        )
     return measures.number(table.at(key), 0 if raw is None else raw, unit, law=True)
 
 
@@ -390,5 +448,7 @@ def refuse_beside_law(table: Table, measures: Measures) -> None:
     """Note a speed or an acceleration written next to a law of time."""
     for key in ("speed", "acceleration"):
         if table.take(key) is not None:
-            found = f"{key} beside a law of time"
-            measures.findings.add(table.at(key), found, "none: it is the derivative of the law")
+            found = message("{key} beside a law of time", key=key)
+            measures.findings.add(
+                table.at(key), found, message("none: it is the derivative of the law")
+            )

@@ -8,7 +8,7 @@ from fractions import Fraction
 from itertools import combinations
 
 from graphkin.scene.findings import Findings, Table, numbered, plain_text, shown
-from graphkin.scene.known_names import known_link, known_point
+from graphkin.scene.known_names import THE_MECHANISM, known_link, known_point
 from graphkin.scene.link_points import ends_of
 from graphkin.scene.measures import Measures
 from graphkin.scene.model import FRAME, Ask, Branch, Link, Scene, Sheet
@@ -23,7 +23,7 @@ from graphkin.scene.phrases import (
     point_name,
 )
 from graphkin.scene.quantity import Quantity, exact
-from graphkin.text.errors import Hint, Written
+from graphkin.text.errors import Hint, Message, Written, either, joined, message
 
 LANGUAGES = ("en", "it", "ro")
 POINTS_ASKED = ("velocity", "acceleration")
@@ -36,11 +36,11 @@ LINKS_ASKED = tuple(
 )
 ALL = "all"
 """Requests the relative centres of all links."""
-BRANCH_WORDS = '"left of P-Q", "right of P-Q", "forward", "backward" or "closure 1"'
-SIDES_OF_PIN = '"left of P-Q" or "right of P-Q"'
+BRANCH_WORDS = message('"left of P-Q", "right of P-Q", "forward", "backward" or "closure 1"')
+SIDES_OF_PIN = message('"left of P-Q" or "right of P-Q"')
 ANY_LINK = tuple(map(Written, ('"forward"', '"backward"', '"closure 1"')))
 """The branches that need no names."""
-WAYS_OF_LINK = ", ".join(each.value for each in ANY_LINK)
+WAYS_OF_LINK = joined(", ", (each.value for each in ANY_LINK))
 KLEIN = "klein"
 METHODS = ("triangles", KLEIN)
 """How the components of accelerations are obtained."""
@@ -62,7 +62,9 @@ def read_branches(
             findings.add(table.at(key), shown(raw), *wanted(key, raw, frame, links))
         elif name == FRAME:
             findings.add(
-                table.at(key), "a branch of the frame, which is at rest", "a pin or a link"
+                table.at(key),
+                message("a branch of the frame, which is at rest"),
+                message("a pin or a link"),
             )
         elif name is not None:
             branches[name] = branch
@@ -71,7 +73,7 @@ def read_branches(
 
 def wanted(
     name: str, raw: object, frame: Link, links: Mapping[str, Link]
-) -> tuple[str, Hint, tuple[Written, ...]]:
+) -> tuple[Message, Hint, tuple[Written, ...]]:
     """The branches that a name may have, a hint, and replacements for a wrong branch.
 
     A link has a way or a closure; a pin has a side, which needs the names of other points.
@@ -84,14 +86,16 @@ def wanted(
     return BRANCH_WORDS, phrase_hint(raw, (*SIDES, *WAYS, CLOSURE)), ()
 
 
-def sides(name: str, links: Mapping[str, Link], branch: object = "") -> tuple[str, str]:
+def sides(name: str, links: Mapping[str, Link], branch: object = "") -> tuple[Message, Message]:
     """The branches that a pin may have, and a hint; a block's pin is written under the block."""
     blocks = [link.name for link in links.values() if link.slides and name in link.points]
     if not blocks:
-        return SIDES_OF_PIN, f"P and Q are the outer pins of the two links that {name} joins"
+        return SIDES_OF_PIN, message(
+            "P and Q are the outer pins of the two links that {name} joins", name=name
+        )
     ways = [str(branch)] if branch else WAYS
-    told = " or ".join(f'{block} = "{way}"' for block in blocks for way in ways)
-    return told, "a block's branch is written under the link's name"
+    told = either(f'{block} = "{way}"' for block in blocks for way in ways)
+    return told, message("a block's branch is written under the link's name")
 
 
 def read_ask(table: Table, findings: Findings, scene: Scene) -> Ask:
@@ -117,11 +121,15 @@ def name_asked(place: str, key: str, raw: object, findings: Findings, scene: Sce
         name = moving_link(place, raw, findings)
         link = None if name is None else known_link(scene, name, place, findings)
         if key == "slides" and link is not None and not link.slides:
-            findings.add(place, f"link {name} does not slide", "a link with slides")
+            findings.add(
+                place,
+                message("link {name} does not slide", name=name),
+                message("a link with slides"),
+            )
         return name if link is not None else None
     name = (point_name if key == PATHS_ASKED else asked_point)(place, raw, findings)
     point, of = ends_of(name or "")
-    if name is None or not known_point(point, scene.points, "the mechanism", place, findings):
+    if name is None or not known_point(point, scene.points, THE_MECHANISM, place, findings):
         return None
     return None if of and known_link(scene, of, place, findings) is None else name
 
@@ -133,14 +141,14 @@ def items(table: Table, key: str) -> Iterator[tuple[str, object]]:
         yield from ((f"{table.at(key)}[{index}]", each) for index, each in enumerate(raw))
     elif raw is not None:
         what = '["A", "B"]' if key in (*POINTS_ASKED, PATHS_ASKED) else "[2, 3]"
-        table.findings.add(table.at(key), shown(raw), f"a list, such as {what}")
+        table.findings.add(table.at(key), shown(raw), message("a list, such as {what}", what=what))
 
 
 def moving_link(place: str, raw: object, findings: Findings) -> str | None:
     """The name of a moving link; None for the frame, which is at rest."""
     name = link_name(place, raw, findings)
     if name == FRAME:
-        findings.add(place, "the frame, which is at rest", "a moving link")
+        findings.add(place, message("the frame, which is at rest"), message("a moving link"))
         return None
     return name
 
@@ -176,7 +184,11 @@ def link_pair(place: str, raw: str, findings: Findings, scene: Scene) -> list[st
     if len(names) < 2:
         return []
     if names[0] == names[1]:
-        findings.add(place, f"{shown(raw)} is one link twice", 'two links, such as "2-4"')
+        findings.add(
+            place,
+            message("{raw} is one link twice", raw=shown(raw)),
+            message('two links, such as "2-4"'),
+        )
         return []
     if None in [known_link(scene, name, place, findings) for name in names]:
         return []
@@ -188,7 +200,7 @@ def read_sheet(table: Table, measures: Measures) -> Sheet:
     rule, ka = table.choice("rule", RULES, RULES[0]), table.take("ka")
     sheets = table.take("sheets")
     if sheets is not None and (isinstance(sheets, bool) or sheets not in (1, 2)):
-        table.findings.add(table.at("sheets"), shown(sheets), "1 or 2")
+        table.findings.add(table.at("sheets"), shown(sheets), message("1 or 2"))
         sheets = None
     sheet = Sheet(
         owner=table.text("owner"),
@@ -238,13 +250,18 @@ def read_enlarge(table: Table, measures: Measures, rule: str) -> tuple[Quantity,
     if raw is None:
         return ()
     if rule != RULES[0]:
-        hint = 'leave out enlarge, or rule = "lab"'
+        hint = message('leave out enlarge, or rule = "lab"')
         measures.findings.add(
-            place, 'is written beside rule = "lab", which says 1', "one of the two", hint
+            place,
+            message('is written beside rule = "lab", which says 1'),
+            message("one of the two"),
+            hint,
         )
     pair = raw if isinstance(raw, list) else [raw]
     if len(pair) not in (1, 2):
-        measures.findings.add(place, shown(raw), "a number, or one for each of the two plans")
+        measures.findings.add(
+            place, shown(raw), message("a number, or one for each of the two plans")
+        )
         return ()
     found = [
         measures.number(numbered(place, index, len(pair)), each, positive=True)

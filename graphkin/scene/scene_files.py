@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 
 from graphkin.scene.findings import near_file
 from graphkin.text import paths
-from graphkin.text.errors import Problem, SceneError
+from graphkin.text.errors import NO_WORDS, Problem, SceneError, joined, message
 from graphkin.text.hooks import service
 from graphkin.text.paths import within
 
@@ -38,7 +38,10 @@ def shipped() -> str:
             return folder
     raise SceneError(
         Problem(
-            "labs", "the shipped labs are missing", "a complete install", "install graphkin again"
+            "labs",
+            message("the shipped labs are missing"),
+            message("a complete install"),
+            message("install graphkin again"),
         )
     )
 
@@ -112,15 +115,15 @@ def find(name: str) -> str:
     if name in names():
         return within(shipped(), name, SCENE)
     if paths.is_folder(path):
-        expected = "a folder with scene.toml, a .toml file or the name of a lab"
-        raise SceneError(Problem(path, "is a folder without scene.toml", expected))
+        expected = message("a folder with scene.toml, a .toml file or the name of a lab")
+        raise SceneError(Problem(path, message("is a folder without scene.toml"), expected))
     near = near_file(name, [*scenes_beside(path), *names()])
-    hint = f"did you mean {near}? " if near else ""
+    hint = message("did you mean {new}?", new=near) if near else NO_WORDS
     raise SceneError(
         Problem(
             name,
-            "is neither a file nor a shipped lab",
-            "a .toml file or one of " + ", ".join(names()),
-            hint + "graphkin list shows the labs",
+            message("is neither a file nor a shipped lab"),
+            message("a .toml file or one of {names}", names=", ".join(names())),
+            joined(" ", (hint, message("graphkin list shows the labs"))),
         )
     )

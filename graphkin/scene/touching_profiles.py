@@ -14,8 +14,9 @@ from graphkin.scene.measures import Measures
 from graphkin.scene.model import FRAME, Link
 from graphkin.scene.phrases import is_link_name, is_name, line_words, link_name
 from graphkin.scene.read_joints import tables
+from graphkin.text.errors import message
 
-OTHER = "the link of the other profile, 0 for the frame"
+OTHER = message("the link of the other profile, 0 for the frame")
 
 
 def normals(
@@ -33,8 +34,12 @@ def normals(
                 continue
             name, raw = found
             if name in taken:
-                expected = "another name: link = …"
-                touch.findings.add(touch.at("link"), f"link {name} is there already", expected)
+                expected = message("another name: link = …")
+                touch.findings.add(
+                    touch.at("link"),
+                    message("link {called} is there already", called=name),
+                    expected,
+                )
                 continue
             taken.add(name)
             yield name, Table(touch.place, raw, touch.findings)
@@ -59,14 +64,18 @@ def normal(
     owned |= {on: list(links[on].points)} if on in links else {}
     for end, link in zip(centres, (own, on), strict=True):
         if end not in owned.get(link, ()):
-            found = f"{end} is no point of link {link}"
+            found = message("{end} is no point of link {link}", end=end, link=link)
             hint = nearest(end, owned.get(link, ()))
             findings.add(table.at("centres"), found, listed(owned.get(link, ())), hint)
             return None
     contact = raw if isinstance(raw, str) else f"{centres[0]}{centres[1]}"
     called = str(name) if name is not None else f"n{own}_{on}"
     if not is_name(contact) or not is_link_name(called):
-        findings.add(table.place, f"{shown(contact)}, {shown(called)}", "names of point and link")
+        findings.add(
+            table.place,
+            message("{contact}, {called}", contact=shown(contact), called=shown(called)),
+            message("names of point and link"),
+        )
         return None
     return called, between(centres, radii, contact, inside)
 
@@ -79,8 +88,8 @@ def two_radii(table: Table, measures: Measures, *, inside: bool) -> tuple[str, s
     raw = table.take("radii")
     place = table.at("radii")
     if not isinstance(raw, list) or len(raw) != 2:
-        expected = "two radii of curvature, such as [44, 16]"
-        measures.findings.add(place, "is missing" if raw is None else shown(raw), expected)
+        expected = message("two radii of curvature, such as [44, 16]")
+        measures.findings.add(place, message("is missing") if raw is None else shown(raw), expected)
         return None
     before = len(measures.findings.problems)
     read = [
@@ -89,13 +98,17 @@ def two_radii(table: Table, measures: Measures, *, inside: bool) -> tuple[str, s
     if inside and len(measures.findings.problems) == before:
         own, hollow = (radius.number(measures.values) for radius in read)
         if own >= hollow:
-            found = f"the hollow's {float(hollow):g} is no more than this profile's {float(own):g}"
-            expected = "the profile's radius, then the larger one of the hollow"
-            hint = "touches is written on the link that lies in the hollow"
+            found = message(
+                "the hollow's {hollow:g} is no more than this profile's {own:g}",
+                hollow=float(hollow),
+                own=float(own),
+            )
+            expected = message("the profile's radius, then the larger one of the hollow")
+            hint = message("touches is written on the link that lies in the hollow")
             if own == hollow:
-                hint = (
-                    "both have one centre: write a pin, and both arcs as profiles, the hollow's "
-                    "with hollow = true"
+                hint = message(
+                    "both have one centre: write a pin, and both arcs as profiles, the "
+                    "hollow's with hollow = true"
                 )
             measures.findings.add(place, found, expected, hint)
             return None

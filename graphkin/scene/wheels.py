@@ -17,10 +17,10 @@ from graphkin.scene.model import FRAME, Belt, Driver, Link, Rolling, Scene, Whee
 from graphkin.scene.phrases import SIDES, link_name, point_name
 from graphkin.scene.quantity import Quantity, shortest
 from graphkin.scene.read_joints import MOST, read_line, tables
-from graphkin.text.errors import Hint, Mend, SceneError
+from graphkin.text.errors import NO_WORDS, Hint, Mend, SceneError, message
 
-OTHER = "the link that carries the other wheel, 0 for the frame"
-TRACK = "the link that carries the track or the other wheel, 0 for the frame"
+OTHER = message("the link that carries the other wheel, 0 for the frame")
+TRACK = message("the link that carries the track or the other wheel, 0 for the frame")
 STEMS = ("T", "K", "H")
 """The letters tried in turn; after them come TT, TTT and so on."""
 MANY = 1000
@@ -45,13 +45,21 @@ def read_wheel(table: Table, measures: Measures, module: Quantity | None) -> Whe
     if raw_radius is not None:
         radius = measures.length(table.at("radius"), raw_radius, positive=True)
         if own is not None:
-            measures.findings.add(table.at("module"), "module beside radius", "one of the two")
+            measures.findings.add(
+                table.at("module"), message("module beside radius"), message("one of the two")
+            )
     elif teeth is not None and module is not None:
         radius = pitch_radius(teeth, module)
     else:
-        found = "no radius" if teeth is None else "teeth without a module"
-        hint = "" if teeth is None else "a module at the top of the file is that of every wheel"
-        measures.findings.add(table.place, found, "radius = …, or teeth = … and module = …", hint)
+        found = message("no radius") if teeth is None else message("teeth without a module")
+        hint = (
+            NO_WORDS
+            if teeth is None
+            else message("a module at the top of the file is that of every wheel")
+        )
+        measures.findings.add(
+            table.place, found, message("radius = …, or teeth = … and module = …"), hint
+        )
     inside = table.flag("inside")
     table.finish()
     return Wheel(centre, radius, teeth, inside)
@@ -62,7 +70,7 @@ def read_teeth(place: str, raw: object, measures: Measures) -> Quantity:
     teeth = measures.number(place, raw, positive=True)
     value = teeth.number(measures.values)
     if not isinstance(value, Fraction) or value.denominator != 1:
-        measures.findings.add(place, shown(raw), "a whole number of teeth")
+        measures.findings.add(place, shown(raw), message("a whole number of teeth"))
     return teeth
 
 
@@ -98,9 +106,11 @@ def read_rolling(table: Table, measures: Measures) -> Rolling:
     raw = table.take("side")
     side = SIDES.get(raw) if isinstance(raw, str) else None
     if raw is not None and side is None:
-        measures.findings.add(table.at("side"), shown(raw), '"left" or "right"')
+        measures.findings.add(table.at("side"), shown(raw), message('"left" or "right"'))
     if raw is not None and "through" not in table:
-        measures.findings.add(table.at("side"), "a side without through", "a straight track")
+        measures.findings.add(
+            table.at("side"), message("a side without through"), message("a straight track")
+        )
     table.take("through"), table.take("angle")
     keeper = ""
     if (name := table.take("link")) is not None:
@@ -132,7 +142,9 @@ def read_belt(table: Table, measures: Measures) -> Rolling:
         case [int(own), int(other)] if 0 < own <= MOST and 0 < other <= MOST:
             wheels = own, other
         case _ if raw is not None:
-            expected = "[1, 2]: the wheel of this link and that of the other, counted from 1"
+            expected = message(
+                "[1, 2]: the wheel of this link and that of the other, counted from 1"
+            )
             measures.findings.add(table.at("wheels"), shown(raw), expected)
     start = by_link(table, "start", measures, measures.units["angle"])
     turns = by_link(table, "turns", measures, "")
@@ -158,7 +170,9 @@ def check_centres(link: Link, place: str, findings: Findings) -> None:
     for index, wheel in enumerate(link.wheels):
         where = numbered(f"{place}.wheel", index, len(link.wheels))
         if wheel.centre:
-            known_point(wheel.centre, link.points, "this link", f"{where}.centre", findings)
+            known_point(
+                wheel.centre, link.points, message("this link"), f"{where}.centre", findings
+            )
 
 
 def check_tracks(scene: Scene, link: Link, place: str, findings: Findings) -> None:
@@ -178,33 +192,39 @@ def check_rolling(
     """Note a track without a wheel or line, unknown links in it, and turns that are not whole."""
     check_guide(scene, link, rolling, place, findings)
     if not link.wheels:
-        expected = 'wheel = { centre = "P", radius = … }'
-        findings.add(place, f"link {link.name} has no wheel", expected)
+        expected = message('wheel = {{ centre = "P", radius = … }}')
+        findings.add(place, message("link {name} has no wheel", name=link.name), expected)
     elif rolling.through is not None and rolling.belt is None and link.rim.inside:
-        expected = "a rim outside; of a hoop: wheels = [{ …, inside = true }, { … }]"
-        findings.add(place, f"the ring of {link_words(link.name)} on a straight track", expected)
-    on = scene.links.get(rolling.on, scene.frame if rolling.on == FRAME else None)
-    if rolling.through is None and on is not None and not on.wheels and on is not link:
-        expected = "a wheel there, or through and angle for a straight track"
-        if rolling.belt is not None:
-            expected = 'a wheel there: wheel = { centre = "P", radius = … }'
-        wheels = [name for name, each in scene.links.items() if each.wheels and each is not link]
-        hint: Hint = ""
-        if len(wheels) == 1:
-            hint = Mend(f"on = {quoted(rolling.on)}", f"on = {quoted(wheels[0])}")
+        expected = message("a rim outside; of a hoop: wheels = [{{ …, inside = true }}, {{ … }}]")
         findings.add(
             place,
-            f"{link_words(rolling.on)} has no wheel to {'run' if rolling.belt else 'roll'} on",
+            message("the ring of {name} on a straight track", name=link_words(link.name)),
             expected,
-            hint,
         )
+    on = scene.links.get(rolling.on, scene.frame if rolling.on == FRAME else None)
+    if rolling.through is None and on is not None and not on.wheels and on is not link:
+        expected = message("a wheel there, or through and angle for a straight track")
+        if rolling.belt is not None:
+            expected = message('a wheel there: wheel = {{ centre = "P", radius = … }}')
+        wheels = [name for name, each in scene.links.items() if each.wheels and each is not link]
+        hint: Hint = NO_WORDS
+        if len(wheels) == 1:
+            hint = Mend(f"on = {quoted(rolling.on)}", f"on = {quoted(wheels[0])}")
+        found = message("{on} has no wheel to roll on", on=link_words(rolling.on))
+        if rolling.belt is not None:
+            found = message("{on} has no wheel to run on", on=link_words(rolling.on))
+        findings.add(place, found, expected, hint)
     for name in rolling.start:
         known_link(scene, name, f"{place}.start.{name}", findings)
     for name, turns in rolling.turns.items():
         known_link(scene, name, f"{place}.turns.{name}", findings)
         number = turns.number(scene.values)
         if not isinstance(number, Fraction) or number.denominator != 1:
-            findings.add(turns.place, f"{shortest(number)} turns", "a whole number of turns")
+            findings.add(
+                turns.place,
+                message("{number} turns", number=shortest(number)),
+                message("a whole number of turns"),
+            )
 
 
 def check_belt(scene: Scene, link: Link, rolling: Rolling, place: str, findings: Findings) -> None:
@@ -214,11 +234,18 @@ def check_belt(scene: Scene, link: Link, rolling: Rolling, place: str, findings:
         return
     for each, index in zip((link, on), rolling.belt.wheels, strict=True):
         if each.wheels and index >= len(each.wheels):
-            found = f"wheel {index + 1} of {link_words(each.name)}, which has {len(each.wheels)}"
-            findings.add(f"{place}.wheels", found, f"a number up to {len(each.wheels)}")
+            found = message(
+                "wheel {index} of {name}, which has {count}",
+                index=index + 1,
+                name=link_words(each.name),
+                count=len(each.wheels),
+            )
+            findings.add(
+                f"{place}.wheels", found, message("a number up to {count}", count=len(each.wheels))
+            )
         elif each.wheels and each.wheels[index].inside:
-            found = f"the wheel of {link_words(each.name)} is a ring"
-            findings.add(place, found, "a wheel with a rim outside, for a belt to run on")
+            found = message("the wheel of {name} is a ring", name=link_words(each.name))
+            findings.add(place, found, message("a wheel with a rim outside, for a belt to run on"))
 
 
 def check_driven(driver: Driver, link: Link, place: str, findings: Findings) -> None:
@@ -228,14 +255,25 @@ def check_driven(driver: Driver, link: Link, place: str, findings: Findings) -> 
         return
     if tracks:
         on, against = link_words(tracks[0]), link_words(driver.against)
-        found = f"link {link.name} rolls straight on {on}, not on {against}"
-        findings.add(place, found, f"against = {quoted(tracks[0])}")
+        found = message(
+            "link {name} rolls straight on {on}, not on {against}",
+            name=link.name,
+            on=on,
+            against=against,
+        )
+        findings.add(place, found, message("against = {guides}", guides=quoted(tracks[0])))
     elif link.rolls:
-        found = f"link {link.name} rolls on a wheel, which has no coordinate"
-        findings.add(f"{place}.roll", found, f"turn = {quoted(link.name)}, or a straight track")
+        found = message("link {name} rolls on a wheel, which has no coordinate", name=link.name)
+        findings.add(
+            f"{place}.roll",
+            found,
+            message("turn = {name}, or a straight track", name=quoted(link.name)),
+        )
     else:
-        found = f"link {link.name} has no straight track to roll on"
-        findings.add(f"{place}.roll", found, "rolls = { on, through, angle } in that link")
+        found = message("link {name} has no straight track to roll on", name=link.name)
+        findings.add(
+            f"{place}.roll", found, message("rolls = {{ on, through, angle }} in that link")
+        )
 
 
 def contact_letters(scene: Scene) -> dict[str, tuple[str, ...]]:

@@ -52,7 +52,7 @@ from graphkin.structure.wheel_groups import (
     turned_wheel,
     wedged_wheels,
 )
-from graphkin.text.errors import Problem, StructureError
+from graphkin.text.errors import Problem, StructureError, message
 
 
 def settle(group: Group, known: set[str], waiting: list[Driver]) -> None:
@@ -382,8 +382,12 @@ def far_from_plate(scene: Scene, follower: str, cam: Cam) -> Problem | None:
         guide = guide_line(scene, scene.link(follower).slides[0])
         if abs(cross(plate.along, guide.along)) > ALONG:
             return None
-        found = f"link {follower} slides along the path of link {cam.on}"
-        return Problem(f"links.{follower}.slides.angle", found, "a guide that crosses this path")
+        found = message(
+            "link {follower} slides along the path of link {on}", follower=follower, on=cam.on
+        )
+        return Problem(
+            f"links.{follower}.slides.angle", found, message("a guide that crosses this path")
+        )
     fixed, own = body(scene, cam.carrier), body(scene, follower)
     above = abs(
         cross(plate.along, fixed[cam.lever.pin] - plate.point) - metres(scene, slide.offset)
@@ -393,11 +397,19 @@ def far_from_plate(scene: Scene, follower: str, cam: Cam) -> Problem | None:
     if above > ALONG * arm and abs(above - prime) < arm:
         return None
     bar = f"{cam.lever.pin}-{cam.point}"
-    found = (
-        f"{cam.lever.pin} stands {1e3 * above:.6g} mm from the path of {cam.pivot}, "
-        f"{bar} is {1e3 * arm:.6g} mm long"
+    found = message(
+        "{pin} stands {above:.6g} mm from the path of {pivot}, {bar} is {arm:.6g} mm long",
+        pin=cam.lever.pin,
+        above=1e3 * above,
+        pivot=cam.pivot,
+        bar=bar,
+        arm=1e3 * arm,
     )
-    expected = f"a pin beside this path, from which {bar} reaches {1e3 * prime:.6g} mm above it"
+    expected = message(
+        "a pin beside this path, from which {bar} reaches {prime:.6g} mm above it",
+        bar=bar,
+        prime=1e3 * prime,
+    )
     return Problem(f"links.{follower}.cam.base", found, expected)
 
 
@@ -409,8 +421,10 @@ def far_guide(scene: Scene, follower: str, cam: Cam) -> Problem | None:
     prime = metres(scene, cam.base) + metres(scene, cam.roller)
     if cam.is_flat or aside < prime:
         return None
-    found = f"the follower passes {1e3 * aside:.6g} mm beside {cam.pivot}"
-    expected = f"less than base and roller together, {1e3 * prime:.6g} mm"
+    found = message(
+        "the follower passes {aside:.6g} mm beside {pivot}", aside=1e3 * aside, pivot=cam.pivot
+    )
+    expected = message("less than base and roller together, {prime:.6g} mm", prime=1e3 * prime)
     return Problem(f"links.{follower}.cam.base", found, expected)
 
 
@@ -420,20 +434,27 @@ def far_lever(scene: Scene, follower: str, cam: Cam) -> Problem | None:
     assert lever is not None
     apart = abs(fixed[lever.pin] - fixed[cam.pivot])
     prime = metres(scene, cam.base) + metres(scene, cam.roller)
-    pins = f"{cam.pivot} and {lever.pin} stand {1e3 * apart:.6g} mm apart"
+    pins = message(
+        "{pivot} and {pin} stand {apart:.6g} mm apart",
+        pivot=cam.pivot,
+        pin=lever.pin,
+        apart=1e3 * apart,
+    )
     place = f"links.{follower}.cam.base"
     if cam.is_flat:
         gap = prime + metres(scene, lever.face)
         if abs(gap) < apart:
             return None
-        expected = f"more than base and face together, {1e3 * gap:.6g} mm"
+        expected = message("more than base and face together, {gap:.6g} mm", gap=1e3 * gap)
         return Problem(place, pins, expected)
     arm = abs(own[cam.point] - own[lever.pin])
     if abs(apart - arm) < prime < apart + arm:
         return None
     bar = f"{lever.pin}-{cam.point}"
-    found = f"{pins}, {bar} is {1e3 * arm:.6g} mm long"
-    expected = f"a triangle of these and base and roller together, {1e3 * prime:.6g} mm"
+    found = message("{pins}, {bar} is {arm:.6g} mm long", pins=pins, bar=bar, arm=1e3 * arm)
+    expected = message(
+        "a triangle of these and base and roller together, {prime:.6g} mm", prime=1e3 * prime
+    )
     return Problem(place, found, expected)
 
 

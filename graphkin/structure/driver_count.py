@@ -29,13 +29,17 @@ from graphkin.structure.link_axes import guide_line, metres
 from graphkin.structure.pairs import Pin, all_pairs, sharers
 from graphkin.structure.turning import LEVEL
 from graphkin.text.errors import (
+    NO_WORDS,
     Change,
     DriverAdded,
     DriverTaken,
+    Message,
     PointRenamed,
     Problem,
     StructureError,
     Written,
+    joined,
+    message,
 )
 
 APART = 1e-9
@@ -67,23 +71,28 @@ def double_guides(scene: Scene) -> Iterator[Problem]:
             if first.on == second.on and (hinders := between_guides(scene, first, second)):
                 yield Problem(
                     f"links.{link.name}.slides",
-                    f"two guides on {link_words(first.on)} {hinders}",
-                    "one guide on one link",
-                    "leave one out, or give the other a block of its own",
+                    hinders,
+                    message("one guide on one link"),
+                    message("leave one out, or give the other a block of its own"),
                 )
 
 
-def between_guides(scene: Scene, first: Slide, second: Slide) -> str:
+def between_guides(scene: Scene, first: Slide, second: Slide) -> Message:
     """Why a block cannot move on two guides of one link; empty where the guides are one line."""
     one, other = guide_line(scene, first), guide_line(scene, second)
+    on = link_words(first.on)
     if abs(cross(one.along, other.along)) > LEVEL:
-        return "cross, so that the block is held fast"
+        return message("two guides on {on} cross, so that the block is held fast", on=on)
     shifts = [metres(scene, slide.offset) for slide in (first, second)]
     sense = 1 if (one.along.conjugate() * other.along).real > 0 else -1
     gap = cross(one.along, other.point - one.point) + sense * shifts[1] - shifts[0]
     if abs(gap) <= APART:
-        return ""
-    return f"are parallel, {1e3 * abs(gap):.6g} mm apart: no block is on both"
+        return NO_WORDS
+    return message(
+        "two guides on {on} are parallel, {gap:.6g} mm apart: no block is on both",
+        on=on,
+        gap=1e3 * abs(gap),
+    )
 
 
 def unknown_leans(scene: Scene) -> Iterator[Problem]:
@@ -93,14 +102,21 @@ def unknown_leans(scene: Scene) -> Iterator[Problem]:
             if slide.on in turning_with(scene, link.name, first=True):
                 continue
             if slide.on == FRAME:
-                expected = "the guide on the frame first, the other from the other side"
+                expected = message("the guide on the frame first, the other from the other side")
             else:
-                way = f"slides = {{ on = {quoted(link.name)}, through, angle }}"
-                expected = f"the guide from the other side: {way} in links.{slide.on}"
+                expected = message(
+                    "the guide from the other side: slides = {{ on = {name}, through, angle }} "
+                    "in links.{on}",
+                    name=quoted(link.name),
+                    on=slide.on,
+                )
             yield Problem(
                 f"links.{link.name}.slides",
-                f"the angle between this block and {link_words(slide.on)} is not known, for a "
-                "block's x axis lies along its first guide",
+                message(
+                    "the angle between this block and {on} is not known, for a block's x "
+                    "axis lies along its first guide",
+                    on=link_words(slide.on),
+                ),
                 expected,
             )
 
@@ -112,9 +128,14 @@ def unturnable(scene: Scene) -> Iterator[Problem]:
             link, own = scene.link(driver.link), quoted(driver.link)
             yield Problem(
                 f"drivers[{index}].turn",
-                f"link {driver.link} cannot turn against {link_words(driver.against)}: slides "
-                "join them",
-                f"slide = {own}" if link.slides else "a link that a pin joins",
+                message(
+                    "link {link} cannot turn against {against}: slides join them",
+                    link=driver.link,
+                    against=link_words(driver.against),
+                ),
+                message("slide = {can}", can=own)
+                if link.slides
+                else message("a link that a pin joins"),
                 changes=(Written(own, "slide", "turn"),) if link.slides else (),
             )
 
@@ -192,7 +213,7 @@ def gruebler(moving: int, lower: int, higher: int = 0) -> int:
     return 3 * moving - 2 * lower - higher
 
 
-RANK = "the rank of the constraints"
+RANK = message("the rank of the constraints")
 
 
 def refuse_drivers(scene: Scene, groups: Sequence[Group]) -> None:
@@ -215,7 +236,7 @@ def refuse_drivers(scene: Scene, groups: Sequence[Group]) -> None:
     if freedoms > drivers:
         refuse_wrong_drivers(scene)
     if freedoms < drivers and spare_drivers(scene):
-        refuse_wrong_drivers(scene, enough(scene), "the order of the groups")
+        refuse_wrong_drivers(scene, enough(scene), message("the order of the groups"))
     ties = [group.link for group in groups if isinstance(group, Tie)]
     loose = [link for group in groups if isinstance(group, Unresolved) for link in group.links]
     if ties and loose:
@@ -245,14 +266,18 @@ def driven_cams(scene: Scene, groups: Sequence[Group]) -> Iterator[Problem]:
             place, changes = f"drivers[{direct[0]}].{kind}", (Written(quoted(mover), way, kind),)
         yield Problem(
             place,
-            f"link {follower} is known before the law of its cam sets it",
-            f"drivers that move the cam, which then moves link {follower}",
-            f"write {way} = {quoted(mover)}",
+            message(
+                "link {follower} is known before the law of its cam sets it", follower=follower
+            ),
+            message(
+                "drivers that move the cam, which then moves link {follower}", follower=follower
+            ),
+            message("write {way} = {mover}", way=way, mover=quoted(mover)),
             changes,
         )
 
 
-def refuse_wrong_drivers(scene: Scene, true: int | None = None, by: str = RANK) -> None:
+def refuse_wrong_drivers(scene: Scene, true: int | None = None, by: Message = RANK) -> None:
     """Raise StructureError unless there are as many drivers as freedoms.
 
     ``true`` is the true mobility, and ``by`` names its source, the rank. Without it the count
@@ -263,18 +288,23 @@ def refuse_wrong_drivers(scene: Scene, true: int | None = None, by: str = RANK) 
         raise StructureError(problem)
 
 
-def driver_problem(scene: Scene, true: int | None = None, by: str = RANK) -> Problem | None:
+def driver_problem(scene: Scene, true: int | None = None, by: Message = RANK) -> Problem | None:
     """The problem of a wrong number of drivers; None if it equals the freedoms."""
     counted = count(scene)
     freedoms = counted.mobility if true is None else true
     drivers = len(scene.drivers)
     if freedoms == drivers:
         return None
-    leaves = f"the count {counted.sum} leaves {counted.mobility}".replace("−", "-")
-    if freedoms != counted.mobility:
-        leaves = f"{by} leaves {freedoms} ({leaves})"
+    sum_, mobility = counted.sum.replace("−", "-"), counted.mobility
+    if freedoms != mobility:
+        leaves = message("the count {sum} leaves {mobility}", sum=sum_, mobility=mobility)
+        leaves = message(
+            "{by} leaves {freedoms} ({leaves})", by=by, freedoms=freedoms, leaves=leaves
+        )
+    elif freedoms == 1:
+        leaves = message("the count {sum} leaves 1 freedom", sum=sum_)
     else:
-        leaves += " freedom" if freedoms == 1 else " freedoms"
+        leaves = message("the count {sum} leaves {mobility} freedoms", sum=sum_, mobility=mobility)
     about: tuple[tuple[str, ...], ...] = ()
     if freedoms > drivers:
         hint, changes = too_few_hint(scene)
@@ -282,24 +312,33 @@ def driver_problem(scene: Scene, true: int | None = None, by: str = RANK) -> Pro
     else:
         hint = too_many_hint(scene, freedoms, certain=true is not None)
         changes = too_many_changes(scene, freedoms)
-    found = f"{drivers} given, but {leaves}"
-    return Problem("drivers", found, "as many drivers as freedoms", hint, changes, about)
+    found = message("{drivers} given, but {leaves}", drivers=drivers, leaves=leaves)
+    return Problem("drivers", found, message("as many drivers as freedoms"), hint, changes, about)
 
 
-def too_few_hint(scene: Scene) -> tuple[str, tuple[Change, ...]]:
+def too_few_hint(scene: Scene) -> tuple[Message, tuple[Change, ...]]:
     """Words for a driver to add, or for what seems to be missing, and the change that they name."""
     loose, alike = [each.words for each in lone_points(scene)], alike_points(scene)
     changes: tuple[Change, ...] = () if alike is None else (alike,)
     if loose or changes:
-        told = [f"only one link has the points {', '.join(loose)}"] if loose else []
+        told = [message("only one link has the points {names}", names=joined(", ", loose))]
+        told = told if loose else []
         if alike is not None:
-            told.append(f"did you mean {alike.new} where link {alike.link} has {alike.old}?")
-        return f"add a driver, or a pin is missing: {'; '.join(told)}", changes
+            told.append(
+                message(
+                    "did you mean {new} where link {link} has {old}?",
+                    new=alike.new,
+                    link=alike.link,
+                    old=alike.old,
+                )
+            )
+        said = message("add a driver, or a pin is missing: {told}", told=joined("; ", told))
+        return said, changes
     free = drivable(scene)
     if not free:
-        return "add a driver", ()
+        return message("add a driver"), ()
     line = f"turn = {quoted(free[0])}"
-    return f"add a driver, such as {line}", (DriverAdded(line),)
+    return message("add a driver, such as {line}", line=line), (DriverAdded(line),)
 
 
 def too_many_changes(scene: Scene, freedoms: int) -> tuple[Change, ...]:
@@ -309,34 +348,44 @@ def too_many_changes(scene: Scene, freedoms: int) -> tuple[Change, ...]:
     return tuple(DriverTaken(each.kind, quoted(each.link)) for each in spare_drivers(scene))
 
 
-def too_many_hint(scene: Scene, freedoms: int, *, certain: bool) -> str:
+def too_many_hint(scene: Scene, freedoms: int, *, certain: bool) -> Message:
     """Words for the drivers of which some are to be removed; the count alone is not ``certain``."""
     if freedoms <= 0:
         twins = same_pins(scene)
         if twins:
-            return f"nothing can move: {twins}"
-        idle = "" if certain else ", unless a constraint is idle"
-        return (
-            f"nothing can move{idle}; or a block is missing: a pin in a slot is a link of its own"
+            return message("nothing can move: {twins}", twins=twins)
+        stuck = message("nothing can move, unless a constraint is idle")
+        if certain:
+            stuck = message("nothing can move")
+        return message(
+            "{stuck}; or a block is missing: a pin in a slot is a link of its own", stuck=stuck
         )
     names = [driver_name(driver) for driver in spare_drivers(scene) or scene.drivers]
     surplus = len(scene.drivers) - freedoms
     if surplus == len(names) == 1:
-        return f"take {names[0]} away: its motion follows from the rest"
-    away = "one driver" if surplus == 1 else f"{surplus} drivers"
-    return f"take {away} away, of {', '.join(names)}: its motion follows from the rest"
+        return message("take {name} away: its motion follows from the rest", name=names[0])
+    away = message("one driver") if surplus == 1 else message("{count} drivers", count=surplus)
+    return message(
+        "take {away} away, of {names}: its motion follows from the rest",
+        away=away,
+        names=joined(", ", names),
+    )
 
 
-def same_pins(scene: Scene) -> str:
+def same_pins(scene: Scene) -> Message:
     """Words for two links that share two pins and so are one body; empty if there are none."""
     for one, other in combinations(scene.every_link, 2):
-        both = [point for point in one.points if point in other.points]
-        if len(both) > 1:
-            return (
-                f"{link_words(one.name)} and link {other.name} share the pins {both[0]} and "
-                f"{both[1]}, so that they are one body"
+        shared = [point for point in one.points if point in other.points]
+        if len(shared) > 1:
+            return message(
+                "{one} and link {other} share the pins {first} and {second}, so that they are one "
+                "body",
+                one=link_words(one.name),
+                other=other.name,
+                first=shared[0],
+                second=shared[1],
             )
-    return ""
+    return NO_WORDS
 
 
 def spare_drivers(scene: Scene) -> list[Driver]:
@@ -373,28 +422,50 @@ def misplaced(scene: Scene, ties: Sequence[str], loose: Sequence[str]) -> Proble
     from graphkin.structure.touching_wheels import keeper_hint
 
     drivers, points = len(scene.drivers), lone_points(scene)
-    lone = ", ".join(each.words for each in points)
-    tie = f"link {ties[0]}" if len(ties) == 1 else f"links {', '.join(ties)}"
+    lone = joined(", ", (each.words for each in points))
+    tie = (
+        message("link {on}", on=ties[0])
+        if len(ties) == 1
+        else message("links {ties}", ties=", ".join(ties))
+    )
+    hints = [
+        message(
+            "let a driver move link {link} instead, or add one if {tie} is idle",
+            link=loose[0],
+            tie=tie,
+        ),
+        message("or a pin is missing: only one link has the points {lone}", lone=lone)
+        if lone
+        else NO_WORDS,
+        guide_hint(scene, ties, loose),
+        keeper_hint(scene, loose),
+    ]
     return Problem(
         "drivers",
-        f"{drivers} given, but {tie} would join what is driven already, while "
-        f"{', '.join(loose)} {'hangs' if len(loose) == 1 else 'hang'} on no driver",
-        "a driver for each freedom",
-        f"let a driver move link {loose[0]} instead, or add one if {tie} is idle"
-        + (f"; or a pin is missing: only one link has the points {lone}" if lone else "")
-        + guide_hint(scene, ties, loose)
-        + keeper_hint(scene, loose),
+        message(
+            "{drivers} given, but {tie} would join what is driven already, while {hanging}",
+            drivers=drivers,
+            tie=tie,
+            hanging=hanging(loose),
+        ),
+        message("a driver for each freedom"),
+        joined("; ", hints),
         about=tuple(each.path for each in points[:1]),
     )
 
 
-def guide_hint(scene: Scene, ties: Sequence[str], loose: Sequence[str]) -> str:
+def guide_hint(scene: Scene, ties: Sequence[str], loose: Sequence[str]) -> Message:
     """Words for a block whose guide was perhaps meant to lie on a free link."""
     block = next((name for name in ties if scene.links[name].slides), None)
     if block is None:
-        return ""
+        return NO_WORDS
     where = quoted(loose[0])
-    return f"; or, if the guide of block {block} lies on link {loose[0]}, write on = {where}"
+    return message(
+        "or, if the guide of block {block} lies on link {loose}, write on = {where}",
+        block=block,
+        loose=loose[0],
+        where=where,
+    )
 
 
 def unused(scene: Scene, groups: Sequence[Group]) -> list[Driver]:
@@ -413,11 +484,21 @@ def driven_twice(scene: Scene, driver: Driver, loose: Sequence[str]) -> Problem:
     """The problem of a driver whose link other drivers move already, while other links are free."""
     return Problem(
         f"drivers[{scene.drivers.index(driver)}]",
-        f"the other drivers move link {driver.link} already, while {', '.join(loose)} "
-        f"{'hangs' if len(loose) == 1 else 'hang'} on no driver",
-        "one driver for each freedom",
-        f"let it move link {loose[0]} instead",
+        message(
+            "the other drivers move link {link} already, while {hanging}",
+            link=driver.link,
+            hanging=hanging(loose),
+        ),
+        message("one driver for each freedom"),
+        message("let it move link {loose} instead", loose=loose[0]),
     )
+
+
+def hanging(loose: Sequence[str]) -> Message:
+    """Words for links that no driver moves."""
+    if len(loose) == 1:
+        return message("no driver moves link {name}", name=loose[0])
+    return message("no driver moves links {names}", names=", ".join(loose))
 
 
 def drivable(scene: Scene) -> list[str]:
@@ -440,9 +521,10 @@ class LonePoint(Struct, frozen=True):
     link: str
 
     @property
-    def words(self) -> str:
+    def words(self) -> Message:
         """The point with its link."""
-        return f"{self.point} ({'the frame' if self.link == FRAME else self.link})"
+        owner = message("the frame") if self.link == FRAME else self.link
+        return message("{point} ({owner})", point=self.point, owner=owner)
 
     @property
     def path(self) -> tuple[str, ...]:

@@ -25,6 +25,7 @@ from graphkin.structure.wheel_groups import (
     TriedLink,
     other_of,
 )
+from graphkin.text.errors import NO_WORDS, Message, message
 from graphkin.text.plain_table import listed
 
 Joined = tuple[str, str]
@@ -131,8 +132,8 @@ class Dyad(Struct, frozen=True):
         return "".join(pair.symbol for pair in (self.left, self.inner, self.right))
 
     @property
-    def title(self) -> str:
-        return f"dyad {self.type}"
+    def title(self) -> Message:
+        return message("dyad {type}", type=self.type)
 
     @property
     def words(self) -> str:
@@ -158,8 +159,8 @@ class OnTwoPins(Dyad, frozen=True):
         return self.inner.rail
 
     @property
-    def title(self) -> str:
-        return f"guide of link {self.rail} through two pins"
+    def title(self) -> Message:
+        return message("guide of link {rail} through two pins", rail=self.rail)
 
     @property
     def words(self) -> str:
@@ -218,8 +219,8 @@ class CamFollower(Struct, frozen=True):
         return self.dyad.links
 
     @property
-    def title(self) -> str:
-        return f"{self.dyad.title}, set by the law of a cam"
+    def title(self) -> Message:
+        return message("{title}, set by the law of a cam", title=self.dyad.title)
 
     @property
     def words(self) -> str:
@@ -269,11 +270,18 @@ class Stretched(Struct, frozen=True):
         return (near[0], *self.dyad.links, *near[1:])
 
     @property
-    def title(self) -> str:
-        pairs = [f"links {each.near}, {each.far}" for each in self.cylinders]
+    def title(self) -> Message:
+        pairs = [f"{each.near}, {each.far}" for each in self.cylinders]
         if len(pairs) == 2:
-            return f"{self.dyad.title} with driven cylinders of {pairs[0]} and of {pairs[1]}"
-        return f"{self.dyad.title} with a driven cylinder of {pairs[0]}"
+            return message(
+                "{title} with driven cylinders of links {first} and of links {second}",
+                title=self.dyad.title,
+                first=pairs[0],
+                second=pairs[1],
+            )
+        return message(
+            "{title} with a driven cylinder of links {pair}", title=self.dyad.title, pair=pairs[0]
+        )
 
     @property
     def words(self) -> str:
@@ -343,13 +351,15 @@ class Higher(Struct, frozen=True):
         return assur_class(*self.joints)
 
     @property
-    def title(self) -> str:
+    def title(self) -> Message:
         if isinstance(self.last, Driver):
-            return "group closed by a driver within it"
+            return message("group closed by a driver within it")
         if isinstance(self.last, Contact):
-            return "group closed by a wheel within it"
+            return message("group closed by a wheel within it")
         rank, order = self.order
-        return f"group of class {ROMAN[min(rank, 8)]}, order {order}"
+        return message(
+            "group of class {roman}, order {order}", roman=ROMAN[min(rank, 8)], order=order
+        )
 
     @property
     def words(self) -> str:
@@ -377,11 +387,11 @@ class Unresolved(Struct, frozen=True):
     driven: tuple[Driver, ...] = ()
     tracks: tuple[str, ...] = ()
     wedged: tuple[str, ...] = ()
-    asked: str = ""
+    asked: Message = NO_WORDS
 
     @property
-    def title(self) -> str:
-        return "a group for which no construction was found"
+    def title(self) -> Message:
+        return message("a group for which no construction was found")
 
     @property
     def words(self) -> str:

@@ -22,7 +22,7 @@ from graphkin.scene.model import (
     Triangle,
 )
 from graphkin.scene.quantity import Quantity
-from graphkin.text.errors import Problem, StructureError
+from graphkin.text.errors import Problem, StructureError, message
 
 Body = dict[str, complex]
 
@@ -38,8 +38,8 @@ def body(scene: Scene, name: str) -> Body:
             raise StructureError(
                 Problem(
                     f"{place}.{placing.point}",
-                    "the lengths give no such point",
-                    "sides of a triangle, each shorter than the other two together",
+                    message("the lengths give no such point"),
+                    message("sides of a triangle, each shorter than the other two together"),
                 )
             ) from None
     for point in scene.link(name).points:
@@ -86,8 +86,8 @@ def guide_line(scene: Scene, slide: Slide) -> Line:
     first, second = (points[name] for name in slide.along)
     if first == second:
         names = "-".join(slide.along)
-        found = f"{names} has no length, so that it has no direction"
-        raise StructureError(Problem(f"links.{slide.on}", found, "two points apart"))
+        found = message("{names} has no length, so that it has no direction", names=names)
+        raise StructureError(Problem(f"links.{slide.on}", found, message("two points apart")))
     return Line(first, (second - first) / abs(second - first))
 
 

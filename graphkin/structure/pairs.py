@@ -19,7 +19,7 @@ from graphkin.scene.model import (
     of_one_size,
 )
 from graphkin.structure.turning import guides_under, turns
-from graphkin.text.errors import Problem, StructureError
+from graphkin.text.errors import Problem, StructureError, both, message
 
 __all__ = [
     "Contact",
@@ -259,13 +259,17 @@ def refuse_loose(joints: Sequence[Joint]) -> None:
     for contact in joints:
         if not isinstance(contact, Contact) or contact.track is None or contact.arm is not None:
             continue
-        centres = f"{contact.track.centre} and {contact.wheel.centre}"
+        centres = both((contact.track.centre, contact.wheel.centre))
         raise StructureError(
             Problem(
                 f"links.{contact.links[0]}.rolls",
-                f"no link carries both centres, {centres}",
-                f"an arm: a link with {contact.track.centre}-{contact.wheel.centre} = …",
-                "the arm keeps the wheels together; its weight and shape do not matter",
+                message("no link carries both centres, {centres}", centres=centres),
+                message(
+                    "an arm: a link with {track}-{wheel} = …",
+                    track=contact.track.centre,
+                    wheel=contact.wheel.centre,
+                ),
+                message("the arm keeps the wheels together; its weight and shape do not matter"),
             )
         )
 

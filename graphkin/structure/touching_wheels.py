@@ -12,7 +12,7 @@ from graphkin.scene.model import FRAME, Belt, Rolling, Scene, Wheel, link_words,
 from graphkin.scene.quantity import SI
 from graphkin.structure.link_axes import body, metres, through, unit
 from graphkin.structure.turning import LEVEL, stands
-from graphkin.text.errors import Problem, StructureError, WrittenInto
+from graphkin.text.errors import NO_WORDS, Message, Problem, StructureError, WrittenInto, message
 
 TOUCH = 1e-9
 """Gap between wheels that touch, as a share of their distance, that rounding may leave."""
@@ -79,10 +79,19 @@ def belted(scene: Scene, name: str, rolling: Rolling, belt: Belt) -> RollingCont
     arm = owner_of(scene, (wheel.centre, track.centre), (name, rolling.on))
     if arm is None:
         centres = f"{track.centre}-{wheel.centre}"
-        found = f"no link carries both centres, {track.centre} and {wheel.centre}"
-        hint = "the belt is taut only while their distance is kept"
+        found = message(
+            "no link carries both centres, {track} and {wheel}",
+            track=track.centre,
+            wheel=wheel.centre,
+        )
+        hint = message("the belt is taut only while their distance is kept")
         raise StructureError(
-            Problem(f"links.{name}.belt", found, f"an arm: a link with {centres} = …", hint)
+            Problem(
+                f"links.{name}.belt",
+                found,
+                message("an arm: a link with {centres} = …", centres=centres),
+                hint,
+            )
         )
     points, radii = body(scene, arm), (radius(scene, wheel), radius(scene, track))
     distance = abs(points[wheel.centre] - points[track.centre])
@@ -90,9 +99,13 @@ def belted(scene: Scene, name: str, rolling: Rolling, belt: Belt) -> RollingCont
         raise StructureError(overlap(scene, name, rolling, RollingContact(wheel, track, arm)))
     near = abs(radii[0] - radii[1]) <= TOUCH * max(radii)
     if not belt.crossed and near and not of_one_size(wheel, track):
-        found = f"an open belt on two wheels of radius {shown(scene, radii[0])} by chance"
-        expected = "wheels of different radii for these parameters, or of one radius for all"
-        hint = "wheels of one size turn alike; write the same radius for both"
+        found = message(
+            "an open belt on two wheels of radius {radii} by chance", radii=shown(scene, radii[0])
+        )
+        expected = message(
+            "wheels of different radii for these parameters, or of one radius for all"
+        )
+        hint = message("wheels of one size turn alike; write the same radius for both")
         raise StructureError(Problem(f"links.{name}.belt", found, expected, hint))
     return RollingContact(wheel, track, arm)
 
@@ -103,13 +116,18 @@ def overlap(scene: Scene, name: str, rolling: Rolling, on: RollingContact) -> Pr
     own, other = radius(scene, on.wheel), radius(scene, on.track)
     points, centres = body(scene, on.arm), f"{on.track.centre}-{on.wheel.centre}"
     distance = abs(points[on.wheel.centre] - points[on.track.centre])
-    found = (
-        f"the wheels of radius {shown(scene, own)} and {shown(scene, other)} (on "
-        f"{link_words(rolling.on)}) overlap or touch: {link_words(on.arm)} keeps {centres} = "
-        f"{shown(scene, distance)}"
+    found = message(
+        "the wheels of radius {own} and {other} (on {on}) overlap or touch: {arm} "
+        "keeps {centres} = {distance}",
+        own=shown(scene, own),
+        other=shown(scene, other),
+        on=link_words(rolling.on),
+        arm=link_words(on.arm),
+        centres=centres,
+        distance=shown(scene, distance),
     )
-    expected = f"more than the sum of the radii, {shown(scene, own + other)}"
-    hint = "wheels that touch are written with rolls"
+    expected = message("more than the sum of the radii, {own}", own=shown(scene, own + other))
+    hint = message("wheels that touch are written with rolls")
     return Problem(f"links.{name}.belt", found, expected, hint)
 
 
@@ -186,29 +204,53 @@ def gap(scene: Scene, name: str, rolling: Rolling, apart: WheelsApart) -> Proble
     own = shown(scene, radius(scene, apart.wheel))
     if apart.track is None:
         lies = "left" if (rolling.side > 0) == (apart.distance > 0) else "right"
-        found = (
-            f"the wheel of radius {own} does not touch its track on {on}: {keeper} keeps its "
-            f"centre {apart.wheel.centre} {shown(scene, abs(apart.distance))} to the {lies} of it"
+        found = message(
+            "the wheel of radius {own} does not touch its track on {on}: {keeper} keeps its "
+            "centre {centre} {distance} of it",
+            own=own,
+            on=on,
+            keeper=keeper,
+            centre=apart.wheel.centre,
+            distance=aside(scene, apart.distance, left=lies == "left"),
         )
-        side = "left" if rolling.side > 0 else "right"
-        expected = f"{shown(scene, apart.needed)} to the {side}"
+        expected = aside(scene, apart.needed, left=rolling.side > 0)
         if apart.distance >= 0:
             return Problem(place, found, expected)
         line = f'side = "{lies}"'
-        return Problem(place, found, expected, f"write {line}", (WrittenInto(line),))
+        return Problem(
+            place, found, expected, message("write {lower}", lower=line), (WrittenInto(line),)
+        )
     other = shown(scene, radius(scene, apart.track))
     centres = f"{apart.track.centre}-{apart.wheel.centre}"
-    found = (
-        f"wheels of radius {own} and {other} (on {on}) do not touch: {keeper} keeps "
-        f"{centres} = {shown(scene, apart.distance)}"
+    found = message(
+        "wheels of radius {own} and {other} (on {on}) do not touch: {keeper} keeps "
+        "{centres} = {distance}",
+        own=own,
+        other=other,
+        on=on,
+        keeper=keeper,
+        centres=centres,
+        distance=shown(scene, apart.distance),
     )
-    how = "difference" if apart.track.inside or apart.wheel.inside else "sum"
     if apart.needed <= 0:
-        return Problem(place, found, "a ring that is larger than the wheel within it")
-    expected = f"the {how} of the radii, {centres} = {shown(scene, apart.needed)}"
+        return Problem(place, found, message("a ring that is larger than the wheel within it"))
+    needed = {"centres": centres, "needed": shown(scene, apart.needed)}
+    expected = message("the sum of the radii, {centres} = {needed}", **needed)
+    if apart.track.inside or apart.wheel.inside:
+        expected = message("the difference of the radii, {centres} = {needed}", **needed)
     is_ring = may_be_ring(scene, apart)
-    hint = "write inside = true in the larger wheel, if it is a ring" if is_ring else ""
+    hint = (
+        message("write inside = true in the larger wheel, if it is a ring") if is_ring else NO_WORDS
+    )
     return Problem(place, found, expected, hint)
+
+
+def aside(scene: Scene, distance: float, *, left: bool) -> Message:
+    """Words for a distance to one side of a track."""
+    size = shown(scene, abs(distance))
+    if left:
+        return message("{distance} to the left", distance=size)
+    return message("{distance} to the right", distance=size)
 
 
 def may_be_ring(scene: Scene, apart: WheelsApart) -> bool:
@@ -237,22 +279,27 @@ def lone_wheels(scene: Scene) -> Iterator[Problem]:
     for link in links:
         if link.wheels and not link.rolls and link.name not in tracks:
             place = "frame.wheel" if link.name == FRAME else f"links.{link.name}.wheel"
-            found = "a wheel without a track: it rolls on nothing, and nothing rolls on it"
-            there = f"rolls or belt = {{ on = {quoted(link.name)} }} in a link with a wheel"
-            here = "" if link.name == FRAME else "rolls or belt = { on, … } in this link, or "
-            yield Problem(place, found, here + there)
+            found = message("a wheel without a track: it rolls on nothing, and nothing rolls on it")
+            expected = message(
+                "rolls or belt = {{ on = {name} }} in a link with a wheel", name=quoted(link.name)
+            )
+            if link.name != FRAME:
+                expected = message(
+                    "rolls or belt = {{ on, … }} in this link, or {there}", there=expected
+                )
+            yield Problem(place, found, expected)
 
 
-def keeper_hint(scene: Scene, loose: Sequence[str]) -> str:
+def keeper_hint(scene: Scene, loose: Sequence[str]) -> Message:
     """Words for a track without the link that keeps its wheel there; empty if there is none."""
     for name in loose:
         for rolling in scene.links[name].rolls:
             if rolling.through and rolling.on != FRAME and not rolling.keeper:
-                return f"; or, {keeper_asked(scene.links, name, rolling.on)}"
-    return ""
+                return message("or, {keep}", keep=keeper_asked(scene.links, name, rolling.on))
+    return NO_WORDS
 
 
-def asked_of(scene: Scene, tracks: Sequence[str]) -> str:
+def asked_of(scene: Scene, tracks: Sequence[str]) -> Message:
     """Words for what to write where a wheel rolls on a track that nothing holds.
 
     For a rack that slides across the track and has no other link attached, the words ask for the
@@ -265,25 +312,29 @@ def asked_of(scene: Scene, tracks: Sequence[str]) -> str:
         wheels = [(link, rolling) for link, rolling in rolled if rolling.on == track]
         along = (unit(scene, rolling.angle) for _, rolling in wheels)
         if rack and any(abs(each.imag) > LEVEL for each in along):
-            return (
-                f"link {track} slides across the track: the x axis of a block lies along its guide,"
-                " write angle = 0"
+            return message(
+                "link {track} slides across the track: the x axis of a block lies "
+                "along its guide, write angle = 0",
+                track=track,
             )
         loose = next((link.name for link, rolling in wheels if not rolling.keeper), None)
         if loose is not None:
             return keeper_asked(scene.links, loose, track)
-    return ""
+    return NO_WORDS
 
 
-def keeper_asked(links: Collection[str], wheel: str, track: str) -> str:
+def keeper_asked(links: Collection[str], wheel: str, track: str) -> Message:
     """Words for a track that seems to be guided by links which it carries itself.
 
     The block that keeps its wheel in contact is only added if the scene names it.
     """
     whose = link_words(wheel)
     moving = [name for name in links if name != FRAME]
-    return (
-        f"if a pin and the wheel of {whose} alone hold link {track}, "
-        f"write link = {quoted(next_name(moving))} in rolls of {whose}: "
-        "a block of that name is put in, which keeps the wheel on its track"
+    return message(
+        "if a pin and the wheel of {whose} alone hold link {track}, write link = "
+        "{moving} in rolls of {whose}: a block of that name is put in, which keeps the "
+        "wheel on its track",
+        whose=whose,
+        track=track,
+        moving=quoted(next_name(moving)),
     )

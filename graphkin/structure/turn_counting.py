@@ -15,7 +15,7 @@ from graphkin.scene.known_names import place_of
 from graphkin.scene.model import FRAME, Rolling, Scene
 from graphkin.scene.quantity import Quantity, exact
 from graphkin.structure.pairs import contacts
-from graphkin.text.errors import Problem, StructureError
+from graphkin.text.errors import Problem, StructureError, message
 
 WHOLE: Mapping[str, Tree] = {
     "deg": Number(Fraction(360)),
@@ -56,7 +56,13 @@ def stated_rolling(scene: Scene) -> dict[str, Rolling]:
             for link, count in rolling.turns.items():
                 if link in found:
                     first = found[link].turns[link].place
-                    problems.append(Problem(count.place, f"{first} states them too", "one of both"))
+                    problems.append(
+                        Problem(
+                            count.place,
+                            message("{first} states them too", first=first),
+                            message("one of both"),
+                        )
+                    )
                 found.setdefault(link, rolling)
     if problems:
         raise StructureError(problems)

@@ -19,6 +19,7 @@ from graphkin.scene.model import FRAME, Driver, Scene, link_words, of_one_size
 from graphkin.structure.joints import Joints, partner
 from graphkin.structure.pairs import Contact, ContactName, Joint, Leading, Pin, Sliding
 from graphkin.structure.turning import LEVEL
+from graphkin.text.errors import Message, message
 from graphkin.text.plain_table import listed
 
 
@@ -139,9 +140,11 @@ class Geared(OneLink, frozen=True):
         return self.pair, self.contact
 
     @property
-    def title(self) -> str:
-        does = "has a belt with" if self.is_belted else "rolls on"
-        return f"{does} link {partner(self.contact, self.link)}"
+    def title(self) -> Message:
+        return message(
+            "has a belt with link {name}" if self.is_belted else "rolls on link {name}",
+            name=partner(self.contact, self.link),
+        )
 
     @property
     def words(self) -> str:
@@ -155,9 +158,9 @@ class Geared(OneLink, frozen=True):
         return self.contact.rolling.belt is not None
 
     @property
-    def one_way(self) -> str:
+    def one_way(self) -> Message:
         """Why it has only one closure."""
-        return f"link {self.link} follows from its contact in one way only"
+        return message("link {link} follows from its contact in one way only", link=self.link)
 
 
 class Spun(Struct, frozen=True):

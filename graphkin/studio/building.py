@@ -41,7 +41,7 @@ from graphkin.studio.sketch import (
     unit_of,
     wheels_of,
 )
-from graphkin.text.errors import GraphkinError, Problem, SceneError
+from graphkin.text.errors import NO_WORDS, GraphkinError, Problem, SceneError, both, message
 
 TRIED = 64
 """Number of combinations of closures that are compared with the drawing."""
@@ -305,7 +305,9 @@ def built(text: str, act: Act) -> Built:
         tables = tables_of(text)
         document = tomlkit.parse(text)
     except TOMLKitError:
-        raise SceneError(Problem("text", "is no TOML", "", "mend its mistakes first")) from None
+        raise SceneError(
+            Problem("text", message("is no TOML"), NO_WORDS, message("mend its mistakes first"))
+        ) from None
     refuse_shapes(tables)
     work = Builder(document, {**act.places, **frame_places(tables)}, unit_of(tables))
     KINDS[act.kind](work, act)
@@ -345,7 +347,9 @@ def refuse_shapes(tables: Mapping[str, Any]) -> None:
         wanted |= {f"drivers[{n}]": each for n, each in enumerate(drivers)}
     wrong = [place for place, value in wanted.items() if not isinstance(value, dict)]
     if wrong:
-        raise SceneError([Problem(place, "is no table", "a table") for place in wrong])
+        raise SceneError(
+            [Problem(place, message("is no table"), message("a table")) for place in wrong]
+        )
 
 
 class Builder:
@@ -400,13 +404,17 @@ class Builder:
     def place(self, point: str) -> complex:
         """The place of a point. Raises SceneError for a point that is not in the field."""
         if point not in self.places:
-            raise SceneError(Problem(point, "is at no known place", "a point that is drawn"))
+            raise SceneError(
+                Problem(point, message("is at no known place"), message("a point that is drawn"))
+            )
         return self.places[point]
 
     def known_link(self, name: str) -> Any:
         """The table of a link. Raises SceneError for a missing link."""
         if name not in self.links:
-            raise SceneError(Problem(f"link {name}", "is not there", "a moving link"))
+            raise SceneError(
+                Problem(link_words(name), message("is not there"), message("a moving link"))
+            )
         return self.document["links"][name]
 
 
@@ -441,11 +449,11 @@ def refuse_bar(work: Builder, start: str, end: str) -> None:
     """Raise SceneError where two pins cannot be the ends of a bar."""
     line = f"{start}-{end}"
     if start == end:
-        raise SceneError(Problem(line, "begins and ends at one pin", "two pins"))
+        raise SceneError(Problem(line, message("begins and ends at one pin"), message("two pins")))
     for name, points in {FRAME: work.fixed, **work.links}.items():
         if start in points and end in points:
-            found = f"both pins belong to {link_words(name)}"
-            raise SceneError(Problem(line, found, "pins of two links"))
+            found = message("both pins belong to {name}", name=link_words(name))
+            raise SceneError(Problem(line, found, message("pins of two links")))
 
 
 def plate(work: Builder, act: Act) -> None:
@@ -456,8 +464,8 @@ def plate(work: Builder, act: Act) -> None:
         spoke(work, table, points[0], act.at)
         return
     if len(points) < 2:
-        expected = "a link with two pins at least"
-        raise SceneError(Problem(f"link {act.of[0]}", "has one pin alone", expected))
+        expected = message("a link with two pins at least")
+        raise SceneError(Problem(link_words(act.of[0]), message("has one pin alone"), expected))
     first, second = points[:2]
     start, end = work.place(first), work.place(second)
     name, across = work.point_name(), (act.at - start) / (end - start)
@@ -499,8 +507,10 @@ def wheel(work: Builder, act: Act) -> None:
         outside = way > other.radius
         table.update({"centre": centre, "radius": number(abs(way - other.radius))})
         if not outside and not other.inside:
-            found = f"{centre} lies inside the wheel of link {other.link}"
-            raise SceneError(Problem("wheel", found, "a centre outside it"))
+            found = message(
+                "{centre} lies inside the wheel of link {link}", centre=centre, link=other.link
+            )
+            raise SceneError(Problem("wheel", found, message("a centre outside it")))
         rolls: dict[str, Any] = {"on": key_of(other.link)}
     else:
         radius = work.length(abs(act.at - at))
@@ -521,8 +531,8 @@ def meeting(work: Builder, link: str, at: complex) -> DrawnWheel:
     all_wheels = [each for each in wheels_of(work.document.unwrap()) if each.link == link]
     placed = [each for each in all_wheels if each.centre in work.places]
     if not placed or any(abs(at - work.place(each.centre)) < work.grid for each in placed):
-        found = f"cannot roll on link {link} from here"
-        raise SceneError(Problem("wheel", found, "a wheel about another centre"))
+        found = message("cannot roll on link {link} from here", link=link)
+        raise SceneError(Problem("wheel", found, message("a wheel about another centre")))
     return min(placed, key=lambda each: abs(abs(at - work.place(each.centre)) - each.radius))
 
 
@@ -534,15 +544,24 @@ def block(work: Builder, act: Act) -> None:
         work.known_link(rest[0])
         ends = work.links[rest[0]]
         if point in ends:
-            found = f"{point} is a pin of link {rest[0]} itself"
-            raise SceneError(Problem("block", found, "the guide of another link"))
+            found = message("{point} is a pin of link {name} itself", point=point, name=rest[0])
+            raise SceneError(Problem("block", found, message("the guide of another link")))
         if len(ends) < 2:
-            raise SceneError(Problem("block", f"link {rest[0]} has no line", "a bar"))
+            raise SceneError(
+                Problem("block", message("link {name} has no line", name=rest[0]), message("a bar"))
+            )
         slides.update({"on": key_of(rest[0]), "along": "-".join(ends[:2])})
     else:
         if point in work.fixed:
-            hint = "press on a moving pin"
-            raise SceneError(Problem("block", f"{point} is fixed", "a pin that moves", hint))
+            hint = message("press on a moving pin")
+            raise SceneError(
+                Problem(
+                    "block",
+                    message("{point} is fixed", point=point),
+                    message("a pin that moves"),
+                    hint,
+                )
+            )
         at = work.place(point)
         slides.update(
             {"on": 0, "through": work.pair(at), "angle": number(turned(act.at - at, 5.0))}
@@ -551,7 +570,13 @@ def block(work: Builder, act: Act) -> None:
     if any(
         "slides" in tables[name] and points[:1] == [point] for name, points in work.links.items()
     ):
-        raise SceneError(Problem("block", f"{point} has a block already", "one block at a pin"))
+        raise SceneError(
+            Problem(
+                "block",
+                message("{point} has a block already", point=point),
+                message("one block at a pin"),
+            )
+        )
     _, table = work.new_link()
     table[point] = work.pair(0j)
     table["slides"] = slides
@@ -564,8 +589,10 @@ def driver(work: Builder, act: Act) -> None:
     points = work.links[name]
     lone = len(points) < 2
     if not set(points) & set(work.fixed) or (lone and "wheel" not in work.document["links"][name]):
-        hint = "a bar that turns about a fixed pin can be driven"
-        raise SceneError(Problem(f"link {name}", "is at no fixed pin", "a crank", hint))
+        hint = message("a bar that turns about a fixed pin can be driven")
+        raise SceneError(
+            Problem(link_words(name), message("is at no fixed pin"), message("a crank"), hint)
+        )
     if "drivers" not in work.document:
         work.document.add(tomlkit.nl())
         work.document["drivers"] = tomlkit.aot()
@@ -573,7 +600,9 @@ def driver(work: Builder, act: Act) -> None:
     known = next((each for each in drivers if str(each.get("turn")) == name), None)
     if known is not None:
         if known.get("speed") == number(act.speed) or not is_number(raw(known.get("speed"))):
-            raise SceneError(Problem(f"link {name}", "is driven already", "another link"))
+            raise SceneError(
+                Problem(link_words(name), message("is driven already"), message("another link"))
+            )
         known["speed"] = number(act.speed)
         return
     table = tomlkit.table()
@@ -588,8 +617,8 @@ def move(work: Builder, act: Act) -> None:
     point = act.of[0]
     work.place(point)
     if not moved(work, point, act.at):
-        found = "its place follows from expressions or from the rest"
-        raise SceneError(Problem(point, found, "a point whose lengths are numbers"))
+        found = message("its place follows from expressions or from the rest")
+        raise SceneError(Problem(point, found, message("a point whose lengths are numbers")))
 
 
 def moved(work: Builder, point: str, at: complex) -> bool:
@@ -598,7 +627,11 @@ def moved(work: Builder, point: str, at: complex) -> bool:
     work.places[point] = at
     if point in frame:
         if not is_place(frame[point]):
-            raise SceneError(Problem(f"frame.{point}", "is written as an expression", "numbers"))
+            raise SceneError(
+                Problem(
+                    f"frame.{point}", message("is written as an expression"), message("numbers")
+                )
+            )
         frame[point] = work.pair(at)
         work.places[point] = complex(*frame[point])
         changed = True
@@ -638,27 +671,27 @@ def join(work: Builder, act: Act) -> None:
 
 def refuse_join(work: Builder, first: str, second: str) -> None:
     """Raise SceneError where two pins cannot be joined."""
-    both = f"{first} and {second}"
+    pins = both((first, second))
     if first == second:
-        raise SceneError(Problem(first, "is one pin already", "another pin"))
+        raise SceneError(Problem(first, message("is one pin already"), message("another pin")))
     bodies = {FRAME: work.fixed, **work.links}
     for name, points in bodies.items():
         if first in points and second in points:
-            found = f"belong both to {link_words(name)}"
-            raise SceneError(Problem(both, found, "pins of two links"))
+            found = message("belong both to {name}", name=link_words(name))
+            raise SceneError(Problem(pins, found, message("pins of two links")))
     tables = links_of(work.document)
     ones = [name for name, points in bodies.items() if first in points]
     others = [name for name, points in bodies.items() if second in points]
     for one, other in product(ones, others):
         if {*bodies[one]} & {*bodies[other]}:
-            names = f"{link_words(one)} and {link_words(other)}"
-            found = f"{names} would share two pins and be one body"
-            raise SceneError(Problem(both, found, "links that share one pin"))
+            names = both((link_words(one), link_words(other)))
+            found = message("{names} would share two pins and be one body", names=names)
+            raise SceneError(Problem(pins, found, message("links that share one pin")))
         for block, guide in ((one, other), (other, one)):
             slides = raw(tables.get(block, {}).get("slides"))
             if isinstance(slides, Mapping) and str(slides.get("on")) == guide:
-                found = f"the block {block} would be pinned to its own guide"
-                raise SceneError(Problem(both, found, "a pin of another link"))
+                found = message("the block {block} would be pinned to its own guide", block=block)
+                raise SceneError(Problem(pins, found, message("a pin of another link")))
 
 
 def turned_driver(work: Builder, link: str, point: str) -> bool:

@@ -11,7 +11,7 @@ from pathlib import Path
 
 from graphkin.scene import scene_files
 from graphkin.scene.file_limits import decoded, read_bytes, tables_of
-from graphkin.text.errors import Problem, SceneError
+from graphkin.text.errors import NO_WORDS, Message, Problem, SceneError, joined, message, verbatim
 from graphkin.writers.files import RESERVED
 
 ENDING = ".toml"
@@ -48,8 +48,14 @@ class Folder:
         there = (form for form in forms if not problem and os.path.lexists(self.root / form))
         target = None if problem else (self.root / next(there, forms[1]))
         if target is None or not target.resolve().is_relative_to(self.root):
-            expected = f"a name within this folder, ending in {ENDING}, such as {meant(name)}"
-            raise SceneError(Problem("file", problem or "leads out of the folder", expected))
+            expected = message(
+                "a name within this folder, ending in {ending}, such as {name}",
+                ending=ENDING,
+                name=meant(name),
+            )
+            raise SceneError(
+                Problem("file", problem or message("leads out of the folder"), expected)
+            )
         return target
 
     def lab_path(self, name: str) -> Path:
@@ -60,12 +66,22 @@ class Folder:
         """
         scene = self.path(name)
         if scene.name != SCENE:
-            expected = f"a folder with its scene and its rules, such as {stem_of(name)}/{SCENE}"
-            raise SceneError(Problem("file", f"{scene.name} has no {scene_files.LAB}", expected))
+            expected = message(
+                "a folder with its scene and its rules, such as {name}/{scene}",
+                name=stem_of(name),
+                scene=SCENE,
+            )
+            raise SceneError(
+                Problem(
+                    "file",
+                    message("{name} has no {lab}", name=scene.name, lab=scene_files.LAB),
+                    expected,
+                )
+            )
         path = scene.with_name(scene_files.LAB)
         if not path.resolve().is_relative_to(self.root):
-            found = f"the {scene_files.LAB} beside it leads out of the folder"
-            raise SceneError(Problem("file", found, "a file within this folder"))
+            found = message("the {lab} beside it leads out of the folder", lab=scene_files.LAB)
+            raise SceneError(Problem("file", found, message("a file within this folder")))
         return path
 
     def rules(self, name: str) -> str:
@@ -98,7 +114,13 @@ class Folder:
         path = self.path(name)
         scene_files.settle(path)
         if not path.is_file():
-            raise SceneError(Problem("file", f"there is no file {name} here", "one that is listed"))
+            raise SceneError(
+                Problem(
+                    "file",
+                    message("there is no file {name} here", name=name),
+                    message("one that is listed"),
+                )
+            )
         return decoded(read_bytes(path))
 
     def name_as_written(self, path: Path) -> str:
@@ -109,8 +131,12 @@ class Folder:
         """The name of a file by its path. Raises SceneError for a file outside the folder."""
         found = path.resolve()
         if not found.is_relative_to(self.root):
-            hint = f"start the studio in {found.parent}"
-            raise SceneError(Problem(str(path), "lies outside this folder", str(self.root), hint))
+            hint = message("start the studio in {parent}", parent=found.parent)
+            raise SceneError(
+                Problem(
+                    str(path), message("lies outside this folder"), verbatim(str(self.root)), hint
+                )
+            )
         return found.relative_to(self.root).as_posix()
 
 
@@ -127,29 +153,29 @@ def with_ending(name: str) -> str:
     return name if not last or "." in last else f"{name}{ENDING}"
 
 
-def doubt(name: str) -> str:
+def doubt(name: str) -> Message:
     """The error of a name in itself; empty for a valid one."""
     parts = name.split("/")
     if not name.endswith(ENDING) or name == ENDING:
-        return f"the name does not end in {ENDING}"
+        return message("the name does not end in {ending}", ending=ENDING)
     if len(name) > LONGEST or len(parts) > DEEPEST:
-        return "the name is too long"
+        return message("the name is too long")
     if parts[-1] in OTHERS:
-        return f"{parts[-1]} is no scene"
-    return next((found for part in parts if (found := doubt_of_part(part))), "")
+        return message("{name} is no scene", name=parts[-1])
+    return next((found for part in parts if (found := doubt_of_part(part))), NO_WORDS)
 
 
-def doubt_of_part(part: str) -> str:
+def doubt_of_part(part: str) -> Message:
     """The error of one part of a name."""
     if not part or part.startswith(".") or part != part.rstrip(" ."):
-        return "a part of the name is empty, or begins or ends with a dot"
+        return message("a part of the name is empty, or begins or ends with a dot")
     if FORBIDDEN.search(part):
-        return "the name holds a sign that file names do not have everywhere"
+        return message("the name holds a sign that file names do not have everywhere")
     if any(unicodedata.category(sign) in UNSEEN for sign in part):
-        return "the name holds a sign that cannot be seen"
+        return message("the name holds a sign that cannot be seen")
     if part.partition(".")[0].upper() in RESERVED:
-        return f"{part} is the name of a device"
-    return ""
+        return message("{name} is the name of a device", name=part)
+    return NO_WORDS
 
 
 def stem_of(name: str) -> str:
@@ -182,7 +208,13 @@ def title_in(path: Path, language: str) -> str:
 def shipped_text(name: str) -> str:
     """The text of the scene of a lab of graphkin. Raises SceneError for an unknown lab."""
     if name not in scene_files.names():
-        raise SceneError(Problem("lab", f"there is no lab {name}", ", ".join(scene_files.names())))
+        raise SceneError(
+            Problem(
+                "lab",
+                message("there is no lab {name}", name=name),
+                joined(", ", scene_files.names()),
+            )
+        )
     return decoded(read_bytes(scene_files.shelf() / name / SCENE))
 
 
@@ -190,7 +222,13 @@ def example_text(name: str) -> str:
     """The text of another scene that comes with graphkin. Raises SceneError for an unknown name."""
     found = scene_files.examples().get(name)
     if found is None:
-        raise SceneError(Problem("scene", f"there is no scene {name}", "one that is listed"))
+        raise SceneError(
+            Problem(
+                "scene",
+                message("there is no scene {name}", name=name),
+                message("one that is listed"),
+            )
+        )
     return decoded(read_bytes(found))
 
 

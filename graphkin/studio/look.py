@@ -28,7 +28,7 @@ from graphkin.studio.mends import Edit, mends_of, units
 from graphkin.studio.panels import Memory, panels, style
 from graphkin.studio.result_panel import margins, results, verdict_words
 from graphkin.text import Words, words
-from graphkin.text.errors import GraphkinError, InLine, Problem, Setting, Sought
+from graphkin.text.errors import GraphkinError, InLine, Problem, Setting, Sought, message
 from graphkin.text.markup import as_text
 from graphkin.text.problems import spoken
 
@@ -399,10 +399,12 @@ def doubts(margin: float, verdict: Verdict) -> list[Problem]:
     found = [lost(verdict)] if verdict.unsure else []
     if margin >= FAIR:
         return found
-    flattest = f"the flattest crossing has a sine of {margin:.1e}"
-    hint = "the position is nearly singular: choose another driver angle"
+    flattest = message("the flattest crossing has a sine of {margin:.1e}", margin=margin)
+    hint = message("the position is nearly singular: choose another driver angle")
     return [
-        Problem("position", flattest, f"at least {FAIR:g}", hint, about=(Sought(),)),
+        Problem(
+            "position", flattest, message("at least {least:g}", least=FAIR), hint, about=(Sought(),)
+        ),
         *found,
     ]
 
@@ -414,13 +416,13 @@ def told_in(problems: Iterable[Problem], text: str, language: str) -> list[dict[
 
 def told(mark: MarkedProblem, language: str) -> dict[str, Any]:
     """A problem as a record: its words, its line, the piece to select, and its setting if any."""
-    said = spoken(mark.problem, language)
-    setting = next((each.name for each in mark.problem.about if isinstance(each, Setting)), "")
+    problem = mark.problem
+    setting = next((each.name for each in problem.about if isinstance(each, Setting)), "")
     return {
-        "place": said.place,
-        "found": said.found,
-        "expected": said.expected,
-        "hint": str(said.hint),
+        "place": spoken(problem.place, language),
+        "found": spoken(problem.found, language),
+        "expected": spoken(problem.expected, language),
+        "hint": spoken(problem.help, language),
         "mends": [to_builtins(mend) for mend in mark.mends],
         "line": mark.line,
         "column": mark.column,

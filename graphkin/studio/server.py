@@ -19,7 +19,7 @@ from graphkin.studio.local_pages import JSON, answer, answering, new_application
 from graphkin.studio.look import spoken_in
 from graphkin.studio.session import MOST_BYTES, OPENED, Opened, PageRequest, Session
 from graphkin.text import LANGUAGES, Words
-from graphkin.text.errors import GraphkinError, PageError, Problem
+from graphkin.text.errors import GraphkinError, PageError, Problem, message
 from graphkin.writers.templates import from_template
 
 SPOKEN = "studio."
@@ -185,8 +185,10 @@ def served(
     try:
         from waitress import create_server
     except ImportError:
-        hint = "install them: pip install 'graphkin[studio]'"
-        raise PageError(Problem("studio", "needs bottle and waitress", hint=hint)) from None
+        hint = message("install them: pip install 'graphkin[studio]'")
+        raise PageError(
+            Problem("studio", message("needs bottle and waitress"), hint=hint)
+        ) from None
 
     logging.getLogger("waitress.queue").setLevel(logging.ERROR)  # a waiting request is no news
     listening = listener(port)
@@ -218,8 +220,13 @@ def listener(port: int) -> socket.socket:
         found.bind((HOME, port))
     except (OSError, OverflowError) as error:
         found.close()
-        hint = "leave --port out: a free one is found"
-        problem = Problem(f"port {port}", f"cannot be used: {error}", "a free port", hint)
+        hint = message("leave --port out: a free one is found")
+        problem = Problem(
+            message("port {port}", port=port),
+            message("cannot be used: {error}", error=str(error)),
+            message("a free port"),
+            hint,
+        )
         raise PageError(problem) from error
     found.listen(16)
     return found

@@ -3,10 +3,71 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Mapping
 from contextlib import contextmanager
+from functools import reduce
+from typing import Self
 
 from msgspec import Struct
+
+
+class Message(str):
+    """A sentence as a template with fields; as a text, the English sentence.
+
+    The template is the key of the sentence in other languages. A field that is a sentence is said
+    in the reader's language; numbers and the user's own text stay as they are. An f-string and
+    ``+`` lose the fields: their result is a plain text.
+    """
+
+    template: str
+    fields: Mapping[str, object]
+
+    def __new__(cls, template: str, fields: Mapping[str, object]) -> Self:
+        said = super().__new__(cls, template.format_map(fields))
+        said.template, said.fields = template, fields
+        return said
+
+    def __getnewargs__(self) -> tuple[str, Mapping[str, object]]:  # type: ignore[override]
+        return self.template, self.fields
+
+
+def message(template: str, /, **fields: object) -> Message:
+    """A sentence from its template and fields, such as ``message("link {name}", name="3")``."""
+    return Message(template, fields)
+
+
+def verbatim(text: str) -> Message:
+    """A text that is the same in every language: what the user wrote, names, lines of TOML."""
+    return text if isinstance(text, Message) else Message("{text}", {"text": text})
+
+
+def joined(separator: str, parts: Iterable[str]) -> Message:
+    """Parts side by side, the empty ones left out: ``joined(", ", names)``."""
+    fields = {f"part{number}": part for number, part in enumerate(filter(None, parts), 1)}
+    return Message(separator.join(f"{{{name}}}" for name in fields), fields)
+
+
+def either(parts: Iterable[str]) -> Message:
+    """Alternatives: A or B or C."""
+    return reduce(
+        lambda one, other: message("{one} or {other}", one=one, other=other), every(parts)
+    )
+
+
+def both(parts: Iterable[str]) -> Message:
+    """Parts that belong together: A and B and C."""
+    return reduce(
+        lambda one, other: message("{one} and {other}", one=one, other=other), every(parts)
+    )
+
+
+def every(parts: Iterable[str]) -> Iterator[Message]:
+    """Each part as a message; one empty message where there are no parts."""
+    return map(verbatim, list(parts) or [""])
+
+
+NO_WORDS = Message("", {})
+"""The sentence of a part that is left out."""
 
 
 class Mend(Struct, frozen=True):
@@ -14,14 +75,18 @@ class Mend(Struct, frozen=True):
 
     old: str
     new: str
-    words: str = ""
+    words: Message = NO_WORDS
 
     def __str__(self) -> str:
+        return self.message
+
+    @property
+    def message(self) -> Message:
         """The replacement as a question: did you mean …?"""
-        return self.words or f"did you mean {self.new}?"
+        return self.words or message("did you mean {new}?", new=self.new)
 
 
-Hint = str | Mend
+Hint = Message | Mend
 """A hint, as words or as the change that corrects the problem; empty for none."""
 
 
@@ -83,8 +148,9 @@ class InLine(Struct, frozen=True):
     line: int
     column: int = 0
 
-    def __str__(self) -> str:
-        return f"line {self.line}"
+    @property
+    def message(self) -> Message:
+        return message("line {line}", line=self.line)
 
 
 class InTable(Struct, frozen=True):
@@ -94,10 +160,15 @@ class InTable(Struct, frozen=True):
     row: int
     column: str | int = ""
 
-    def __str__(self) -> str:
+    @property
+    def message(self) -> Message:
         """The place in words: roster.csv, row 14, column "id"."""
+        if not self.column:
+            return message("{table}, row {row}", table=self.table, row=self.row)
         column = f'"{self.column}"' if isinstance(self.column, str) else self.column
-        return f"{self.table}, row {self.row}" + (f", column {column}" if self.column else "")
+        return message(
+            "{table}, row {row}, column {column}", table=self.table, row=self.row, column=column
+        )
 
 
 class Setting(Struct, frozen=True):
@@ -105,8 +176,9 @@ class Setting(Struct, frozen=True):
 
     name: str
 
-    def __str__(self) -> str:
-        return f"setting {self.name}"
+    @property
+    def message(self) -> Message:
+        return message("setting {name}", name=self.name)
 
 
 class Sought(Struct, frozen=True):
@@ -122,31 +194,37 @@ About = tuple[str, ...] | InLine | InTable | Setting | Sought
 class Problem(Struct, frozen=True):
     """One problem at one place, with words that help to correct it and possible changes.
 
-    ``place`` is the dotted key, or words where ``about`` gives the subject. ``file`` precedes the
-    place where there are several files.
+    ``place`` is the dotted key, or a sentence where ``about`` gives the subject. ``file`` precedes
+    the place where there are several files.
     """
 
     place: str
-    found: str
-    expected: str = ""
-    hint: Hint = ""
+    found: Message
+    expected: Message = NO_WORDS
+    hint: Hint = NO_WORDS
     changes: tuple[Change, ...] = ()
     about: tuple[About, ...] = ()
     file: str = ""
 
     def __str__(self) -> str:
+        return self.message
+
+    @property
+    def help(self) -> Message:
+        """The hint in words."""
+        return self.hint.message if isinstance(self.hint, Mend) else self.hint
+
+    @property
+    def message(self) -> Message:
         """The problem as one sentence: file: place: found; expected …; hint."""
-        parts = [": ".join(filter(None, (self.file, self.place, self.found)))]
-        if self.expected:
-            parts.append(f"expected {self.expected}")
-        if self.hint:
-            parts.append(str(self.hint))
-        return "; ".join(parts)
+        found = joined(": ", (self.file, self.place, self.found))
+        wanted = self.expected and message("expected {expected}", expected=self.expected)
+        return joined("; ", (found, wanted, self.help))
 
 
 MOST = 100
 """The most problems in one error."""
-MORE = Problem("", "and perhaps more problems")
+MORE = Problem("", message("and perhaps more problems"))
 """The replacement for further problems."""
 
 
@@ -191,10 +269,14 @@ PLAIN_TRACEBACK = "GRAPHKIN_TRACEBACK"
 """Environment variable that shows the traceback of a fault in graphkin itself."""
 
 
-def fault(error: Exception) -> str:
+def fault(error: Exception) -> Message:
     """The message for an unexpected error, in one line."""
     what = f"{type(error).__name__}: {error}".splitlines()[0][:200]
-    return f"a fault in graphkin itself ({what}); {PLAIN_TRACEBACK}=1 shows where"
+    return message(
+        "a fault in graphkin itself ({what}); {variable}=1 shows where",
+        what=what,
+        variable=PLAIN_TRACEBACK,
+    )
 
 
 def problems_of(error: Exception) -> tuple[Problem, ...]:

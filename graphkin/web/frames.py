@@ -24,7 +24,7 @@ from graphkin.motion.driving import TURN
 from graphkin.numbers.arithmetic import np
 from graphkin.scene.expression import TIME
 from graphkin.text import Words
-from graphkin.text.errors import GraphkinError, Problem, SceneError
+from graphkin.text.errors import GraphkinError, Problem, SceneError, message
 
 if TYPE_CHECKING:
     from graphkin.motion.cycle import Cycle
@@ -107,16 +107,37 @@ def motion(cycle: Cycle, words: Words, frames: int = FRAMES) -> FrameSequence:
 
 def leap(jump: Jump, unit: str) -> Problem:
     """The problem of a motion in which something jumps."""
-    what = f"link {jump.of}" if jump.turns else jump.of
-    found = f"{what} jumps between {jump.low:.6g} and {jump.high:.6g} {unit}"
-    return Problem("the animation", found, "a motion", "graphkin cycle says how far it jumps")
+    what = message("link {on}", on=jump.of) if jump.turns else jump.of
+    found = message(
+        "{what} jumps between {low:.6g} and {high:.6g} {unit}",
+        what=what,
+        low=jump.low,
+        high=jump.high,
+        unit=unit,
+    )
+    return Problem(
+        message("the animation"),
+        found,
+        message("a motion"),
+        message("graphkin cycle says how far it jumps"),
+    )
 
 
 def stands(cycle: Cycle) -> Problem:
     """The problem of a driver that has no range to move in."""
     low, high = cycle.ranges[0]
-    found = f"closes from {low:.6g} to {high:.6g} {cycle.sweep.unit}, too little to be moved"
-    return Problem("the animation", found, "a driver that moves", "graphkin check shows the range")
+    found = message(
+        "closes from {low:.6g} to {high:.6g} {unit}, too little to be moved",
+        low=low,
+        high=high,
+        unit=cycle.sweep.unit,
+    )
+    return Problem(
+        message("the animation"),
+        found,
+        message("a driver that moves"),
+        message("graphkin check shows the range"),
+    )
 
 
 def in_order(places: list[float]) -> tuple[list[float], list[int]]:

@@ -22,7 +22,7 @@ from graphkin.drawing.symbol_markup import escape as markup
 from graphkin.drawing.symbol_markup import symbol
 from graphkin.mechanism import Mechanism
 from graphkin.text import Words
-from graphkin.text.errors import Problem, SceneError
+from graphkin.text.errors import NO_WORDS, Problem, SceneError, message
 from graphkin.web.animation_pictures import (
     AIR,
     MECHANISM,
@@ -103,9 +103,11 @@ def goes_back(moved: Moving) -> bool:
 
 def cannot() -> Problem:
     """The problem of a page that cannot show this motion."""
-    found = "a page moves one driver of a scene, or all of them by the time"
-    hint = "--format gif shows other motions"
-    return Problem("--format html", f"{found}; not this motion", "", hint)
+    found = message(
+        "a page moves one driver of a scene, or all of them by the time; not this motion"
+    )
+    hint = message("--format gif shows other motions")
+    return Problem("--format html", found, NO_WORDS, hint)
 
 
 def screen_sheets(set_up: Stage) -> list[ScreenSheet]:

@@ -21,7 +21,7 @@ from msgspec import Struct
 
 from graphkin.scene.file_limits import whole_file
 from graphkin.scene.scene_files import UNFINISHED
-from graphkin.text.errors import FileError, PageError, Problem
+from graphkin.text.errors import NO_WORDS, FileError, PageError, Problem, message
 from graphkin.writers.lock import InUseError, alive, locked
 
 PATIENCE = 10.0
@@ -77,8 +77,10 @@ def settle(folder: str | os.PathLike[str]) -> None:
         except OSError as error:
             if not planned(root / UNFINISHED):
                 return  # nothing was moved yet, so the files are complete
-            found = f"an earlier run did not end, and {reason_of(error)}"
-            raise FileError(Problem(str(root), found, "a folder that can be written")) from error
+            found = message("an earlier run did not end, and {error}", error=reason_of(error))
+            raise FileError(
+                Problem(str(root), found, message("a folder that can be written"))
+            ) from error
 
 
 def put_in_place(folder: Path, targets: Mapping[Path, bytes]) -> None:
@@ -148,8 +150,13 @@ def checked(folder: Path, plan: CommitPlan) -> CommitPlan:
     for name in (*plan.files, *plan.folders):
         path = folder / name
         if ".." in path.parts or not path.parent.resolve().is_relative_to(whole):
-            found, hint = f"leads to {path.parent.resolve()}", "remove the link"
-            raise FileError(Problem(str(path), found, f"a file in {whole}", hint))
+            found, hint = (
+                message("leads to {folder}", folder=path.parent.resolve()),
+                message("remove the link"),
+            )
+            raise FileError(
+                Problem(str(path), found, message("a file in {whole}", whole=whole), hint)
+            )
     return plan
 
 
@@ -159,7 +166,10 @@ def plan_in(folder: Path, name: str) -> CommitPlan:
     try:
         return checked(folder, msgspec.json.decode(whole_file(path), type=CommitPlan))
     except (msgspec.MsgspecError, UnicodeDecodeError, RecursionError) as error:
-        found, hint = "an earlier run did not end, and its plan is unreadable", "remove this file"
+        found, hint = (
+            message("an earlier run did not end, and its plan is unreadable"),
+            message("remove this file"),
+        )
         raise FileError(Problem(str(path), found, hint=hint)) from error
 
 
@@ -219,7 +229,7 @@ def take_back(folder: Path) -> None:
         if name not in plan.replaced:
             target.unlink(missing_ok=True)
         elif os.path.lexists(old):
-            move(old, target, "cannot be put back")
+            move(old, target, back=True)
     for way in reversed(plan.folders):
         with suppress(OSError):
             (folder / way).rmdir()
@@ -227,16 +237,21 @@ def take_back(folder: Path) -> None:
     discard(hidden)
 
 
-def move(source: Path, target: Path, failed: str = "cannot be replaced") -> None:
+def move(source: Path, target: Path, *, back: bool = False) -> None:
     """Move a file into place. Raises FileError with its path where the system refuses."""
     try:
         source.replace(target)
     except OSError as error:
-        expected, hint = "", ""
+        expected, hint = NO_WORDS, NO_WORDS
         if isinstance(error, PermissionError):
-            expected = "a file that no other program has open"
-            hint = "close it, perhaps in a spreadsheet or a viewer, and run the command again"
-        found = f"{failed}: {reason_of(error)}"
+            expected = message("a file that no other program has open")
+            hint = message(
+                "close it, perhaps in a spreadsheet or a viewer, and run the command again"
+            )
+        found = message(
+            "cannot be put back: {error}" if back else "cannot be replaced: {error}",
+            error=reason_of(error),
+        )
         raise FileError(Problem(str(target), found, expected, hint)) from error
 
 
@@ -271,7 +286,9 @@ def reason_of(error: OSError) -> str:
 
 def cannot_write(folder: Path, error: OSError) -> PageError:
     """The error for a file or folder that the system does not allow to be written."""
-    found = f"cannot be written: {reason_of(error)}"
+    found = message("cannot be written: {error}", error=reason_of(error))
     return FileError(
-        Problem(str(folder), found, "a folder that can be written", "name one with -o")
+        Problem(
+            str(folder), found, message("a folder that can be written"), message("name one with -o")
+        )
     )

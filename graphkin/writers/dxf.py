@@ -11,7 +11,7 @@ from typing import Any
 from graphkin.drawing.marks import Arc, CircleMark, LineMark, Mark, Page, Polyline, Text
 from graphkin.drawing.richtext import advance, capital, runs
 from graphkin.drawing.style import Ink, Style, style_of
-from graphkin.text.errors import PageError, Problem
+from graphkin.text.errors import PageError, Problem, message
 
 MILLIMETRES = 4
 """The code of millimetres as the DXF drawing unit."""
@@ -27,8 +27,8 @@ def write_dxf(page: Page, ink: Ink = "colour") -> bytes:
         import ezdxf
         from ezdxf.enums import TextEntityAlignment
     except ImportError:
-        hint = "install it: pip install 'graphkin[cad]'"
-        raise PageError(Problem("dxf", "needs ezdxf", hint=hint)) from None
+        hint = message("install it: pip install 'graphkin[cad]'")
+        raise PageError(Problem("dxf", message("needs ezdxf"), hint=hint)) from None
     page.check()
     before = ezdxf.options.write_fixed_meta_data_for_testing
     ezdxf.options.write_fixed_meta_data_for_testing = True  # the same page gives the same bytes

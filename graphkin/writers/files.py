@@ -10,7 +10,7 @@ from zlib import crc32
 
 from graphkin.drawing.marks import Page
 from graphkin.drawing.style import Ink
-from graphkin.text.errors import FileError, Problem
+from graphkin.text.errors import FileError, Problem, joined, message
 from graphkin.writers.commit import PATIENCE, cannot_write, held, put_in_place, settle
 
 RESERVED = frozenset(
@@ -98,12 +98,14 @@ def write_all(folder: Path, files: Mapping[str, bytes], force: bool) -> list[Pat
 def refuse_existing(folder: Path, targets: list[Path], force: bool) -> None:
     """Raise PageError with every existing target."""
     if folder.exists() and not folder.is_dir():
-        hint = "name another folder with -o"
-        raise FileError(Problem(str(folder), "is a file", "a folder", hint))
+        hint = message("name another folder with -o")
+        raise FileError(Problem(str(folder), message("is a file"), message("a folder"), hint))
     folders = [target for target in targets if target.is_dir()]
     there = [t for t in targets if not force and os.path.lexists(t) and t not in folders]
     problems = [in_the_way(there)] if there else []
-    problems += [Problem(str(t), "is a folder", "a place for a file") for t in folders]
+    problems += [
+        Problem(str(t), message("is a folder"), message("a place for a file")) for t in folders
+    ]
     if problems:
         raise FileError(problems)
 
@@ -129,10 +131,10 @@ def refuse_folder(folder: Path, names: Iterable[str] = (), *, force: bool = Fals
 def in_the_way(there: Sequence[Path]) -> Problem:
     """The problem of existing files: all of them in one line, the first by name."""
     if len(there) == 1:
-        hint = "--force replaces it, -o names another folder"
-        return Problem(str(there[0]), "exists already", "a new file", hint)
-    more = len(there) - SHOWN
-    rest = f" and {more} more" if more > 0 else ""
-    names = ", ".join(map(str, there[:SHOWN])) + rest
-    hint = "--force replaces them, -o names another folder"
-    return Problem(names, "each exists already", "new files", hint)
+        hint = message("--force replaces it, -o names another folder")
+        return Problem(str(there[0]), message("exists already"), message("a new file"), hint)
+    names, more = joined(", ", map(str, there[:SHOWN])), len(there) - SHOWN
+    if more > 0:
+        names = message("{names} and {count} more", names=names, count=more)
+    hint = message("--force replaces them, -o names another folder")
+    return Problem(names, message("each exists already"), message("new files"), hint)

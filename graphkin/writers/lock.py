@@ -14,7 +14,7 @@ from time import time
 from typing import Any
 
 from graphkin.scene.file_limits import file_bytes
-from graphkin.text.errors import PageError, Problem
+from graphkin.text.errors import Message, PageError, Problem, message
 
 LOCK = ".graphkin-lock"
 """The locked file."""
@@ -80,22 +80,29 @@ def told(note: Path) -> dict[str, Any]:
     return found if isinstance(found, dict) else {}
 
 
-def holder(sign: dict[str, Any]) -> str:
+def holder(sign: dict[str, Any]) -> Message:
     """Words for the holder of a lock: process, host and age."""
     since = sign.get("since")
     age = max(int(time()) - since, 0) if isinstance(since, int) else 0
-    return f"process {sign.get('pid', '?')} on {sign.get('host', '?')}, begun {ago(age)}"
+    return message(
+        "process {pid} on {host}, begun {age} ago",
+        pid=sign.get("pid", "?"),
+        host=sign.get("host", "?"),
+        age=age_words(age),
+    )
 
 
-def ago(seconds: int) -> str:
-    """Words for an age: 40 s, 12 min or 3 h ago."""
+def age_words(seconds: int) -> str:
+    """An age in a unit of its size: 40 s, 12 min or 3 h."""
     for unit, size in (("h", 3600), ("min", 60)):
         if seconds >= 2 * size:
-            return f"{seconds // size} {unit} ago"
-    return f"{seconds} s ago"
+            return f"{seconds // size} {unit}"
+    return f"{seconds} s"
 
 
 def in_use(folder: Path, sign: dict[str, Any]) -> Problem:
     """The problem of a folder in which another run is writing."""
-    found = f"another run is writing here: {holder(sign)}"
-    return Problem(str(folder), found, "one run at a time", "wait for it, or end it")
+    found = message("another run is writing here: {holder}", holder=holder(sign))
+    return Problem(
+        str(folder), found, message("one run at a time"), message("wait for it, or end it")
+    )

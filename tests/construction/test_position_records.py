@@ -41,9 +41,9 @@ def mechanism(name: str) -> Mechanism:
 def test_what_two_loci_determine_says_what_lies_in_line_where_they_fail(name):
     program = mechanism(name).program
     for each in constructions(program, Determined):
-        nearly = each.in_line(program.steps, "nearly ")
+        nearly = each.in_line(program.steps, nearly=True)
         assert nearly.count("nearly ") == 1
-        assert nearly.replace("nearly ", "") == each.in_line(program.steps, "")
+        assert nearly.replace("nearly ", "") == each.in_line(program.steps, nearly=False)
         if each.has_mirror:
             assert each.apart.startswith(each.loci.split(" and ")[0])
 

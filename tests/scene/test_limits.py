@@ -10,9 +10,13 @@ from pathlib import Path
 import pytest
 
 from graphkin.scene import scene_files
-from graphkin.scene.file_limits import NUMBER, OTHER_LETTER, PARTS, PLAIN, VALUE
+from graphkin.scene.file_limits import NUMBER, PARTS, PLAIN, VALUE
 from graphkin.scene.read_scene import read_scene, read_text
 from graphkin.text.errors import MORE, Problem, SceneError
+
+OTHER_LETTER = (
+    "“{letter}” ({code}) is no letter of a name: these are A to Z and a to z without accents"
+)
 
 HEAD = 'graphkin = 1\nunits = { length = "m", angle = "deg", speed = "rad/s" }\n'
 DRIVER = "[[drivers]]\nturn = 1\nangle = 0\nspeed = 1\n"
@@ -74,14 +78,14 @@ def test_syntax_errors_name_their_line() -> None:
         ("angle = “30*k”", 'use straight quotes: "'),
         ("angle = „30*k“", 'use straight quotes: "'),
         ("length = 37,5", "numbers are written with a point: 37.5"),
-        ("length = 012", "a number has no zero in front: 12"),
+        ("length = 012", "write the number without a leading zero: 12"),
         ("length = 1 2", PARTS),
         ("length = ", f"the value is missing: {VALUE}"),
         ("length = .5", "a point has digits on both sides: 40.0, 0.5"),
         ("length = 5.", "a point has digits on both sides: 40.0, 0.5"),
         ("pin = True", "write true"),
         ("length = 5 // long", "a comment begins with #"),
-        ("length 5", "between a key and its value stands ="),
+        ("length 5", "write = between a key and its value"),
         ('title = "Pump', "put its quote at its end"),
         ("speed = fast", NUMBER),
         ("slides = { on = 0, angle = n }", NUMBER),

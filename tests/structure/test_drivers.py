@@ -111,8 +111,8 @@ def test_drivers_without_which_the_groups_are_complete_are_too_many():
         "take one driver away, of turn = 1, turn = 4: its motion follows from the rest"
     )
     assert refused(two + DRIVEN + third) == (
-        "drivers: 2 given, but link 2 would join what is driven already, while 5, 6, 7 hang on no "
-        "driver; expected a driver for each freedom; "
+        "drivers: 2 given, but link 2 would join what is driven already, while no driver moves "
+        "links 5, 6, 7; expected a driver for each freedom; "
         "let a driver move link 5 instead, or add one if link 2 is idle"
     )
 

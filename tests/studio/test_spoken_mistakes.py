@@ -3,80 +3,102 @@
 from __future__ import annotations
 
 import ast
+import pickle
 import re
 from collections.abc import Iterator
-from functools import cache
 from pathlib import Path
+from string import Formatter
 
 import pytest
 
-from graphkin.scene import file_limits
-from graphkin.scene.model import LEADING, LINK_KEYS
-from graphkin.text.errors import Mend, Problem
-from graphkin.text.problems import GAP, sentences, spoken
+from graphkin.text.errors import joined, message, verbatim
+from graphkin.text.problems import spoken, translations
+from tests.scene.test_problems import CASES, SAID
 from tests.studio.pump import PUMP, desk_in, ordered, seen
 
 ROOT = Path(__file__).resolve().parents[2] / "graphkin"
-KEPT = Path(__file__).resolve().parents[1] / "golden" / "kept"
-ROOMS = (
-    "scene",
-    "structure",
-    "loops",
-    "construction",
-    "diagnosis",
-    "studio",
-    "documents",
-    "drawing",
-)
 ENGLISH = re.compile(
     r"\b(?:the|is|of|and|not|which|with|than|has|have|that|these|does|one|another|give|write|take)\b"
 )
 CODE = re.compile(r'"[^"]*"|\{[^{}]*\}|\[[^]]*\]')
-CONSTANT = {"LEADING": LEADING, "LINK_KEYS": LINK_KEYS}
 FOREIGN = ("it", "ro")
 
 
-@cache
-def literals() -> frozenset[str]:
-    """The texts of all problems that are written out where they are made, gaps as X1, X2."""
+def templates() -> set[str]:
+    """The template of every message that the package makes."""
     found: set[str] = set()
-    for room in ROOMS:
-        for path in sorted((ROOT / room).rglob("*.py")):
-            for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):
-                if isinstance(node, ast.Call) and ast.unparse(node.func).endswith(
-                    ("Problem", "findings.add")
-                ):
-                    said = [
-                        k.value for k in node.keywords if k.arg in ("found", "expected", "hint")
-                    ]
-                    found.update(filter(None, map(text_of, [*node.args[1:], *said])))
-    return frozenset(found)
+    for path in sorted(ROOT.rglob("*.py")):
+        for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):
+            if isinstance(node, ast.Call) and ast.unparse(node.func) == "message":
+                found.update(literals(node.args[0]))
+    return {each for each in found if words_in(each)}
 
 
-def text_of(node: ast.expr) -> str | None:
-    """A text that is written out; None for what is computed, or has a choice within it."""
-    if isinstance(node, ast.Constant) and isinstance(node.value, str):
-        return node.value
-    if not isinstance(node, ast.JoinedStr):
-        return None
-    gaps = [part for part in node.values if isinstance(part, ast.FormattedValue)]
-    if any(isinstance(gap.value, ast.IfExp | ast.Call) for gap in gaps):
-        return None
-    numbered = iter(range(1, len(gaps) + 1))
-    return "".join(
-        str(part.value)
-        if isinstance(part, ast.Constant)
-        else CONSTANT.get(ast.unparse(part.value)) or f"X{next(numbered)}"
-        for part in node.values
-    )
+def literals(node: ast.expr) -> Iterator[str]:
+    """The texts of which one is a template; anything but a literal is an error."""
+    if isinstance(node, ast.IfExp):
+        yield from (*literals(node.body), *literals(node.orelse))
+    else:
+        assert isinstance(node, ast.Constant) and isinstance(node.value, str), ast.unparse(node)
+        yield node.value
+
+
+def words_in(template: str) -> bool:
+    """Whether a template has letters of its own beside its fields."""
+    return any(re.search("[A-Za-z]", text) for text, *_ in Formatter().parse(template))
+
+
+def fields_of(template: str) -> set[tuple[str, str | None, str | None]]:
+    """The fields of a template, with their formats."""
+    return {(name, spec, kind) for _, name, spec, kind in Formatter().parse(template) if name}
 
 
 @pytest.mark.parametrize("language", FOREIGN)
-def test_whatever_is_written_out_has_words(language):
-    say = sentences(language)
-    found = {text for text in literals() if re.search(r"[a-z]{3}", CODE.sub("", text))}
-    assert len(found) > 250
-    assert not [text for text in found if say.whole(text, 0) is None and say(text) == text]
+def test_every_template_has_a_translation_with_the_same_fields_and_there_are_no_others(language):
+    made, own = templates(), translations(language)
+    assert len(made) > 900
+    assert not made - own.keys()
+    assert not own.keys() - made
+    for english, said in own.items():
+        assert fields_of(said) == fields_of(english), english
+
+
+@pytest.mark.parametrize("language", FOREIGN)
+@pytest.mark.parametrize("name", ["driver", "link", "circle", "the"])
+def test_what_the_user_wrote_stays_as_it_is_written(language, name):
+    """Names that are words of the messages are not translated."""
+    wrong = PUMP.replace("turn = 1", f'turn = "{name}"').replace("A-C = 20", f'A-C = "{name} of"')
+    told = [each["found"] for each in seen(wrong, language=language)["problems"]]
+    said = translations(language)
+    assert said["{split} is not an expression"].format(split=f'"{name} of"') in told
+    assert said["link {name} is not in [links]"].format(name=name) in told
+
+
+def test_a_message_is_said_in_a_language_with_its_own_fields():
+    inner = joined(", ", ("link", "circle"))
+    said = message("link {name} is not in [links]", name="driver")
+    whole = message("{names} are placed from one another, in a circle", names=inner)
+    assert spoken(said, "ro") == "elementul driver nu este în [links]"
+    assert spoken(said, "it") == "il membro driver non è in [links]"
+    assert spoken(said, "en") == said == "link driver is not in [links]"
+    assert spoken(whole, "ro").startswith("link, circle ")
+    assert spoken("links.position", "ro") == "links.position"
+    assert pickle.loads(pickle.dumps(said)).fields == {"name": "driver"}
+
+
+def test_an_italian_preposition_is_joined_with_the_article_of_a_message_only():
+    owner = message("{name} is no point of {where}", name="A", where=message("the mechanism"))
+    quoted = message("{name} is no point of {where}", name="A", where=verbatim("il mio"))
+    assert "del meccanismo" in spoken(owner, "it")
+    assert spoken(quoted, "it").endswith("di il mio")
+
+
+def translated(said: str, language: str) -> str:
+    """An English sentence without fields, or with numbers as fields, in a language."""
+    exponent = message("an exponent from -{largest_power} to {largest_power}", largest_power=64)
+    range_ = message("a number between 1e-{farthest} and 1e{farthest}", farthest=60)
+    known = {str(each): each for each in (exponent, range_)}
+    return spoken(known.get(said, message(said)), language)
 
 
 NO_VALUE = {
@@ -96,7 +118,7 @@ def test_an_expression_without_a_value_is_told_with_what_may_stand_there(text, l
     (found,) = seen(PUMP.replace("A-B = 40", f'A-B = "{text}"'), language=language)["problems"]
     said = NO_VALUE[text]
     assert found["place"] == "links.3.A-B"
-    assert found["expected"] == (said if language == "en" else sentences(language)(said))
+    assert found["expected"] == (said if language == "en" else translated(said, language))
     assert language == "en" or not ENGLISH.findall(CODE.sub("", found["found"]))
     assert language == "en" or found["expected"] != said
 
@@ -132,54 +154,21 @@ def told_of(text: str, language: str) -> Iterator[str]:
         yield from filter(None, (each["found"], each["expected"], each["hint"]))
 
 
-@pytest.mark.parametrize("language", FOREIGN)
-def test_whatever_helps_where_there_is_no_toml_has_words(language):
-    constants = [each for each in vars(file_limits).values() if isinstance(each, str)]
-    helps = [said for _, said in file_limits.ADVICE] + constants
-    say = sentences(language)
-    told = [each for each in helps if re.fullmatch(r"[a-z][^\n]* [^\n]*[a-z][^\n]*", each)]
-    assert len(told) > 15
-    assert not [each for each in told if say(each) == each]
-
-
 def left_in(text: str) -> list[str]:
     """The English words of a text."""
     return ENGLISH.findall(CODE.sub("", text))
 
 
 @pytest.mark.parametrize("language", FOREIGN)
-def test_no_english_is_left_of_the_mistakes_that_are_kept(language):
-    """Of some two hundred mistakes, what `check` says of each and what it expected."""
-    say, told = sentences(language), 0
-    for line in (KEPT / "mistakes.txt").read_text(encoding="utf-8").splitlines():
-        match = re.match(r"graphkin: [\w.-]+\.toml: [^:]+: (.+)", line)
-        for text in match[1].split("; expected ") if match else ():
-            if "not fair to ask" not in text and "enlarge the rounding" not in text:
-                parts = [text] if not left_in(say(text)) else text.split("; ", 1)  # and a hint
-                assert not [each for each in parts if left_in(say(each))], (text, say(text))
-                told += 1
-    assert told > 150
-
-
-def test_both_languages_say_the_same_sentences():
-    italian, romanian = (sentences(language).templates for language in FOREIGN)
-    assert list(italian) == list(romanian)
-    for english, said in (*italian.items(), *romanian.items()):
-        assert sorted(GAP.findall(said)) == sorted(GAP.findall(english)), english
-
-
-def test_names_and_lines_of_toml_stay_as_they_are():
-    mend = Mend("leftt of A-B", "left of A-B")
-    found = spoken(Problem("links.position", "link left has the point one alone", "", mend), "ro")
-    assert found.place == "links.position"
-    assert found.hint == "ați vrut left of A-B?"
-    say = sentences("it")
-    assert say("link wheel has no line") == "il membro wheel non ha una retta"
-    assert say('C = "left of A-B" for one group of class III, order 3') == (
-        'C = "left of A-B" per un gruppo di classe III, ordine 3'
-    )
-    assert say("belong both to the frame") == "sono entrambe del telaio"
-    assert say("no such words at all") == "no such words at all"
+def test_no_english_is_left_of_the_mistakes_of_scenes(language):
+    """Of all mistakes of `tests/scene`: what is said of each, expected, and a hint."""
+    told = 0
+    for old, new, *_ in (*CASES, *SAID):
+        for each in seen(PUMP.replace(old, new), language=language)["problems"]:
+            for part in ("found", "expected", "hint"):
+                assert not left_in(each[part]), each
+            told += 1
+    assert told > 100
 
 
 @pytest.mark.parametrize(
@@ -190,12 +179,3 @@ def test_the_page_hears_its_own_language(tmp_path, language, words):
     wrong = PUMP.replace("turn = 1", "turn = 9")
     answer = desk_in(tmp_path).look(ordered(text=wrong, language=language, number=1))
     assert words in [each["found"] for each in answer["problems"]]
-
-
-@pytest.mark.parametrize("language", FOREIGN)
-def test_a_sentence_without_words_is_not_said_by_halves(language):
-    """Members of a list have words by themselves only where the list stands in a sentence."""
-    say, known = sentences(language), "take it out"
-    assert say(known) != known
-    assert say(f"what nobody says, {known}") == f"what nobody says, {known}"
-    assert say(f"what nobody says; {known}") == f"what nobody says; {say(known)}"

@@ -13,7 +13,7 @@ from graphkin.construction.core.program import Plane, Step
 from graphkin.construction.higher_class.closure_solver import closer_of
 from graphkin.numbers.arithmetic import Point, Real, np, turn_by
 from graphkin.numbers.plane import Circle, Line, Ratio, Vector
-from graphkin.text.errors import Problem, SceneError
+from graphkin.text.errors import Problem, SceneError, message, verbatim
 
 POINT = 0.5
 """The distance in mm within which 95 of 100 marks of a fair drawing lie."""
@@ -41,7 +41,11 @@ class Pencil(Struct, frozen=True):
 
     def __post_init__(self) -> None:
         problems = [
-            Problem(f"pencil.{name}", f"{value:g} {unit}", "a number, zero or more")
+            Problem(
+                f"pencil.{name}",
+                verbatim(f"{value:g} {unit}"),
+                message("a number, zero or more"),
+            )
             for name, value, unit in (
                 ("point", self.point, "mm"),
                 ("line", self.degrees, "degrees"),

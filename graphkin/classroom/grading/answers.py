@@ -37,7 +37,17 @@ from graphkin.classroom.roster.spreadsheets import (
 from graphkin.classroom.roster.student_signs import EMAIL, Match, Signs
 from graphkin.scene.file_limits import file_bytes
 from graphkin.scene.findings import near_name, nearest, visible
-from graphkin.text.errors import Hint, InTable, Problem, RosterError, problems_of
+from graphkin.text.errors import (
+    NO_WORDS,
+    Hint,
+    InTable,
+    Problem,
+    RosterError,
+    joined,
+    message,
+    problems_of,
+    verbatim,
+)
 
 KINDS = (".csv", ".txt", ".tsv", ".xlsx")
 PACKED = ".zip"
@@ -106,9 +116,13 @@ def submissions(path: Path) -> Submissions:
         return Submissions((HandedIn(path.name, len(data), lambda: data),), is_one=True)
     tables = tuple(each for each in found if is_table(PurePosixPath(each.name)))
     if not tables:
-        what = "a folder" if path.is_dir() else "a ZIP file"
+        folder = path.is_dir()
         raise RosterError(
-            Problem(str(path), f"{what} without any table", f"files {', '.join(KINDS)}")
+            Problem(
+                str(path),
+                message("a folder without any table" if folder else "a ZIP file without any table"),
+                message("files {kinds}", kinds=", ".join(KINDS)),
+            )
         )
     told = {each.sender.name for each in tables if each.sender is not None}
     every = [each.sender for each in found if each.sender is not None]
@@ -145,8 +159,8 @@ def in_folder(folder: Path) -> Iterator[HandedIn]:
 def own_bytes(path: Path, name: str) -> bytes:
     """The bytes of a file. Raises RosterError for a symbolic link."""
     if path.is_symlink():
-        found, hint = "is a link to another place", "put the file itself there"
-        raise RosterError(Problem(name, found, "a file of its own", hint))
+        found, hint = message("is a link to another place"), message("put the file itself there")
+        raise RosterError(Problem(name, found, message("a file of its own"), hint))
     return bytes_of(path)
 
 
@@ -155,21 +169,31 @@ def in_zip(path: Path) -> list[HandedIn]:
 
     Raises RosterError where it is no ZIP file, or holds too much.
     """
-    expected = f"at most {MOST_FILES} files, {MOST_BYTES >> 20} MiB"
+    expected = message(
+        "at most {most_files} files, {most_bytes} MiB",
+        most_files=MOST_FILES,
+        most_bytes=MOST_BYTES >> 20,
+    )
     try:
         data = file_bytes(path, MOST_BYTES + 1)
         if len(data) > MOST_BYTES:
-            raise RosterError(Problem(path.name, "is too large", expected))
+            raise RosterError(Problem(path.name, message("is too large"), expected))
         packed = zipfile.ZipFile(io.BytesIO(data))  # in memory: nothing is left open
         parts = [part for part in packed.infolist() if not part.is_dir()]
     except OSError as error:
-        reason = error.strerror or "cannot be opened"
-        raise RosterError(Problem(str(path), f"cannot be read: {reason}")) from None
+        reason = error.strerror or message("cannot be opened")
+        raise RosterError(
+            Problem(str(path), message("cannot be read: {reason}", reason=reason))
+        ) from None
     except (zipfile.BadZipFile, ValueError, RuntimeError, NotImplementedError, EOFError) as error:
-        hint = "download it again, or unpack it and name the folder"
-        raise RosterError(Problem(path.name, "cannot be read as a ZIP file", "", hint)) from error
+        hint = message("download it again, or unpack it and name the folder")
+        raise RosterError(
+            Problem(path.name, message("cannot be read as a ZIP file"), NO_WORDS, hint)
+        ) from error
     if len(parts) > MOST_FILES:
-        raise RosterError(Problem(path.name, f"holds {len(parts)} files", expected))
+        raise RosterError(
+            Problem(path.name, message("holds {count} files", count=len(parts)), expected)
+        )
     found = [
         HandedIn(
             part.filename, part.file_size, partial(unpacked, packed, part), sender(part.filename)
@@ -182,13 +206,19 @@ def in_zip(path: Path) -> list[HandedIn]:
 def unpacked(packed: zipfile.ZipFile, part: zipfile.ZipInfo) -> bytes:
     """The bytes of a file in a ZIP file. Raises RosterError where it cannot be unpacked."""
     if part.file_size > LARGEST:
-        raise RosterError(Problem(part.filename, "is too large", f"at most {LARGEST >> 20} MiB"))
+        raise RosterError(
+            Problem(
+                part.filename,
+                message("is too large"),
+                message("at most {most} MiB", most=LARGEST >> 20),
+            )
+        )
     try:
         return packed.read(part)
     except Exception as error:
-        hint = "is it encrypted or damaged? unpack it, or ask for it again"
-        found = "cannot be unpacked from the ZIP file"
-        raise RosterError(Problem(part.filename, found, "", hint)) from error
+        hint = message("is it encrypted or damaged? unpack it, or ask for it again")
+        found = message("cannot be unpacked from the ZIP file")
+        raise RosterError(Problem(part.filename, found, NO_WORDS, hint)) from error
 
 
 def sender(name: str) -> Sender | None:
@@ -219,9 +249,9 @@ def packed_feedback(backs: Mapping[str, str], pages: Mapping[str, bytes], kind: 
 # --- answer tables --------------------------------------------------------------------------------
 
 
-ABSENT = (
-    "leave that row out; or put the student into the class list, run graphkin variants with"
-    " --force into the same folder, and grade again"
+ABSENT = message(
+    "leave that row out; or put the student into the class list, run graphkin variants "
+    "with --force into the same folder, and grade again"
 )
 FIELD, VALUE = ("field", "câmp", "mărime", "campo", "quantity"), ("value", "valoare", "valore")
 """Column heads of a file that holds one student's answers, a field in each row."""
@@ -346,11 +376,17 @@ def within_budget(tables: Sequence[HandedIn], reading: AnswerReading) -> Iterato
     for file in tables:
         if file.sender is not None:
             own[file.sender].append(file)
-    most = f"at most {MOST_OWN} tables, {LARGEST >> 20} MiB together"
+    most = message(
+        "at most {most_own} tables, {largest} MiB together",
+        most_own=MOST_OWN,
+        largest=LARGEST >> 20,
+    )
     for sender, files in own.items():
         size = sum(file.size for file in files)
         if len(files) > MOST_OWN or size > LARGEST:
-            found = f"hands in {len(files)} tables, {size / (1 << 20):.1f} MiB"
+            found = message(
+                "hands in {count} tables, {size:.1f} MiB", count=len(files), size=size / (1 << 20)
+            )
             reading.refuse(files[0], Problem(sender.name, found, most))
             own[sender] = []
     for file in tables:
@@ -370,14 +406,19 @@ def refuse_other_lab(name: str, reading: AnswerReading) -> None:
     others = list(dict.fromkeys(each.name for each in reading.answers.strangers))
     if len(reading.seen) >= LEAST * len(reading.known) or len(others) <= len(reading.seen):
         return
-    fields, named = list(reading.known), ", ".join(others[:SHOWN])
-    more = ", …" if len(others) > SHOWN else ""
-    found = (
-        f"only {len(reading.seen)} of the form's {len(fields)} fields are there, and no field of it"
-        f" is called {named}{more}"
+    fields = list(reading.known)
+    named = joined(", ", (*others[:SHOWN], *(["…"] if len(others) > SHOWN else [])))
+    found = message(
+        "only {count} of the form's {fields} fields are there, and no field of it is "
+        "called {names}",
+        count=len(reading.seen),
+        fields=len(fields),
+        names=named,
     )
-    expected = f"fields such as {', '.join(fields[:4])}"
-    raise RosterError(Problem(name, found, expected, "are these the answers to another lab?"))
+    expected = message("fields such as {fields}", fields=", ".join(fields[:4]))
+    raise RosterError(
+        Problem(name, found, expected, message("are these the answers to another lab?"))
+    )
 
 
 def is_form(sheet: Spreadsheet) -> bool:
@@ -430,13 +471,15 @@ class AnswerReading(Struct, dict=True):
         if not meant and not (alone and self.owners(file)):
             head = ", ".join(f'"{visible(cell)}"' for cell in sheet.head[:12])
             wanted = self.match or "id"
-            found = f"no column {wanted}; the head is {head}"
-            raise RosterError(Problem(sheet.name, found, f'a column named "{wanted}"'))
+            found = message("no column {wanted}; the head is {head}", wanted=wanted, head=head)
+            raise RosterError(
+                Problem(sheet.name, found, message('a column named "{wanted}"', wanted=wanted))
+            )
         if not own:
-            expected = f"columns such as {', '.join(list(self.known)[:4])}"
+            expected = message("columns such as {known}", known=", ".join(list(self.known)[:4]))
             head = ", ".join(f'"{visible(cell)}"' for cell in sheet.head[:SHOWN])
-            found = f"no column is a field of the form; the head is {head}"
-            hint = "are these the answers to another lab?"
+            found = message("no column is a field of the form; the head is {head}", head=head)
+            hint = message("are these the answers to another lab?")
             raise RosterError(Problem(sheet.name, found, expected, hint))
         column = where[meant[0]] if meant else None
         every = (*sheet.rows, *sheet.left_out)
@@ -471,8 +514,12 @@ class AnswerReading(Struct, dict=True):
         sign = stated[0].cells[1] if stated else ""
         known = self.signs.who(sign)
         if len(sheet.rows) > MOST_FIELDS:
-            found = f"{len(sheet.rows)} rows"
-            told.add(sheet.name, found, f"at most {MOST_FIELDS}, one for each field")
+            found = message("{count} rows", count=len(sheet.rows))
+            told.add(
+                sheet.name,
+                found,
+                message("at most {most}, one for each field", most=MOST_FIELDS),
+            )
         cells: dict[str, Answer] = {}
         unread: list[Unread] = []
         strangers: list[str] = []
@@ -483,7 +530,11 @@ class AnswerReading(Struct, dict=True):
                     strangers.append(row.cells[0])
                 continue
             if name in cells:
-                told.add(sheet.place(row), f"{name} is answered twice", "once")
+                told.add(
+                    sheet.place(row),
+                    message("{name} is answered twice", name=name),
+                    message("once"),
+                )
             cells[name] = self.cell(sheet, row, 1, known or "", name, unread)
         wrong = wrong_rows(told, set(map(visible, sheet.head[:2])))
         if wrong:
@@ -521,26 +572,35 @@ class AnswerReading(Struct, dict=True):
             return owners[0]
         who, by = self.signs.who(sign), file.sender
         whose = self.signs.called.get(who or "") or who
-        hint: Hint = ""
-        found, expected = "", ""
+        hint: Hint = NO_WORDS
+        found, expected = NO_WORDS, NO_WORDS
         if not sign:
-            found, expected = "is missing", "the student's id"
+            found, expected = message("is missing"), message("the student's id")
         elif who is None:
-            found = f'"{visible(sign)}" is no student of this class'
+            found = message('"{sign}" is no student of this class', sign=visible(sign))
             few = len(sign) <= LONGEST_ID and len(self.answers.refused) < MOST_NEAR
-            hint = (nearest(sign, sorted(self.signs.ids)) if few else "") or ABSENT
+            hint = (nearest(sign, sorted(self.signs.ids)) if few else NO_WORDS) or ABSENT
         elif owners and who not in owners:
-            where = (
-                f"the file is in the folder of {visible(by.name)}" if by else "its file is named"
+            expected = verbatim(owners[0]) if by else message("one id")
+            found = message(
+                '"{sign}" is the id of {whose}, and the file is in the folder of {place}'
+                if by
+                else '"{sign}" is the id of {whose}, and its file is named {place}',
+                sign=visible(sign),
+                whose=whose,
+                place=visible(by.name) if by else file.stem,
             )
-            found = f'"{visible(sign)}" is the id of {whose}, and {where}'
-            found, expected = (found, owners[0]) if by else (f"{found} {file.stem}", "one id")
         elif by is not None and not owners and not self.signs.may_be(by.name, who):
-            found = f'"{visible(sign)}" is the id of {whose}, and {visible(by.name)} handed it in'
-            expected = "the id of who handed it in"
+            found = message(
+                '"{sign}" is the id of {whose}, and {name} handed it in',
+                sign=visible(sign),
+                whose=whose,
+                name=visible(by.name),
+            )
+            expected = message("the id of who handed it in")
         else:
             return who
-        self.refuse(file, Problem(str(place), found, expected, hint, about=(place,)), who=who)
+        self.refuse(file, Problem(place.message, found, expected, hint, about=(place,)), who=who)
         return None
 
     def refuse(self, file: HandedIn, *problems: Problem, who: str | None = None) -> None:
@@ -582,8 +642,14 @@ class AnswerReading(Struct, dict=True):
             for other in claims:
                 if other is not first:
                     where = replace(first.place, column="")
-                    found = f'"{visible(other.sign)}" has answers already, in {where}'
-                    problem = Problem(str(other.place), found, "one", about=(other.place,))
+                    found = message(
+                        '"{sign}" has answers already, in {where}',
+                        sign=visible(other.sign),
+                        where=where.message,
+                    )
+                    problem = Problem(
+                        other.place.message, found, message("one"), about=(other.place,)
+                    )
                     answers.refused.append(Refused(problem, (who,) if other in rivals else ()))
             if first.is_sure and first.sender is not None:
                 answers.senders[who] = first.sender

@@ -28,7 +28,7 @@ from graphkin.classroom.roster.spreadsheets import (
 from graphkin.classroom.roster.student_signs import Signs
 from graphkin.classroom.roster.taker import Taker
 from graphkin.scene.findings import nearest, shown
-from graphkin.text.errors import InTable, Problem, SceneError
+from graphkin.text.errors import NO_WORDS, InTable, Problem, SceneError, message
 
 DECISIONS = "decisions.csv"
 """The file of a report folder that holds the decisions."""
@@ -78,16 +78,21 @@ def read_decisions(report: Path, on: Deciding) -> tuple[Decision, ...]:
     where = columns(sheet, HEADS)
     missing = [what for what in HEADS if what not in where]
     if missing:
-        found = f"no column {', '.join(missing)}"
-        told.add(DECISIONS, found, "the head id;field;points;reason")
+        found = message("no column {missing}", missing=", ".join(missing))
+        told.add(DECISIONS, found, message("the head id;field;points;reason"))
         told.stop()
     read = [decision(sheet, row, where, on, told) for row in sheet.rows]
     seen: dict[tuple[str, str], int] = {}
     for row, each in zip(sheet.rows, read, strict=True):
         first = seen.setdefault((each.who, each.field), row.line) if each else row.line
         if each and first != row.line:
-            found = f"{each.who}, {each.field or 'total'} is decided in row {first} already"
-            told.add(sheet.place(row), found, "one row for each")
+            found = message(
+                "{who}, {value} is decided in row {first} already",
+                who=each.who,
+                value=each.field or "total",
+                first=first,
+            )
+            told.add(sheet.place(row), found, message("one row for each"))
     told.stop()
     return tuple(each for each in read if each is not None)
 
@@ -106,14 +111,31 @@ def decision(
     who = on.signs.who(cells["id"])
     taker = next((each for each in on.takers if each.student.id == who), None)
     if taker is None:
-        found = f"{shown(cells['id'])} is no student of this class" if cells["id"] else "is missing"
-        told.add(places["id"], found, "an id of the class list", nearest(cells["id"], on.signs.ids))
+        found = (
+            message("{cells} is no student of this class", cells=shown(cells["id"]))
+            if cells["id"]
+            else message("is missing")
+        )
+        told.add(
+            places["id"],
+            found,
+            message("an id of the class list"),
+            nearest(cells["id"], on.signs.ids),
+        )
     worths = on.worth_of(taker) if taker is not None else {}
     field, most = field_in(cells, places["field"], worths, told, taker is not None)
     points = points_in(cells["points"], places["points"], most, told)
     if not cells["reason"] or len(cells["reason"]) > LONGEST:
-        found = f"{len(cells['reason'])} characters" if cells["reason"] else "is missing"
-        told.add(places["reason"], found, f"why, in at most {LONGEST} characters")
+        found = (
+            message("{count} characters", count=len(cells["reason"]))
+            if cells["reason"]
+            else message("is missing")
+        )
+        told.add(
+            places["reason"],
+            found,
+            message("a reason of at most {most} characters", most=LONGEST),
+        )
     if len(told.problems) > before or taker is None:
         return None
     is_open = cells["points"] == ASKED
@@ -134,9 +156,15 @@ def field_in(
     names = {folded(name): name for name in worths}
     field = names.get(folded(text), "")
     if known and not field:
-        found = f"{shown(text)} is no field of this student's form" if text else "is missing"
-        expected = f'"total", or a field such as {", ".join(list(worths)[:3])}'
-        told.add(place, found, expected, nearest(text, worths) if text else "")
+        found = (
+            message("{text} is no field of this student's form", text=shown(text))
+            if text
+            else message("is missing")
+        )
+        expected = message(
+            '"total", or a field such as {worths}', worths=", ".join(list(worths)[:3])
+        )
+        told.add(place, found, expected, nearest(text, worths) if text else NO_WORDS)
     return field, worths.get(field)
 
 
@@ -148,8 +176,12 @@ def points_in(
         return None
     points = Fraction(text.replace(",", ".")) if AMOUNT.fullmatch(text) else None
     if points is None or (most is not None and points > most):
-        limit = f"0 to {float(most):g}" if most is not None else "points"
-        expected = f'{limit}; nothing where the mark stays, "?" while that is open'
+        limit = (
+            message("0 to {most:g}", most=float(most)) if most is not None else message("points")
+        )
+        expected = message(
+            '{limit}; nothing where the mark stays, "?" while that is open', limit=limit
+        )
         told.add(place, shown(text), expected)
     return points
 
@@ -233,6 +265,8 @@ def kept(path: Path) -> list[str]:
         with path.open("rb") as file:
             return msgspec.json.decode(file.read(MOST), type=list[str])
     except (OSError, msgspec.MsgspecError, UnicodeDecodeError, RecursionError):
-        hint = "remove it, and release again whom you decide to"
-        problem = Problem(str(path), "is no list of ids", '["0042", "0057"]', hint)
+        hint = message("remove it, and release again whom you decide to")
+        problem = Problem(
+            str(path), message("is no list of ids"), message('["0042", "0057"]'), hint
+        )
         raise SceneError(problem) from None

@@ -35,7 +35,7 @@ from graphkin.classroom.roster.spreadsheets import (
 )
 from graphkin.classroom.roster.student_signs import EMAIL, Match, Signs
 from graphkin.classroom.roster.student_signs import signs as signs_of
-from graphkin.text.errors import GraphkinError, Problem, RosterError
+from graphkin.text.errors import NO_WORDS, GraphkinError, Problem, RosterError, joined, message
 
 COMMA = re.compile(r"[0-9]+,[0-9]+")
 POINT = re.compile(r"[0-9]+\.[0-9]+")
@@ -156,7 +156,12 @@ def with_marks(
         if who not in marks:
             continue
         if who in met:
-            twice.append(Problem(f"{book.name}, row {line + 1}", f'"{who}" stands there twice'))
+            twice.append(
+                Problem(
+                    message("{table}, row {row}", table=book.name, row=line + 1),
+                    message('"{who}" is in the table twice', who=who),
+                )
+            )
         lines[line] = who
         met.add(who)
     if twice:
@@ -208,10 +213,14 @@ def refuse_names(book: Gradebook, column: int, ids: int) -> None:
     filled_in = [text for text in texts if text not in EMPTY]
     words = [text for text in filled_in if not NUMERIC.match(text)]
     if column == ids or folded(head) in PERSONS or 2 * len(words) > max(len(filled_in), 1):
-        what = "the ids" if column == ids else "names or texts"
-        found = f'"{head}" holds {what}, no points'
-        hint = "name another one with --column"
-        raise GradebookError(Problem(book.name, found, "one for points", hint))
+        found = message(
+            '"{head}" holds the ids, no points'
+            if column == ids
+            else '"{head}" holds names or texts, no points',
+            head=head,
+        )
+        hint = message("name another one with --column")
+        raise GradebookError(Problem(book.name, found, message("one for points"), hint))
 
 
 def text_at(row: Sequence[Cell], column: int) -> str:
@@ -273,11 +282,17 @@ def id_column(book: Gradebook, signs: Signs, match: Match) -> int:
         students = sum(bool(text_at(row, best)) for row in book.rows[1:])
         if counts[what][best] and (what != "bare" or 2 * counts[what][best] > students):
             return best
-    meant = {"id": "ids", "email": "e-mail addresses"}.get(match, "ids or e-mail addresses")
-    hint = f"the {meant} of the class list must be those of one of its columns"
+    meant = {"id": message("ids"), "email": message("e-mail addresses")}.get(
+        match, message("ids or e-mail addresses")
+    )
+    hint = message("the {meant} of the class list must be those of one of its columns", meant=meant)
     if match != "id" and not signs.emails:
-        hint += "; the class list has no column e-mail"
-    raise GradebookError(Problem(book.name, f"no column holds {meant} of this class", "", hint))
+        hint = joined("; ", (hint, message("the class list has no column e-mail")))
+    raise GradebookError(
+        Problem(
+            book.name, message("no column holds {meant} of this class", meant=meant), NO_WORDS, hint
+        )
+    )
 
 
 def known_cells(book: Gradebook, is_known: Callable[[str], bool]) -> Counter[int]:
@@ -310,18 +325,26 @@ def mark_column(book: Gradebook, head: Sequence[str], column: str | None, ids: i
         found = [i for i in found if folded(head[i]) in GRADES] or found
     if len(found) != 1:
         words = (
-            f'"{column}" is {"several columns" if found else "no column"}'
+            message(
+                '"{column}" is several columns' if found else '"{column}" is no column',
+                column=column,
+            )
             if column
-            else f"{len(found)} columns are empty"
+            else message("{count} columns are empty", count=len(found))
             if found
-            else "no column is empty"
+            else message("no column is empty")
         )
         lacking = {i for i in range(len(head)) for row in students if text_at(row, i) in EMPTY}
         meant = [head[i] for i in found or sorted(lacking) if head[i]]
         meant = meant or [text for text in head if text]
         names = ", ".join(f'"{text}"' for text in meant)
         raise GradebookError(
-            Problem(book.name, words, f"one of {names}", "name the column with --column")
+            Problem(
+                book.name,
+                words,
+                message("one of {names}", names=names),
+                message("name the column with --column"),
+            )
         )
     return found[0]
 
@@ -380,7 +403,9 @@ def read_gradebook(path: Path) -> Gradebook:
     separator = separator_of(text)
     rows, ends = split(text, separator, path.name)
     if len(rows) < 2:
-        raise GradebookError(Problem(path.name, "has no row below its head", "a gradebook"))
+        raise GradebookError(
+            Problem(path.name, message("has no row below its head"), message("a gradebook"))
+        )
     return CsvGradebook(path.name, rows, ends, separator, coding, bom)
 
 
@@ -401,11 +426,17 @@ def split(
     for count, found in enumerate(piece.finditer(text), 1):
         quoted, rest, end = found.groups("")
         if count > MOST_CELLS:
-            raise GradebookError(too_large(name, f"more than {MOST_CELLS} cells").problems)
+            raise GradebookError(
+                too_large(name, message("more than {most} cells", most=MOST_CELLS)).problems
+            )
         if not quoted and rest.lstrip().startswith('"'):
             place = f"{name}, row {len(rows) + 1}"
             raise GradebookError(
-                Problem(place, "a quote that is opened and never closed", 'a closing "')
+                Problem(
+                    place,
+                    message("a quote that is opened and never closed"),
+                    message('a closing "'),
+                )
             )
         if end or row or quoted or rest:
             row.append(cell(quoted + rest))
@@ -450,9 +481,9 @@ class Workbook(Gradebook, frozen=True):
         wrong = [line for line in marks if (line, column) in self.formulas]
         if wrong:
             where = f"{self.name}, row {wrong[0] + 1}"
-            text = f'"{self.rows[0][column].text}" holds a formula'
-            hint = "name another one with --column"
-            raise GradebookError(Problem(where, text, "a column for points", hint))
+            text = message('"{text}" holds a formula', text=self.rows[0][column].text)
+            hint = message("name another one with --column")
+            raise GradebookError(Problem(where, text, message("a column for points"), hint))
         numbers = {
             (line + 1, column + 1): mark_text(mark, comma=False) for line, mark in marks.items()
         }
@@ -478,9 +509,13 @@ def read_workbook(data: bytes, name: str) -> Workbook:
     except RosterError as error:
         raise GradebookError(error.problems) from error
     if not rows or not rows[0]:
-        raise GradebookError(Problem(name, "has nothing in its first row", "the names of columns"))
+        raise GradebookError(
+            Problem(name, message("has nothing in its first row"), message("the names of columns"))
+        )
     if len(rows) < 2:
-        raise GradebookError(Problem(name, "has no row below its head", "a gradebook"))
+        raise GradebookError(
+            Problem(name, message("has no row below its head"), message("a gradebook"))
+        )
     return Workbook(name, tuple(rows), data, frozenset(formulas), part, parts)
 
 

@@ -16,7 +16,7 @@ from graphkin.construction.core.program import Plane, Target
 from graphkin.construction.core.quantities import BY_TARGET, VECTORS
 from graphkin.mechanism import Mechanism, point_of
 from graphkin.numbers.plane import Ratio
-from graphkin.text.errors import Problem, SceneError
+from graphkin.text.errors import NO_WORDS, Problem, SceneError, message
 
 
 class Probe(Struct, frozen=True):
@@ -73,8 +73,10 @@ def probes(mechanism: Mechanism, items: Iterable[Item]) -> tuple[Probe, ...]:
     for item in items:
         probe = probe_of(mechanism, item)
         if probe is None:
-            hint = "graphkin solve shows what the construction has"
-            problems.append(Problem(f"marks.{item.field}", "is not constructed", "", hint))
+            hint = message("graphkin solve shows what the construction has")
+            problems.append(
+                Problem(f"marks.{item.field}", message("is not constructed"), NO_WORDS, hint)
+            )
         else:
             found.append(probe)
     if problems:

@@ -19,7 +19,7 @@ from msgspec import Meta, Struct
 
 from graphkin.classroom.grading.grading_files import csv_bytes
 from graphkin.scene.findings import visible
-from graphkin.text.errors import Problem, Refusals, RosterError
+from graphkin.text.errors import Problem, Refusals, RosterError, message, verbatim
 
 TURNS = "turns.csv"
 """The table of a report that lists score sheets."""
@@ -84,15 +84,17 @@ def read_turns(path: Path, codes: Mapping[str, str], refusals: Refusals) -> list
             read = turn_file(file)
             who = read.id or file.stem.removesuffix(SAVED_AS)
             if who not in codes:
-                said = f'"{visible(who)}" is no student of this class'
+                said = message('"{sign}" is no student of this class', sign=visible(who))
                 raise RosterError(Problem(file.name, said))
             score = TurnScore(who, file.name, read, state_of(codes[who], read))
             found.setdefault(who, []).append(score)
     kept = [each for who in codes for each in only(found.get(who, ()))]
     for who, every in found.items():
         for each in every[1:] if len(every) > 1 else ():
-            also = f'"{visible(who)}" has a score sheet already, in {every[0].file}'
-            refusals.add(each.file, [Problem(each.file, also, "one")])
+            also = message(
+                '"{who}" has a score sheet already, in {file}', who=visible(who), file=every[0].file
+            )
+            refusals.add(each.file, [Problem(each.file, also, message("one"))])
     return kept
 
 
@@ -105,13 +107,15 @@ def only(every: Sequence[TurnScore]) -> Sequence[TurnScore]:
 
 def turn_file(file: Path) -> TurnFile:
     """Read a score sheet. Raises RosterError for any other file."""
-    expected = "a score sheet as a page saves it"
-    hint = "take the file out of the folder, or save it anew from the page"
+    expected = message("a score sheet as a page saves it")
+    hint = message("take the file out of the folder, or save it anew from the page")
     try:
         with file.open("rb") as opened:
             return msgspec.json.decode(opened.read(MOST), type=TurnFile)
     except (OSError, msgspec.MsgspecError, UnicodeDecodeError, RecursionError) as reason:
-        raise RosterError(Problem(file.name, visible(str(reason)), expected, hint)) from None
+        raise RosterError(
+            Problem(file.name, verbatim(visible(str(reason))), expected, hint)
+        ) from None
 
 
 def seal_of(code: str, told: TurnFile) -> str:

@@ -24,7 +24,7 @@ from graphkin.classroom.lab.rules import Settings
 from graphkin.numbers.arithmetic import np
 from graphkin.scene.model import Parameter, Scene
 from graphkin.scene.parameters import plain
-from graphkin.text.errors import Problem, SceneError
+from graphkin.text.errors import Problem, SceneError, message
 
 Array = Any
 DRAWS = 4000
@@ -148,7 +148,10 @@ def space_of(scene: Scene) -> dict[str, Range]:
     every = {name: ends(each) for name, each in scene.parameters.items()}
     space = {name: values for name, values in every.items() if values is not None}
     if not space:
-        found, wanted = "no parameter has min and max", "n = { value = …, min = …, max = … }"
+        found, wanted = (
+            message("no parameter has min and max"),
+            message("n = {{ value = …, min = …, max = … }}"),
+        )
         raise SceneError(Problem("scene.toml: parameters", found, wanted))
     return space
 

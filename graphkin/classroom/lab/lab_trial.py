@@ -14,7 +14,7 @@ from graphkin.classroom.lab.rules import Settings, outside, settings
 from graphkin.classroom.roster.student import Student
 from graphkin.classroom.variants.assign import Assigned, assigned, held_against
 from graphkin.numbers.arithmetic import np
-from graphkin.text.errors import Problem, SceneError
+from graphkin.text.errors import Problem, SceneError, message
 
 TRIED = 1000
 """The number of variants tried."""
@@ -156,7 +156,8 @@ def students_of(lab: Lab, count: int) -> list[Student]:
         if problems and number == 1:
             place = "lab.toml: variants.set"
             raise SceneError(
-                Problem(place, f"number 1 gives {p.found}", p.expected) for p in problems
+                Problem(place, message("number 1 gives {found}", found=p.found), p.expected)
+                for p in problems
             )
         if problems:
             break

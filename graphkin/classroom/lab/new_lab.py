@@ -27,7 +27,7 @@ from graphkin.drawing.style import COMPONENTS
 from graphkin.mechanism import Mechanism
 from graphkin.scene.read_scene import read_text
 from graphkin.text import words
-from graphkin.text.errors import Problem, SceneError
+from graphkin.text.errors import Problem, SceneError, message
 from graphkin.writers.files import RESERVED, write_all
 
 QUANTITY = {
@@ -113,9 +113,9 @@ def new_lab(name: str, folder: Path, *, force: bool = False) -> list[Path]:
     the way.
     """
     if not NAME.fullmatch(name) or name.upper() in RESERVED:
-        expected = "letters, digits, - and _, at most 60, such as crank-lab"
-        hint = "-o DIR says in which folder it is made"
-        raise SceneError(Problem(f'"{name}"', "is no name for a lab", expected, hint))
+        expected = message("letters, digits, - and _, at most 60, such as crank-lab")
+        hint = message("-o DIR says in which folder it is made")
+        raise SceneError(Problem(f'"{name}"', message("is no name for a lab"), expected, hint))
     texts = {file: (START / file).read_text(encoding="utf-8") for file in FILES}
     texts["lab.toml"] = explained(
         texts["lab.toml"], Mechanism(read_text(texts["scene.toml"], name))

@@ -33,7 +33,7 @@ from graphkin.scene.model import Parameter, Scene
 from graphkin.scene.parameters import optional, out_of_range, plain, rational
 from graphkin.scene.quantity import Quantity, expression, shortest
 from graphkin.scene.read_scene import check_version, read_scene
-from graphkin.text.errors import Mend, Problem, SceneError
+from graphkin.text.errors import NO_WORDS, Mend, Problem, SceneError, joined, message, verbatim
 
 LAB, SCENE = scene_files.LAB, scene_files.SCENE
 USUAL, LIMITS = Rubric(), Fair()
@@ -77,13 +77,23 @@ def find(name: str | Path) -> Path:
     path, known = Path(name), with_rules()
     if path.exists():
         beside = path if path.is_dir() else path.parent
-        found = f"is a scene without {LAB}" if (beside / "scene.toml").is_file() else "is no lab"
-        hint = "graphkin new lab NAME makes a lab to start from"
-        raise SceneError(Problem(str(name), found, f"a folder with scene.toml and {LAB}", hint))
+        found = (
+            message("is a scene without {lab}", lab=LAB)
+            if (beside / "scene.toml").is_file()
+            else message("is no lab")
+        )
+        hint = message("graphkin new lab NAME makes a lab to start from")
+        raise SceneError(
+            Problem(str(name), found, message("a folder with scene.toml and {lab}", lab=LAB), hint)
+        )
     near = near_name(str(name), known)
-    hint = f"did you mean {near}?" if near else ""
-    expected = f"a folder with scene.toml and {LAB}, or one of {', '.join(known)}"
-    raise SceneError(Problem(str(name), "is neither a folder nor a shipped lab", expected, hint))
+    hint = message("did you mean {new}?", new=near) if near else NO_WORDS
+    expected = message(
+        "a folder with scene.toml and {lab}, or one of {known}", lab=LAB, known=", ".join(known)
+    )
+    raise SceneError(
+        Problem(str(name), message("is neither a folder nor a shipped lab"), expected, hint)
+    )
 
 
 def with_rules() -> list[str]:
@@ -101,7 +111,9 @@ def lab_of(text: str, folder: Path, mechanism: Mechanism, name: str) -> Lab:
     findings = Findings()
     top = Table("", tables_of(text, findings), findings)
     if not top.raw:
-        raise SceneError(Problem("", "the file is empty", "graphkin = 1, then [variants]"))
+        raise SceneError(
+            Problem("", message("the file is empty"), message("graphkin = 1, then [variants]"))
+        )
     check_version(top, findings)
     rule = read_rule(top.table("variants"), mechanism.scene)
     fair = read_fair(top.table("fair"))
@@ -113,15 +125,21 @@ def lab_of(text: str, folder: Path, mechanism: Mechanism, name: str) -> Lab:
 
 def read_rule(table: Table, scene: Scene) -> LabRule:
     """The rule that gives each student's data."""
-    both = "set = { … } with formulas of the number, course = … and draw = { … } with ranges"
+    both = message(
+        "set = {{ … }} with formulas of the number, course = … and draw = {{ … }} with ranges"
+    )
     if "set" not in table and "draw" not in table:
-        table.findings.add(table.place, "no rule", f"{both}, or both")
+        table.findings.add(table.place, message("no rule"), message("{both}, or both", both=both))
     of_number = "draw" not in table
     rule = read_formula(table, scene) if of_number else read_ranges(table, scene)
     for key in ("course", "tries") if of_number else ():
         if key in table:
             table.take(key)
-            table.findings.add(table.at(key), "belongs to ranges", "draw = { … }, or leave it out")
+            table.findings.add(
+                table.at(key),
+                message("belongs to ranges"),
+                message("draw = {{ … }}, or leave it out"),
+            )
     table.known += ["set", "draw"]
     table.finish()
     return rule
@@ -133,8 +151,8 @@ def read_formula(table: Table, scene: Scene) -> LabRule:
     settings = read_settings(inner, scene)
     uses = any(NUMBER in read.uses() for read in settings.values())
     if settings and not uses and not inner.findings.inside(inner.place):
-        found = f"no formula uses {NUMBER}, so all students get the same"
-        inner.findings.add(inner.place, found, f'such as n = "{NUMBER}"')
+        found = message("no formula uses {number}, so all students get the same", number=NUMBER)
+        inner.findings.add(inner.place, found, message('such as n = "{number}"', number=NUMBER))
     return LabRule(settings=settings)
 
 
@@ -155,12 +173,22 @@ def formula(place: str, raw: object, findings: Findings) -> Quantity | None:
         else:
             read = quantity(raw, "", place)
     except UnreadableError as error:
-        findings.add(place, error.found, f'an expression in quotes, such as "{NUMBER}"', error.hint)
+        findings.add(
+            place,
+            error.found,
+            message('an expression in quotes, such as "{number}"', number=NUMBER),
+            error.hint,
+        )
         return None
     strangers = sorted(read.uses() - {NUMBER})
     for name in strangers:
         hint = Mend(name, NUMBER)
-        findings.add(place, f"{shown(read.text)} uses {name}", f"only {NUMBER}", hint)
+        findings.add(
+            place,
+            message("{text} uses {name}", text=shown(read.text), name=name),
+            message("only {number}", number=NUMBER),
+            hint,
+        )
     return None if strangers else read
 
 
@@ -168,8 +196,8 @@ def read_ranges(table: Table, scene: Scene) -> LabRule:
     """Read each parameter as a range, and the course, whose name goes into the hash."""
     course = table.text("course").strip()
     if not course and not table.findings.inside(table.at("course")):
-        expected = 'a text, such as course = "mechanics 2026", to draw anew each year'
-        table.findings.add(table.at("course"), "is missing", expected)
+        expected = message('a text, such as course = "mechanics 2026", to draw anew each year')
+        table.findings.add(table.at("course"), message("is missing"), expected)
     tries = whole(table, "tries", 100, 1, MOST_TRIES)
     inner = table.table("draw")
     draws: dict[str, Range | ValueList] = {}
@@ -188,7 +216,11 @@ def read_ranges(table: Table, scene: Scene) -> LabRule:
         settings = read_settings(fixed, scene)
         for name in settings.keys() & inner.raw.keys():
             place = fixed.at(name)
-            fixed.findings.add(place, f"draw gives {name} as well", "either set or draw")
+            fixed.findings.add(
+                place,
+                message("draw gives {name} as well", name=name),
+                message("either set or draw"),
+            )
     return LabRule(course, draws, tries, settings)
 
 
@@ -199,12 +231,15 @@ def known_parameters(table: Table, scene: Scene) -> list[str]:
     """
     for name in table.raw:
         if name not in scene.parameters:
-            expected = listed(scene.parameters) or "a parameter, and the scene has none"
+            expected = listed(scene.parameters) or message("a parameter, and the scene has none")
             table.findings.add(
-                table.at(name), "is no parameter", expected, nearest(name, scene.parameters)
+                table.at(name),
+                message("is no parameter"),
+                expected,
+                nearest(name, scene.parameters),
             )
     if not table.raw and not table.findings.inside(table.place.partition(".")[0]):
-        table.findings.add(table.place, "sets no parameter", listed(scene.parameters))
+        table.findings.add(table.place, message("sets no parameter"), listed(scene.parameters))
     return [name for name in table.raw if name in scene.parameters]
 
 
@@ -220,12 +255,18 @@ def read_choice(table: Table, name: str, parameter: Parameter) -> ValueList | No
             found = read_value(at, part, parameter, table.findings)
         parts += [found] if found is not None else []
     if not raw:
-        table.findings.add(place, "an empty list", "values, or { min = …, max = …, step = … }")
+        table.findings.add(
+            place, message("an empty list"), message("values, or {{ min = …, max = …, step = … }}")
+        )
     ordered = sorted(parts, key=lambda part: part.least)
     for before, part in pairwise(ordered):
         if part.least <= before.most:
-            found_twice = f"{shortest(part.least)} lies within what is listed already"
-            table.findings.add(place, found_twice, "values and ranges apart from one another")
+            found_twice = message(
+                "{least} lies within what is listed already", least=shortest(part.least)
+            )
+            table.findings.add(
+                place, found_twice, message("values and ranges apart from one another")
+            )
             return None
     return ValueList(tuple(parts)) if parts and len(parts) == len(raw) else None
 
@@ -246,17 +287,27 @@ def read_range(table: Table, parameter: Parameter) -> Range | None:
     ends = {key: optional(table, key) for key in ("min", "max", "step")}
     missing = [key for key in ends if key not in table]
     for key in missing:
-        table.findings.add(table.at(key), "is missing", "{ min = …, max = …, step = … }")
+        table.findings.add(
+            table.at(key), message("is missing"), message("{{ min = …, max = …, step = … }}")
+        )
     table.finish()
     if any(end is None for end in ends.values()):
         return None
     least, most, step = (plain(end) for end in ends.values() if end is not None)
     if step <= 0:
-        table.findings.add(table.at("step"), shortest(step), "a number above 0")
+        table.findings.add(table.at("step"), verbatim(shortest(step)), message("a number above 0"))
     elif least > most:
-        table.findings.add(table.at("min"), f"{shortest(least)} is above max", "at most max")
+        table.findings.add(
+            table.at("min"),
+            message("{least} is above max", least=shortest(least)),
+            message("at most max"),
+        )
     elif (most - least) / step >= MOST_VALUES:
-        table.findings.add(table.at("step"), "makes too many values", f"at most {MOST_VALUES}")
+        table.findings.add(
+            table.at("step"),
+            message("makes too many values"),
+            message("at most {most}", most=MOST_VALUES),
+        )
     else:
         found = Range(least, most, step)
         second = found.value(1) if len(found) > 1 else least
@@ -285,12 +336,18 @@ def read_fair(table: Table) -> Fair:
             else []
         )
         if not ends:
-            table.findings.add(table.at("triangle"), shown(raw), "two numbers [least, most] of v/l")
+            table.findings.add(
+                table.at("triangle"), shown(raw), message("two numbers [least, most] of v/l")
+            )
         elif None not in ends:
             low, high = (float(plain(end)) for end in ends if end is not None)
             triangle = (low, high)
             if not 0 <= low < high:
-                table.findings.add(table.at("triangle"), f"[{low:g}, {high:g}]", "0 ≤ least < most")
+                table.findings.add(
+                    table.at("triangle"),
+                    verbatim(f"[{low:g}, {high:g}]"),
+                    message("0 ≤ least < most"),
+                )
     shares = [number(table, key, OPEN, 0, 1) for key in ("apart", "pencil")]
     apart, pencil = (None if share == OPEN else share for share in shares)
     table.finish()
@@ -303,14 +360,16 @@ def read_rubric(marks: Table, marking: Table, mechanism: Mechanism) -> Rubric:
     known = all_fields(mechanism) if marks.raw else {}
     for name, raw in marks.raw.items():
         if name not in known:
-            expected = f"a field of the form: {listed(known)}"
+            expected = message("a field of the form: {known}", known=listed(known))
             marks.findings.add(
-                marks.at(name), "no field of this scene", expected, nearest(name, known)
+                marks.at(name), message("no field of this scene"), expected, nearest(name, known)
             )
             continue
         read = rational(marks.at(name), raw, marks.findings)
         if read is not None and plain(read) < 0:
-            marks.findings.add(marks.at(name), read.text, "points, not less than 0")
+            marks.findings.add(
+                marks.at(name), verbatim(read.text), message("points, not less than 0")
+            )
         elif read is not None:
             points[name] = plain(read)
     slips: dict[str, float] = {}
@@ -320,7 +379,9 @@ def read_rubric(marks: Table, marking: Table, mechanism: Mechanism) -> Rubric:
             slips[name] = number(inner, name, 0, 0, 1)
         else:
             hint = nearest(name, SLIPS)
-            inner.findings.add(inner.at(name), "no slip has this name", ", ".join(SLIPS), hint)
+            inner.findings.add(
+                inner.at(name), message("no slip has this name"), joined(", ", SLIPS), hint
+            )
     given = {
         "follow": number(marking, "follow", USUAL.follow, 0, 1),
         "point": number(marking, "point", USUAL.point, 0, 10),
@@ -330,7 +391,11 @@ def read_rubric(marks: Table, marking: Table, mechanism: Mechanism) -> Rubric:
         "cap": number(marking, "cap", USUAL.cap, 0, 1),
     }
     if given["floor"] > given["cap"]:
-        marking.findings.add(marking.at("floor"), f"{given['floor']:g} is above cap", "at most cap")
+        marking.findings.add(
+            marking.at("floor"),
+            message("{given:g} is above cap", given=given["floor"]),
+            message("at most cap"),
+        )
     hold = marking.flag("hold")
     marking.finish()
     return Rubric(points=points, slips=slips, hold=hold, **given)
@@ -346,7 +411,11 @@ def number(table: Table, key: str, default: float, least: float, most: float) ->
         return default
     value = float(plain(read))
     if not least <= value <= most:
-        table.findings.add(table.at(key), read.text, f"a number from {least:g} to {most:g}")
+        table.findings.add(
+            table.at(key),
+            verbatim(read.text),
+            message("a number from {least:g} to {most:g}", least=least, most=most),
+        )
         return default
     return value
 
@@ -355,5 +424,5 @@ def whole(table: Table, key: str, default: int, least: int, most: int) -> int:
     """A whole number between two bounds; the default where it is missing or wrong."""
     value = number(table, key, default, least, most)
     if value != int(value):
-        table.findings.add(table.at(key), f"{value:g}", "a whole number")
+        table.findings.add(table.at(key), verbatim(f"{value:g}"), message("a whole number"))
     return int(value)

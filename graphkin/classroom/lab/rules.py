@@ -25,7 +25,7 @@ from graphkin.classroom.roster.student import Student
 from graphkin.scene.model import Parameter
 from graphkin.scene.parameters import out_of_range
 from graphkin.scene.quantity import shortest
-from graphkin.text.errors import Problem, SceneError
+from graphkin.text.errors import Problem, SceneError, message
 
 Settings = dict[str, Fraction]
 """Exact values of parameters by name."""
@@ -48,13 +48,18 @@ def by_formula(rule: LabRule, student: Student) -> Settings:
     Raises SceneError where the number is missing, or a value is not rational.
     """
     if rule.counts and student.number is None:
-        raise SceneError(Problem("", "has no number, and the lab's formula needs one"))
+        raise SceneError(Problem("", message("has no number, and the lab's formula needs one")))
     found: Settings = {}
     for name, formula in rule.settings.items():
         value = formula.number({NUMBER: Fraction(student.number or 0)})
         if not isinstance(value, Fraction):
-            what = f"{formula.text} gives {shortest(value)} for number {student.number}"
-            raise SceneError(Problem(f"set.{name}", f"{what}, which is not rational"))
+            wrong = message(
+                "{text} gives {value} for number {number}, which is not rational",
+                text=formula.text,
+                value=shortest(value),
+                number=student.number,
+            )
+            raise SceneError(Problem(f"set.{name}", wrong))
         found[name] = value
     return found
 

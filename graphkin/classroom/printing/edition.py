@@ -25,7 +25,7 @@ from graphkin.mechanism import Mechanism
 from graphkin.scene.file_limits import whole_file
 from graphkin.scene.read_scene import read_text
 from graphkin.text import LANGUAGES, Words
-from graphkin.text.errors import Problem, SceneError
+from graphkin.text.errors import NO_WORDS, Problem, SceneError, either, message
 from graphkin.writers.commit import reason_of, settle
 from graphkin.writers.files import write_all
 
@@ -34,7 +34,7 @@ if TYPE_CHECKING:
 
 FILES = ("scene.toml", "lab.toml")
 """The files of the lab whose hashes the manifest holds."""
-AGAIN = "make the folder again with graphkin variants"
+AGAIN = message("make the folder again with graphkin variants")
 
 
 class Edition(Struct, frozen=True, dict=True):
@@ -96,8 +96,8 @@ def read_edition(folder: Path) -> Edition:
     problems += twins(takers)
     language = raw.get("language", "")
     if language not in ("", *LANGUAGES):
-        wrong = f'language: "{language}" is no language of the pages'
-        problems.append(Problem(MANIFEST, wrong, " or ".join(LANGUAGES)))
+        wrong = message('language: "{language}" is no language of the pages', language=language)
+        problems.append(Problem(MANIFEST, wrong, either(LANGUAGES)))
     if problems:
         raise SceneError(problems)
     own = beside_ids(folder)
@@ -122,18 +122,31 @@ def tables(folder: Path) -> dict[str, Any]:
         raw = json.loads(whole_file(path).decode("utf-8"))
     except OSError as error:
         reason = reason_of(error)
-        hint = "graphkin variants LAB ROSTER -o DIR makes one"
-        found = f"cannot be read: {reason}"
-        raise SceneError(Problem(str(path), found, "a class folder", hint)) from error
+        hint = message("graphkin variants LAB ROSTER -o DIR makes one")
+        found = message("cannot be read: {reason}", reason=reason)
+        raise SceneError(Problem(str(path), found, message("a class folder"), hint)) from error
     except (ValueError, RecursionError) as error:
-        raise SceneError(Problem(str(path), "is no JSON text", "a manifest", AGAIN)) from error
+        raise SceneError(
+            Problem(str(path), message("is no JSON text"), message("a manifest"), AGAIN)
+        ) from error
     if not isinstance(raw, dict) or not isinstance(raw.get("students"), list):
-        raise SceneError(Problem(str(path), "has no list of students", "a manifest", AGAIN))
+        raise SceneError(
+            Problem(str(path), message("has no list of students"), message("a manifest"), AGAIN)
+        )
     if raw.get("format") != FORMAT:
-        found = f"has format {raw.get('format')!r}"
-        raise SceneError(Problem(str(path), found, f"format {FORMAT}", "update graphkin"))
+        found = message("has format {value!r}", value=raw.get("format"))
+        raise SceneError(
+            Problem(
+                str(path),
+                found,
+                message("format {format}", format=FORMAT),
+                message("update graphkin"),
+            )
+        )
     if not raw["students"]:
-        raise SceneError(Problem(str(path), "has no student", "one at least", AGAIN))
+        raise SceneError(
+            Problem(str(path), message("has no student"), message("one at least"), AGAIN)
+        )
     return raw
 
 
@@ -149,16 +162,27 @@ def refuse_changed(folder: Path, hashes: object) -> None:
             found = sha256(whole_file(path)).hexdigest()
         except OSError as error:
             reason = reason_of(error)
-            problems.append(Problem(str(path), f"cannot be read: {reason}", "", AGAIN))
+            problems.append(
+                Problem(
+                    str(path), message("cannot be read: {reason}", reason=reason), NO_WORDS, AGAIN
+                )
+            )
             continue
         if not isinstance(hashes, dict) or hashes.get(name) != found:
-            expected = "the very text from which the variants were made"
-            problems.append(Problem(str(path), "was changed since", expected, AGAIN))
+            expected = message("the very text from which the variants were made")
+            problems.append(Problem(str(path), message("was changed since"), expected, AGAIN))
     table = folder / TABLE
     known = hashes.get(TABLE) if isinstance(hashes, dict) else None
     if known and table.exists() and digest_of(table) != known:
-        expected = f"the table that was written with {MANIFEST}"
-        problems.append(Problem(str(table), "was changed since", expected, f"{AGAIN} --force"))
+        expected = message("the table that was written with {manifest}", manifest=MANIFEST)
+        problems.append(
+            Problem(
+                str(table),
+                message("was changed since"),
+                expected,
+                message("make the folder again with graphkin variants --force"),
+            )
+        )
     if problems:
         raise SceneError(problems)
 
@@ -173,9 +197,11 @@ def digest_of(path: Path) -> str:
 
 def taker(student: object, place: int, problems: list[Problem]) -> Taker | None:
     """One student of the manifest; None, with a problem recorded, if something is missing."""
-    where = f"{MANIFEST}, student {place}"
+    where = message("{manifest}, student {number}", manifest=MANIFEST, number=place)
     if not isinstance(student, dict):
-        problems.append(Problem(where, "is no table", "id, code and parameters", AGAIN))
+        problems.append(
+            Problem(where, message("is no table"), message("id, code and parameters"), AGAIN)
+        )
         return None
     settings, compute = student.get("parameters"), student.get("compute", [])
     texts = {key: student.get(key, "") for key in ("id", "code", "name", "group")}
@@ -186,8 +212,10 @@ def taker(student: object, place: int, problems: list[Problem]) -> Taker | None:
     if not isinstance(compute, list) or not all(isinstance(name, str) for name in compute):
         wrong.append("compute")
     if wrong or not isinstance(settings, dict):
-        found = f"{', '.join(dict.fromkeys(wrong))}: missing or of the wrong kind"
-        problems.append(Problem(where, found, "text, and parameters as text", AGAIN))
+        found = message(
+            "{wrong}: missing or of the wrong kind", wrong=", ".join(dict.fromkeys(wrong))
+        )
+        problems.append(Problem(where, found, message("text, and parameters as text"), AGAIN))
         return None
     row, number = (whole(student.get(key)) for key in ("row", "number"))
     who = Student(row or place, texts["id"], number, texts["name"], texts["group"])
@@ -205,8 +233,10 @@ def twins(takers: Sequence[Taker]) -> Iterator[Problem]:
     for what, texts in (("id", ids), ("code", codes)):
         for text, times in Counter(texts).items():
             if times > 1:
-                found = f'{times} students have the {what} "{text}"'
-                yield Problem(MANIFEST, found, "one of each", AGAIN)
+                found = message(
+                    '{times} students have the {what} "{text}"', times=times, what=what, text=text
+                )
+                yield Problem(MANIFEST, found, message("one of each"), AGAIN)
 
 
 def beside_ids(folder: Path) -> dict[str, dict[str, str]]:

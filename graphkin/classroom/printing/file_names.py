@@ -7,7 +7,7 @@ from collections import Counter
 from collections.abc import Sequence, Set
 from pathlib import Path
 
-from graphkin.text.errors import PageError, Problem
+from graphkin.text.errors import PageError, Problem, joined, message
 from graphkin.writers.files import RESERVED
 
 LONGEST = 48
@@ -58,14 +58,23 @@ def inside(folder: Path, name: str) -> Path:
     path = folder / name
     whole = folder.resolve()
     if not path.resolve().is_relative_to(whole):
-        found = f"leads to {path.resolve()}"
-        raise PageError(Problem(str(path), found, f"a file in {whole}", "remove the link"))
+        found = message("leads to {folder}", folder=path.resolve())
+        raise PageError(
+            Problem(
+                str(path),
+                found,
+                message("a file in {whole}", whole=whole),
+                message("remove the link"),
+            )
+        )
     return path
 
 
 def in_the_way(folder: Path, names: Sequence[str], unlike: Sequence[str] = ()) -> Problem:
     """The problem of existing files where others are to go; ``unlike`` says what differs."""
-    more = f" and {len(names) - SHOWN} more" if len(names) > SHOWN else ""
-    why = "; ".join(unlike) or "made from other data or settings"
-    found = f"{', '.join(names[:SHOWN])}{more}: there already, {why}"
-    return Problem(str(folder), found, hint="--force replaces what is in the way")
+    there, more = joined(", ", names[:SHOWN]), len(names) - SHOWN
+    if more > 0:
+        there = message("{names} and {count} more", names=there, count=more)
+    why = joined("; ", unlike) or message("made from other data or settings")
+    found = message("{names}: there already, {why}", names=there, why=why)
+    return Problem(str(folder), found, hint=message("--force replaces what is in the way"))

@@ -22,7 +22,7 @@ from graphkin.classroom.roster.language_names import unknown_lines
 from graphkin.classroom.roster.student import Student
 from graphkin.classroom.roster.taker import Taker
 from graphkin.drawing.style import Ink
-from graphkin.text.errors import PageError, Problem
+from graphkin.text.errors import PageError, Problem, message
 from graphkin.writers.commit import held, put_in_place, reason_of, replacing
 from graphkin.writers.pdf_join import PdfPart, join
 
@@ -106,8 +106,8 @@ def print_class(edition: Edition, wishes: PrintRequest, means: Means, tell: Tell
 
 def stopped(folder: Path, error: OSError) -> PageError:
     """The error of a run that could not write: a full disk, or a folder without permission."""
-    found = f"cannot be written: {reason_of(error)}"
-    hint = "what was finished is kept; when that is mended, the same command goes on"
+    found = message("cannot be written: {error}", error=reason_of(error))
+    hint = message("finished files are kept: correct this, then run the same command to continue")
     return PageError(Problem(str(error.filename or folder), found, hint=hint))
 
 
@@ -271,9 +271,8 @@ class PrintRun:
 
 def lost_sheets(wanted: StudentSheets) -> list[Made]:
     """The result for a student whose worker process ends."""
-    return [
-        Made(wanted.taker.code, {}, (Problem("print", ENDED, hint="--jobs 1 needs the least"),))
-    ]
+    hint = message("--jobs 1 needs the least")
+    return [Made(wanted.taker.code, {}, (Problem("print", ENDED, hint=hint),))]
 
 
 def part_of(code: str, view: str, kind: str) -> str:

@@ -20,7 +20,7 @@ from contextlib import contextmanager
 from itertools import chain, islice
 from typing import Any, TypeVar
 
-from graphkin.text.errors import PageError, Problem
+from graphkin.text.errors import PageError, Problem, message
 
 CHUNK = 25
 """The most students in a chunk."""
@@ -109,13 +109,16 @@ def cluster(address: str) -> Iterator[tuple[Executor, int]]:
     try:
         from distributed import Client
     except ImportError as error:
-        found = "needs dask.distributed, which is not installed"
-        hint = "install graphkin[cluster]"
+        found = message("needs dask.distributed, which is not installed")
+        hint = message("install graphkin[cluster]")
         raise PageError(Problem(f"--engine {address}", found, hint=hint)) from error
     try:
         client = Client(f"tcp://{address.removeprefix(CLUSTER)}", timeout=10)
     except (OSError, ValueError) as error:
-        found, expected = "does not answer", f"{CLUSTER}HOST:PORT of a Dask scheduler"
+        found, expected = (
+            message("does not answer"),
+            message("{cluster}HOST:PORT of a Dask scheduler", cluster=CLUSTER),
+        )
         raise PageError(Problem(f"--engine {address}", found, expected)) from error
     with client:
         yield client.get_executor(), max(1, sum(client.nthreads().values()))
@@ -152,8 +155,12 @@ def results(
                 yield found
     except (BrokenExecutor, CancelledError, OSError) as error:
         if lost is None or not isinstance(error, BrokenProcessPool):
-            hint = "for want of memory? --jobs 1 needs the least; the same command goes on"
-            raise PageError(Problem("print", "a worker ended suddenly", hint=hint)) from error
+            hint = message(
+                "the memory may be too small: run the same command with --jobs 1 to continue"
+            )
+            raise PageError(
+                Problem("print", message("a worker ended suddenly"), hint=hint)
+            ) from error
     finally:
         for future in waiting:
             future.cancel()
@@ -182,5 +189,5 @@ def one_by_one(
                 yield found
 
 
-ENDED = "the system ended the process that worked on it, twice; is the memory full?"
+ENDED = message("the system ended the process that worked on it, twice; is the memory full?")
 """What is said of an item whose process ends."""

@@ -24,7 +24,7 @@ from graphkin.classroom.roster.spreadsheets import (
 from graphkin.classroom.roster.student import Student
 from graphkin.classroom.roster.student_signs import EMAIL
 from graphkin.scene.findings import nearest, shown, visible
-from graphkin.text.errors import InTable, Problem
+from graphkin.text.errors import NO_WORDS, InTable, Message, Problem, either, joined, message
 
 NAMES = {
     what: tuple(names.split("; "))
@@ -94,7 +94,9 @@ def read_roster(
         for problem in check(one) if check is not None and one.number is not None else ():
             told.add(sheet.place(row), problem.found, problem.expected, problem.hint)
     if not sheet.rows and not told.problems:
-        told.add(sheet.name, "no student below the head", "a row for each student")
+        told.add(
+            sheet.name, message("no student below the head"), message("a row for each student")
+        )
     told.stop()
     for note in (lost_zeros(sheet, where["id"]), not_understood(sheet, where)):
         if note and tell is not None:
@@ -133,28 +135,38 @@ def lost_zeros(sheet: Spreadsheet, column: int) -> str:
 def found_columns(sheet: Spreadsheet, told: TableProblems, numbered: bool) -> dict[str, int]:
     """The column of each kind of data; a missing required column is recorded."""
     where = columns(sheet, NAMES)
-    wanted = {"id": "matricol or matricola"} | ({"number": "nr or numero"} if numbered else {})
+    wanted = {"id": ("matricol", "matricola")}
+    wanted |= {"number": ("nr", "numero")} if numbered else {}
     for what, others in wanted.items():
         if what not in where:
-            heads = ", ".join(f'"{visible(cell)}"' for cell in sheet.head[:12]) or "nothing"
+            heads = joined(", ", (f'"{visible(cell)}"' for cell in sheet.head[:12]))
+            heads = heads or message("nothing")
             is_head = not any(cell.isdecimal() for cell in sheet.head)
             free = [cell for i, cell in enumerate(sheet.head) if i not in where.values()]
             hints = (meant(cell, what) for cell in free if is_head)
-            hint = next(filter(None, hints), "")
-            why = "; the lab's formula needs the student's number" if what == "number" else ""
+            hint = next(filter(None, hints), message("the first row names the columns"))
             told.add(
                 sheet.name,
-                f"no column {what}{why}; the head is {heads}",
-                f'a column named "{what}", {others}',
-                hint or "the first row names the columns",
+                message(
+                    "no column {what}; the lab's formula needs the student's number; the head is "
+                    "{heads}"
+                    if what == "number"
+                    else "no column {what}; the head is {heads}",
+                    what=what,
+                    heads=heads,
+                ),
+                message('a column named "{what}", {others}', what=what, others=either(others)),
+                hint,
             )
     return where
 
 
-def meant(head: str, what: str) -> str:
+def meant(head: str, what: str) -> Message:
     """A hint if a head is close to a name of the column; empty if it is not."""
     near = nearest(head, [what, *NAMES[what]])
-    return f'is it "{visible(head)}"? then call that column "{what}"' if near else ""
+    if not near:
+        return NO_WORDS
+    return message('is it "{head}"? then call that column "{what}"', head=visible(head), what=what)
 
 
 class RosterReading(Struct, frozen=True):
@@ -188,10 +200,10 @@ class RosterReading(Struct, frozen=True):
         full, own = full_name({what: self.cell(row, what) for what in named}), self.cell(row, "id")
         for what, text, most in (("id", own, LONGEST_ID), ("name", full, LONGEST_NAME)):
             if len(text) > most:
-                found = f"{len(text)} characters"
-                self.told.add(self.place(row, what), found, f"at most {most}")
+                found = message("{count} characters", count=len(text))
+                self.told.add(self.place(row, what), found, message("at most {most}", most=most))
         if not own and "id" in self.where:
-            self.told.add(self.place(row, "id"), "is missing", "the student's id")
+            self.told.add(self.place(row, "id"), message("is missing"), message("the student's id"))
         extra = {
             self.sheet.head[i] or f"column {i + 1}": text
             for i, text in enumerate(row.cells)
@@ -201,9 +213,17 @@ class RosterReading(Struct, frozen=True):
         one = Student(row.line, own, self.number(row), name, group, extra)
         other = self.first.setdefault(own.casefold(), one)
         if own and other is not one:
-            same = "" if other.id == own else f", written {shown(other.id)},"
-            found = f"{shown(own)}{same} stands in row {other.row} already"
-            self.told.add(self.place(row, "id"), found, "an id of its own for each student")
+            found = message(
+                "{id} stands in row {row} already"
+                if other.id == own
+                else "{id}, written {other}, stands in row {row} already",
+                id=shown(own),
+                other=shown(other.id),
+                row=other.row,
+            )
+            self.told.add(
+                self.place(row, "id"), found, message("an id of its own for each student")
+            )
         return one
 
     def number(self, row: SheetRow) -> int | None:
@@ -215,11 +235,15 @@ class RosterReading(Struct, frozen=True):
             return int(text)
         if text and self.numbered:
             self.told.add(
-                place, f"{shown(text)} is no whole number from 0 on", "a number such as 7"
+                place,
+                message("{text} is no whole number from 0 on", text=shown(text)),
+                message("a number such as 7"),
             )
         elif self.numbered and "number" in self.where:
             self.told.add(
-                place, "is missing", "the student's number, which the lab's formula needs"
+                place,
+                message("is missing"),
+                message("the student's number, which the lab's formula needs"),
             )
         return None
 

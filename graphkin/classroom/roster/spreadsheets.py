@@ -25,14 +25,18 @@ from graphkin.scene.file_limits import file_bytes
 from graphkin.scene.findings import Findings, near_file, visible
 from graphkin.text.errors import (
     MOST,
+    NO_WORDS,
     About,
     Change,
     GraphkinError,
     Hint,
     InTable,
     Mend,
+    Message,
     Problem,
     RosterError,
+    joined,
+    message,
 )
 
 MOST_ROWS, MOST_COLUMNS, LONGEST = 200_000, 1000, 4000
@@ -54,9 +58,14 @@ class SheetRow(Struct, frozen=True):
     broken: int = 0
 
 
-def too_large(name: str, found: str) -> RosterError:
+def too_large(name: str, found: Message) -> RosterError:
     """The error for a table beyond the limits, raised as soon as the limit is exceeded."""
-    expected = f"at most {MOST_ROWS} rows, {MOST_COLUMNS} columns, {MOST_CELLS} cells in all"
+    expected = message(
+        "at most {most_rows} rows, {most_columns} columns, {most_cells} cells in all",
+        most_rows=MOST_ROWS,
+        most_columns=MOST_COLUMNS,
+        most_cells=MOST_CELLS,
+    )
     return RosterError(Problem(name, found, expected))
 
 
@@ -65,7 +74,7 @@ def too_large(name: str, found: str) -> RosterError:
 
 LARGEST = 16 * 1024 * 1024
 """The largest table, in bytes."""
-SEPARATORS = {",": "commas", ";": "semicolons", "\t": "tabs"}
+SEPARATORS = {",": message("commas"), ";": message("semicolons"), "\t": message("tabs")}
 VALUES = re.compile(r'"[^"]*"|\d+')
 """The parts of a message that differ from row to row although the cause is the same."""
 FEW, TOLD = 3, 4
@@ -104,15 +113,16 @@ class TableProblems(Findings):
     def add(
         self,
         place: str | InTable,
-        found: str,
-        expected: str = "",
-        hint: Hint = "",
+        found: Message,
+        expected: Message = NO_WORDS,
+        hint: Hint = NO_WORDS,
         changes: tuple[Change, ...] = (),
         about: tuple[About, ...] = (),
     ) -> None:
         """Record one problem, of the whole table or of a row."""
         own = (place,) if isinstance(place, InTable) else ()
-        super().add(str(place), found, expected, hint, changes, (*own, *about))
+        words = place.message if isinstance(place, InTable) else place
+        super().add(words, found, expected, hint, changes, (*own, *about))
 
     def extend(self, problems: Iterable[Problem]) -> None:
         """Record the new problems; stop once there are more causes than an error carries."""
@@ -150,7 +160,7 @@ class RowProblems(TableProblems):
 
 def cause_of(problem: Problem) -> tuple[str | int, ...]:
     """The key shared by problems that differ only in their rows and values."""
-    texts = (problem.found, problem.expected, str(problem.hint))
+    texts = (problem.found, problem.expected, problem.help)
     place = place_of(problem)
     if place is None:
         return (problem.place, *texts)
@@ -163,11 +173,11 @@ def together(alike: Iterable[Problem]) -> list[Problem]:
     rows = list(dict.fromkeys(row_of(problem) for problem in every))[1:]
     if len(rows) < FEW:
         return every
-    named = ", ".join(map(str, rows[:TOLD]))
-    more = f" and {len(rows) - TOLD} more" if len(rows) > TOLD else ""
-    hint = f"the same in rows {named}{more}"
-    hint = f"{every[0].hint}; {hint}" if every[0].hint else hint
-    return [replace(every[0], hint=hint)]
+    named, more = joined(", ", map(str, rows[:TOLD])), len(rows) - TOLD
+    if more > 0:
+        named = message("{names} and {count} more", names=named, count=more)
+    again = message("the same in rows {rows}", rows=named)
+    return [replace(every[0], hint=joined("; ", (every[0].help, again)))]
 
 
 def place_of(problem: Problem) -> InTable | None:
@@ -200,8 +210,10 @@ def sheet_in(
     own, told = told is None, told or TableProblems(name)
     rows: Iterable[SheetRow]
     if data.startswith(OLD_EXCEL):
-        hint = "save it as .xlsx or as CSV UTF-8"
-        raise RosterError(Problem(name, "is an old Excel file (.xls)", "CSV or XLSX", hint))
+        hint = message("save it as .xlsx or as CSV UTF-8")
+        raise RosterError(
+            Problem(name, message("is an old Excel file (.xls)"), message("CSV or XLSX"), hint)
+        )
     if data.startswith(ZIP):
         rows, separator = list(xlsx_rows(data, name)), "\t"
     else:
@@ -219,11 +231,20 @@ def bytes_of(path: Path) -> bytes:
     try:
         data = file_bytes(path, LARGEST + 1)
     except (OSError, ValueError) as error:
-        reason = getattr(error, "strerror", None) or "cannot be opened"
-        found = f"cannot be read: {reason[:1].lower()}{reason[1:]}"
-        raise RosterError(Problem(str(path), found, "a table, CSV or XLSX", beside(path))) from None
+        reason = getattr(error, "strerror", None) or message("cannot be opened")
+        reason = reason if isinstance(reason, Message) else f"{reason[:1].lower()}{reason[1:]}"
+        found = message("cannot be read: {reason}", reason=reason)
+        raise RosterError(
+            Problem(str(path), found, message("a table, CSV or XLSX"), beside(path))
+        ) from None
     if len(data) > LARGEST:
-        raise RosterError(Problem(path.name, "is too large", f"at most {LARGEST >> 20} MiB"))
+        raise RosterError(
+            Problem(
+                path.name,
+                message("is too large"),
+                message("at most {most} MiB", most=LARGEST >> 20),
+            )
+        )
     return data
 
 
@@ -231,10 +252,10 @@ def beside(path: Path) -> Hint:
     """A hint for a table that cannot be read: the file with the nearest name in the same folder."""
     folder = path.parent
     if not folder.is_dir():
-        return f"there is no folder {folder}"
+        return message("there is no folder {folder}", folder=folder)
     tables = [each.name for each in folder.iterdir() if each.suffix.lower() in (".csv", ".xlsx")]
     near = near_file(path.name, tables) if path.name not in tables else ""
-    saved = "a spreadsheet program saves one as XLSX or as CSV UTF-8"
+    saved = message("a spreadsheet program saves one as XLSX or as CSV UTF-8")
     return Mend(path.name, near) if near else saved
 
 
@@ -245,16 +266,18 @@ def text_of(data: bytes, name: str) -> str:
         text = data.decode("utf-16" if wide else "utf-8-sig")
     except UnicodeDecodeError as error:
         row = data.count(b"\n", 0, error.start) + 1
-        found = f"the byte 0x{data[error.start]:02x} is not UTF-8"
-        hint = "in the spreadsheet, save as CSV UTF-8"
+        found = message("the byte 0x{data:02x} is not UTF-8", data=data[error.start])
+        hint = message("in the spreadsheet, save as CSV UTF-8")
         at = InTable(name, row)
-        problem = Problem(str(at), found, "a text saved as UTF-8", hint, about=(at,))
+        problem = Problem(at.message, found, message("a text saved as UTF-8"), hint, about=(at,))
         raise RosterError(problem) from None
     if text.count("\0") > len(text) // 4:  # this many come from UTF-16; fewer are reported by row
         row = text.count("\n", 0, text.index("\0")) + 1
-        hint = "save the table again as CSV UTF-8"
+        hint = message("save the table again as CSV UTF-8")
         at = InTable(name, row)
-        raise RosterError(Problem(str(at), "a NUL character", "a text", hint, about=(at,)))
+        raise RosterError(
+            Problem(at.message, message("a NUL character"), message("a text"), hint, about=(at,))
+        )
     return text
 
 
@@ -291,22 +314,23 @@ def csv_rows(text: str, separator: str, told: TableProblems) -> Iterator[SheetRo
         reader = csv.reader(islice(lines, begins - 1, None), delimiter=separator, strict=True)
         before, cells = begins - 1, list[str]()
         while begins <= len(lines):
-            found = ""
+            fault = ""
             try:
                 cells = next(reader)
             except csv.Error as error:
-                found = str(error)
-                told.add(InTable(told.name, begins), *broken(found))
+                fault = str(error)
+                told.add(InTable(told.name, begins), *broken(fault))
             ends = before + reader.line_num
             if ends > LAST_ROW:
-                raise too_large(told.name, f"more than {LAST_ROW} lines")
-            is_open = "unexpected end" in found or "field larger" in found
+                raise too_large(told.name, message("more than {last_row} lines", last_row=LAST_ROW))
+            is_open = "unexpected end" in fault or "field larger" in fault
             ends = begins if is_open else ends
-            if not found and ends > begins and any("\n" in c or "\r" in c for c in cells):
-                found = f"a cell goes on to row {ends}"
-                hint = "is a closing quote missing?"
-                told.add(InTable(told.name, begins), found, "a cell on one row", hint)
-            if found:
+            goes_on = ends > begins and any("\n" in c or "\r" in c for c in cells)
+            if not fault and goes_on:
+                found = message("a cell goes on to row {ends}", ends=ends)
+                hint = message("is a closing quote missing?")
+                told.add(InTable(told.name, begins), found, message("a cell on one row"), hint)
+            if fault or goes_on:
                 for i in range(begins, ends + 1):
                     yield SheetRow(i, tuple(loose_cells(lines[i - 1], separator)), broken=begins)
             else:
@@ -316,8 +340,11 @@ def csv_rows(text: str, separator: str, told: TableProblems) -> Iterator[SheetRo
                 unclosed += 1
                 break
     if unclosed > MOST:
-        found, hint = f"more than {MOST} quotes that are never closed", "the rest is not read"
-        raise RosterError(Problem(told.name, found, 'a closing " in each cell', hint))
+        found, hint = (
+            message("more than {most} quotes that are never closed", most=MOST),
+            message("the rest is not read"),
+        )
+        raise RosterError(Problem(told.name, found, message('a closing " in each cell'), hint))
 
 
 def loose_cells(line: str, separator: str) -> list[str]:
@@ -325,16 +352,19 @@ def loose_cells(line: str, separator: str) -> list[str]:
     return line.replace('"', "").rstrip("\r\n").split(separator)
 
 
-def broken(message: str) -> tuple[str, str, str]:
-    """A message of the CSV reader in plain words: found, expected, hint."""
-    if "unexpected end" in message:
-        return "a quote that is opened and never closed", 'a closing "', ""
-    if "expected after" in message:
-        hint = 'a quote within quotes is written twice: "Ann ""Nan"" Lee"'
-        return "a quote in the middle of a quoted cell", "the end of the cell after it", hint
-    if "field larger" in message:
-        return "a cell that is too long", f"at most {LONGEST} characters", "is a quote missing?"
-    return f"cannot be read: {message}", "", ""
+def broken(fault: str) -> tuple[Message, Message, Message]:
+    """A fault that the CSV reader finds, in plain words: found, expected, hint."""
+    if "unexpected end" in fault:
+        found = message("a quote that is opened and never closed")
+        return found, message('a closing "'), NO_WORDS
+    if "expected after" in fault:
+        found = message("a quote in the middle of a quoted cell")
+        hint = message('a quote within quotes is written twice: "Ann ""Nan"" Lee"')
+        return found, message("the end of the cell after it"), hint
+    if "field larger" in fault:
+        most = message("at most {most} characters", most=LONGEST)
+        return message("a cell that is too long"), most, message("is a quote missing?")
+    return message("cannot be read: {reason}", reason=fault), NO_WORDS, NO_WORDS
 
 
 def sheet_of(
@@ -352,27 +382,42 @@ def sheet_of(
     if head is None:
         told.stop()
         raise RosterError(
-            Problem(name, "the table is empty", "a head, then a row for each student")
+            Problem(
+                name, message("the table is empty"), message("a head, then a row for each student")
+            )
         )
     width = len(head.cells)
     if width > MOST_COLUMNS:
-        raise too_large(name, f"{width} columns")
+        raise too_large(name, message("{width} columns", width=width))
     twice = repeated([folded(cell) for cell in head.cells if cell])
     for i, cell in enumerate(head.cells):
         refuse_hidden(told, InTable(name, head.line, i + 1), cell)
         if folded(cell) in twice:
-            found = f'two columns are called "{visible(cell)}"'
-            told.add(InTable(name, head.line), found, "one")
+            found = message('two columns are called "{cell}"', cell=visible(cell))
+            told.add(InTable(name, head.line), found, message("one"))
             twice.discard(folded(cell))
     rows_found = []
     for count, row in enumerate(body, 1):
         if count > MOST_ROWS or count * width > MOST_CELLS:
-            raise too_large(name, f"more than {count - 1} rows of {width} columns")
+            raise too_large(
+                name,
+                message("more than {count} rows of {width} columns", count=count - 1, width=width),
+            )
         cells = row.cells
         if len(cells) > width:
-            words = f"{len(cells)} cells, and the head has {width}"
-            hint = f"a cell that holds {SEPARATORS[separator]} is written in quotes"
-            told.add(InTable(name, row.line), words, f"at most {width}", hint)
+            words = message(
+                "{count} cells, and the head has {width}", count=len(cells), width=width
+            )
+            hint = message(
+                "a cell that holds {separators} is written in quotes",
+                separators=SEPARATORS[separator],
+            )
+            told.add(
+                InTable(name, row.line),
+                words,
+                message("at most {most}", most=width),
+                hint,
+            )
             left_out.append(replace(row, broken=row.line))
             continue
         for i, cell in enumerate(cells):
@@ -430,11 +475,19 @@ def repeated(names: Sequence[str]) -> set[str]:
 def refuse_hidden(told: TableProblems, place: InTable, cell: str) -> None:
     """Record a cell that is too long or has control or bidirectional characters."""
     if len(cell) > LONGEST:
-        told.add(place, f"{len(cell)} characters", f"at most {LONGEST}")
+        told.add(
+            place,
+            message("{count} characters", count=len(cell)),
+            message("at most {most}", most=LONGEST),
+        )
         return
     for character in cell:
         if character not in "\n\r\t" and unicodedata.category(character) in ("Cc", "Cf", "Cs"):
-            told.add(place, f"the control character {character!a}", "printable text")
+            told.add(
+                place,
+                message("the control character {character!a}", character=character),
+                message("printable text"),
+            )
             return
 
 
@@ -496,7 +549,12 @@ def full_rows(sheet: Any, name: str) -> Iterator[tuple[int, Sequence[Any]]]:
     for number, cells in enumerate(sheet.iter_rows(), 1):
         count += len(cells)
         if number > LAST_ROW or count > MOST_CELLS:
-            raise too_large(name, f"{number} rows, and {count} cells as far as there")
+            raise too_large(
+                name,
+                message(
+                    "{number} rows, and {count} cells as far as there", number=number, count=count
+                ),
+            )
         if any(cell.value not in (None, "") for cell in cells):
             yield number, cells
 
@@ -510,9 +568,11 @@ def opened(data: bytes, name: str, *, data_only: bool) -> Iterator[Any]:
     try:
         from openpyxl import load_workbook
     except ImportError:
-        hint = "or install it: pip install 'graphkin[class]'"
-        found = "is an XLSX file, and openpyxl, which reads those, is not installed"
-        raise RosterError(Problem(name, found, "the table saved as CSV UTF-8", hint)) from None
+        hint = message("or install it: pip install 'graphkin[class]'")
+        found = message("is an XLSX file, and openpyxl, which reads those, is not installed")
+        raise RosterError(
+            Problem(name, found, message("the table saved as CSV UTF-8"), hint)
+        ) from None
     try:
         refuse_bomb(data, name)
         with catch_warnings():  # openpyxl warns of parts it skips, which are not written either
@@ -530,14 +590,22 @@ def opened(data: bytes, name: str, *, data_only: bool) -> Iterator[Any]:
 
 def refuse_bomb(data: bytes, name: str) -> None:
     """Raise RosterError if a file is far larger unpacked; BadZipFile if it is not a ZIP."""
-    expected = f"at most {LARGEST_UNPACKED >> 20} MiB and {MOST_ELEMENTS} XML elements"
+    expected = message(
+        "at most {largest_unpacked} MiB and {most_elements} XML elements",
+        largest_unpacked=LARGEST_UNPACKED >> 20,
+        most_elements=MOST_ELEMENTS,
+    )
     with zipfile.ZipFile(io.BytesIO(data)) as packed:
         size = sum(part.file_size for part in packed.infolist())
         if size > LARGEST_UNPACKED:
-            raise RosterError(Problem(name, "is far larger unpacked", expected))
+            raise RosterError(Problem(name, message("is far larger unpacked"), expected))
         elements = sum(map(elements_of, map(packed.open, packed.infolist())))
     if elements > MOST_ELEMENTS:
-        raise RosterError(Problem(name, f"holds about {elements} XML elements", expected))
+        raise RosterError(
+            Problem(
+                name, message("holds about {elements} XML elements", elements=elements), expected
+            )
+        )
 
 
 def elements_of(part: IO[bytes]) -> int:
@@ -548,8 +616,10 @@ def elements_of(part: IO[bytes]) -> int:
 
 def unreadable(name: str) -> RosterError:
     """The error for a file that is not a workbook."""
-    hint = "open it in a spreadsheet and save it again, or as CSV UTF-8"
-    return RosterError(Problem(name, "cannot be read as XLSX", "a workbook", hint))
+    hint = message("open it in a spreadsheet and save it again, or as CSV UTF-8")
+    return RosterError(
+        Problem(name, message("cannot be read as XLSX"), message("a workbook"), hint)
+    )
 
 
 def is_bare(cell: Any) -> bool:

@@ -24,7 +24,7 @@ from graphkin.classroom.roster.student import Student
 from graphkin.numbers.arithmetic import np
 from graphkin.scene.parameters import misfit, range_words
 from graphkin.scene.quantity import shortest
-from graphkin.text.errors import Problem, RosterError, problems_of
+from graphkin.text.errors import InTable, Problem, RosterError, message, problems_of
 
 VAIN = 300
 """Consecutive draws that find room for nobody, after which nobody is drawn again."""
@@ -75,9 +75,12 @@ def assigned(lab: Lab, students: Sequence[Student], roster: str = "roster") -> l
     too for more students than can be compared with one another, if a limit requires the comparison.
     """
     if lab.fair.needs_keys and len(students) > MOST:
-        found = f"has {len(students)} students, and [fair] of lab.toml limits apart or pencil"
-        hint = "split the list, or take those limits out"
-        raise RosterError(Problem(roster, found, f"at most {MOST}", hint))
+        found = message(
+            "has {count} students, and [fair] of lab.toml limits apart or pencil",
+            count=len(students),
+        )
+        hint = message("split the list, or take those limits out")
+        raise RosterError(Problem(roster, found, message("at most {most}", most=MOST), hint))
     if lab.rule.counts:
         refuse_misfits(lab, students, roster)
     every = fairest(lab, students)
@@ -180,7 +183,7 @@ def held_against(lab: Lab, every: Sequence[Assigned]) -> list[Standard]:
 def refuse_misfits(lab: Lab, students: Sequence[Student], roster: str) -> None:
     """Raise RosterError with the row of each number whose formula leaves the scene's ranges."""
     problems = [
-        Problem(f"{roster}, row {student.row}", p.found, p.expected, p.hint)
+        Problem(InTable(roster, student.row).message, p.found, p.expected, p.hint)
         for student in students
         for p in misfits(lab, student)
     ]
@@ -199,9 +202,19 @@ def misfits(lab: Lab, student: Student) -> list[Problem]:
         given = settings(lab, student)
     except Exception as error:
         return list(problems_of(error))
-    parameters, gives = lab.mechanism.scene.parameters, f"number {student.number} gives"
+    parameters = lab.mechanism.scene.parameters
     return [
-        Problem("", f"{gives} {name} = {shortest(value)}, which is {wrong}", range_words(each))
+        Problem(
+            "",
+            message(
+                "number {number} gives {name} = {value}, which is {wrong}",
+                number=student.number,
+                name=name,
+                value=shortest(value),
+                wrong=wrong,
+            ),
+            range_words(each),
+        )
         for name, value in given.items()
         if (wrong := misfit(each := parameters[name], value))
     ]

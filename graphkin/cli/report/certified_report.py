@@ -42,6 +42,7 @@ from graphkin.numbers.kinds import ball_kind, sound_ball
 from graphkin.numbers.plane import Ratio
 from graphkin.scene.link_points import ends_of
 from graphkin.scene.model import Scene
+from graphkin.text.errors import NO_WORDS, message
 from graphkin.text.plain_table import table
 
 FAR = "at infinity, or too far to tell: not decided"
@@ -145,11 +146,11 @@ def place_of(ratio: Ratio) -> Any:
 
 def singular_words(scene: Scene, program: Program, failed: StepFailed) -> str:
     """Why a step cannot be drawn in balls, in the words used for a step that fails in floats."""
-    action, reason = failed.step.action, "the ball does not tell where"
+    action, reason = failed.step.action, message("the ball does not tell where")
     crosses = action is not None and action.margin is not None
     if crosses or closer_of(failed.step) is not None:
         reason = why(scene, program, failed)
-    problem = not_found(program, failed.number, reason, "")
+    problem = not_found(program, failed.number, reason, NO_WORDS)
     return f"singular within the ball: {problem.place}: {problem.found}"
 
 

@@ -40,7 +40,7 @@ from graphkin.numbers.cam_motions import (
 )
 from graphkin.numbers.plane import Line, cross, dot
 from graphkin.scene.model import FRAME, Cam, CamLever
-from graphkin.text.errors import Problem, Sought
+from graphkin.text.errors import Message, Problem, Sought, message
 
 NAMES = tuple(MOTIONS)
 
@@ -291,22 +291,34 @@ class CurvatureCentre(Determined, frozen=True, kw_only=True):
     bend: int
     point: int
 
-    def in_line(self, steps: Sequence[Step], nearly: str) -> str:
+    def in_line(self, steps: Sequence[Step], *, nearly: bool) -> Message:
         """The words for a pitch curve without curvature."""
-        return f"the pitch curve of link {self.link} is {nearly}straight at the contact"
+        return message(
+            "the pitch curve of link {link} is nearly straight at the contact"
+            if nearly
+            else "the pitch curve of link {link} is straight at the contact",
+            link=self.link,
+        )
 
     def undetermined(self, args: Sequence[Any]) -> Problem:
         """The problem of a straight pitch curve, which no circle can replace."""
-        hint = (
-            "the follower moves by its law, but no circle stands for the cam here: move the driver"
+        plate = isinstance(args[0], Line)
+        hint = message(
+            "the follower moves by its law, but no circle stands for the cam here: move the "
+            "driver, or write a straight flank as a guide on the plate"
+            if plate
+            else "the follower moves by its law, but no circle stands for the cam here: move the "
+            "driver"
         )
-        if isinstance(args[0], Line):  # of a plate
-            hint += ", or write a straight flank as a guide on the plate"
         return Problem(
-            f"position of {self.name}",
-            f"{self.name} lies at infinity: the pitch curve of link {self.link} is straight at the "
-            "contact",
-            "a contact at which it is curved",
+            message("position of {name}", name=self.name),
+            message(
+                "{name} lies at infinity: the pitch curve of link {link} is straight at "
+                "the contact",
+                name=self.name,
+                link=self.link,
+            ),
+            message("a contact at which it is curved"),
             hint,
             about=(Sought((self.name,)),),
         )

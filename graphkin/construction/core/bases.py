@@ -35,7 +35,7 @@ from graphkin.structure.pairs import (
     Sliding,
     contacts,
 )
-from graphkin.text.errors import Problem, StructureError
+from graphkin.text.errors import NO_WORDS, Problem, StructureError, joined, message
 
 
 class Base(Struct, frozen=True):
@@ -249,8 +249,8 @@ def no_track(scene: Scene, contact: Contact) -> StructureError:
     from graphkin.structure.touching_wheels import keeper_asked
 
     wheel, track = contact.links
-    found = "is a straight track that only a wheel and a pin hold"
-    hint = "" if contact.rolling.keeper else keeper_asked(scene.links, wheel, track)
+    found = message("is a straight track that only a wheel and a pin hold")
+    hint = NO_WORDS if contact.rolling.keeper else keeper_asked(scene.links, wheel, track)
     return StructureError(Problem(f"links.{track}", found, HELD, hint))
 
 
@@ -273,28 +273,51 @@ def no_construction(group: Group) -> StructureError:
     It names the limit. A straight track may be held by wheels and pins alone, or a wheel by tracks
     that are not parallel. A group may have several drivers, or too many trial links.
     """
-    hint = ""
+    hint = NO_WORDS
     if not isinstance(group, Unresolved):
-        found, expected = f"{group.title} that cannot be constructed", CLOSING
+        found, expected = message("{title} that cannot be constructed", title=group.title), CLOSING
     elif group.tracks:
-        found = f"hold link {', '.join(group.tracks)}, a straight track, by wheels and pins alone"
+        found = message(
+            "hold link {tracks}, a straight track, by wheels and pins alone",
+            tracks=", ".join(group.tracks),
+        )
         expected, hint = HELD, group.asked or LEVEL
     elif len(group.driven) > 1:
-        pairs = ", ".join(f"link {each.link} on {each.against}" for each in group.driven)
-        found = f"close only with {len(group.driven)} drivers at once: {pairs}"
-        expected = "one driver within a group that is tried"
+        pairs = joined(
+            ", ",
+            (
+                message("link {link} on {against}", link=each.link, against=each.against)
+                for each in group.driven
+            ),
+        )
+        found = message(
+            "close only with {count} drivers at once: {pairs}", count=len(group.driven), pairs=pairs
+        )
+        expected = message("one driver within a group that is tried")
     elif group.wedged:
-        wheels = f"wheel{'s' * (len(group.wedged) > 1)} {', '.join(group.wedged)}"
-        found = f"hold {wheels} between two tracks that are not parallel"
-        expected, hint = "parallel tracks", SLIPPING
+        found = message(
+            "hold wheel {wheels} between two tracks that are not parallel"
+            if len(group.wedged) == 1
+            else "hold wheels {wheels} between two tracks that are not parallel",
+            wheels=", ".join(group.wedged),
+        )
+        expected, hint = message("parallel tracks"), SLIPPING
     else:
-        found, expected = "do not close after four of them are tried at once", CLOSING
-        hint = "is a driver missing, or does it drive a link that cannot be reached by itself?"
+        found, expected = message("do not close after four of them are tried at once"), CLOSING
+        hint = message(
+            "is a driver missing, or does it drive a link that cannot be reached by itself?"
+        )
     place, about = "links." + ", ".join(group.links), (("links", group.links[0]),)
     return StructureError(Problem(place, found, expected, hint, about=about))
 
 
-HELD = "a track that slides, is driven, or belongs to the frame"
-LEVEL = "wheels of one size on one track keep it parallel to that: write slides = { … } for it"
-SLIPPING = "where a wheel slips on one of them, a block at its centre slides beside that instead"
-CLOSING = "links that close on known ones, two at a time or after some of them have been tried"
+HELD = message("a track that slides, is driven, or belongs to the frame")
+LEVEL = message(
+    "wheels of one size on one track keep it parallel to that: write slides = {{ … }} for it"
+)
+SLIPPING = message(
+    "where a wheel slips on one of them, a block at its centre slides beside that instead"
+)
+CLOSING = message(
+    "links that close on known ones, two at a time or after some of them have been tried"
+)

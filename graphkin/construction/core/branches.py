@@ -21,11 +21,23 @@ from graphkin.structure.groups import (
 )
 from graphkin.structure.pairs import Pin
 from graphkin.structure.parallel_bars import parallel_sets
-from graphkin.text.errors import Problem, StructureError, TakenOut, Written
+from graphkin.text.errors import (
+    NO_WORDS,
+    Message,
+    Problem,
+    StructureError,
+    TakenOut,
+    Written,
+    both,
+    either,
+    joined,
+    message,
+    verbatim,
+)
 
 WAYS = '"forward"', '"backward"'
 """The larger and the smaller coordinate along a guide, as a scene writes them."""
-MISSING = "is missing"
+MISSING = message("is missing")
 """The wording for a branch that is not written."""
 
 
@@ -98,8 +110,10 @@ def unused_branches(
         Problem(
             f"branches.{name}",
             why_no_choice(scene, groups, name),
-            f"branches of {', '.join(sorted(allowed))}" if allowed else "no branches",
-            f"take it out{only_way(scene, groups, name)}",
+            message("branches of {allowed}", allowed=", ".join(sorted(allowed)))
+            if allowed
+            else message("no branches"),
+            joined("; ", (message("take it out"), only_way(scene, groups, name))),
             (TakenOut(),),
         )
         for name, branch in scene.branches.items()
@@ -108,26 +122,33 @@ def unused_branches(
     ]
 
 
-def why_no_choice(scene: Scene, groups: tuple[Group, ...], name: str) -> str:
+def why_no_choice(scene: Scene, groups: tuple[Group, ...], name: str) -> Message:
     """Why a link or a point needs no branch."""
     match group_of(scene, groups, name):
         case Crank(driver=driver) | Driven(driver=driver) | Spun(driver=driver):
-            return (
-                f"link {driver.link} is driven: nothing is left to choose at {called(scene, name)}"
+            return message(
+                "link {link} is driven: nothing is left to choose at {place}",
+                link=driver.link,
+                place=called(scene, name),
             )
         case Dyad() as dyad if not (dyad.type == "RRR" or has_two_ways(dyad)):
-            links = " and ".join(dyad.links)
-            return f"links {links} with their slides close in one way only ({dyad.title})"
+            return message(
+                "links {links} with their slides close in one way only ({title})",
+                links=both(dyad.links),
+                title=dyad.title,
+            )
         case Geared() as wheel:
             return wheel.one_way
-    return f"no group has a choice at {called(scene, name)}"
+    return message("no group has a choice at {place}", place=called(scene, name))
 
 
-def only_way(scene: Scene, groups: tuple[Group, ...], name: str) -> str:
+def only_way(scene: Scene, groups: tuple[Group, ...], name: str) -> Message:
     """A hint that names the key of the group's branch, where it has another name."""
     group = group_of(scene, groups, name)
     names = choosing((group,)) if group is not None else []
-    return f"; the branch of its group is that of {names[0]}" if names else ""
+    if not names:
+        return NO_WORDS
+    return message("the branch of its group is that of {name}", name=names[0])
 
 
 def group_of(scene: Scene, groups: tuple[Group, ...], name: str) -> Group | None:
@@ -138,9 +159,9 @@ def group_of(scene: Scene, groups: tuple[Group, ...], name: str) -> Group | None
     return None
 
 
-def called(scene: Scene, name: str) -> str:
+def called(scene: Scene, name: str) -> Message:
     """A link or a point in words."""
-    return f"link {name}" if name in scene.links else name
+    return message("link {on}", on=name) if name in scene.links else verbatim(name)
 
 
 def stray(scene: Scene, groups: tuple[Group, ...], group: Group) -> list[str]:
@@ -155,17 +176,21 @@ def in_place_of(scene: Scene, problem: Problem, names: Sequence[str]) -> Problem
     """The problem of a missing branch, with the branches probably written in its place."""
     if problem.found != MISSING or not names:
         return problem
-    lines = " and ".join(f'{name} = "{scene.branches[name]}"' for name in names)
-    verb = "chooses" if len(names) == 1 else "choose"
+    lines = both(f'{name} = "{scene.branches[name]}"' for name in names)
     own = problem.place.partition(".")[2]
     ways = [each for each in problem.changes if isinstance(each, Written)]
-    expected = " or ".join(f"{own} = {each.value}" for each in ways)
+    expected = either(f"{own} = {each.value}" for each in ways)
     if len(ways) == 1:  # a closure: any number is accepted
         expected = problem.expected
     return replace(
         problem,
-        found=f"{MISSING}, while {lines} {verb} nothing",
-        expected=f"{expected} in place of {lines}",
+        found=message(
+            "is missing, while {lines} chooses nothing"
+            if len(names) == 1
+            else "is missing, while {lines} choose nothing",
+            lines=lines,
+        ),
+        expected=message("{expected} in place of {lines}", expected=expected, lines=lines),
         changes=tuple(replace(each, instead=names[0]) for each in problem.changes)
         if len(names) == 1
         else problem.changes,
@@ -190,9 +215,13 @@ def side_of(scene: Scene, dyad: Dyad) -> int:
     raise StructureError(
         Problem(
             f"branches.{dyad.inner.point}",
-            MISSING if branch is None else "does not name the two known pins of its dyad",
-            " or ".join(sides),
-            f"{dyad.inner.point} can lie on either side of the line {line}; the scene says which",
+            MISSING if branch is None else message("does not name the two known pins of its dyad"),
+            either(sides),
+            message(
+                "{point} can lie on either side of the line {line}; the scene says which",
+                point=dyad.inner.point,
+                line=line,
+            ),
             tuple(map(Written, sides)),
         )
     )
@@ -215,17 +244,26 @@ def way_of(scene: Scene, dyad: Dyad) -> int:
     branch = scene.branches.get(key, scene.branches.get(block_of(dyad)))
     if isinstance(branch, Way):
         return branch.way
-    hint = "the arc cuts the guide twice; forward is the larger coordinate along the guide"
+    hint = message("the arc cuts the guide twice; forward is the larger coordinate along the guide")
     if isinstance(dyad, OnTwoPins):
         pin, start = dyad.inner.pins
-        hint = f"link {dyad.rail} can lie either way round: forward puts {pin} ahead of {start}"
+        hint = message(
+            "link {rail} can lie either way round: forward puts {pin} ahead of {start}",
+            rail=dyad.rail,
+            pin=pin,
+            start=start,
+        )
     elif dyad.type == "RPR":
-        hint = "the bar can point either way; forward is the larger coordinate along the guide"
+        hint = message(
+            "the bar can point either way; forward is the larger coordinate along the guide"
+        )
     raise StructureError(
         Problem(
             f"branches.{key}",
-            MISSING if branch is None else f'"{branch}" for a link that {LEADING}',
-            " or ".join(WAYS),
+            MISSING
+            if branch is None
+            else message('"{branch}" for a link that {leading}', branch=branch, leading=LEADING),
+            either(WAYS),
             hint,
             tuple(map(Written, WAYS)),
         )
@@ -253,19 +291,26 @@ def closure_of(scene: Scene, group: Higher) -> int:
         return numbers[0]
     first = next(name for name in scene.links if name in group.links)
     link = next(iter(stated), first)
-    hint = "they close together in several ways; graphkin check lists them"
+    hint = message("they close together in several ways; graphkin check lists them")
     found = MISSING
     if len(numbers) > 1:
-        found = "is given twice"
+        found = message("is given twice")
     elif stated:
-        lines = " and ".join(f'{name} = "{branch}"' for name, branch in stated.items())
-        found = f"{lines} for one {group.title}"
-        hint += "; if two of them should close by themselves, a guide or a pin is on the wrong link"
+        lines = both(f'{name} = "{branch}"' for name, branch in stated.items())
+        found = message("{lines} for one {title}", lines=lines, title=group.title)
+        hint = message(
+            "they close together in several ways; graphkin check lists them; if two of them "
+            "should close by themselves, a guide or a pin is on the wrong link"
+        )
     raise StructureError(
         Problem(
             f"branches.{link}",
             found,
-            f'{link} = "closure 1", or another number, for the links {", ".join(group.links)}',
+            message(
+                '{link} = "closure 1", or another number, for the links {links}',
+                link=link,
+                links=", ".join(group.links),
+            ),
             hint,
             (Written('"closure 1"'),),
         )

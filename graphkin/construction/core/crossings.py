@@ -12,9 +12,9 @@ from graphkin.construction.core.drawn_scene import Drawing
 from graphkin.construction.core.kind import ClosesGroup, Construction, construction
 from graphkin.construction.core.program import Part, Plane, Program, Step
 from graphkin.construction.core.run import Trace
-from graphkin.text.errors import Problem
+from graphkin.text.errors import NO_WORDS, Message, Problem, message
 
-LOCI = "loci that cross"
+LOCI = message("loci that cross")
 """What a point at the crossing of two loci needs."""
 
 
@@ -26,23 +26,23 @@ class Determined(Construction, frozen=True):
     they cross a second time, on the other side.
     """
 
-    loci: ClassVar[str] = "the loci"
-    apart: ClassVar[str] = "the loci miss each other"
+    loci: ClassVar[Message] = message("the loci")
+    apart: ClassVar[Message] = message("the loci miss each other")
     has_angle: ClassVar[bool] = True
     has_mirror: ClassVar[bool] = False
 
-    def in_line(self, steps: Sequence[Step], nearly: str) -> str:
-        """The collinear or perpendicular points where it fails, after ``nearly`` if flat."""
-        return ""
+    def in_line(self, steps: Sequence[Step], *, nearly: bool) -> Message:
+        """The points in line or perpendicular where it fails, or nearly so where it is flat."""
+        return NO_WORDS
 
     @property
-    def reaching(self) -> str:
+    def reaching(self) -> Message:
         """What is needed where the loci do not meet."""
         return LOCI
 
-    def failing(self) -> str:
+    def failing(self) -> Message:
         """The cause where the loci do not meet; empty where the lines of the message say it."""
-        return ""
+        return NO_WORDS
 
     def undetermined(self, args: Sequence[Any]) -> Problem | None:
         """The problem of loci that leave every place or direction open; None where they do not."""

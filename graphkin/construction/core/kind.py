@@ -14,6 +14,7 @@ from graphkin.construction.core.canvas import Canvas
 from graphkin.construction.core.drawn_scene import Drawing
 from graphkin.construction.core.program import Program, Roles, Step
 from graphkin.construction.core.relation import Relation
+from graphkin.text.errors import message
 
 K = TypeVar("K", bound=Roles)
 
@@ -79,7 +80,9 @@ class Construction(Roles, frozen=True):
     @property
     def runs(self) -> Run | None:
         """The direction of its line in a report: along the guide of a block; None for others."""
-        return Run(f"the guide of {getattr(self, self.guided)}") if self.guided else None
+        if not self.guided:
+            return None
+        return Run(message("the guide of {block}", block=getattr(self, self.guided)))
 
     @property
     def points(self) -> tuple[str, ...]:

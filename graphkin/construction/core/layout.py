@@ -18,7 +18,7 @@ from graphkin.drawing.field import ABOVE, AREA, HEIGHT, LEAST_FIELD, MARGIN, WID
 from graphkin.drawing.scale import Extent
 from graphkin.numbers.arithmetic import Point, Real, larger, pick, smaller
 from graphkin.numbers.plane import Circle, Line, Ratio
-from graphkin.text.errors import PageError, Problem
+from graphkin.text.errors import PageError, Problem, message
 
 BEYOND = 7.0
 """How far a construction line is drawn beyond the last point on it, in mm."""
@@ -107,9 +107,12 @@ def refuse_wide(mechanism: float, plan: float) -> None:
         raise PageError(
             Problem(
                 "sheet",
-                f"does not fit: the drawings are {-spare:.0f} mm wider than the sheet",
-                "a larger kL",
-                "leave [sheet] scale out, or give a larger number",
+                message(
+                    "does not fit: the drawings are {spare:.0f} mm wider than the sheet",
+                    spare=-spare,
+                ),
+                message("a larger kL"),
+                message("leave [sheet] scale out, or give a larger number"),
             )
         )
 

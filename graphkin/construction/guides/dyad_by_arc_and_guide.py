@@ -17,6 +17,7 @@ from graphkin.drawing.symbol_markup import symbol
 from graphkin.numbers.arithmetic import Point
 from graphkin.numbers.plane import Circle, Line, cross, line_circle_sine, line_meets_circle
 from graphkin.scene.link_points import lettered
+from graphkin.text.errors import Message, message
 
 
 def line_reached(line: Line, circle: Circle, *_: Any) -> tuple[Any, Any]:
@@ -41,8 +42,8 @@ class DyadByArcAndGuide(Determined, frozen=True, kw_only=True):
 
     gives: ClassVar[tuple[str, ...]] = ("pin",)
     reasons: ClassVar[Mapping[str, str]] = {"pin": "why.arc"}
-    loci: ClassVar[str] = "the arc and the guide"
-    apart: ClassVar[str] = "the arc misses the guide"
+    loci: ClassVar[Message] = message("the arc and the guide")
+    apart: ClassVar[Message] = message("the arc misses the guide")
     has_mirror: ClassVar[bool] = True
     told_after: ClassVar[tuple[str, ...]] = ("path", "arc")
     between: ClassVar[tuple[str, ...]] = ("centre", "name")
@@ -72,14 +73,17 @@ class DyadByArcAndGuide(Determined, frozen=True, kw_only=True):
         return {"name": symbol(self.name), "p": symbol(self.centre), "side": side}
 
     @property
-    def reaching(self) -> str:
+    def reaching(self) -> Message:
         """The expected bar, long enough to reach its guide."""
-        return f"a bar {self.centre}{self.name} that reaches its guide"
+        return message("a bar {bar} that reaches its guide", bar=f"{self.centre}{self.name}")
 
-    def in_line(self, steps: Sequence[Step], nearly: str) -> str:
+    def in_line(self, steps: Sequence[Step], *, nearly: bool) -> Message:
         """The bar and the guide."""
-        guide = lies_along(steps[self.path]) or "its guide"
-        return f"{self.centre}{self.name} is {nearly}square to {guide}"
+        return message(
+            "{bar} is nearly square to {guide}" if nearly else "{bar} is square to {guide}",
+            bar=f"{self.centre}{self.name}",
+            guide=lies_along(steps[self.path]) or message("its guide"),
+        )
 
     def at_end(self, steps: Sequence[Step], loci: Sequence[Any]) -> tuple[str, str] | None:
         """The pin, and the bar perpendicular to the guide at the end of its range."""

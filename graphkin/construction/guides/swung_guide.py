@@ -33,7 +33,7 @@ from graphkin.numbers.arithmetic import Point, Real, at, pick, sqrt
 from graphkin.scene.link_points import lettered
 from graphkin.structure.groups import Dyad, OnTwoPins
 from graphkin.structure.pairs import Pin, Sliding
-from graphkin.text.errors import Problem, Sought
+from graphkin.text.errors import Message, Problem, Sought, message
 
 # --- values --------------------------------------------------------------------------------------
 
@@ -162,18 +162,24 @@ class GuideThroughPins(SwungGuide, frozen=True, kw_only=True):
         """The sentence that joins the pins."""
         return drawing.words(self.key, **self.fields()) if role == "turn" else ""
 
-    def in_line(self, steps: Sequence[Step], nearly: str) -> str:
+    def in_line(self, steps: Sequence[Step], *, nearly: bool) -> Message:
         """The words for coincident pins."""
-        return f"{self.pin} {nearly}falls on {self.pivot}"
+        return message(
+            "{pin} nearly falls on {pivot}" if nearly else "{pin} falls on {pivot}",
+            pin=self.pin,
+            pivot=self.pivot,
+        )
 
     def undetermined(self, args: Sequence[Any]) -> Problem:
         """The problem of a pin that coincides with the pivot."""
         p, q = self.pivot, self.pin
         return Problem(
-            f"position of link {self.link}",
-            f"{q} falls on {p}, so that the guide through both may have any direction",
-            f"{q} and {p} apart",
-            f"move the driver, or give the guide an offset from {p}",
+            message("position of link {link}", link=self.link),
+            message(
+                "{q} falls on {p}, so that the guide through both may have any direction", q=q, p=p
+            ),
+            message("{p} and {q} apart", p=q, q=p),
+            message("move the driver, or give the guide an offset from {p}", p=p),
             about=(Sought((self.link,)),),
         )
 
@@ -235,13 +241,23 @@ class TangentGuide(SwungGuide, frozen=True, kw_only=True):
         radius = drawn_amount(drawing, abs(float(drawing.trace.values[self.height])))
         return drawing.words("step.swing", radius=radius, **self.fields())
 
-    def in_line(self, steps: Sequence[Step], nearly: str) -> str:
+    def in_line(self, steps: Sequence[Step], *, nearly: bool) -> Message:
         """The line of the pins and the guide."""
-        return f"{self.pivot}{self.pin} is {nearly}square to the guide of {self.block}"
+        return message(
+            "{bar} is nearly square to the guide of {block}"
+            if nearly
+            else "{bar} is square to the guide of {block}",
+            bar=f"{self.pivot}{self.pin}",
+            block=self.block,
+        )
 
-    def failing(self) -> str:
+    def failing(self) -> Message:
         """The words for a pin within the circle that the guide touches."""
-        return f"{self.pin} stands nearer to {self.pivot} than the guide passes it"
+        return message(
+            "{pin} stands nearer to {pivot} than the guide passes it",
+            pin=self.pin,
+            pivot=self.pivot,
+        )
 
 
 # --- drawing -------------------------------------------------------------------------------------

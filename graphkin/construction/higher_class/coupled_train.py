@@ -34,7 +34,7 @@ from graphkin.scene.link_points import under
 from graphkin.structure.groups import CoupledTrain, Higher
 from graphkin.structure.joints import partner
 from graphkin.structure.pairs import Contact, SlippingName
-from graphkin.text.errors import Problem, Sought
+from graphkin.text.errors import Problem, Sought, message
 
 FREE = 1e-12
 """Ratios that differ by less than this leave the tried link free."""
@@ -69,10 +69,14 @@ class SettledTurn(Determined, frozen=True, kw_only=True):
     def undetermined(self, args: Sequence[Any]) -> Problem:
         """The problem of wheel ratios that cancel."""
         return Problem(
-            f"position of link {self.link}",
-            f"the wheels of links {', '.join(self.wheels)} let link {self.link} turn as it likes",
-            "ratios of the wheels that do not cancel",
-            "change a wheel, or drive one link more",
+            message("position of link {link}", link=self.link),
+            message(
+                "the wheels of links {wheels} let link {link} turn as it likes",
+                wheels=", ".join(self.wheels),
+                link=self.link,
+            ),
+            message("ratios of the wheels that do not cancel"),
+            message("change a wheel, or drive one link more"),
             about=(Sought((self.link,)),),
         )
 

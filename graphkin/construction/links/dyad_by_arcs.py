@@ -19,7 +19,7 @@ from graphkin.numbers.arithmetic import Point, Real, pick
 from graphkin.numbers.plane import Circle, circle_meets_circle, circles_sine
 from graphkin.scene.link_points import lettered
 from graphkin.scene.model import Side, Triangle
-from graphkin.text.errors import Problem, Sought
+from graphkin.text.errors import Message, Problem, Sought, message
 
 
 @action("compass", move=Move(COMPASS, one_and_length))
@@ -106,8 +106,8 @@ class DyadByArcs(Determined, frozen=True, kw_only=True):
 
     gives: ClassVar[tuple[str, ...]] = ("pin",)
     reasons: ClassVar[Mapping[str, str]] = {"pin": "why.arcs"}
-    loci: ClassVar[str] = "the arcs"
-    apart: ClassVar[str] = "the arcs miss each other"
+    loci: ClassVar[Message] = message("the arcs")
+    apart: ClassVar[Message] = message("the arcs miss each other")
     has_mirror: ClassVar[bool] = True
     told_after: ClassVar[tuple[str, ...]] = ("near", "far")
     between: ClassVar[tuple[str, ...]] = ("left", "right", "name")
@@ -137,13 +137,18 @@ class DyadByArcs(Determined, frozen=True, kw_only=True):
         return {"name": symbol(self.name), "side": side}
 
     @property
-    def reaching(self) -> str:
+    def reaching(self) -> Message:
         """The expected bars, whose ends can meet."""
-        return f"bars {self.left}{self.name} and {self.right}{self.name} that can meet"
+        bars = {"one": f"{self.left}{self.name}", "other": f"{self.right}{self.name}"}
+        return message("bars {one} and {other} that can meet", **bars)
 
-    def in_line(self, steps: Sequence[Step], nearly: str) -> str:
+    def in_line(self, steps: Sequence[Step], *, nearly: bool) -> Message:
         """The words for two bars in line."""
-        return f"{self.left}{self.name} and {self.right}{self.name} are {nearly}in line"
+        return message(
+            "{one} and {other} are nearly in line" if nearly else "{one} and {other} are in line",
+            one=f"{self.left}{self.name}",
+            other=f"{self.right}{self.name}",
+        )
 
     def undetermined(self, args: Sequence[Any]) -> Problem | None:
         """The problem of two equal bars whose outer pins coincide, so that the pin is open."""
@@ -153,12 +158,21 @@ class DyadByArcs(Determined, frozen=True, kw_only=True):
         if not (apart[0] < least and apart[1] < least):
             return None
         p, q, pin = self.left, self.right, self.name
-        anywhere = f"{pin} may stand anywhere about it"
         return Problem(
-            f"position of {pin}",
-            f"{p} falls on {q}, and {p}{pin} is as long as {q}{pin}: {anywhere}",
-            f"{p} and {q} apart",
-            f"at a change point move the driver, elsewhere take another side of {p} or {q}",
+            message("position of {name}", name=pin),
+            message(
+                "{p} falls on {q}, and {p}{pin} is as long as {q}{pin}: {pin} may stand anywhere "
+                "about it",
+                p=p,
+                q=q,
+                pin=pin,
+            ),
+            message("{p} and {q} apart", p=p, q=q),
+            message(
+                "at a change point move the driver, elsewhere take another side of {p} or {q}",
+                p=p,
+                q=q,
+            ),
             about=(Sought((pin,)),),
         )
 

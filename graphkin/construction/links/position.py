@@ -22,7 +22,7 @@ from graphkin.scene.model import Apart, Link, Scene
 from graphkin.structure.groups import Crank, Driven, Dyad, Group, OnTwoPins, Tie
 from graphkin.structure.link_axes import body
 from graphkin.structure.pairs import Joint, Pin, Sliding
-from graphkin.text.errors import Problem, StructureError
+from graphkin.text.errors import NO_WORDS, Message, Problem, StructureError, message
 
 FITS = 1e-6
 """Misfit of an idle link, as a fraction of its length, that printed lengths may cause."""
@@ -164,17 +164,20 @@ def refuse_misfit(pen: Pen, group: Tie) -> None:
     place = pen.peek(pen.the("position", p))
     if isinstance(group.second, Sliding):
         found = beside_guide(pen, group.second, link, p)
-        expected = "a guide through it: the link is idle, the rest moves without it"
+        expected = message("a guide through it: the link is idle, the rest moves without it")
     else:
         q = group.second.point
         end, length = pen.peek(pen.the("position", q)), pen.peek(bar_length(pen, link, p, q))
         if None in (place, end, length) or abs(abs(end - place) - length) <= FITS * length:
             return
-        found = (
-            f"{p} and {q} stand {1e3 * abs(end - place):.6g} mm apart without it, but it is "
-            f"{1e3 * length:.6g} mm long"
+        found = message(
+            "{p} and {q} stand {value:.6g} mm apart without it, but it is {length:.6g} mm long",
+            p=p,
+            q=q,
+            value=1e3 * abs(end - place),
+            length=1e3 * length,
         )
-        expected = "a length that fits: the link is idle, the rest moves without it"
+        expected = message("a length that fits: the link is idle, the rest moves without it")
     if not found:
         return
     raise StructureError(
@@ -182,24 +185,28 @@ def refuse_misfit(pen: Pen, group: Tie) -> None:
             f"links.{link}",
             found,
             expected,
-            "another closure may fit, and graphkin check lists them; or take a driver away, if the "
-            "link is to move the rest",
+            message(
+                "another closure may fit, and graphkin check lists them; or take a driver "
+                "away, if the link is to move the rest"
+            ),
         )
     )
 
 
-def beside_guide(pen: Pen, pair: Sliding, link: str, point: str) -> str:
+def beside_guide(pen: Pen, pair: Sliding, link: str, point: str) -> Message:
     """The words for an idle block's pin that is off its guide; empty within printed accuracy."""
     from graphkin.construction.guides.swung_guide import breadth_about
 
     at = pen.the("position", point)
     line, place = pen.peek(path_of(pen, pair, link, point)), pen.peek(at)
     if line is None or place is None:
-        return ""
+        return NO_WORDS
     away = abs(cross(line.along, place - line.point)) / abs(line.along)
     if away <= FITS * breadth_about(pen, at):
-        return ""
-    return f"{point} stands {1e3 * away:.6g} mm beside its guide without it"
+        return NO_WORDS
+    return message(
+        "{point} stands {away:.6g} mm beside its guide without it", point=point, away=1e3 * away
+    )
 
 
 class IdleBar(Struct, frozen=True):

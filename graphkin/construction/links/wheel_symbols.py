@@ -23,7 +23,7 @@ from graphkin.numbers.arithmetic import Real, at, larger, phase, pick, smaller, 
 from graphkin.numbers.plane import cross, dot
 from graphkin.scene.known_names import place_of
 from graphkin.scene.model import FRAME, Link, Profile, of_one_size
-from graphkin.text.errors import PageError, Problem
+from graphkin.text.errors import PageError, Problem, message
 
 RIM = 2.4
 """Width of a ring without teeth, in mm."""
@@ -319,9 +319,9 @@ def edges_of(link: Link, places: Mapping[str, complex]) -> Iterator[Edge]:
 def without_radius(edge: Edge) -> Problem:
     """The problem of a profile whose centre lies on it."""
     about, through = edge.profile.about, edge.profile.through
-    found = f"{about} and {through} stand at one place"
-    hint = "change the position, or leave the profile out"
-    return Problem(f"{place_of(edge.link)}.profiles", found, "an arc with a radius", hint)
+    found = message("{about} and {through} stand at one place", about=about, through=through)
+    hint = message("change the position, or leave the profile out")
+    return Problem(f"{place_of(edge.link)}.profiles", found, message("an arc with a radius"), hint)
 
 
 def edge_arc(drawing: Drawing, field: Field, edge: Edge) -> Arc | CircleMark:

@@ -44,7 +44,7 @@ from graphkin.scene.link_points import lettered
 from graphkin.scene.model import FRAME
 from graphkin.structure.groups import other_of
 from graphkin.structure.pairs import Joint, Pin, Sliding
-from graphkin.text.errors import Problem, StructureError
+from graphkin.text.errors import Problem, StructureError, message
 from graphkin.text.markup import AND
 
 # --- its value, and the steps by hand ------------------------------------------------------------
@@ -274,9 +274,11 @@ def refuse_unused(pen: Pen) -> None:
     if not used:
         problem = Problem(
             "sheet.method",
-            "no slider-crank for Klein's construction",
-            "a crank with a constant speed about a fixed pivot, and a rod from it to a block on a"
-            " fixed guide",
-            "leave method out for right triangles",
+            message("no slider-crank for Klein's construction"),
+            message(
+                "a crank with a constant speed about a fixed pivot, and a rod from it to a "
+                "block on a fixed guide"
+            ),
+            message("leave method out for right triangles"),
         )
         raise StructureError([problem])

@@ -42,7 +42,7 @@ from graphkin.numbers.plane import Line, dot
 from graphkin.scene.link_points import under
 from graphkin.scene.model import FRAME, Driver
 from graphkin.structure.pairs import Contact, contacts
-from graphkin.text.errors import Problem, StructureError
+from graphkin.text.errors import NO_WORDS, Message, Problem, StructureError, message
 from graphkin.text.markup import AND, NOTHING
 
 PLAN = "kutzbach"
@@ -377,18 +377,18 @@ class Ladder:
 
     # --- points ----------------------------------------------------------------------------------
 
-    def refusal(self) -> str:
+    def refusal(self) -> Message:
         """The reason why a scene has no such plan; empty where it has one."""
         if any(each not in self.meshes for each in contacts(self.scene)):
-            return "a belt, a rack or a rolling wheel belongs to it"
+            return message("a belt, a rack or a rolling wheel belongs to it")
         if not self.meshes:
-            return "no wheels touch"
+            return message("no wheels touch")
         if self.turner() is None:
-            return "no driver turns with a speed"
+            return message("no driver turns with a speed")
         for point in self.moving():
             if self.arm_of(point) is None:
-                return f"no arm about a fixed pin carries {point}"
-        return ""
+                return message("no arm about a fixed pin carries {point}", point=point)
+        return NO_WORDS
 
     def turner(self) -> Driver | None:
         """The first driver that turns a link at a speed other than zero."""
@@ -542,7 +542,12 @@ class Ladder:
         own = sorted(self.on[link], key=lambda each: each.at)
         if len(own) < 2 or own[-1].at - own[0].at == 0:
             raise StructureError(
-                problem(f"link {link} touches no wheel about a fixed centre, so that it has no ray")
+                problem(
+                    message(
+                        "link {link} touches no wheel about a fixed centre, so that it has no ray",
+                        link=link,
+                    )
+                )
             )
         ends = own[0].tip, own[-1].tip
         ray = self.pen.draw(ray_through, *ends, *(each.tip for each in own[1:-1]))
@@ -612,10 +617,12 @@ def foot_name(point: str) -> str:
     return f"{point}_x"
 
 
-def problem(found: str) -> Problem:
+def problem(found: Message) -> Problem:
     """The problem of a scene that has no such plan."""
-    expected = "wheels that touch, about fixed pins or on arms about these"
-    return Problem("sheet.plan", found, expected, "leave plan out for the velocity plan alone")
+    expected = message("wheels that touch, about fixed pins or on arms about these")
+    return Problem(
+        "sheet.plan", found, expected, message("leave plan out for the velocity plan alone")
+    )
 
 
 def draw_ladder(pen: Pen) -> None:

@@ -54,7 +54,7 @@ from graphkin.structure.groups import Geared, Train, other_of
 from graphkin.structure.joints import partner
 from graphkin.structure.pairs import Contact, Pin, Sliding
 from graphkin.structure.turn_counting import stated_rolling
-from graphkin.text.errors import Problem, StructureError
+from graphkin.text.errors import Problem, StructureError, message
 
 
 @action("rolled-on-track")
@@ -475,13 +475,17 @@ def refuse_idle_turns(pen: Pen) -> None:
     for link, rolling in stated_rolling(pen.scene).items():
         if link in counted:
             continue
-        found = f"no wheel depends on how often link {link} went round"
+        found = message("no wheel depends on how often link {link} went round", link=link)
         if driven_from(pen, link) or turned_with(pen, link) is not None:
-            found = f"a driver gives the angle of link {link}, whole turns included"
+            found = message(
+                "a driver gives the angle of link {link}, whole turns included", link=link
+            )
         elif pen.has("turned", link):
-            found = f"link {link} rolls, which counts its whole turns"
-        expected = "links that only their pins turn, and that carry wheels"
-        problems.append(Problem(rolling.turns[link].place, found, expected, "leave it out"))
+            found = message("link {link} rolls, which counts its whole turns", link=link)
+        expected = message("links that only their pins turn, and that carry wheels")
+        problems.append(
+            Problem(rolling.turns[link].place, found, expected, message("leave it out"))
+        )
     if problems:
         raise StructureError(problems)
 

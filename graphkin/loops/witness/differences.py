@@ -29,7 +29,7 @@ from graphkin.loops.rigid_bodies import Complexes, Reals
 from graphkin.loops.rounding import Rounding
 from graphkin.numbers.plane import Ratio
 from graphkin.scene.model import FRAME, Scene
-from graphkin.text.errors import Problem, WitnessError
+from graphkin.text.errors import Problem, WitnessError, message
 
 
 class Sizes(Protocol):
@@ -334,8 +334,11 @@ def unwitnessed(quantity: MotionQuantity, name: str) -> WitnessError:
     return WitnessError(
         Problem(
             path_of(quantity, name),
-            "no independent route gives this quantity",
-            f"a route of {quantity.target} among the routes of the independent check",
+            message("no independent route gives this quantity"),
+            message(
+                "a route of {target} among the routes of the independent check",
+                target=quantity.target,
+            ),
         )
     )
 
@@ -398,7 +401,11 @@ def guide_of(solved: LoopSolution, block: str) -> int:
     found = solved.loops.guide_index(block)
     if found is None:
         raise WitnessError(
-            Problem(f"slides.{block}", "the vector loops know no guide of this block", "a guide")
+            Problem(
+                f"slides.{block}",
+                message("the vector loops know no guide of this block"),
+                message("a guide"),
+            )
         )
     return found
 

@@ -105,7 +105,7 @@ def test_what_a_mark_takes_the_place_of_is_counted_unless_it_is_the_same_number(
         (MOODLE, "Lab 9", "is no column"),
         (MOODLE.replace("0001", "a").replace("0002", "b"), None, "no column holds ids"),
         (CANVAS.replace("Section", "Lab 4"), "Lab", "several columns"),
-        (CANVAS + '"Twin",79,0002,x,A,,\n', None, "stands there twice"),
+        (CANVAS + '"Twin",79,0002,x,A,,\n', None, "is in the table twice"),
         ('id,"mark\n0001,\n', None, "never closed"),
         ("id,mark\n", None, "no row below"),
         *((MOODLE, name, "no points") for name in ("First name", "Surname", "ID number")),
@@ -186,7 +186,7 @@ def test_a_row_without_an_id_is_found_by_its_address(book):
     assert with_marks(book(text), OWN, "Grade", SIGNS, "id").absent == ("01004",)
     foreign = text.replace(",PAT", "77,PAT")
     assert with_marks(book(foreign), OWN, "Grade", SIGNS).absent == ("01004",)
-    with pytest.raises(GradebookError, match='"01004" stands there twice'):
+    with pytest.raises(GradebookError, match='"01004" is in the table twice'):
         with_marks(book(text + ",pat@example.org,\r\n"), OWN, "Grade", SIGNS)
 
 
@@ -405,7 +405,7 @@ def test_an_average_below_the_students_is_no_mark_of_anybody(saved, column):
     ("rows", "column", "words"),
     [
         (PACKED, "Lab 9", "is no column"),
-        ([PACKED[0], *[PACKED[1]] * 2], None, "stands there twice"),
+        ([PACKED[0], *[PACKED[1]] * 2], None, "is in the table twice"),
         ([PACKED[0], ("A", "B", "7", "-", None)], None, "no column holds ids"),
     ],
 )
