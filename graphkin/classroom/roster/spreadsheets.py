@@ -468,6 +468,8 @@ LARGEST_UNPACKED, MOST_ELEMENTS = 64 * 1024 * 1024, 1_000_000
 A cell with a number has two elements.
 """
 BLOCK = 1 << 20
+MACROS = "xl/vbaProject.bin"
+"""The part of a workbook with its macros."""
 PADDED = re.compile(r"0+")
 """A number format that shows leading zeros: 0000."""
 
@@ -502,10 +504,11 @@ def full_rows(sheet: Any, name: str) -> Iterator[tuple[int, Sequence[Any]]]:
 
 
 @contextmanager
-def opened(data: bytes, name: str, *, data_only: bool) -> Iterator[Any]:
-    """The workbook, opened for reading row by row: its values, or the formulas that give them.
+def opened(data: bytes, name: str, *, data_only: bool, read_only: bool = True) -> Iterator[Any]:
+    """The workbook: its values, or the formulas that give them.
 
-    Raises RosterError if openpyxl is missing or the file is not a workbook.
+    It is opened for reading row by row, or whole with macros and the fonts within cells. Raises
+    RosterError if openpyxl is missing or the file is not a workbook.
     """
     try:
         from openpyxl import load_workbook
@@ -518,9 +521,14 @@ def opened(data: bytes, name: str, *, data_only: bool) -> Iterator[Any]:
         with catch_warnings():  # openpyxl warns of parts it skips, which are not written either
             simplefilter("ignore")
             book = load_workbook(
-                io.BytesIO(data), read_only=True, data_only=data_only, keep_links=False
+                io.BytesIO(data),
+                read_only=read_only,
+                data_only=data_only,
+                keep_links=not read_only,
+                keep_vba=not read_only and MACROS in zipfile.ZipFile(io.BytesIO(data)).namelist(),
+                rich_text=not read_only,
             )
-            with closing(book):
+            with closing(book), closing(book.vba_archive or book):
                 yield book
     except GraphkinError:
         raise
