@@ -23,7 +23,7 @@ from graphkin.structure.wheel_groups import (
     TriedLink,
     other_of,
 )
-from graphkin.text.plain_table import listed
+from graphkin.text.tables import listed
 
 Joined = tuple[str, str]
 

@@ -19,7 +19,7 @@ from graphkin.scene.model import FRAME, Driver, Scene, link_words, of_one_size
 from graphkin.structure.joints import Joints, partner
 from graphkin.structure.pairs import Contact, ContactName, Joint, Leading, Pin, Sliding
 from graphkin.structure.turning import LEVEL
-from graphkin.text.plain_table import listed
+from graphkin.text.tables import listed
 
 
 class OneLink(Struct, frozen=True):

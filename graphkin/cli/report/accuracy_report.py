@@ -13,7 +13,7 @@ from graphkin.accuracy.study import Flattening, Study, machine_words
 from graphkin.construction.core.timing import Timing
 from graphkin.numbers.kinds import GUARD
 from graphkin.scene.quantity import LENGTHS
-from graphkin.text.plain_table import table
+from graphkin.text.tables import table
 
 HEADS = (
     "method",

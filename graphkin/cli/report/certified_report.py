@@ -42,7 +42,7 @@ from graphkin.numbers.kinds import ball_kind, sound_ball
 from graphkin.numbers.plane import Ratio
 from graphkin.scene.link_points import ends_of
 from graphkin.scene.model import Scene
-from graphkin.text.plain_table import table
+from graphkin.text.tables import table
 
 FAR = "at infinity, or too far to tell: not decided"
 NOWHERE = "none: at infinity, or the link is at rest"

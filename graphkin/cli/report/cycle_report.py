@@ -20,7 +20,7 @@ from graphkin.numbers.arithmetic import np
 from graphkin.numbers.plane import Ratio
 from graphkin.scene.model import Closure
 from graphkin.scene.quantity import SI
-from graphkin.text.plain_table import labelled, listed
+from graphkin.text.tables import labelled, listed
 
 if TYPE_CHECKING:
     from graphkin.motion.cycle import Cycle
