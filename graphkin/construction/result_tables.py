@@ -16,7 +16,7 @@ from graphkin.drawing.marks import Mark, Text
 from graphkin.drawing.richtext import flowed
 from graphkin.drawing.symbol_markup import escape, symbol
 from graphkin.numbers.plane import Vector
-from graphkin.text.tables import Row, Table
+from graphkin.text.tables import CellTable, Row
 
 WIDTHS = {"vectors": (13.5, 13.5, 13, 16), "turns": (13, 14, 33), "slides": (12.5, 12, 31.5)}
 """Widths of the columns of each table on paper, in mm."""
@@ -155,7 +155,7 @@ def tables_on_sheets(
     return [*sheets, [*last, *note]]
 
 
-def result_tables(drawing: Drawing, *, empty: bool) -> list[Table]:
+def result_tables(drawing: Drawing, *, empty: bool) -> list[CellTable]:
     """The tables of a sheet that have rows: vectors, turning of links, sliding of blocks."""
     words = drawing.words
     symbol_head, sense_head = words("table.symbol"), words("table.sense")
@@ -166,7 +166,7 @@ def result_tables(drawing: Drawing, *, empty: bool) -> list[Table]:
         ((symbol_head, turning, sense_head), turning_rows, "turns"),
         ((symbol_head, unit, sense_head), slide_rows, "slides"),
     )
-    found = (Table(heads, rows(drawing, empty=empty), kind=kind) for heads, rows, kind in every)
+    found = (CellTable(heads, rows(drawing, empty=empty), kind=kind) for heads, rows, kind in every)
     return [table for table in found if table.rows]
 
 

@@ -21,7 +21,7 @@ from graphkin.drawing.symbol_markup import symbol
 from graphkin.numbers.plane import Ratio
 from graphkin.scene.model import Scene
 from graphkin.text import Words
-from graphkin.text.tables import NOISE, Row, Table
+from graphkin.text.tables import NOISE, CellTable, Row
 from graphkin.writers.templates import from_template, tables_html
 
 FLATTEST = 6
@@ -51,7 +51,7 @@ def results(drawings: Sequence[Drawing], solution: Solution) -> str:
     return f"{said}{tables_html(found)}"
 
 
-def read_off(drawing: Drawing, solution: Solution) -> Iterator[Table]:
+def read_off(drawing: Drawing, solution: Solution) -> Iterator[CellTable]:
     """The tables of one sheet, with a dash for each value without a reliable digit."""
     words, lost = drawing.words, losses(drawing, solution)
     plan = words(f"sheet.{drawing.kind}")
@@ -87,7 +87,7 @@ def losses(drawing: Drawing, solution: Solution) -> Callable[[str], bool]:
     return lambda name: not sure.get(name, all(sure.values()))
 
 
-def places(scene: Scene, solution: Solution, words: Words) -> Iterator[Table]:
+def places(scene: Scene, solution: Solution, words: Words) -> Iterator[CellTable]:
     """The places of the centres and poles that are asked for, in the unit of the scene."""
     full, breadth, unit = with_blocks(scene, solution), breadth_of(solution), scene.units["length"]
     asked: list[tuple[str, Ratio | None]] = [
@@ -114,7 +114,7 @@ def places(scene: Scene, solution: Solution, words: Words) -> Iterator[Table]:
             cells = (words("calculation.everywhere"), "")
         rows.append(Row((symbol(name), *cells)))
     head = (words("table.symbol"), f"*x*, {unit}", f"*y*, {unit}")
-    yield Table(head, rows, words("studio.places"))
+    yield CellTable(head, rows, words("studio.places"))
 
 
 def margins(drawings: Sequence[Drawing]) -> str:
@@ -126,7 +126,7 @@ def margins(drawings: Sequence[Drawing]) -> str:
     head = tuple(map(words, keys))
     rows = [margin_row(crossing, words) for crossing in worst]
     looks = [{"class": look} if (look := look_of(crossing)) else {} for crossing in worst]
-    return str(tables_html([Table(head, rows, words("studio.margins"), marks=looks)]))
+    return str(tables_html([CellTable(head, rows, words("studio.margins"), marks=looks)]))
 
 
 def margin_row(crossing: Crossing, words: Words) -> Row:

@@ -24,7 +24,7 @@ class Row(Struct, frozen=True):
     name: str = ""
 
 
-class Table(Struct, frozen=True):
+class CellTable(Struct, frozen=True):
     """A table of cells in markup: its heads, its rows, and its caption.
 
     ``kind`` is the class of the table on a page. ``marks`` are the attributes of each row there; an

@@ -12,14 +12,14 @@ from graphkin.construction.core.quantities import names_asked
 from graphkin.construction.result_tables import result_tables, slide_sense
 from graphkin.documents.sheet import asked_words, members, plan_at
 from graphkin.scene.link_points import lettered
-from graphkin.text.tables import Table
+from graphkin.text.tables import CellTable
 from graphkin.writers.templates import marked_up
 
 SLIDES = {"velocity": "slide", "acceleration": "slide acceleration"}
 """The quantity asked for of a block on each sheet."""
 
 
-def results(drawing: Drawing, found: Mapping[str, int]) -> Iterator[Table]:
+def results(drawing: Drawing, found: Mapping[str, int]) -> Iterator[CellTable]:
     """The tables of a sheet; ``found`` says at which step of the page each row is known."""
     asked = asked_rows(drawing)
     names = {f"slide {block}": name for name, block in blocks_asked(drawing).items()}

@@ -9,7 +9,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from graphkin.drawing.richtext import TextPiece, pieces
-from graphkin.text.tables import Table
+from graphkin.text.tables import CellTable
 
 if TYPE_CHECKING:
     from jinja2 import Environment
@@ -43,7 +43,7 @@ def from_template(name: str, /, **values: object) -> Markup:
     return Markup(environment().get_template(name).render(values))
 
 
-def tables_html(tables: Iterable[Table]) -> Markup:
+def tables_html(tables: Iterable[CellTable]) -> Markup:
     """Tables as HTML, those without rows left out."""
     return from_template("writers/tables.html", tables=[each for each in tables if each.rows])
 

@@ -7,7 +7,7 @@ import re
 import pytest
 from jinja2 import UndefinedError
 
-from graphkin.text.tables import Row, Table
+from graphkin.text.tables import CellTable, Row
 from graphkin.writers.templates import HOUSE, environment, from_template, tables_html
 
 HOSTILE = "<script>alert(\"1\")</script> & 'two'"
@@ -27,7 +27,7 @@ def test_markup_of_the_sheets_becomes_tags_and_its_text_is_escaped():
 
 
 def test_a_filled_template_goes_into_another_as_it_is():
-    table = tables_html([Table(("*x*",), [Row(("1",))], HOSTILE)])
+    table = tables_html([CellTable(("*x*",), [Row(("1",))], HOSTILE)])
     assert ESCAPED in table and "<i>x</i>" in table
     assert environment().from_string("{{ table }}").render(table=table) == table
 

@@ -15,7 +15,7 @@ from graphkin.construction.registry import LIMITED
 from graphkin.drawing.richtext import plain
 from graphkin.drawing.scale import ratio
 from graphkin.text import Words, words
-from graphkin.text.tables import Row, Table, labelled, listed, table
+from graphkin.text.tables import CellTable, Row, labelled, listed, table
 
 SHOWN = 6
 """The most names listed for one limit."""
@@ -143,7 +143,7 @@ Spreads = Mapping[str, tuple[str, Sequence[float]]]
 """The unit and the values of each quantity whose spread is shown, by the key of its words."""
 
 
-def lines_of(table: Table) -> list[str]:
+def lines_of(table: CellTable) -> list[str]:
     """A table for a terminal; the line ``none`` if it has no rows."""
     return table.lines(plain) if table.rows else ["none"]
 
@@ -176,7 +176,7 @@ def fault_words(fault: Fault, words: Words, named: Callable[[str], str] = str) -
     return f"{what}: {value}{unit} {side} {bound}{unit}"
 
 
-def broken_table(outcome: LabTrial, words: Words, named: Callable[[str], str] = str) -> Table:
+def broken_table(outcome: LabTrial, words: Words, named: Callable[[str], str] = str) -> CellTable:
     """Each broken limit with its worst value, its count, and the students concerned."""
     found: dict[tuple[str, str], list[tuple[str, Fault]]] = {}
     for name, faults in outcome.faults():
@@ -189,7 +189,7 @@ def broken_table(outcome: LabTrial, words: Words, named: Callable[[str], str] = 
         said = fault_words(worst, words, named)
         rows.append(Row((said, str(len(broken)), some([name for name, _ in broken]))))
     heads = tuple(map(words, ("studio.limit_broken", "studio.times", "studio.whose")))
-    return Table(heads, rows, words("studio.unfair"))
+    return CellTable(heads, rows, words("studio.unfair"))
 
 
 def spreads_of(outcome: LabTrial) -> Spreads:
@@ -225,7 +225,7 @@ def spreads(
     return found
 
 
-def spread_table(found: Spreads, words: Words) -> Table:
+def spread_table(found: Spreads, words: Words) -> CellTable:
     """Minimum, median and maximum of quantities that make sheets hard or alike."""
     rows = [
         Row((words(key), *(f"{words.fixed(each, 1)}{unit}" for each in parts[::2])))
@@ -233,10 +233,10 @@ def spread_table(found: Spreads, words: Words) -> Table:
         if (parts := quantiles(values))
     ]
     keys = ("studio.on_sheets", "studio.least", "studio.half", "studio.most")
-    return Table(tuple(map(words, keys)), rows, words("studio.spread"))
+    return CellTable(tuple(map(words, keys)), rows, words("studio.spread"))
 
 
-def scale_table(outcome: LabTrial, words: Words) -> Table:
+def scale_table(outcome: LabTrial, words: Words) -> CellTable:
     """The scales of the sheets with their students, the most frequent first."""
     fairness = outcome.fairness
     found: dict[tuple[float, ...], list[str]] = {}
@@ -253,4 +253,4 @@ def scale_table(outcome: LabTrial, words: Words) -> Table:
         rest = sum(len(names) for _, names in many[SCALES:])
         rows.append(Row(("…", "…", "…", str(rest), "…")))
     whose = tuple(map(words, ("studio.times", "studio.whose")))
-    return Table((words("studio.scale"), "*m*", "*m′*", *whose), rows, words("studio.scales"))
+    return CellTable((words("studio.scale"), "*m*", "*m′*", *whose), rows, words("studio.scales"))
