@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-import csv
-import io
 from collections.abc import Iterator
 from math import isinf
 
@@ -13,7 +11,7 @@ from graphkin.accuracy.study import Flattening, Study, machine_words
 from graphkin.construction.core.timing import Timing
 from graphkin.numbers.kinds import GUARD
 from graphkin.scene.quantity import LENGTHS
-from graphkin.text.tables import table
+from graphkin.text.tables import csv_text, table
 
 HEADS = (
     "method",
@@ -36,27 +34,23 @@ HEADS = (
 
 def accuracy_table(study: Study) -> str:
     """A row for each method: errors, certified or not, time with quartiles, and conditions."""
-    out = io.StringIO()
-    writer = csv.writer(out, lineterminator="\n")
-    writer.writerow(HEADS)
     machine, reference = machine_words(), study.reference
-    for row in study.rows:
-        time = row.time
-        writer.writerow(
-            [
-                row.method,
-                row.family,
-                *("" if error is None else f"{error:.3g}" for error in row.errors),
-                "yes" if row.certified else "no",
-                *(("", "", "", "") if time is None else (*timed(time), time.rounds)),
-                row.variants,
-                len(reference.places.at),
-                f"{reference.radius:.2g}",
-                machine,
-                row.note,
-            ]
+    rows = [
+        (
+            row.method,
+            row.family,
+            *("" if error is None else f"{error:.3g}" for error in row.errors),
+            "yes" if row.certified else "no",
+            *(("",) * 4 if row.time is None else (*timed(row.time), row.time.rounds)),
+            row.variants,
+            len(reference.places.at),
+            f"{reference.radius:.2g}",
+            machine,
+            row.note,
         )
-    return out.getvalue()
+        for row in study.rows
+    ]
+    return csv_text([HEADS, *rows], "\n")
 
 
 def timed(time: Timing) -> list[str]:
