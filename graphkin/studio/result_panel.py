@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 from cmath import isnan
-from collections.abc import Callable, Iterable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from itertools import chain
 from math import degrees
+from typing import Any
 
 from msgspec.structs import replace
 
@@ -19,7 +20,9 @@ from graphkin.documents.centre_tables import breadth_of, place_of, with_blocks
 from graphkin.documents.flattest import crossings_on
 from graphkin.drawing.columns import Row
 from graphkin.drawing.symbol_markup import symbol
+from graphkin.mechanism import point_of
 from graphkin.numbers.plane import Ratio
+from graphkin.scene.link_points import lettered
 from graphkin.scene.model import Scene
 from graphkin.text import Words
 from graphkin.text.plain_table import NOISE
@@ -100,16 +103,14 @@ def told(rows: Iterable[Row], lost: Callable[[str], bool], heads: int) -> list[R
 def places(scene: Scene, solution: Solution, words: Words) -> Iterator[str]:
     """The places of the centres and poles that are asked for, in the unit of the scene."""
     full, breadth, unit = with_blocks(scene, solution), breadth_of(solution), scene.units["length"]
-    asked: list[tuple[str, Ratio | None]] = [
-        (
-            f"{quantity.letter}_{name}",
-            motion_value(full.links[name], quantity)
-            if name in full.links
-            else solution.centres.get(name),
-        )
-        for quantity in CENTRES
-        for name in names_asked(scene.ask, quantity)
-    ]
+    asked: list[tuple[str, Ratio | None]] = []
+    for quantity in CENTRES:
+        motions: Mapping[str, Any] = getattr(full, quantity.whose)
+        for name in names_asked(scene.ask, quantity):
+            own = point_of(scene, name) if quantity.whose == "points" else name
+            found = motion_value(motions[own], quantity) if own in motions else None
+            ratio = solution.centres.get(own, found)
+            asked.append((f"{quantity.letter}_{lettered(own)}", ratio))
     rows = []
     for name, ratio in asked:
         at = place_of(ratio, breadth)

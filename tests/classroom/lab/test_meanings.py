@@ -8,10 +8,9 @@ from collections.abc import Mapping
 import pytest
 
 from graphkin.classroom.lab.items import all_fields
-from graphkin.classroom.lab.new_lab import QUANTITY, fields_of, kinds, new_lab, slips
+from graphkin.classroom.lab.new_lab import fields_of, kinds, new_lab, slips
 from graphkin.classroom.lab.read_lab import read_lab
 from graphkin.classroom.lab.slip_names import NAMES
-from graphkin.construction.core.quantities import CENTRES, RATES, SHEETS, SLIDING, VECTORS
 from graphkin.mechanism import load
 from graphkin.text import words
 from tests.classroom.lab.singles import LABS, ROOT
@@ -33,11 +32,6 @@ def table(heads: tuple[str, str], rows: Mapping[str, str]) -> str:
 def test_the_page_of_classes_has_all_of_them(heads, rows):
     text = CLASSES.read_text(encoding="utf-8")
     assert table(heads, rows) in text, f"write this into CLASSES.md:\n{table(heads, rows)}"
-
-
-def test_every_quantity_of_a_form_has_a_meaning():
-    asked = [*VECTORS, *RATES, *CENTRES, *(SLIDING[sheet] for sheet in SHEETS)]
-    assert set(QUANTITY) == {each.target for each in asked}
 
 
 def test_every_slip_has_one():
