@@ -9,8 +9,8 @@ from typing import Any
 
 from msgspec.structs import replace
 
-from graphkin.construction.core.quantities import MotionQuantity
-from graphkin.construction.core.solution import UNKNOWN, LinkMotion, PointMotion, Solution
+from graphkin.construction.core.quantities import LinkMotion, MotionQuantity, PointMotion
+from graphkin.construction.core.solution import UNKNOWN, Solution
 from graphkin.numbers.arithmetic import at
 from graphkin.numbers.plane import Ratio
 from graphkin.scene.model import FRAME, Scene

@@ -345,7 +345,7 @@ def of_components(drawing: Drawing) -> list[Section]:
 
 
 def of_centres(drawing: Drawing) -> Iterator[Relation]:
-    """The places of instantaneous centres and acceleration poles.
+    """The places of instantaneous centres, acceleration poles and centres of curvature.
 
     They are in millimetres on paper from the first fixed pivot, as measured, and in the axes of the
     frame.
@@ -362,6 +362,8 @@ def of_centres(drawing: Drawing) -> Iterator[Relation]:
             said = drawing.words(f"calculation.{key}")
             yield Relation(symbol(step.name), result=said, equals=equals, blank=blank)
         else:
+            kind = construction(step)
+            yield from kind.equations(drawing, step.role) if kind is not None else ()
             yield replace(of_place(drawing, symbol(step.name), point), blank=blank)
 
 

@@ -486,6 +486,7 @@ class Ask(Struct, frozen=True):
     slides: LinkNames = ()
     pairs: LinkNames = ()
     inflection: LinkNames = ()
+    curvature: PointNames = ()
     curves: PointNames = ()
 
     @property

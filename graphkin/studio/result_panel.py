@@ -20,9 +20,8 @@ from graphkin.documents.centre_tables import breadth_of, place_of, with_blocks
 from graphkin.documents.flattest import crossings_on
 from graphkin.drawing.columns import Row
 from graphkin.drawing.symbol_markup import symbol
-from graphkin.mechanism import point_of
 from graphkin.numbers.plane import Ratio
-from graphkin.scene.link_points import lettered
+from graphkin.scene.link_points import lettered, point_of
 from graphkin.scene.model import Scene
 from graphkin.text import Words
 from graphkin.text.plain_table import NOISE

@@ -8,9 +8,15 @@ import numpy as np
 import pytest
 
 from graphkin.construction.core import quantities
-from graphkin.construction.core.quantities import ASKED, BY_TARGET, QUANTITIES, MotionQuantity
+from graphkin.construction.core.quantities import (
+    ASKED,
+    BY_TARGET,
+    QUANTITIES,
+    MotionQuantity,
+    PointMotion,
+)
 from graphkin.construction.core.run import run
-from graphkin.construction.core.solution import PointMotion, Solution, gathered
+from graphkin.construction.core.solution import Solution, gathered
 from graphkin.loops.witness import compare, differences
 from graphkin.loops.witness.differences import ROUTES
 from graphkin.mechanism import Mechanism

@@ -28,7 +28,8 @@ from graphkin.construction.core.quantities import (
     names_asked,
 )
 from graphkin.drawing.symbol_markup import escape, symbol
-from graphkin.mechanism import Mechanism, point_of
+from graphkin.mechanism import Mechanism
+from graphkin.scene.link_points import point_of
 from graphkin.scene.link_points import lettered
 
 GREEK = {"ν": "nu", "τ": "tau", "c": "cor"}

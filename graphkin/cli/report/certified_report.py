@@ -22,18 +22,14 @@ from graphkin.construction.core.quantities import (
     OF_SLIDES,
     QUANTITIES,
     Around,
+    PointMotion,
+    SlideMotion,
     Sort,
     Whose,
     motion_value,
 )
 from graphkin.construction.core.run import StepFailed
-from graphkin.construction.core.solution import (
-    PointMotion,
-    SlideMotion,
-    Solution,
-    Verdict,
-    gathered,
-)
+from graphkin.construction.core.solution import Solution, Verdict, gathered
 from graphkin.construction.higher_class.closure_solver import closer_of
 from graphkin.diagnosis.assembly_failure import not_found, why
 from graphkin.documents.centre_tables import motion_of_block, with_pole

@@ -16,19 +16,16 @@ from graphkin.construction.core.quantities import (
     RATES,
     SLIDING,
     Around,
+    LinkMotion,
     MotionQuantity,
+    PointMotion,
+    SlideMotion,
     Whose,
     motion_value,
     names_asked,
     points_asked,
 )
-from graphkin.construction.core.solution import (
-    LinkMotion,
-    PointMotion,
-    SlideMotion,
-    Solution,
-    Verdict,
-)
+from graphkin.construction.core.solution import Solution, Verdict
 from graphkin.documents.centre_tables import breadth_of, place_of, with_blocks
 from graphkin.numbers.arithmetic import FLOAT, Kind
 from graphkin.numbers.plane import Ratio

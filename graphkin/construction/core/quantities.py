@@ -14,6 +14,8 @@ from msgspec import Struct
 from msgspec.structs import replace
 
 from graphkin.construction.core.program import Plane, Target
+from graphkin.numbers.arithmetic import Point, Real
+from graphkin.numbers.plane import Ratio
 from graphkin.scene.model import Ask, Scene
 from graphkin.scene.quantity import Quantity
 from graphkin.text import Words
@@ -152,6 +154,14 @@ QUANTITIES = (
         ),
         circle=Around("inflection circle", "instant_centre", across=True),
     ),
+    replace(
+        centre(
+            *("curvature", "points", "curvature_centre", "acceleration", "Ω"),
+            *("centre of curvature", "curvature"),
+        ),
+        meaning=f"centre of curvature of the path of {OWNERS['points']}",
+        circle=Around("osculating circle", "position"),
+    ),
     centre("inflection centre", "links", "instant_centre", "velocity", "I", "", "inflection"),
     of_slide("slide", "position", "position", "s", "m"),
     of_slide("slide speed", "speed", "velocity", "v", "m/s"),
@@ -189,6 +199,45 @@ TURNING = OMEGA, EPSILON = tuple(each.target for each in RATES)
 RATE = {each.kind: each for each in RATES}
 SLIDING = {each.kind: each for each in OF_SLIDES if each.sort == "number"}
 """The quantity of points, of links and of blocks that belongs to each sheet."""
+
+
+# --- the values of a motion, by the attributes of these quantities --------------------------------
+
+
+class PointMotion(Struct, frozen=True):
+    """Position (m), velocity (m/s) and acceleration (m/s²) of a point; None where not asked.
+
+    ``curvature_centre`` is the centre of curvature of its path, at infinity where that is straight.
+    """
+
+    position: Point | None = None
+    velocity: Point | None = None
+    acceleration: Point | None = None
+    curvature_centre: Ratio | None = None
+
+
+class LinkMotion(Struct, frozen=True):
+    """Angular velocity (rad/s) and acceleration (rad/s²), counter-clockwise positive, and centres.
+
+    A centre is a Ratio, so that it may lie at infinity; None where it was not asked for. The
+    inflection circle has the segment from the instantaneous centre to inflection_pole as its
+    diameter.
+    """
+
+    omega: Real | None = None
+    epsilon: Real | None = None
+    instant_centre: Ratio | None = None
+    acceleration_pole: Ratio | None = None
+    inflection_pole: Ratio | None = None
+
+
+class SlideMotion(Struct, frozen=True):
+    """Coordinate (m), speed and acceleration of a block along its guide, and Coriolis vector."""
+
+    position: Real | None = None
+    speed: Real | None = None
+    acceleration: Real | None = None
+    coriolis: Point | None = None
 
 
 def motion_value(motion: Any, quantity: MotionQuantity) -> Any:
