@@ -63,7 +63,7 @@ PALETTE: Mapping[str, PaletteAction] = {
     )
 }
 """The actions of a page's palette, in its order."""
-SLIPPING: tuple[type[Component] | type[PathCentre], ...] = (*COMPONENTS, PathCentre)
+SLIPPING: tuple[type[Component] | type[PathCentre], ...] = (PathCentre, *COMPONENTS)
 """The kinds of constructions in which slips are made, each with its ``slips``."""
 CAUSES: tuple[type[Component] | TouchingEffect, ...] = (*COMPONENTS, *TOUCHING)
 """The classes that can say why an effect is in or out of a scene."""

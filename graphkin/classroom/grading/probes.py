@@ -15,8 +15,8 @@ from graphkin.construction.core.kind import PlanPole, construction
 from graphkin.construction.core.program import Plane, Target
 from graphkin.construction.core.quantities import BY_TARGET, VECTORS
 from graphkin.mechanism import Mechanism
-from graphkin.scene.link_points import point_of
 from graphkin.numbers.plane import Ratio
+from graphkin.scene.link_points import point_of
 from graphkin.text.errors import Problem, SceneError
 
 

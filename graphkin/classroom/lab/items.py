@@ -29,8 +29,7 @@ from graphkin.construction.core.quantities import (
 )
 from graphkin.drawing.symbol_markup import escape, symbol
 from graphkin.mechanism import Mechanism
-from graphkin.scene.link_points import point_of
-from graphkin.scene.link_points import lettered
+from graphkin.scene.link_points import lettered, point_of
 
 GREEK = {"ν": "nu", "τ": "tau", "c": "cor"}
 ARROW = "arrow"

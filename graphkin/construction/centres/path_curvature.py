@@ -24,7 +24,14 @@ from graphkin.construction.core.naming import drawn_amount, drawn_in, scale_of
 from graphkin.construction.core.palette import MECHANISM, Move, PaletteAction, Picked, Picks
 from graphkin.construction.core.pen import Pen, letter
 from graphkin.construction.core.program import Part, Plane
-from graphkin.construction.core.relation import Relation, answer, as_read, put_in, set_length
+from graphkin.construction.core.relation import (
+    Relation,
+    answer,
+    as_read,
+    divided,
+    put_in,
+    set_length,
+)
 from graphkin.construction.core.vocabulary import action, perpendicular_at, set_way
 from graphkin.drawing.symbol_markup import bar, symbol
 from graphkin.numbers.arithmetic import Point, Real
@@ -131,6 +138,7 @@ class CurvatureEdge(LineToCentre, frozen=True, kw_only=True):
             f"step.curvature-{role}",
             name=drawing.lettered(getattr(self, role)),
             set=set_length(drawing, known["v"]),
+            laid=divided(drawing, known["a"], drawing.scales.times("acceleration")),
             drawn=drawn_amount(drawing, component),
             **known,
         )
@@ -204,6 +212,10 @@ class PathCentre(Centre, frozen=True, kw_only=True):
 
     # --- its sentences and relations -------------------------------------------------------------
 
+    def said_before(self, drawing: Drawing, role: str) -> tuple[int, ...]:
+        """The perpendicular at the tip; the foot has the normal before it."""
+        return super().said_before(drawing, role)[-1:]
+
     def oddity(self, drawing: Drawing) -> str:
         """The special case: "rest" without a velocity, "straight" without a centre."""
         least = NOISE * (drawing.longest(Plane.VELOCITIES) or 1.0)
@@ -268,7 +280,6 @@ def draw_curvature(pen: Pen, point: str) -> None:
         found = pen.draw(curvature_centre, *ends, name=f"Ω_{p}", by_hand=crossing)
         circle = pen.arrow(osculating_circle, place, found, name=f"osculating {point}")
     edge = pen.make(CurvatureEdge(normal=normal, tip=tip, foot=foot, line=line))
-    steps = dict(zip(("place", "pole", "image", "second_pole", "second_image"), ends, strict=True))
     pen.make(
         PathCentre(
             name=f"Ω_{p}",
@@ -277,7 +288,11 @@ def draw_curvature(pen: Pen, point: str) -> None:
             crossing=crossing,
             found=found,
             circle=circle,
-            **steps,
+            place=place,
+            pole=o,
+            image=image,
+            second_pole=second_o,
+            second_image=second,
         )
     )
     pen.want("curvature", point, found)
