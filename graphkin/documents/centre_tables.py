@@ -161,7 +161,7 @@ def circles_table(records: Mapping[str, dict[str, Any]], quantity: MotionQuantit
     heads = list(quantity.circle.parts(0j, 0j))
     rows: list[list[Cell]] = []
     for name, circle in found.items():
-        cells: list[Cell] = ["at infinity", *[None] * (len(heads) - 1)]
+        cells: list[Cell] = [quantity.circle.missing, *[None] * (len(heads) - 1)]
         if circle is not None:
             cells = [circle[key] if key == "radius" else pair_words(circle[key]) for key in heads]
         rows.append([name, *cells])

@@ -363,6 +363,7 @@ def of_centres(drawing: Drawing, whose: Whose = "links") -> Iterator[Relation]:
         if point is None:
             everywhere = drawing.is_everywhere(value)
             key, equals = ("everywhere", "=") if everywhere else ("at_infinity", "")
+            key, equals = ("no_curvature", "") if whose == "points" else (key, equals)
             said = drawing.words(f"calculation.{key}")
             yield Relation(symbol(step.name), result=said, equals=equals, blank=blank)
         else:

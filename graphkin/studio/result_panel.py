@@ -13,7 +13,7 @@ from msgspec.structs import replace
 from graphkin.construction.core.crossings import Crossing
 from graphkin.construction.core.drawn_scene import METRES, Drawing
 from graphkin.construction.core.program import Part
-from graphkin.construction.core.quantities import CENTRES, motion_value, names_asked
+from graphkin.construction.core.quantities import CENTRES, Whose, motion_value, names_asked
 from graphkin.construction.core.solution import Solution, Verdict
 from graphkin.construction.result_tables import slide_rows, turning_rows, unread, vector_rows
 from graphkin.documents.centre_tables import breadth_of, place_of, with_blocks
@@ -102,16 +102,16 @@ def told(rows: Iterable[Row], lost: Callable[[str], bool], heads: int) -> list[R
 def places(scene: Scene, solution: Solution, words: Words) -> Iterator[str]:
     """The places of the centres and poles that are asked for, in the unit of the scene."""
     full, breadth, unit = with_blocks(scene, solution), breadth_of(solution), scene.units["length"]
-    asked: list[tuple[str, Ratio | None]] = []
+    asked: list[tuple[str, Ratio | None, Whose]] = []
     for quantity in CENTRES:
         motions: Mapping[str, Any] = getattr(full, quantity.whose)
         for name in names_asked(scene.ask, quantity):
             own = point_of(scene, name) if quantity.whose == "points" else name
             found = motion_value(motions[own], quantity) if own in motions else None
             ratio = solution.centres.get(own, found)
-            asked.append((f"{quantity.letter}_{lettered(own)}", ratio))
+            asked.append((f"{quantity.letter}_{lettered(own)}", ratio, quantity.whose))
     rows = []
-    for name, ratio in asked:
+    for name, ratio, whose in asked:
         at = place_of(ratio, breadth)
         cells: tuple[str, str] = (words("calculation.at_infinity"), "")
         if at is not None and isnan(at):
@@ -120,6 +120,8 @@ def places(scene: Scene, solution: Solution, words: Words) -> Iterator[str]:
             metre, least = METRES[unit], NOISE * breadth
             x, y = (0.0 if abs(part) < least else part / metre for part in (at.real, at.imag))
             cells = (words.significant(x, 5), words.significant(y, 5))
+        elif whose == "points":
+            cells = (words("calculation.no_curvature"), "")
         elif ratio is None or ratio.shift == 0:
             cells = (words("calculation.everywhere"), "")
         rows.append(Row((symbol(name), *cells)))

@@ -32,7 +32,7 @@ from graphkin.construction.core.relation import (
     put_in,
     set_length,
 )
-from graphkin.construction.core.vocabulary import action, perpendicular_at, set_way
+from graphkin.construction.core.vocabulary import action, perpendicular_at
 from graphkin.drawing.symbol_markup import bar, symbol
 from graphkin.numbers.arithmetic import Point, Real
 from graphkin.numbers.plane import Circle, Line, Ratio, cross, crossing_sine, dot
@@ -67,6 +67,12 @@ def curvature_centre(
     velocity = image - o
     turned = cross(velocity, second_image - second_o)
     return Ratio(point, 1j * velocity * dot(velocity, velocity), turned)
+
+
+@action("curvature-tip")
+def curvature_tip(normal: Line, o: Point, image: Point, seconds: Real) -> Point:
+    """The tip of the velocity set where the normal to the path has its point; none at rest."""
+    return normal.point + (image - o) * seconds
 
 
 @action("curvature-foot")
@@ -270,7 +276,7 @@ def draw_curvature(pen: Pen, point: str) -> None:
     with pen.on(Part.POLE, Plane.MECHANISM):
         with pen.hands_way():
             (normal,) = normals_at(pen, (point,), o)
-            tip = pen.draw(set_way, place, o, image, seconds, name=f"{p}_t")
+            tip = pen.draw(curvature_tip, normal.line, o, image, seconds, name=f"{p}_t")
             foot = pen.draw(
                 curvature_foot, place, normal.line, second_o, second, seconds, name=f"{p}_n"
             )

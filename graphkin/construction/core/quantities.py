@@ -42,12 +42,13 @@ class Around(Struct, frozen=True):
     """The circle reported with a centre, through the place ``start`` of the same motion.
 
     ``across`` says that the segment from that place to the centre found is its diameter, not its
-    radius.
+    radius. ``missing`` says what holds where there is no such circle.
     """
 
     words: str
     start: str
     across: bool = False
+    missing: str = "at infinity"
 
     def parts(self, start: Any, found: Any) -> dict[str, Any]:
         """Its centre (m) and radius (m), after the pole at the end of a diameter."""
@@ -160,7 +161,7 @@ QUANTITIES = (
             *("centre of curvature", "curvature"),
         ),
         meaning=f"centre of curvature of the path of {OWNERS['points']}",
-        circle=Around("osculating circle", "position"),
+        circle=Around("osculating circle", "position", missing="none: straight, or at rest"),
     ),
     centre("inflection centre", "links", "instant_centre", "velocity", "I", "", "inflection"),
     of_slide("slide", "position", "position", "s", "m"),
