@@ -13,14 +13,13 @@ from itertools import combinations
 
 import numpy as np
 
+from graphkin.classroom.grading.answer_numbers import read_answer
 from graphkin.classroom.grading.class_marking import graded_class
 from graphkin.classroom.grading.graded import Graded, Status
-from tests.classroom.grading import mistaken
+from tests.classroom.grading import hand, mistaken
 from tests.classroom.grading.mistaken import CAREFUL, CAUSES, LABS, NAMED, SLOPPY, Pencil
 from tests.classroom.grading.students import book_of
 from tests.classroom.grading.students import taker as student
-from graphkin.classroom.grading.answer_numbers import read_answer
-from tests.classroom.grading import hand
 
 STUDENTS = 24
 Way = tuple[str, ...]
@@ -69,9 +68,7 @@ def drawn(
 ) -> dict[str, str] | None:
     """What a student hands in; None where the drawing does not close."""
     try:
-        return mistaken.handed_in(
-            lab, hand.data(lab, number), sheet, rng, pencil, way, other=other
-        )
+        return mistaken.handed_in(lab, hand.data(lab, number), sheet, rng, pencil, way, other=other)
     except ValueError:
         return None
 
@@ -102,7 +99,7 @@ def pair_rows() -> Iterator[str]:
     """How often pairs of mistakes are both named."""
     for lab in LABS:
         named, count = 0, 0
-        for (one, first), (two, second) in combinations(CAUSES.items(), 2):
+        for first, second in combinations(CAUSES.values(), 2):
             found = a_class(lab, [(a, b) for a in first[:1] for b in second[:1]], 3, count=2)
             named += sum(is_named(*each) for each in found)
             count += len(found)

@@ -311,7 +311,8 @@ class Variants(Struct, frozen=True, dict=True):
         """The scale factors, in columns."""
         papers = [each.paper for each in self.standards]
         names = ("mechanism", "velocities", "accelerations")
-        return Paper(*(np.array([[getattr(p, name)] for p in papers]) for name in names))
+        columns: list[Any] = [np.array([[getattr(p, name)] for p in papers]) for name in names]
+        return Paper(*columns)
 
     @cached_property
     def units(self) -> Any:
@@ -361,7 +362,9 @@ class Variants(Struct, frozen=True, dict=True):
         """
         paper = self.paper
         if faster != 1.0:
-            by_crank = np.array([[float(bool(each.scales.of_crank))] for each in self.standards])
+            by_crank: Any = np.array(
+                [[float(bool(each.scales.of_crank))] for each in self.standards]
+            )
             ratio = faster**by_crank
             paper = Paper(paper.mechanism, paper.velocities * ratio, paper.accelerations * ratio**2)
         every = {**self.values, **found}
@@ -389,5 +392,3 @@ def plan_of(layout: FormLayout, place: int) -> int:
         return 0
     plane = probe.plane
     return 2 if plane is Plane.ACCELERATIONS else 1
-
-

@@ -9,9 +9,11 @@ from functools import cached_property, partial
 from msgspec import Struct, field
 from msgspec.structs import replace
 
+from graphkin.classroom.grading.class_look import look_at_class
 from graphkin.classroom.grading.class_standards import standards
 from graphkin.classroom.grading.copied_answers import copies, wrong_variants
 from graphkin.classroom.grading.decisions import by_student, settled, with_decisions
+from graphkin.classroom.grading.explanations import Explanation, Way, ways_of
 from graphkin.classroom.grading.graded import (
     WAITING,
     Answer,
@@ -21,7 +23,6 @@ from graphkin.classroom.grading.graded import (
     Result,
     Status,
 )
-from graphkin.classroom.grading.explanations import Explanation, Way, ways_of
 from graphkin.classroom.grading.marking import FirstLook, Marker, explained, unread_left_out
 from graphkin.classroom.grading.others_data import with_others_data
 from graphkin.classroom.grading.standard import Expectation, standard
@@ -143,6 +144,7 @@ def graded_class(
         raise GraphkinError(p for problems in refusals.found.values() for p in problems)
     graded = [each for each, _ in found]
     expected = shared(found)
+    look_at_class(graded, expected)
     twice = copies(graded, expected, book.ways, refusals.alone)
     copied = {who for each in twice for who in each.students}
     graded = with_others_data(book, graded, expected, copied, refusals.alone)

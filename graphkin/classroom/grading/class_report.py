@@ -80,7 +80,7 @@ def figure(height: float) -> tuple[Figure, Any]:
 
 
 def difficulty(graded: Sequence[Graded], words: Words) -> Figure:
-    """Draw the share of answers to each field that are right, followed, caused, wrong or missing."""
+    """Draw the share of answers to each field that are right, followed, caused, wrong or blank."""
     found: dict[str, list[EarnedMark]] = {}
     for each in graded:
         for mark in worth(each):
@@ -293,7 +293,9 @@ def another_lines(result: Result, words: Words) -> Iterator[str]:
             if cause.whose:
                 other = some([names.get(who, who) for who in cause.whose], words)
                 cost = points_words(cause.cost, words)
-                yield words("class.another_row", who=each.taker.student.called, other=other, cost=cost)
+                yield words(
+                    "class.another_row", who=each.taker.student.called, other=other, cost=cost
+                )
 
 
 def computed_lines(result: Result, words: Words) -> Iterator[str]:

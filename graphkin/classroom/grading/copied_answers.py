@@ -1,7 +1,7 @@
 """Evidence for the lecturer: answers that fit another student's data, or equal another's digits.
 
 Both are judged by how closely all the answers together agree with either key: as closely as one
-pencil explains, or to the last digit. A slip that runs through the whole drawing gives a further
+pencil explains, or to the last digit. A cause that runs through the whole drawing gives a further
 key of the student's own: an angle laid off clockwise may be another student's angle. The other
 students of the class matter only by their number.
 """
@@ -349,7 +349,7 @@ def copies(
 
 
 def sheet(graded: Graded, keys: Keys, variant: int) -> AnswerSheet:
-    """A student's answers as numbers, with the ways of working that need no slips."""
+    """A student's answers as numbers, with the ways of working that need no cause."""
     answers, digits = read_of(graded, keys)
     marks = {mark.item.field: mark for mark in graded.marks}
     wrong = np.array([marks[field].status is not Status.RIGHT for field in keys.fields])

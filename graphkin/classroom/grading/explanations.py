@@ -39,7 +39,7 @@ DIRECT = 0.15
 """How often a value is not computed from the length that was handed in."""
 SHARE = log(1 / 60)
 """How frequent each cause is, as a logarithm."""
-LIKELY = 4.0
+LIKELY = 5.0
 """The least odds, as a logarithm, at which a cause is named."""
 SENSES = -1.0
 """The same where nothing but senses is wrong, all of which the cause must reverse."""
@@ -146,9 +146,7 @@ class Sheets(Struct, frozen=True, dict=True):
     def view(self) -> View:
         """What the students have before them."""
         fields = self.variants.fields
-        whole = [
-            [not {".", ","} & {*each[field].text} for field in fields] for each in self.given
-        ]
+        whole = [[not {".", ","} & {*each[field].text} for field in fields] for each in self.given]
         return View(self.form, self.rows, self.answers, np.array(whole))
 
     @cached_property
@@ -167,9 +165,9 @@ class Sheets(Struct, frozen=True, dict=True):
         told = [each.tolerance for each in self.variants.standards]
         fields = self.variants.fields
         pencil, ruler = (
-            np.array(
-                [[getattr(t[f], part) if f in t else 0.0 for f in fields] for t in told]
-            )[self.rows]
+            np.array([[getattr(t[f], part) if f in t else 0.0 for f in fields] for t in told])[
+                self.rows
+            ]
             for part in ("pencil", "ruler")
         )
         return np.nan_to_num(pencil, posinf=1e12) / STRAIGHT, np.nan_to_num(ruler) / STRAIGHT
@@ -221,7 +219,8 @@ class Sheets(Struct, frozen=True, dict=True):
             if found is not None and change is not None:
                 told = self.variants.read(found, change.faster)
                 self.drawings[key] = told[self.rows], {**self.variants.values, **found}
-        return self.drawings[key]
+        known: tuple[Array, Mapping[int, Any]] | None = self.drawings[key]
+        return known
 
     @cached_property
     def drawings(self) -> dict[tuple[tuple[str, str], ...], Any]:
@@ -311,7 +310,9 @@ class Sheets(Struct, frozen=True, dict=True):
             ranked.add(each := Hypothesis((cause,)), self.judged(each))
         found = [self.chosen(i, ranked.of(i), honest[i]) for i in range(count)]
         for cause in self.causes:
-            own = [i for i, each in enumerate(found) if each is not None and each.causes == (cause,)]
+            own = [
+                i for i, each in enumerate(found) if each is not None and each.causes == (cause,)
+            ]
             more = [i for i in own if self.left(i, found[i]) > 1]
             pairs = (pair for pair in pairs_of(self.causes) if cause in pair.causes)
             self.explain_more(more, pairs, honest, found)
@@ -350,14 +351,12 @@ class Sheets(Struct, frozen=True, dict=True):
 
     def is_lost(self, i: int, found: Explanation | None) -> bool:
         """Whether so much of a sheet is not explained that all pairs of causes are tried."""
-        return self.left(i, found) > max(2.0, SPOILS * self.is_read[i].sum())
+        return bool(self.left(i, found) > max(2.0, SPOILS * self.is_read[i].sum()))
 
     def some(self, which: Sequence[int]) -> Sheets:
         """The sheets of some of the students."""
         own = list(which)
-        return Sheets(
-            self.form, self.rows[own], [self.given[i] for i in own], self.missed[own]
-        )
+        return Sheets(self.form, self.rows[own], [self.given[i] for i in own], self.missed[own])
 
     def chosen(
         self, i: int, tried: Sequence[tuple[Hypothesis, float]], honest: float
@@ -386,7 +385,7 @@ class Sheets(Struct, frozen=True, dict=True):
         return replace(found, fits=frozenset(told))
 
     def settled(self, i: int, hypothesis: Hypothesis, odds: float = 0.0) -> Explanation:
-        """What one student would write by a hypothesis, the likelier of two values in each field."""
+        """What a student would write by a hypothesis, the likelier of two values in each field."""
         part = self.some([i])
         told = part.shown(hypothesis)
         assert told is not None
@@ -396,7 +395,9 @@ class Sheets(Struct, frozen=True, dict=True):
             written = np.where(two > one, told.other, written)
         times = part.times(told.drawn, written)
         fields = self.variants.fields
-        values, scaled = (dict(zip(fields, each[0].tolist(), strict=True)) for each in (written, times))
+        values, scaled = (
+            dict(zip(fields, each[0].tolist(), strict=True)) for each in (written, times)
+        )
         return Explanation(hypothesis.causes, values, scaled, float(odds))
 
     def fits(self, i: int, by: Explanation) -> Array:
@@ -450,10 +451,9 @@ def pairs_of(causes: Sequence[Cause]) -> Iterator[Hypothesis]:
     for one, other in combinations(causes, 2):
         if one.name == other.name and one.reads is not None:
             continue
-        if one.change is not None and other.change is not None:
-            if one.change.and_then(other.change) is None:
-                continue
-        yield Hypothesis((one, other))
+        pair = Hypothesis((one, other))
+        if pair.change is not None:
+            yield pair
 
 
 def explanations(

@@ -207,9 +207,9 @@ def why(graded: Graded, mark: EarnedMark, words: Words) -> str:
     if mark.torn:
         return words("feedback.torn")
     if mark.item.what == "sense":
+        advice = [words("feedback.turning_advice")] if mark.item.quantity in TURNING else []
         parts = [words("feedback.wrong_sense")]
-        if mark.item.quantity in TURNING:
-            parts.append(words("feedback.turning_advice"))
+        parts += advice
     elif mark.status is Status.FOLLOWS:
         parts = []
     elif is_open(graded, mark):
@@ -348,7 +348,7 @@ def total(graded: Graded, words: Words) -> str:
 
 def notes(graded: Graded, words: Words) -> list[str]:
     """The notes on the whole form: its causes, a decision, held marks, points that wait."""
-    told = cause_words(graded, words)
+    told: list[str] = cause_words(graded, words)
     told += [decision_words(graded.decision, words)] if graded.decision is not None else []
     if not graded.is_marked:
         return [words("feedback.absent"), *told]

@@ -49,8 +49,8 @@ def marks_table(result: Result) -> bytes:
     """A row for each student in the order of the class: the points of each field, and why.
 
     ``of`` and ``percent`` refer to the points that are decided; ``pending`` are those that wait.
-    ``evidence`` names whose data the answers fit better, and who has the same values. ``causes`` explain
-    the sheet, and ``deducted`` is what they cost. ``decision``
+    ``evidence`` names whose data the answers fit better, and who has the same values. ``causes``
+    explain the sheet, and ``deducted`` is what they cost. ``decision``
     is the lecturer's on the whole form; those on fields follow the reasons.
 
     For a held student, points and percent are empty. The points of the fields stay, so that the

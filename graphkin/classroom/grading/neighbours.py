@@ -1,7 +1,7 @@
 """How far apart variants are: what right values of one variant earn on another's sheet.
 
 A neighbour's values are the exact key, or a careful drawing with its scatter. Only answers right by
-the key count. Follow-through and slips do not, since copied answers do not build on one another.
+the key count. Follow-through and causes do not, since copied answers do not build on one another.
 """
 
 from __future__ import annotations

@@ -74,9 +74,7 @@ def is_open(graded: Graded, copied: Collection[str]) -> bool:
     return len(read) > 2 and len(right) < 0.75 * len(read)
 
 
-def of_class(
-    graded: Sequence[Graded], expected: Sequence[Expectation]
-) -> list[OtherData]:
+def of_class(graded: Sequence[Graded], expected: Sequence[Expectation]) -> list[OtherData]:
     """The data of the class, each once with those who have them."""
     whose: dict[int, list[str]] = {}
     known: dict[int, Expectation] = {}
@@ -161,9 +159,7 @@ def nearest(
 ) -> list[OtherData]:
     """At most ``NEAREST`` data, the nearest to the answers by what no scale changes."""
     fields = [
-        item.field
-        for item in standard.items
-        if item.what == "value" and given[item.field].value
+        item.field for item in standard.items if item.what == "value" and given[item.field].value
     ]
     if len(others) <= NEAREST or not fields:
         return list(others[:NEAREST])

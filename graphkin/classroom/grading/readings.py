@@ -101,9 +101,7 @@ class FormFields(Struct, frozen=True, dict=True):
     @cached_property
     def formulas(self) -> Array:
         """The values of components, which may be computed without a length of the plan."""
-        return self.those(
-            lambda item: item.vector is not None and item.vector.sign in ("ν", "c")
-        )
+        return self.those(lambda item: item.vector is not None and item.vector.sign in ("ν", "c"))
 
 
 class View(Struct, frozen=True, dict=True):
@@ -127,7 +125,7 @@ class View(Struct, frozen=True, dict=True):
     def scales(self) -> tuple[Array, Array, Array]:
         """What a millimetre of the mechanism and of both plans is worth, in columns."""
         paper = self.form.variants.paper
-        every = (paper.mechanism, paper.velocities, paper.accelerations)
+        every: tuple[Any, ...] = (paper.mechanism, paper.velocities, paper.accelerations)
         kL, kv, ka = (each[self.rows] / 1000 for each in every)
         return kL, kv, ka
 
@@ -147,7 +145,7 @@ class View(Struct, frozen=True, dict=True):
         return np.where(near, 1.0, found)[:, None]
 
 
-def middling(logs: Array) -> Array:
+def middling(logs: Array) -> Any:
     """The median of each row, without NaN; 0 where there is none."""
     ordered = np.sort(logs, axis=1)
     count = np.isfinite(ordered).sum(axis=1)
@@ -206,22 +204,37 @@ def of_rulers(form: FormFields) -> Iterator[Cause]:
     """
     layout, read = form.variants.layout, form.lengths | form.computed | form.centres
     for ratio in (2.0, 0.5):
-        reads = scaled(read, lambda view, r=ratio: r, form.formulas)
+        reads = scaled(read, steady(ratio), form.formulas)
         yield reading("ruler_scale", f"{ratio:g}", reads)
         for power in (1, 2):
-            change = laid_anew(layout, lambda length, mm, r=ratio, p=power: r ** (p / 2))
+            change = laid_anew(layout, steadily(ratio ** (power / 2)))
             yield reading("ruler_scale", f"{ratio:g} laid {power}", reads, 0.5, change)
     for shift in (10.0, -10.0):
         for way, mask in (("all", read), ("plans", form.lengths | form.computed)):
             reads = shifted(form, mask, shift)
             yield reading("ruler_from_ten", f"{way} {shift:g}", reads)
-            change = laid_anew(layout, lambda length, mm, d=shift: 1 + d * mm / length)
+            change = laid_anew(layout, lengthened(shift))
             yield reading("ruler_from_ten", f"{way} {shift:g} laid", reads, 0.5, change)
     if form.centres.any():
         upwards = shifted(form, read, 10.0, upwards=True)
         yield reading("ruler_from_ten", "upwards", upwards)
-        change = laid_anew(layout, lambda length, mm: 1 + 10 * mm / length)
+        change = laid_anew(layout, lengthened(10.0))
         yield reading("ruler_from_ten", "upwards laid", upwards, 0.5, change)
+
+
+def steady(ratio: float) -> Callable[[View], Array]:
+    """The same factor for everybody."""
+    return lambda view: ratio
+
+
+def steadily(ratio: float) -> Callable[[Value, Value], Value]:
+    """The same factor for every length."""
+    return lambda length, mm: ratio
+
+
+def lengthened(shift: float) -> Callable[[Value, Value], Value]:
+    """The factor of a length that is too long by some millimetres."""
+    return lambda length, mm: 1 + shift * mm / length
 
 
 def shifted(form: FormFields, mask: Array, shift: float, *, upwards: bool = False) -> Reads:
@@ -258,9 +271,7 @@ def of_scales(form: FormFields) -> Iterator[Cause]:
     yield reading("scale_missing", "values", forgotten(form))
     if form.lengths.any():
         yield reading("scale_missing", "lengths", taken_in_full(form))
-        yield reading(
-            "drawn_in_full", "", scaled(form.lengths, lambda view: 1000 * view.own(0))
-        )
+        yield reading("drawn_in_full", "", scaled(form.lengths, lambda view: 1000 * view.own(0)))
         for plan in (1, 2):
             mask = form.lengths & (form.plans == plan)
             if mask.sum() >= FEW:
@@ -379,7 +390,8 @@ def of_ten(form: FormFields, *, whole: bool = False) -> Reads:
     With ``whole``, the answers have lost their decimal point: each by its own digits.
     """
     units = {item.unit for item in form.items if item.unit}
-    groups = [form.those(lambda item, u=unit: item.unit == u) for unit in sorted(units)]
+    every = np.array([item.unit for item in form.items])
+    groups = [every == unit for unit in sorted(units)]
     sized = ~(form.senses | form.centres)
 
     def reads(shown: Array, view: View, values: Mapping[int, Value]) -> Told:
@@ -467,9 +479,10 @@ def components_beside(form: FormFields) -> Iterator[tuple[int, int]]:
             continue
         other = replace(item.vector, sign=OTHER[item.vector.sign]).symbol
         for k, each in enumerate(items):
-            if k > i and each.what == item.what and each.vector is not None:
-                if each.vector.symbol == other:
-                    yield i, k
+            vector = each.vector
+            alike = k > i and each.what == item.what and vector is not None
+            if alike and vector is not None and vector.symbol == other:
+                yield i, k
 
 
 def exchanged(pairs: list[tuple[int, int]]) -> Reads:
@@ -498,7 +511,7 @@ def of_places(form: FormFields) -> Iterator[Cause]:
     if pairs:
         yield reading("axes_swapped", "", exchanged(pairs))
     for axis in "xy":
-        mask = form.those(lambda item, a=axis: item.what == "place" and item.axis == a)
+        mask = form.centres & np.array([item.axis == axis for item in form.items])
         if mask.any():
             yield reading("opposite", axis, free_factors(np.where(mask, -1.0, 1.0), mask))
 

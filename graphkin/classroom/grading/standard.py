@@ -344,9 +344,7 @@ class Standard(Struct, frozen=True, dict=True):
     def expectation(self) -> Expectation:
         """The expected values, for reports."""
         together = self.pencil.together
-        return Expectation(
-            self.items, self.key, self.tolerance, together, self.cranks, self.paper
-        )
+        return Expectation(self.items, self.key, self.tolerance, together, self.cranks, self.paper)
 
     @property
     def cranks(self) -> Any:

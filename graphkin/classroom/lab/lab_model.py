@@ -103,9 +103,11 @@ class Rubric(Struct, frozen=True):
 
     ``follow`` is the share for what follows correctly from the student's own earlier values.
     ``causes`` has the share of all points that a cause costs by name, where the lab states one.
-    ``grades`` has the shares of slight, moderate and serious causes. ``point`` and ``line`` are the forgiven drawing
-    errors, in mm and degrees. ``ruler`` is the reading error, in mm. ``floor`` and ``cap`` are the
-    least and the largest tolerance, relative to the value.
+    ``grades`` has the shares of slight, moderate and serious causes.
+
+    ``point`` and ``line`` are the forgiven drawing errors, in mm and degrees. ``ruler`` is the
+    reading error, in mm. ``floor`` and ``cap`` are the least and the largest tolerance, relative to
+    the value.
 
     ``hold`` keeps back the marks of students whose answers seem to be another's, until the lecturer
     has decided.

@@ -6,6 +6,7 @@ import re
 from collections.abc import Iterator, Mapping
 from pathlib import Path
 
+from graphkin.classroom.lab.cause_names import GRADES, NAMES
 from graphkin.classroom.lab.fair_ranges import space_of
 from graphkin.classroom.lab.items import (
     all_fields,
@@ -19,7 +20,6 @@ from graphkin.classroom.lab.items import (
 )
 from graphkin.classroom.lab.lab_model import Item
 from graphkin.classroom.lab.proposed_ranges import COURSE, variants_lines
-from graphkin.classroom.lab.cause_names import GRADES, NAMES
 from graphkin.construction.core.plan_vector import PlanVector
 from graphkin.construction.core.quantities import CENTRES, RATES, SHEETS, TURNING, VECTORS
 from graphkin.drawing.richtext import plain as text_of

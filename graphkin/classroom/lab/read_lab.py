@@ -12,6 +12,8 @@ from typing import cast
 
 from msgspec.structs import replace
 
+from graphkin.classroom.lab.cause_names import NAMES as CAUSES
+from graphkin.classroom.lab.cause_names import SHARES
 from graphkin.classroom.lab.items import all_fields
 from graphkin.classroom.lab.lab_model import (
     NUMBER,
@@ -22,8 +24,6 @@ from graphkin.classroom.lab.lab_model import (
     Rubric,
     ValueList,
 )
-from graphkin.classroom.lab.cause_names import NAMES as CAUSES
-from graphkin.classroom.lab.cause_names import SHARES
 from graphkin.mechanism import Mechanism
 from graphkin.scene import scene_files
 from graphkin.scene.expression import UnreadableError

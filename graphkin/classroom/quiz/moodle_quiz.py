@@ -20,10 +20,10 @@ from msgspec import Struct
 
 from graphkin.classroom.form_page import KINDS, first_pivot
 from graphkin.classroom.grading.class_marking import Book
+from graphkin.classroom.grading.explanations import Way, ways_of
 from graphkin.classroom.grading.feedback import SENSES, how
 from graphkin.classroom.grading.graded import BLANK
 from graphkin.classroom.grading.marking import Marker, sense_is_open
-from graphkin.classroom.grading.explanations import Way, ways_of
 from graphkin.classroom.lab.lab_model import Item, Lab
 from graphkin.classroom.lab.lab_trial import students_of
 from graphkin.classroom.lab.rules import exact_text
@@ -65,8 +65,8 @@ class Gap(Struct, frozen=True):
 def gaps(marker: Marker, points: Mapping[str, Fraction], words: Words) -> tuple[Gap, ...]:
     """The gaps of a variant: its fields that earn points and have a value.
 
-    The value that a cause gives earns what the cause leaves of all points, since a gap knows nothing
-    of the others.
+    The value that a cause gives earns what the cause leaves of all points, since a gap knows
+    nothing of the others.
     """
     blank = dict.fromkeys(marker.standard.key, BLANK)
     ways = ways_of(marker.standard, blank, frozenset())

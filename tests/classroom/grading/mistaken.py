@@ -161,7 +161,10 @@ def answers_exchanged(found: dict[str, float], sheet: Sheet) -> dict[str, float]
         if one in found and two in found:
             names = (one, two), (one.replace("v", "a", 1), two.replace("v", "a", 1))
             if one.startswith("omega"):
-                names = ((one, two), (one.replace("omega", "epsilon"), two.replace("omega", "epsilon")))
+                names = (
+                    (one, two),
+                    (one.replace("omega", "epsilon"), two.replace("omega", "epsilon")),
+                )
             swap: dict[str, str] = {}
             for p, q in names:
                 for end in ("", "_mm", "_sense"):

@@ -62,5 +62,5 @@ def of_set(marker: Marker, task: Task, kind: str, found: Set, where: str) -> Ite
         mark = graded.mark(field)
         if task.points[field]:
             share = float(mark.earned / mark.points)
-            reason = f"{mark.status.value} {mark.source} {mark.slip}".strip()
+            reason = f"{mark.status.value} {mark.source} {mark.cause}".strip()
             yield Verdict(kind, f"{where} {field}", found.texts[field], earns, share, reason)

@@ -130,8 +130,10 @@ def test_kill_9_in_the_middle_and_the_next_run_ends_it(whole, make):
         journal = folder / "print" / JOURNAL
         two_students = 2  # a chunk: its lines come before its files, the next chunk's after them
         until(
-            lambda: process.poll()
-            or (journal.exists() and journal.read_bytes().count(b"\n") > two_students)
+            lambda: (
+                process.poll()
+                or (journal.exists() and journal.read_bytes().count(b"\n") > two_students)
+            )
         )
         assert process.poll() is None
         with pytest.raises(PageError, match=f"process {process.pid} on"):
