@@ -16,9 +16,11 @@ FEW = 6
 MOST = 0.6
 """The share of students, or of answers, from which a mistake is the table's."""
 OWN = 0.4
-"""The share of a column, or of a student's answers, below which these do not fit."""
-BETTER = 0.15
-"""By how much more of a student's answers another row fits better."""
+"""The share of a column's answers below which it does not fit."""
+NEARER = 2.5
+"""How many times nearer a student's answers must be to another row's data."""
+CENTRED = 0.008
+"""How near a power of ten the middle of a column is that lost its points, as a logarithm."""
 REACH = 5
 """The most rows by which a table is thought to be shifted."""
 
@@ -38,27 +40,27 @@ def look_at_class(graded: Sequence[Graded], expected: Sequence[Expectation]) -> 
         return
     columns(keys, answers, keys.sizes[variants], allowed[variants])
     tens(graded, present, keys, answers, keys.sizes[variants])
-    fits = share(answers, keys.sizes[variants], allowed[variants])
     if len(own) < 2:
         return
+    apart = away(answers, keys.sizes[variants], allowed[variants])
     every = np.array([mine[id(each)] for each in expected])
     for by in sorted({*range(-REACH, REACH + 1)} - {0}, key=abs):
         at = np.array(present) + by
-        inside = (at >= 0) & (at < len(every))
         rows = every[np.clip(at, 0, len(every) - 1)]
-        near = share(answers, keys.sizes[rows], allowed[rows])
-        better = (near > fits + BETTER) & (near > OWN) & inside & (rows != variants)
-        if better.mean() >= MOST:
+        inside = (at >= 0) & (at < len(every)) & (rows != variants)
+        near = away(answers, keys.sizes[rows], allowed[rows])
+        if ((near < apart / NEARER) & inside).mean() >= MOST:
             hint = "mend the order of the rows, or the column of ids"
             raise RosterError(
                 Problem("answers", "fit the data of other rows: they are shifted", "", hint)
             )
 
 
-def share(answers: Any, sizes: Any, allowed: Any) -> Any:
-    """The share of each student's answers that fit some sizes."""
-    read = ~np.isnan(answers)
-    return (abs(answers - sizes) <= allowed).sum(axis=1) / np.maximum(read.sum(axis=1), 1)
+def away(answers: Any, sizes: Any, allowed: Any) -> Any:
+    """The median distance of each student's answers from some sizes, in what is allowed."""
+    with np.errstate(all="ignore"):
+        far = np.where(np.isnan(answers), np.nan, abs(answers - sizes) / allowed)
+    return np.nanmedian(np.where(np.isfinite(far), far, 1e9), axis=1)
 
 
 def columns(keys: Keys, answers: Any, sizes: Any, allowed: Any) -> None:
@@ -87,12 +89,14 @@ def tens(
         whole = np.array([text.strip().isdigit() for text in texts])
         lost = whole & (abs(powers[:, place] - near[:, place]) < 0.03) & (near[:, place] >= 1)
         told = ~np.isnan(answers[:, place])
+        if not lost.any() or abs(np.median((powers - near)[lost, place])) > CENTRED:
+            continue
         varied = len(set(near[lost, place])) > 1 or not any("." in t or "," in t for t in texts)
-        if told.sum() >= FEW and lost.sum() > MOST * told.sum() and varied:
-            if not others_whole(graded, present, keys, field):
-                hint = "export the column as text, or with a decimal point"
-                found = "the answers lack their decimal points"
-                raise RosterError(Problem(f'column "{field}"', found, "", hint))
+        most = told.sum() >= FEW and lost.sum() > MOST * told.sum() and varied
+        if most and not others_whole(graded, present, keys, field):
+            hint = "export the column as text, or with a decimal point"
+            found = "the answers lack their decimal points"
+            raise RosterError(Problem(f'column "{field}"', found, "", hint))
 
 
 def others_whole(graded: Sequence[Graded], present: Sequence[int], keys: Keys, field: str) -> bool:

@@ -13,7 +13,7 @@ from graphkin.classroom.grading.class_look import look_at_class
 from graphkin.classroom.grading.class_standards import standards
 from graphkin.classroom.grading.copied_answers import copies, wrong_variants
 from graphkin.classroom.grading.decisions import by_student, settled, with_decisions
-from graphkin.classroom.grading.explanations import Explanation, Way, ways_of
+from graphkin.classroom.grading.explanations import CauseWay, SheetCauses, ways_of
 from graphkin.classroom.grading.graded import (
     WAITING,
     Answer,
@@ -92,7 +92,7 @@ class Book(Struct, dict=True):
         """The marker for a student's variant."""
         return self.marker(taker.settings, taker.compute)
 
-    def ways(self, graded: Graded) -> tuple[Way, ...]:
+    def ways(self, graded: Graded) -> tuple[CauseWay, ...]:
         """The ways of working with a student's data and one cause, or those that were found."""
         marker = self.marker_of(graded.taker)
         first = marker.first_look({mark.item.field: mark.answer for mark in graded.marks})
@@ -200,7 +200,7 @@ def spread(book: Book, every: Sequence[tuple[Taker, Given | None]], jobs: int) -
     return found
 
 
-class Look(Struct, frozen=True):
+class SeenSheet(Struct, frozen=True):
     """A student's variant and answers, before they are marked; without a marker where that fails.
 
     ``problems`` are those of the variant or of the answers. With problems, all answers wait.
@@ -229,24 +229,24 @@ def mark_all(book: Book, every: Sequence[tuple[Taker, Given | None]]) -> list[Ma
     return found
 
 
-def look(book: Book, taker: Taker, answers: Given | None) -> Look:
+def look(book: Book, taker: Taker, answers: Given | None) -> SeenSheet:
     """A student's answers by the key; all of them wait where they cannot be marked."""
-    who, refusals, found = taker.student.id, Refusals(), Look()
+    who, refusals, found = taker.student.id, Refusals(), SeenSheet()
     waiting = dict.fromkeys((item.field for item in book.form), WAITING)
     for given in (answers or {}, waiting):
         with refusals.alone(who):
             marker = book.marker_of(taker)
-            found = Look(marker, marker.first_look(given))
+            found = SeenSheet(marker, marker.first_look(given))
             marker.standard.expectation  # noqa: B018 - whatever fails, fails here
         if found.first is not None:
             break
     return replace(found, problems=tuple(dict.fromkeys(refusals.found.get(who, ()))))
 
 
-def explained_all(looks: Sequence[Look]) -> list[Explanation | None]:
+def explained_all(looks: Sequence[SeenSheet]) -> list[SheetCauses | None]:
     """The explanations of some students; where some cannot be had together, each alone."""
     known = [(i, (e.marker, e.first)) for i, e in enumerate(looks) if e.marker and e.first]
-    found: list[Explanation | None] = [None] * len(looks)
+    found: list[SheetCauses | None] = [None] * len(looks)
     refusals = Refusals()
     with refusals.alone("together"):
         for (i, _), each in zip(known, explained([sheet for _, sheet in known]), strict=True):
@@ -257,7 +257,7 @@ def explained_all(looks: Sequence[Look]) -> list[Explanation | None]:
     return found
 
 
-def marked(taker: Taker, present: bool, seen: Look, why: Explanation | None) -> Marked:
+def marked(taker: Taker, present: bool, seen: SeenSheet, why: SheetCauses | None) -> Marked:
     """The marks of one student."""
     if seen.marker is None or seen.first is None:
         return Marked(problems=seen.problems)

@@ -18,7 +18,7 @@ from typing import Any
 from msgspec import Struct
 from msgspec.structs import replace
 
-from graphkin.classroom.grading.explanations import Way
+from graphkin.classroom.grading.explanations import CauseWay
 from graphkin.classroom.grading.graded import Graded, Status, Suspicion
 from graphkin.classroom.grading.keys import Keys, distinct, read_of
 from graphkin.classroom.grading.likelihood import (
@@ -83,7 +83,7 @@ def by_own_scales(answers: Any, keys: Keys, variant: int, read: Any) -> Iterator
         yield OwnWay(sizes * times, times, log(SHARE))
 
 
-def by_causes(ways: Iterable[Way], keys: Keys) -> Iterator[OwnWay]:
+def by_causes(ways: Iterable[CauseWay], keys: Keys) -> Iterator[OwnWay]:
     """The ways of some causes; the error of a value grows with the value that a cause makes."""
     for way in ways:
         told = np.array([way.values[field] for field in keys.fields])
@@ -113,7 +113,7 @@ TRIED = 3
 """The number of variants compared closely: those nearest to the answers taken singly."""
 
 
-Ways = Callable[[Graded], Sequence[Way]]
+Ways = Callable[[Graded], Sequence[CauseWay]]
 """The ways of working with a student's data and one cause, or the causes that were found."""
 
 
@@ -126,7 +126,7 @@ def together(unit: str) -> AbstractContextManager[None]:
     return nullcontext()
 
 
-def no_ways(graded: Graded) -> Sequence[Way]:
+def no_ways(graded: Graded) -> Sequence[CauseWay]:
     return ()
 
 
@@ -180,7 +180,7 @@ class Best(Struct, frozen=True):
 
 
 def best_other(
-    graded: Graded, keys: Keys, mine: int, enough: float, known: Sequence[Way] = ()
+    graded: Graded, keys: Keys, mine: int, enough: float, known: Sequence[CauseWay] = ()
 ) -> Best | None:
     """The other variant that a student's answers fit best; None where none fits clearly better.
 

@@ -23,7 +23,7 @@ from graphkin.classroom.grading.causes import Cause, Change, Variants
 from graphkin.classroom.grading.graded import Answer
 from graphkin.classroom.grading.likelihood import ASTRAY, HALF
 from graphkin.classroom.grading.readings import FormFields, View
-from graphkin.classroom.grading.standard import Standard
+from graphkin.classroom.grading.standard import Standard, sense_is_open
 from graphkin.numbers.arithmetic import np
 
 Array = Any
@@ -55,7 +55,7 @@ BEST = 12
 """The number of hypotheses of a student that are compared."""
 
 
-class Explanation(Struct, frozen=True):
+class SheetCauses(Struct, frozen=True):
     """The causes that explain a sheet, and what a student with these causes would have written.
 
     ``values`` are sizes, places and senses by field. ``times`` is how many times as large each
@@ -100,7 +100,7 @@ class Hypothesis(Struct, frozen=True):
         return whole
 
 
-class Shown(Struct, frozen=True):
+class Predicted(Struct, frozen=True):
     """What students would draw and write by a hypothesis.
 
     ``other`` holds values that are as likely to be ``written``, field by field; NaN for none.
@@ -111,7 +111,7 @@ class Shown(Struct, frozen=True):
     other: Array | None
 
 
-class Sheets(Struct, frozen=True, dict=True):
+class AnswerSheets(Struct, frozen=True, dict=True):
     """The answers of some students whose variants draw alike, as arrays.
 
     ``rows`` are the places of their variants. ``missed`` marks answers that are wrong by the key.
@@ -191,7 +191,7 @@ class Sheets(Struct, frozen=True, dict=True):
 
     # --- judging hypotheses -----------------------------------------------------------------------
 
-    def shown(self, hypothesis: Hypothesis) -> Shown | None:
+    def shown(self, hypothesis: Hypothesis) -> Predicted | None:
         """What the students would write by a hypothesis; None where it cannot be drawn."""
         told = self.drawn(hypothesis)
         if told is None:
@@ -207,7 +207,7 @@ class Sheets(Struct, frozen=True, dict=True):
                 elif free is not None:
                     other = free
                 predicted = changed
-        return Shown(drawn, predicted, other)
+        return Predicted(drawn, predicted, other)
 
     def drawn(self, hypothesis: Hypothesis) -> tuple[Array, Mapping[int, Any]] | None:
         """The fields as read rightly off the drawing of a hypothesis, and its values by step."""
@@ -237,7 +237,8 @@ class Sheets(Struct, frozen=True, dict=True):
             each = self.by_field(told.drawn, told.written, PENCILS[pencil])
             if told.other is not None:
                 also = self.by_field(told.drawn, told.other, PENCILS[pencil])
-                each = np.logaddexp(each, also) - HALF
+                with np.errstate(invalid="ignore"):
+                    each = np.logaddexp(each, also) - HALF
             whole = np.where(self.is_read, each, 0.0).sum(axis=1) + RARE_PENCILS[pencil]
             best = np.maximum(best, whole)
         return best + hypothesis.share
@@ -285,8 +286,6 @@ class Sheets(Struct, frozen=True, dict=True):
     @cached_property
     def open_senses(self) -> Array:
         """The senses that no drawing determines."""
-        from graphkin.classroom.grading.marking import sense_is_open
-
         items = self.form.items
         told = [
             [item.what == "sense" and sense_is_open(each, item.field) for item in items]
@@ -301,7 +300,7 @@ class Sheets(Struct, frozen=True, dict=True):
         """All causes, those of the construction first."""
         return self.form.causes
 
-    def explained(self) -> list[Explanation | None]:
+    def explained(self) -> list[SheetCauses | None]:
         """The explanation of each sheet; None where nothing is wrong, or nothing explains it."""
         count = len(self.rows)
         honest = self.judged(Hypothesis())
@@ -325,7 +324,7 @@ class Sheets(Struct, frozen=True, dict=True):
         which: Sequence[int],
         pairs: Iterable[Hypothesis],
         honest: Array,
-        found: list[Explanation | None],
+        found: list[SheetCauses | None],
     ) -> None:
         """Replace the explanations of some sheets by those of two causes that are likelier."""
         if not which:
@@ -343,24 +342,26 @@ class Sheets(Struct, frozen=True, dict=True):
             if each is not None and (single is None or each.odds > single.odds + SECOND):
                 found[i] = each
 
-    def left(self, i: int, found: Explanation | None) -> int:
+    def left(self, i: int, found: SheetCauses | None) -> int:
         """How many answers of a sheet are not explained; of wrong ones where there is none."""
         if found is None:
             return int((self.missed[i] & self.is_read[i]).sum())
         return int((self.is_read[i] & ~self.fits(i, found)).sum())
 
-    def is_lost(self, i: int, found: Explanation | None) -> bool:
+    def is_lost(self, i: int, found: SheetCauses | None) -> bool:
         """Whether so much of a sheet is not explained that all pairs of causes are tried."""
         return bool(self.left(i, found) > max(2.0, SPOILS * self.is_read[i].sum()))
 
-    def some(self, which: Sequence[int]) -> Sheets:
+    def some(self, which: Sequence[int]) -> AnswerSheets:
         """The sheets of some of the students."""
         own = list(which)
-        return Sheets(self.form, self.rows[own], [self.given[i] for i in own], self.missed[own])
+        return AnswerSheets(
+            self.form, self.rows[own], [self.given[i] for i in own], self.missed[own]
+        )
 
     def chosen(
         self, i: int, tried: Sequence[tuple[Hypothesis, float]], honest: float
-    ) -> Explanation | None:
+    ) -> SheetCauses | None:
         """The likeliest explanation of a sheet; None where none is likely enough."""
         if not self.missed[i].any():
             return None
@@ -373,7 +374,7 @@ class Sheets(Struct, frozen=True, dict=True):
                 return found
         return None
 
-    def judged_enough(self, i: int, found: Explanation) -> Explanation | None:
+    def judged_enough(self, i: int, found: SheetCauses) -> SheetCauses | None:
         """An explanation with the answers that agree; None where these are too few."""
         fits, read = self.fits(i, found), self.is_read[i]
         missed = self.missed[i] & read
@@ -384,7 +385,7 @@ class Sheets(Struct, frozen=True, dict=True):
         told = [f for f, fit in zip(self.variants.fields, fits, strict=True) if fit]
         return replace(found, fits=frozenset(told))
 
-    def settled(self, i: int, hypothesis: Hypothesis, odds: float = 0.0) -> Explanation:
+    def settled(self, i: int, hypothesis: Hypothesis, odds: float = 0.0) -> SheetCauses:
         """What a student would write by a hypothesis, the likelier of two values in each field."""
         part = self.some([i])
         told = part.shown(hypothesis)
@@ -398,9 +399,9 @@ class Sheets(Struct, frozen=True, dict=True):
         values, scaled = (
             dict(zip(fields, each[0].tolist(), strict=True)) for each in (written, times)
         )
-        return Explanation(hypothesis.causes, values, scaled, float(odds))
+        return SheetCauses(hypothesis.causes, values, scaled, float(odds))
 
-    def fits(self, i: int, by: Explanation) -> Array:
+    def fits(self, i: int, by: SheetCauses) -> Array:
         """The answers of a student that an explanation gives, within 99 of 100 drawings."""
         answers, form, rounded = self.answers[i], self.form, self.rounded[i]
         values, times = (
@@ -461,7 +462,7 @@ def explanations(
     rows: Sequence[int],
     given: Sequence[Mapping[str, Answer]],
     missed: Sequence[frozenset[str]],
-) -> list[Explanation | None]:
+) -> list[SheetCauses | None]:
     """The explanation of each sheet of students whose variants draw alike.
 
     ``rows`` are the places of their variants among the ``standards``. ``missed`` are the fields
@@ -475,15 +476,15 @@ def sheets_of(
     rows: Sequence[int],
     given: Sequence[Mapping[str, Answer]],
     missed: Sequence[frozenset[str]],
-) -> Sheets:
+) -> AnswerSheets:
     """The sheets of some students as arrays."""
     form = FormFields(Variants(standards))
     fields = form.variants.fields
     wrong = np.array([[field in each for field in fields] for each in missed])
-    return Sheets(form, np.array(rows, dtype=int), given, wrong)
+    return AnswerSheets(form, np.array(rows, dtype=int), given, wrong)
 
 
-class Way(Struct, frozen=True):
+class CauseWay(Struct, frozen=True):
     """What a student would write by some causes, and how many times as large the errors are.
 
     ``share`` says how frequent it is, as a logarithm.
@@ -497,7 +498,7 @@ class Way(Struct, frozen=True):
 
 def ways_of(
     standard: Standard, given: Mapping[str, Answer], missed: frozenset[str]
-) -> tuple[Way, ...]:
+) -> tuple[CauseWay, ...]:
     """Every way of working with one cause, and the one that explains a student's sheet."""
     sheet = sheets_of([standard], [0], [given], [missed])
     single = (Hypothesis((cause,)) for cause in sheet.causes)
@@ -505,7 +506,7 @@ def ways_of(
     (found,) = sheet.explained()
     if found is not None and len(found.causes) > 1:
         told.append((Hypothesis(found.causes), found))
-    return tuple(Way(e.names, e.values, e.times, each.share) for each, e in told)
+    return tuple(CauseWay(e.names, e.values, e.times, each.share) for each, e in told)
 
 
 def explained_by(
@@ -514,7 +515,7 @@ def explained_by(
     missed: frozenset[str],
     cause: Cause,
     others: Array,
-) -> tuple[int, Explanation] | None:
+) -> tuple[int, SheetCauses] | None:
     """The one of some other keys that explains a sheet, with its place; None where none does.
 
     ``others`` has a row for each key, by the fields of the form.
@@ -530,5 +531,5 @@ def explained_by(
     times = sheet.times(others, others)[best]
     fields = sheet.variants.fields
     values, scaled = (dict(zip(fields, e.tolist(), strict=True)) for e in (others[best], times))
-    found = sheet.judged_enough(0, Explanation((cause,), values, scaled, odds))
+    found = sheet.judged_enough(0, SheetCauses((cause,), values, scaled, odds))
     return None if found is None or odds < LIKELY else (best, found)

@@ -4,14 +4,14 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from fractions import Fraction
-from math import hypot, isnan
+from math import isnan
 from typing import Any
 
 from msgspec import Struct
 from msgspec.structs import replace
 
 from graphkin.accuracy.pencil.forecast import chi_square_share
-from graphkin.classroom.grading.explanations import Explanation, explanations
+from graphkin.classroom.grading.explanations import SheetCauses, explanations
 from graphkin.classroom.grading.follow_through import followings, is_hit, rightly
 from graphkin.classroom.grading.form_relations import Following
 from graphkin.classroom.grading.graded import (
@@ -25,7 +25,7 @@ from graphkin.classroom.grading.graded import (
 )
 from graphkin.classroom.grading.keys import Keys, coarseness
 from graphkin.classroom.grading.likelihood import Key
-from graphkin.classroom.grading.standard import Expectation, Standard, alike
+from graphkin.classroom.grading.standard import Expectation, Standard, alike, sense_is_open
 from graphkin.classroom.lab.items import worth
 from graphkin.classroom.lab.lab_model import Item
 from graphkin.classroom.roster.taker import Taker
@@ -128,7 +128,7 @@ class Marker:
         return FirstLook(given, by_key, computed, wrong, frozenset(torn))
 
     def graded(
-        self, taker: Taker, first: FirstLook, found: Explanation | None, present: bool = True
+        self, taker: Taker, first: FirstLook, found: SheetCauses | None, present: bool = True
     ) -> Graded:
         """The marks with the explanation of the sheet, if there is one that costs less than none.
 
@@ -144,7 +144,7 @@ class Marker:
         return Graded(taker, caused, present, causes=costs)
 
     def costs(
-        self, points: Fraction, found: Explanation, most: Fraction
+        self, points: Fraction, found: SheetCauses, most: Fraction
     ) -> tuple[EarnedCause, ...]:
         """What each cause costs, together at most ``most``.
 
@@ -162,7 +162,7 @@ class Marker:
         )
 
     def marks(
-        self, taker: Taker, first: FirstLook, found: Explanation | None = None
+        self, taker: Taker, first: FirstLook, found: SheetCauses | None = None
     ) -> tuple[EarnedMark, ...]:
         """The mark of each field; what agrees with an explanation of the sheet is right."""
         given, wrong = first.given, first.wrong
@@ -188,7 +188,7 @@ class Marker:
             known[field] = replace(mark, torn=field in first.torn)
         return tuple(self.not_by_chance(mark, known) for mark in known.values())
 
-    def is_lost(self, field: str, found: Explanation) -> bool:
+    def is_lost(self, field: str, found: SheetCauses) -> bool:
         """Whether a sense was taken the other way: it is worth no more than a blank."""
         return REVERSED in found.names and self.standard.by_field[field].item.what == "sense"
 
@@ -266,9 +266,9 @@ class Marker:
         return replace(mark, status=Status.FOLLOWS, earned=earned, source=source)
 
 
-def explained(sheets: Sequence[tuple[Marker, FirstLook]]) -> list[Explanation | None]:
+def explained(sheets: Sequence[tuple[Marker, FirstLook]]) -> list[SheetCauses | None]:
     """The explanation of each sheet; variants that draw alike are explained together."""
-    found: list[Explanation | None] = [None] * len(sheets)
+    found: list[SheetCauses | None] = [None] * len(sheets)
     open_yet = [i for i, (_, first) in enumerate(sheets) if first.wrong]
     markers = list({id(sheets[i][0]): sheets[i][0] for i in open_yet}.values())
     for group in alike([each.standard for each in markers]):
@@ -351,12 +351,3 @@ def is_right(standard: Standard, field: str, answers: Mapping[str, Answer]) -> b
         return value == right or sense_is_open(standard, field)
     near = abs(item.off(value, right)) <= standard.tolerance[field].value
     return near or (item.what == "place" and isnan(right))
-
-
-def sense_is_open(standard: Standard, field: str) -> bool:
-    """Whether no drawing determines a sense: the value is zero within the error of a drawing."""
-    sized = standard.by_field[field].item.sized
-    if sized not in standard.tolerance:
-        return standard.key[field] == 0
-    allowed = standard.tolerance[sized]
-    return abs(standard.key[sized]) <= max(allowed.value, hypot(allowed.pencil, allowed.ruler))

@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Collection, Mapping, Sequence
+from collections.abc import Callable, Collection, Iterable, Mapping, Sequence
 from contextlib import AbstractContextManager
-from typing import TYPE_CHECKING, Any
+from typing import Any, Protocol
 
 from msgspec import Struct
 from msgspec.structs import replace
@@ -13,17 +13,33 @@ from graphkin.accuracy.pencil.pencil import Paper
 from graphkin.classroom.grading.causes import Cause, plan_of
 from graphkin.classroom.grading.explanations import LIKELY, explained_by
 from graphkin.classroom.grading.graded import Graded, Status
-from graphkin.classroom.grading.marking import unread_left_out
+from graphkin.classroom.grading.marking import Marker, unread_left_out
 from graphkin.classroom.grading.standard import Expectation, Standard
 from graphkin.classroom.lab.cause_names import ANOTHER
+from graphkin.classroom.lab.lab_model import Lab
 from graphkin.classroom.lab.rules import exact_text, outside, settings
 from graphkin.classroom.roster.student import Student
 from graphkin.classroom.roster.taker import Taker
+from graphkin.mechanism import Mechanism
 from graphkin.numbers.arithmetic import np
 from graphkin.text.errors import SceneError
 
-if TYPE_CHECKING:
-    from graphkin.classroom.grading.class_marking import Book
+
+class Markers(Protocol):
+    """The markers of a class's variants."""
+
+    lab: Lab
+
+    @property
+    def usual(self) -> Mechanism:
+        """The mechanism with the scene's own values."""
+
+    def prepare(self, takers: Iterable[Taker]) -> None:
+        """Construct the variants of some students together."""
+
+    def marker_of(self, taker: Taker) -> Marker:
+        """The marker for a student's variant."""
+
 
 NUMBERS = 60
 """The most numbers of students, beside those of the class, whose data are tried."""
@@ -44,7 +60,7 @@ class OtherData(Struct, frozen=True):
 
 
 def with_others_data(
-    book: Book,
+    book: Markers,
     graded: Sequence[Graded],
     expected: Sequence[Expectation],
     copied: Collection[str],
@@ -88,7 +104,7 @@ def of_class(graded: Sequence[Graded], expected: Sequence[Expectation]) -> list[
     ]
 
 
-def of_numbers(book: Book, graded: Sequence[Graded]) -> list[OtherData]:
+def of_numbers(book: Markers, graded: Sequence[Graded]) -> list[OtherData]:
     """The data of the lab's other numbers, where its rule is a formula of the number alone."""
     lab = book.lab
     if lab.rule.draws or not lab.rule.counts:
@@ -115,7 +131,7 @@ def of_numbers(book: Book, graded: Sequence[Graded]) -> list[OtherData]:
 
 
 def by_others_data(
-    book: Book, graded: Graded, expected: Expectation, others: Sequence[OtherData]
+    book: Markers, graded: Graded, expected: Expectation, others: Sequence[OtherData]
 ) -> Graded:
     """The marks of a student by the data that explain the sheet best, if any others do."""
     marker = book.marker_of(graded.taker)

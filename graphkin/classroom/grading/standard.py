@@ -440,6 +440,15 @@ def standard(
     return Standard(mechanism, chosen, form, exact, rubric, tuple(computed))
 
 
+def sense_is_open(standard: Standard, field: str) -> bool:
+    """Whether no drawing determines a sense: the value is zero within the error of a drawing."""
+    sized = standard.by_field[field].item.sized
+    if sized not in standard.tolerance:
+        return standard.key[field] == 0
+    allowed = standard.tolerance[sized]
+    return abs(standard.key[sized]) <= max(allowed.value, hypot(allowed.pencil, allowed.ruler))
+
+
 # --- variants side by side -----------------------------------------------------------------------
 
 

@@ -20,7 +20,7 @@ from msgspec import Struct
 
 from graphkin.classroom.form_page import KINDS, first_pivot
 from graphkin.classroom.grading.class_marking import Book
-from graphkin.classroom.grading.explanations import Way, ways_of
+from graphkin.classroom.grading.explanations import CauseWay, ways_of
 from graphkin.classroom.grading.feedback import SENSES, how
 from graphkin.classroom.grading.graded import BLANK
 from graphkin.classroom.grading.marking import Marker, sense_is_open
@@ -104,7 +104,7 @@ def sensed(marker: Marker, item: Item, words: Words) -> tuple[Taken, ...]:
     return tuple(found)
 
 
-def caused(marker: Marker, item: Item, ways: Sequence[Way], words: Words) -> Iterator[Taken]:
+def caused(marker: Marker, item: Item, ways: Sequence[CauseWay], words: Words) -> Iterator[Taken]:
     """The values that causes in the construction give; of two equal values only the first."""
     standard, field, seen = marker.standard, item.field, list[tuple[float, float]]()
     right, own = item.size(standard.key[field]), standard.tolerance[field].value
