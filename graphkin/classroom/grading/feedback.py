@@ -208,7 +208,7 @@ def why(graded: Graded, mark: EarnedMark, words: Words) -> str:
         return words("feedback.torn")
     if mark.item.what == "sense":
         advice = [words("feedback.turning_advice")] if mark.item.quantity in TURNING else []
-        parts = [words("feedback.wrong_sense")]
+        parts: list[str] = [words("feedback.wrong_sense")]
         parts += advice
     elif mark.status is Status.FOLLOWS:
         parts = []

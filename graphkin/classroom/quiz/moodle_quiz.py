@@ -23,7 +23,8 @@ from graphkin.classroom.grading.class_marking import Book
 from graphkin.classroom.grading.explanations import CauseWay, ways_of
 from graphkin.classroom.grading.feedback import SENSES, how
 from graphkin.classroom.grading.graded import BLANK
-from graphkin.classroom.grading.marking import Marker, sense_is_open
+from graphkin.classroom.grading.marking import Marker
+from graphkin.classroom.grading.standard import sense_is_open
 from graphkin.classroom.lab.lab_model import Item, Lab
 from graphkin.classroom.lab.lab_trial import students_of
 from graphkin.classroom.lab.rules import exact_text

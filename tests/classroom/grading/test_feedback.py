@@ -10,6 +10,7 @@ from msgspec.structs import replace
 
 from graphkin.classroom.grading.answer_numbers import read_answer
 from graphkin.classroom.grading.class_report import summary
+from graphkin.classroom.grading.explanations import ways_of
 from graphkin.classroom.grading.feedback import feedback_html, feedback_pages, rows
 from graphkin.classroom.grading.graded import Answer, Graded, Result, Status
 from graphkin.classroom.grading.grading_files import marks_table, read_marks
@@ -122,7 +123,8 @@ def test_a_form_of_which_nothing_can_be_read_has_no_share():
 def mistaken(name: str, slip: str, n: int = 7) -> Graded:
     """The marks of one slip of the construction and its reasons."""
     marker = marker_of(name, n)
-    values = next(each for each in marker.slips if each.whole and each.name == slip).values
+    ways = ways_of(marker.standard, key_answers(marker.standard), frozenset())
+    values = next(way.values for way in ways if way.names == (slip,))
     return graded(given(dict(values)), name, n)
 
 
