@@ -81,6 +81,7 @@ def tens(
     """Raise RosterError where the answers of a column lack their decimal points."""
     with np.errstate(all="ignore"):
         powers = np.log10(answers / abs(sizes))
+        powers = np.where(np.isfinite(powers), powers, np.nan)
     near = np.round(powers)
     for place, field in enumerate(keys.fields):
         if keys.places[place]:

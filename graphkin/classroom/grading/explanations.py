@@ -301,6 +301,11 @@ class AnswerSheets(Struct, frozen=True, dict=True):
         return self.form.causes
 
     def explained(self) -> list[SheetCauses | None]:
+        """The explanation of each sheet, where values that cannot be drawn are NaN."""
+        with np.errstate(all="ignore"):
+            return self.compared()
+
+    def compared(self) -> list[SheetCauses | None]:
         """The explanation of each sheet; None where nothing is wrong, or nothing explains it."""
         count = len(self.rows)
         honest = self.judged(Hypothesis())
@@ -502,7 +507,8 @@ def ways_of(
     """Every way of working with one cause, and the one that explains a student's sheet."""
     sheet = sheets_of([standard], [0], [given], [missed])
     single = (Hypothesis((cause,)) for cause in sheet.causes)
-    told = [(each, sheet.settled(0, each)) for each in single if sheet.shown(each) is not None]
+    with np.errstate(all="ignore"):
+        told = [(each, sheet.settled(0, each)) for each in single if sheet.shown(each) is not None]
     (found,) = sheet.explained()
     if found is not None and len(found.causes) > 1:
         told.append((Hypothesis(found.causes), found))
