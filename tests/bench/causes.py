@@ -100,7 +100,7 @@ def pair_rows() -> Iterator[str]:
     for lab in LABS:
         named, count = 0, 0
         for first, second in combinations(CAUSES.values(), 2):
-            found = a_class(lab, [(a, b) for a in first[:1] for b in second[:1]], 3, count=2)
+            found = a_class(lab, [a + b for a in first for b in second], 3, count=2)
             named += sum(is_named(*each) for each in found)
             count += len(found)
         yield f"{lab}: pairs named {named} of {count}"

@@ -52,7 +52,11 @@ SPOILS = 0.25
 SPAN = (0.5, 4.0)
 """The least and largest factor by which an error scales with its value."""
 BEST = 12
-"""The number of hypotheses of a student that are compared."""
+"""The number of hypotheses of a student that are compared, and of causes of which pairs are."""
+COARSE = (2,)
+"""The pencil by which all pairs are compared."""
+CLOSE = 4
+"""The number of pairs that are compared with every pencil."""
 
 
 class SheetCauses(Struct, frozen=True):
@@ -218,13 +222,13 @@ class AnswerSheets(Struct, frozen=True, dict=True):
             self.drawings[key] = None
             if found is not None and change is not None:
                 told = self.variants.read(found, change.faster)
-                self.drawings[key] = told[self.rows], {**self.variants.values, **found}
+                self.drawings[key] = told, {**self.variants.values, **found}
         known: tuple[Array, Mapping[int, Any]] | None = self.drawings[key]
-        return known
+        return None if known is None else (known[0][self.rows], known[1])
 
     @cached_property
     def drawings(self) -> dict[tuple[tuple[str, str], ...], Any]:
-        """A cache of the drawings of hypotheses."""
+        """A cache of the drawings of hypotheses, of all variants."""
         return {}
 
     def judged(self, hypothesis: Hypothesis, pencils: Iterable[int] = range(len(PENCILS))) -> Array:
@@ -307,43 +311,61 @@ class AnswerSheets(Struct, frozen=True, dict=True):
 
     def compared(self) -> list[SheetCauses | None]:
         """The explanation of each sheet; None where nothing is wrong, or nothing explains it."""
+        found: list[SheetCauses | None] = [None] * len(self.rows)
+        wrong = np.flatnonzero(self.missed.any(axis=1)).tolist()
+        if wrong:
+            told = self.some(wrong).compared_wrong()
+            for i, each in zip(wrong, told, strict=True):
+                found[i] = each
+        return found
+
+    def compared_wrong(self) -> list[SheetCauses | None]:
+        """The explanation of each sheet, on each of which something is wrong."""
         count = len(self.rows)
         honest = self.judged(Hypothesis())
         ranked = Ranked(count)
         for cause in self.causes:
             ranked.add(each := Hypothesis((cause,)), self.judged(each))
         found = [self.chosen(i, ranked.of(i), honest[i]) for i in range(count)]
-        for cause in self.causes:
-            own = [
-                i for i, each in enumerate(found) if each is not None and each.causes == (cause,)
-            ]
-            more = [i for i in own if self.left(i, found[i]) > 1]
-            pairs = (pair for pair in pairs_of(self.causes) if cause in pair.causes)
-            self.explain_more(more, pairs, honest, found)
-        lost = [i for i, each in enumerate(found) if self.is_lost(i, each)]
-        self.explain_more(lost, pairs_of(self.causes), honest, found)
+        more = [i for i, each in enumerate(found) if self.left(i, each) > 1]
+        self.explain_more({i: ranked.names_of(i) for i in more}, honest, found)
         return found
 
     def explain_more(
         self,
-        which: Sequence[int],
-        pairs: Iterable[Hypothesis],
+        which: Mapping[int, Sequence[Cause]],
         honest: Array,
         found: list[SheetCauses | None],
     ) -> None:
-        """Replace the explanations of some sheets by those of two causes that are likelier."""
-        if not which:
-            return
-        part, ranked = self.some(which), Ranked(len(which))
-        for pair in pairs:
-            ranked.add(pair, part.judged(pair, (2,)))
-            if pair.causes[1].change is not None:
-                part.drawings.pop(pair.made, None)
-        for place, i in enumerate(which):
-            alone = self.some([i])
-            tried = [(each, float(alone.judged(each)[0])) for each, _ in ranked.of(place)]
-            tried.sort(key=lambda pair: -pair[1])
-            each, single = self.chosen(i, tried, honest[i]), found[i]
+        """Replace the explanations of some sheets by those of two causes that are likelier.
+
+        ``which`` holds the causes by sheet of which pairs are tried.
+        """
+        pairs: dict[tuple[tuple[str, str], ...], tuple[Hypothesis, list[int]]] = {}
+        for i, causes in which.items():
+            for pair in pairs_of(causes):
+                key = tuple((cause.name, cause.way) for cause in pair.causes)
+                pairs.setdefault(key, (pair, []))[1].append(i)
+        tried: dict[int, list[tuple[float, Any]]] = {i: [] for i in which}
+        plain = self.judged(Hypothesis(), COARSE)
+        for key, (pair, own) in pairs.items():
+            for i, each in zip(own, self.some(own).judged(pair, COARSE).tolist(), strict=True):
+                if each > plain[i]:
+                    tried[i].append((each, key))
+            if all(cause.change is not None for cause in pair.causes):
+                self.drawings.pop(pair.made, None)
+        close: dict[Any, list[int]] = {}
+        for i, every in tried.items():
+            for _, key in sorted(every, key=lambda told: -told[0])[:CLOSE]:
+                close.setdefault(key, []).append(i)
+        again: dict[int, list[tuple[Hypothesis, float]]] = {}
+        for key, own in close.items():
+            pair = pairs[key][0]
+            for i, each in zip(own, self.some(own).judged(pair).tolist(), strict=True):
+                again.setdefault(i, []).append((pair, each))
+        for i, told in again.items():
+            told.sort(key=lambda pair: -pair[1])
+            each, single = self.chosen(i, told, honest[i]), found[i]
             if each is not None and (single is None or each.odds > single.odds + SECOND):
                 found[i] = each
 
@@ -353,16 +375,26 @@ class AnswerSheets(Struct, frozen=True, dict=True):
             return int((self.missed[i] & self.is_read[i]).sum())
         return int((self.is_read[i] & ~self.fits(i, found)).sum())
 
-    def is_lost(self, i: int, found: SheetCauses | None) -> bool:
-        """Whether so much of a sheet is not explained that all pairs of causes are tried."""
-        return bool(self.left(i, found) > max(2.0, SPOILS * self.is_read[i].sum()))
-
     def some(self, which: Sequence[int]) -> AnswerSheets:
-        """The sheets of some of the students."""
+        """The sheets of some of the students, with the same cache of drawings."""
         own = list(which)
-        return AnswerSheets(
+        part = AnswerSheets(
             self.form, self.rows[own], [self.given[i] for i in own], self.missed[own]
         )
+        drawn, read = self.errors
+        part.__dict__.update(
+            answers=self.answers[own],
+            rounded=self.rounded[own],
+            is_read=self.is_read[own],
+            key=self.key[own],
+            errors=(drawn[own], read[own]),
+            astray=self.astray[own],
+            known=self.known,
+            open_senses=self.open_senses[own],
+            view=self.view.some(own),
+            drawings=self.drawings,
+        )
+        return part
 
     def chosen(
         self, i: int, tried: Sequence[tuple[Hypothesis, float]], honest: float
@@ -450,6 +482,14 @@ class Ranked:
         column = self.table[:, i]
         order = np.argsort(-column, kind="stable")[:BEST]
         return [(self.every[k], float(column[k])) for k in order]
+
+    def names_of(self, i: int) -> list[Cause]:
+        """The likeliest causes of a student, one of each name, in the order they were noted."""
+        best: dict[str, int] = {}
+        for k in np.argsort(-self.table[:, i], kind="stable").tolist():
+            if self.table[k, i] > -inf and len(best) < BEST:
+                best.setdefault(self.every[k].causes[0].name, k)
+        return [self.every[k].causes[0] for k in sorted(best.values())]
 
 
 def pairs_of(causes: Sequence[Cause]) -> Iterator[Hypothesis]:

@@ -116,6 +116,10 @@ class View(Struct, frozen=True, dict=True):
     answers: Array
     whole: Array
 
+    def some(self, which: list[int]) -> View:
+        """What some of the students have before them."""
+        return View(self.form, self.rows[which], self.answers[which], self.whole[which])
+
     @cached_property
     def units(self) -> Array:
         """A millimetre on the ruler in the unit of each field."""
