@@ -567,14 +567,15 @@ def explained_by(
     ``others`` has a row for each key, by the fields of the form.
     """
     count = len(others)
-    sheet = sheets_of([standard], [0] * count, [given] * count, [missed] * count)
+    sheet = sheets_of([standard], [0], [given], [missed])
+    every = sheet.some([0] * count)
     likely = np.full(count, -inf)
     for pencil, rare in zip(PENCILS, RARE_PENCILS, strict=True):
-        each = sheet.by_field(others, others, pencil)
-        likely = np.maximum(likely, np.where(sheet.is_read, each, 0.0).sum(axis=1) + rare)
+        each = every.by_field(others, others, pencil)
+        likely = np.maximum(likely, np.where(every.is_read, each, 0.0).sum(axis=1) + rare)
     best = int(likely.argmax())
     odds = float(likely[best] - sheet.judged(Hypothesis())[0] + SHARE - log(count))
-    times = sheet.times(others, others)[best]
+    times = every.times(others, others)[best]
     fields = sheet.variants.fields
     values, scaled = (dict(zip(fields, e.tolist(), strict=True)) for e in (others[best], times))
     found = sheet.judged_enough(0, SheetCauses((cause,), values, scaled, odds))
