@@ -355,6 +355,11 @@ def test_tables_margins_and_line_follow_the_driver(kept: Opened, pages: Path):
     assert page.locator("[data-row='v_D'] td").all_inner_texts() == before
 
 
+CHANGED = """([drawn, count]) => [...document.querySelectorAll('#steps li .say')]
+  .filter((each, i) => each.innerText !== drawn[i]).length >= count"""
+"""Whether so many sentences of the list have changed; the page changes them one after another."""
+
+
 def test_what_is_read_off_is_the_same_in_the_list_the_tables_and_above_the_keys(
     kept: Opened, pages: Path
 ):
@@ -368,6 +373,7 @@ def test_what_is_read_off_is_the_same_in_the_list_the_tables_and_above_the_keys(
         row: page.locator(f"[data-row='{row}'] td").first.inner_text()
         for row in ("ω2", "ω3", "ω4", "ε2", "ε3", "ε4")
     }
+    page.wait_for_function(CHANGED, arg=[drawn, len(sizes)])
     read = [text for text in listed.all_inner_texts() if text not in drawn]
     assert len(read) == len(sizes)
     for text, (row, size) in zip(read, sizes.items(), strict=True):

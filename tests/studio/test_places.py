@@ -201,7 +201,7 @@ def keys_of(text: str, place: str) -> list[str]:
         ("A-B = ", 7, "the value is missing"),
         ("A-B = .5", 7, "digits on both sides"),
         ("A-B = 4 0", 9, "one key = value"),
-        ("A-B 40", 5, "stands ="),
+        ("A-B 40", 5, "write ="),
         ('A-B = "40', 10, "put its quote at its end"),
         ("A-B = { x = 1", 14, "} or a comma"),
         ("[[links.x]", 10, "a heading ends as it begins"),

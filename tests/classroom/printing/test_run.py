@@ -210,7 +210,7 @@ def test_a_full_disk_is_told_and_nothing_is_half_written(whole, make, monkeypatc
 
     with monkeypatch.context() as patch:
         patch.setattr(Path, "open", with_little_room)
-        with pytest.raises(PageError, match=r"no space left on device.*same command goes on"):
+        with pytest.raises(PageError, match=r"no space left on device.*same command"):
             printed(folder)
     left = tree(folder / "print")
     assert not [name for name in left if name.endswith((".part", ".new"))]
