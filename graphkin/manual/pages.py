@@ -52,7 +52,7 @@ def text_of(name: str) -> str:
 def chapters() -> tuple[Chapter, ...]:
     """The chapters of the manual, as its index lists them."""
     found = (
-        Chapter(section.title, tuple((to, told) for told, to in ENTRY.findall(section.text)))
+        Chapter(section.title, tuple((to, title) for title, to in ENTRY.findall(section.text)))
         for section in sections(INDEX)
     )
     return tuple(chapter for chapter in found if chapter.pages)
@@ -70,7 +70,7 @@ def sections(name: str) -> tuple[Section, ...]:
     above: dict[int, str] = {}
     taken: dict[str, int] = {}
     for level, title, text in divided(text_of(name)):
-        above = {depth: told for depth, told in above.items() if depth < level}
+        above = {depth: higher for depth, higher in above.items() if depth < level}
         within = above[max(above)] if above else ""
         anchor = anchor_of(title)
         again = taken[anchor] = taken.get(anchor, -1) + 1
@@ -147,7 +147,7 @@ def explained() -> dict[str, tuple[KeyEntry, ...]]:
 
 
 def keys_in(text: str) -> list[str]:
-    """The keys in a heading or a cell: what stands in code, without brackets."""
+    """The keys in a heading or a cell: what is set as code, without brackets."""
     return [key for code in CODE.findall(text) if (key := code.strip("[]"))]
 
 

@@ -62,7 +62,7 @@ def site() -> Iterator[tuple[str, bytes]]:
 
 def page(name: str, order: Sequence[str]) -> str:
     """A page of the site as HTML, with the navigation around it."""
-    titles = {INDEX: "graphkin"} | {to: told for each in chapters() for to, told in each.pages}
+    titles = {INDEX: "graphkin"} | dict(pair for each in chapters() for pair in each.pages)
     at = order.index(name)
 
     def link(to: str) -> NavEntry:
@@ -165,8 +165,8 @@ def in_cards(tokens: Sequence[Token], headed: Sequence[Section]) -> list[Token]:
     def close() -> None:
         if card is not None:
             text = highlighted(texts[card.title], "toml", "")
-            told = f"<details><summary>Text</summary><pre><code>{text}</code></pre></details>"
-            found.append(Token("html_block", "", 0, content=f"{told}</section>\n"))
+            details = f"<details><summary>Text</summary><pre><code>{text}</code></pre></details>"
+            found.append(Token("html_block", "", 0, content=f"{details}</section>\n"))
 
     for token in tokens:
         if token.type == "heading_open":

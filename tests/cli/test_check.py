@@ -191,6 +191,28 @@ def test_three_parallel_bars_in_line_have_the_mobility_of_their_motion(
     assert "drivers" not in result.stderr
 
 
+def test_a_singular_position_is_told_apart_from_an_idle_link(
+    run: Run, cranks: Callable[..., Path]
+) -> None:
+    """Two parallel cranks in line: the velocities are freer by one than the motion.
+
+    In metres, whole numbers, so that rounding does not part the arcs that touch.
+    """
+    path = cranks(angle=0, unit="m")
+    whole = path.read_text(encoding="utf-8")
+    third = "S = [20, 0]\n", 'A-M = 20\nM = "on A-B"\n', "[links.4]\nS-M = 10\n"
+    for lines in third:
+        assert lines in whole
+        whole = whole.replace(lines, "")
+    path.write_text(whole, encoding="utf-8")
+    result = run("check", path)
+    assert part(result.stdout, "rank") == [
+        "2, true mobility by the rank of the constraints",
+        "singular position: beside it the constraints leave 1",
+    ]
+    assert "drivers" not in result.stderr
+
+
 def test_a_driver_too_many_by_the_rank_is_told_though_everything_fits(
     run: Run, tmp_path: Path
 ) -> None:

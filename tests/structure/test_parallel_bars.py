@@ -11,9 +11,11 @@ from graphkin.construction.core.kind import constructions
 from graphkin.construction.higher_class.closed_group import ClosedGroup
 from graphkin.diagnosis.closures import choices
 from graphkin.loops.assemble import assemble
+from graphkin.loops.equations import parts_of
 from graphkin.mechanism import Mechanism
 from graphkin.motion.cycle import cycle
 from graphkin.motion.jumps import jumps
+from graphkin.scene.model import FRAME
 from graphkin.scene.read_scene import read_text
 from graphkin.structure.groups import Higher
 from graphkin.structure.parallel_bars import parallel_sets
@@ -156,3 +158,46 @@ def test_bars_that_could_only_cross_are_not_listed_as_closures():
     program = write(mechanism.scene, mechanism.groups, fitted=False)
     (choice,) = choices(mechanism.scene, mechanism.groups, program)
     assert [each.unfit for each in choice.closures] == ["", ""]
+
+
+FIGURE = (0, 30, 10 + 20j)
+
+
+def platform(far, lengths):
+    """A plate on three bars, their pins at ``FIGURE`` on the frame and at ``far`` on the plate."""
+
+    def written(name, places):
+        return [f"{name}{k} = [{z.real}, {z.imag}]" for k, z in enumerate(map(complex, places))]
+
+    lines = ['graphkin = 1\ntitle = "Platform"']
+    lines += ['units = { length = "mm", angle = "deg", speed = "rad/s" }', "[frame]"]
+    lines += [*written("A", FIGURE), "[links.plate]", *written("B", far)]
+    for k, length in enumerate(lengths):
+        lines += [f"[links.b{k}]", f"A{k}-B{k} = {length}"]
+    lines.append("[[drivers]]\nturn = 'b0'\nangle = 70\nspeed = 1")
+    return read_text("\n".join(lines), "scene", None, {})
+
+
+@pytest.mark.parametrize(
+    ("far", "lengths", "are_kept"),
+    [
+        (FIGURE, (50, 50, 50), True),
+        ([z * (0.6 + 0.8j) for z in FIGURE], (50, 50, 50), True),  # turned on the plate
+        (FIGURE, (50, 50, 50.001), False),
+        (FIGURE, (50.001, 50, 50), False),
+        ((0, 30, 10 + 20.001j), (50, 50, 50), False),
+        ([1.001 * z for z in FIGURE], (50, 50, 50), False),
+        ([complex(z).conjugate() for z in FIGURE], (50, 50, 50), False),  # a mirror image
+    ],
+)
+def test_only_equal_bars_at_congruent_figures_keep_a_plate_parallel(far, lengths, are_kept):
+    """The construction and the vector loops see it apart, with the plate's turn in its own axes."""
+    scene = platform(far, lengths)
+    assert [each.bars for each in parallel_sets(scene)] == [("b0", "b1", "b2")] * are_kept
+    found = parts_of(scene).parallel
+    assert len(found) == are_kept
+    for each in found:
+        assert {*each.bodies} == {FRAME, "plate"}
+        turn = (far[1] - far[0]) / abs(far[1] - far[0])
+        along = each.along if each.bodies[1] == "plate" else 1 / each.along
+        assert abs(along * turn - 1) < 1e-12

@@ -28,6 +28,8 @@ SHARES = 4
 """The fewest chunks for each worker, if there are enough students."""
 AHEAD = 2
 """The chunks queued for each worker."""
+ENDED = message("the system ended the process that worked on it, twice; is the memory full?")
+"""The message for an item whose process ends."""
 CLUSTER = "dask://"
 PRELOADED = ("graphkin.classroom.printing.print_work", "graphkin.writers.pdf")
 """The modules that every worker needs, imported once where processes can share them."""
@@ -187,7 +189,3 @@ def one_by_one(
                     break
                 left.popleft()
                 yield found
-
-
-ENDED = message("the system ended the process that worked on it, twice; is the memory full?")
-"""What is said of an item whose process ends."""
