@@ -1,0 +1,269 @@
+"""A mechanism as one function of its driver's coordinate and parameters, in another language.
+
+The function is the traced program, one statement for each operation, and uses only the standard
+library of its language.
+"""
+
+from __future__ import annotations
+
+import math
+import re
+from collections.abc import Mapping, Sequence
+
+from msgspec import Struct
+
+from graphkin.construction.core.quantities import OF_POINTS, RATES, motion_value
+from graphkin.construction.core.run import made_ready, run_moving
+from graphkin.construction.core.solution import Solution, gathered
+from graphkin.construction.links.rolled_turn import counted_link
+from graphkin.construction.tape.emitted import LOOP
+from graphkin.construction.tape.graph import Graph
+from graphkin.construction.tape.javascript import CALLS, SIGNS
+from graphkin.construction.tape.traced import (
+    TracedNumber,
+    UntraceableError,
+    entered,
+    traced_kind,
+)
+from graphkin.mechanism import Mechanism
+from graphkin.text.errors import Problem, SceneError, message
+from graphkin.web.page_driver import INPUT, PageDriver, driven_by
+
+LETTERS = {"position": "", "velocity": "v", "acceleration": "a"}
+"""The letter before x and y in the name of a part of a vector."""
+C_SIGNS = {
+    **{op: sign for op, sign in SIGNS.items() if op != "over"},
+    "over": "1.0/{}",
+    **{op: f"{call}({{}})" for op, call in CALLS.items() if op not in ("min", "max", "atan2")},
+    "abs": "fabs({})",
+    "round": "rint({})",
+    "atan2": "atan2({}, {})",
+    "min": "{0} <= {1} ? {0} : {1}",
+    "max": "{0} <= {1} ? {1} : {0}",
+}
+JAVASCRIPT_SIGNS = {
+    **SIGNS,
+    **{op: f"Math.{call}({{}})" for op, call in CALLS.items()},
+    **{op: f"Math.{op}({{}}, {{}})" for op in ("min", "max", "atan2")},
+}
+PYTHON_SIGNS = {
+    **LOOP,
+    **{op: f"_{op}({{}})" for op in ("over", "sqrt", "round", "floor", "cos", "sin")},
+    "sin45": "_sin({})",
+    "both": "{} and {}",
+    "either": "{} or {}",
+}
+Assignments = list[tuple[str, str]]
+
+
+class Argument(Struct, frozen=True):
+    """An argument of the function: its input of the graph, its value in the scene, its meaning."""
+
+    name: str
+    input: str
+    value: float
+    note: str
+
+
+class Formula(Struct, frozen=True):
+    """A graph as a function: its name and title, arguments, and results by name."""
+
+    name: str
+    title: str
+    graph: Graph
+    arguments: Sequence[Argument]
+    results: Mapping[str, int]
+
+    @property
+    def notes(self) -> list[str]:
+        """What the arguments and results are, a line each."""
+        return [
+            " ".join(self.title.split()),
+            *(f"{each.name}: {each.note}; {each.value!r} in the scene" for each in self.arguments),
+            "x_A, y_A: position of point A in m; vx_A, vy_A: velocity in m/s;",
+            "ax_A, ay_A: acceleration in m/s2; omega_2, epsilon_2: angular velocity in rad/s",
+            "and angular acceleration in rad/s2 of link 2, counter-clockwise positive.",
+            "Results are NaN or infinite where the mechanism cannot be assembled or is singular.",
+        ]
+
+    def statements(
+        self, signs: Mapping[str, str], numbers: Mapping[str, str]
+    ) -> tuple[Assignments, Assignments]:
+        """The computed nodes in order, then the results, each a name and an expression.
+
+        ``signs`` writes the operations, and ``numbers`` infinity and what is no number.
+        """
+        text: dict[int, str] = {}
+        names = {each.input: each.name for each in self.arguments}
+        found: Assignments = []
+        for number in self.graph.needed(self.results.values()):
+            node = self.graph.nodes[number]
+            if node.op == "number":
+                text[number] = literal(node.value, numbers)
+            elif node.op == "input":
+                text[number] = names[node.name]
+            else:
+                text[number] = f"_{number}"
+                args = [text[arg] for arg in node.args]
+                found.append((text[number], signs[node.op].format(*args)))
+        return found, [(name, text[node]) for name, node in self.results.items()]
+
+
+def literal(value: float, numbers: Mapping[str, str]) -> str:
+    """A constant with all its digits, a negative one in brackets."""
+    if math.isnan(value):
+        return numbers["nan"]
+    text = numbers["inf"] if math.isinf(value) else repr(abs(value))
+    return f"(-{text})" if math.copysign(1, value) < 0 else text
+
+
+# --- from a mechanism -----------------------------------------------------------------------------
+
+
+def formula_of(mechanism: Mechanism) -> Formula:
+    """The function of a mechanism. Raises SceneError where no straight line of formulas gives it.
+
+    Such are groups closed by trial, links whose turns are counted along the motion, and steps
+    whose course depends on a value.
+    """
+    scene, program = mechanism.scene, mechanism.program
+    driven = driven_by(scene)
+    if driven is None:
+        raise refusal("the mechanism has no driver")
+    if mechanism.is_of_higher_class:
+        raise refusal("a group of class III or higher is closed by trial")
+    if any(counted_link(step) is not None for step in program.steps):
+        raise refusal("the turns of a link are counted along the motion")
+    graph = Graph()
+    x = TracedNumber(graph, graph.input(INPUT))
+    known = {name: TracedNumber(graph, graph.input(f"parameter {name}")) for name in scene.values}
+    needed = program.needed(program.answers)
+    try:
+        overrides = driven.overrides(program, x, known)
+        overrides = {number: v for number, v in overrides.items() if number in set(needed)}
+        ready = made_ready(program, needed, known, needed, frozenset(overrides))
+        trace = run_moving(ready, known, traced_kind(), overrides=overrides)
+    except UntraceableError as error:
+        raise refusal("the course of a step depends on a value") from error
+    arguments = arguments_of(mechanism, driven)
+    name = f"motion_of_{identifier(scene.name)}"
+    solution = gathered(trace, scene.links)
+    return Formula(name, scene.title, graph, arguments, results_of(graph, solution))
+
+
+def refusal(why: str) -> SceneError:
+    """The error of a mechanism that is no straight line of formulas."""
+    expected = message("a mechanism that one line of formulas gives")
+    return SceneError([Problem("export", message(why), expected)])
+
+
+def arguments_of(mechanism: Mechanism, driven: PageDriver) -> list[Argument]:
+    """The driver's coordinate or the time, then the parameters of the scene.
+
+    The prefix of a parameter keeps its name from being a keyword of any language.
+    """
+    unit, what = driven.unit, driven.what
+    own, whose = ("t", "time") if what == "time" else ("phi" if what == "turn" else "s", "driver")
+    found = [Argument(f"{own}_{unit}", INPUT, driven.start, f"{whose}, in {unit}")]
+    for name, value in mechanism.scene.values.items():
+        found.append(Argument(f"p_{name}", f"parameter {name}", float(value), f"parameter {name}"))
+    return found
+
+
+def results_of(graph: Graph, solution: Solution) -> dict[str, int]:
+    """The node of each part of the points' and links' motion, by a valid identifier."""
+    found: dict[str, int] = {}
+
+    def add(name: str, node: int) -> None:
+        while name in found:
+            name += "_"
+        found[name] = node
+
+    for point, motion in solution.points.items():
+        for quantity in OF_POINTS:
+            value = motion_value(motion, quantity)
+            if value is not None:
+                part, letter = entered(graph, value), LETTERS[quantity.target]
+                add(f"{letter}x_{identifier(point)}", part.node)
+                add(f"{letter}y_{identifier(point)}", part.below())
+    for link, motion in solution.links.items():
+        for quantity in RATES:
+            value = motion_value(motion, quantity)
+            if value is not None:
+                add(f"{quantity.target}_{identifier(link)}", entered(graph, value).node)
+    return found
+
+
+def identifier(name: str) -> str:
+    """A name with letters, digits and underscores only."""
+    return re.sub(r"\W", "_", name, flags=re.ASCII)
+
+
+# --- the languages --------------------------------------------------------------------------------
+
+
+PYTHON_TOP = """from math import atan2, copysign, cos, floor, inf, isfinite, nan, sin, sqrt
+
+
+def _over(x):
+    return 1.0 / x if x else copysign(inf, x)
+
+
+def _sqrt(x):
+    return sqrt(x) if x >= 0 else nan
+
+
+def _round(x):
+    return float(round(x)) if isfinite(x) else nan
+
+
+def _floor(x):
+    return float(floor(x)) if isfinite(x) else nan
+
+
+def _cos(x):
+    return cos(x) if isfinite(x) else nan
+
+
+def _sin(x):
+    return sin(x) if isfinite(x) else nan
+"""
+
+
+def python(formula: Formula) -> str:
+    """The function as Python; it returns a dict."""
+    body, results = formula.statements(PYTHON_SIGNS, {"inf": "inf", "nan": "nan"})
+    given = ", ".join(f"{each.name}={each.value!r}" for each in formula.arguments)
+    lines = [*(f"# {line}" for line in formula.notes), PYTHON_TOP, ""]
+    lines += [f"def {formula.name}({given}):"]
+    lines += [f"    {name} = {text}" for name, text in body]
+    lines += ["    return {", *(f'        "{name}": {text},' for name, text in results), "    }"]
+    return "\n".join(lines) + "\n"
+
+
+def javascript(formula: Formula) -> str:
+    """The function as JavaScript; it returns an object."""
+    body, results = formula.statements(JAVASCRIPT_SIGNS, {"inf": "Infinity", "nan": "NaN"})
+    given = ", ".join(f"{each.name} = {each.value!r}" for each in formula.arguments)
+    lines = [*(f"// {line}" for line in formula.notes), f"function {formula.name}({given}) {{"]
+    lines += [f"  const {name} = {text};" for name, text in body]
+    lines += ["  return {", *(f"    {name}: {text}," for name, text in results), "  };", "}"]
+    lines += [f'if (typeof module !== "undefined") module.exports = {{ {formula.name} }};']
+    return "\n".join(lines) + "\n"
+
+
+def c(formula: Formula) -> str:
+    """The function as C99; it returns a struct."""
+    body, results = formula.statements(C_SIGNS, {"inf": "INFINITY", "nan": "NAN"})
+    given = ", ".join(f"double {each.name}" for each in formula.arguments)
+    record = f"struct {formula.name}_result"
+    lines = [*(f"// {line}" for line in formula.notes), "#include <math.h>", "", f"{record} {{"]
+    lines += [f"    double {name};" for name, _ in results]
+    lines += ["};", "", f"{record} {formula.name}({given})", "{", f"    {record} result;"]
+    lines += [f"    const double {name} = {text};" for name, text in body]
+    lines += [f"    result.{name} = {text};" for name, text in results]
+    return "\n".join([*lines, "    return result;", "}"]) + "\n"
+
+
+LANGUAGES = {"python": python, "javascript": javascript, "c": c}
+"""The languages of a formula; tests hold the numbers of each to ``solve``."""
