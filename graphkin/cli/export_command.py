@@ -34,7 +34,7 @@ def export(
 
     The function needs only the standard library of its language. It gives positions, velocities and
     accelerations of all points, and angular velocities and accelerations of all links, in SI units.
-    With several drivers, or a law of time, it is a function of the time.
+    With several drivers it has the coordinate of each, and with a law of time it has the time.
 
     Mechanisms with groups of class III or higher, and those whose wheels are turned by pins alone,
     cannot be written as one line of formulas.

@@ -9,6 +9,7 @@ from __future__ import annotations
 import math
 import re
 from collections.abc import Mapping, Sequence
+from typing import Any
 
 from msgspec import Struct
 
@@ -26,9 +27,15 @@ from graphkin.construction.tape.traced import (
     traced_kind,
 )
 from graphkin.mechanism import Mechanism
+from graphkin.motion.driving import stated_motion
+from graphkin.motion.sweep import law_of_time
+from graphkin.scene.expression import TIME
+from graphkin.scene.model import Driver, Scene
+from graphkin.scene.quantity import LENGTHS
 from graphkin.text.errors import Problem, SceneError, message
-from graphkin.web.page_driver import INPUT, PageDriver, driven_by
+from graphkin.web.page_driver import driven_by, time_of
 
+TIME_INPUT = "time"
 LETTERS = {"position": "", "velocity": "v", "acceleration": "a"}
 """The letter before x and y in the name of a part of a vector."""
 C_SIGNS = {
@@ -135,20 +142,27 @@ def formula_of(mechanism: Mechanism) -> Formula:
     if any(counted_link(step) is not None for step in program.steps):
         raise refusal("the turns of a link are counted along the motion")
     graph = Graph()
-    x = TracedNumber(graph, graph.input(INPUT))
-    known = {name: TracedNumber(graph, graph.input(f"parameter {name}")) for name in scene.values}
+    arguments = [*coordinates(scene), *parameters(scene)]
+    inputs = {each.input: TracedNumber(graph, graph.input(each.input)) for each in arguments}
+    known = {name: inputs[f"parameter {name}"] for name in scene.values}
     needed = program.needed(program.answers)
     try:
-        overrides = driven.overrides(program, x, known)
-        overrides = {number: v for number, v in overrides.items() if number in set(needed)}
+        overrides: dict[int, Any] = {}
+        for number, (driver, drive) in enumerate(zip(scene.drivers, program.drives, strict=True)):
+            if TIME_INPUT in inputs:
+                place, speed, push = at_time(driver, scene, inputs[TIME_INPUT], known)
+                overrides |= {drive.speed: speed, drive.acceleration: push}
+            else:
+                place = inputs[f"driver {number}"] * metres_of(driver, scene)
+            overrides |= driven.placed(drive, driver, place)
+        overrides = {number: value for number, value in overrides.items() if number in needed}
         ready = made_ready(program, needed, known, needed, frozenset(overrides))
         trace = run_moving(ready, known, traced_kind(), overrides=overrides)
     except UntraceableError as error:
         raise refusal("the course of a step depends on a value") from error
-    arguments = arguments_of(mechanism, driven)
     name = f"motion_of_{identifier(scene.name)}"
-    solution = gathered(trace, scene.links)
-    return Formula(name, scene.title, graph, arguments, results_of(graph, solution))
+    results = results_of(graph, gathered(trace, scene.links))
+    return Formula(name, scene.title, graph, arguments, results)
 
 
 def refusal(why: str) -> SceneError:
@@ -157,17 +171,50 @@ def refusal(why: str) -> SceneError:
     return SceneError([Problem("export", message(why), expected)])
 
 
-def arguments_of(mechanism: Mechanism, driven: PageDriver) -> list[Argument]:
-    """The driver's coordinate or the time, then the parameters of the scene.
-
-    The prefix of a parameter keeps its name from being a keyword of any language.
-    """
-    unit, what = driven.unit, driven.what
-    own, whose = ("t", "time") if what == "time" else ("phi" if what == "turn" else "s", "driver")
-    found = [Argument(f"{own}_{unit}", INPUT, driven.start, f"{whose}, in {unit}")]
-    for name, value in mechanism.scene.values.items():
-        found.append(Argument(f"p_{name}", f"parameter {name}", float(value), f"parameter {name}"))
+def coordinates(scene: Scene) -> list[Argument]:
+    """The coordinate of each driver, or the time where a driver has a law of time."""
+    if law_of_time(scene):
+        return [Argument("t_s", TIME_INPUT, time_of(scene), "time, in s")]
+    found = []
+    for number, driver in enumerate(scene.drivers):
+        letter, unit = ("phi", "deg") if driver.kind == "turn" else ("s", scene.units["length"])
+        name = f"{letter}{number + 1 if len(scene.drivers) > 1 else ''}_{unit}"
+        note = f"coordinate of the driver of link {driver.link}, in {unit}"
+        start = stated_motion(driver, scene)[0] / metres_of(driver, scene)
+        found.append(Argument(name, f"driver {number}", start, note))
     return found
+
+
+def metres_of(driver: Driver, scene: Scene) -> float:
+    """The length of one unit of a sliding driver's coordinate; 1 for degrees."""
+    return 1.0 if driver.kind == "turn" else float(LENGTHS[scene.units["length"]])
+
+
+def at_time(
+    driver: Driver, scene: Scene, time: TracedNumber, known: Mapping[str, Any]
+) -> tuple[Any, Any, Any]:
+    """Position (degrees or metres), speed and acceleration of a driver at a traced time.
+
+    A driver without a law has its stated position at the time of the scene, as on the moving page.
+    """
+    law = TIME in driver.position.uses()
+    values, kind = {**known, **({TIME: time} if law else {})}, traced_kind()
+    place, speed, push = (
+        quantity.si(values, kind)
+        for quantity in (driver.position, driver.speed, driver.acceleration)
+    )
+    if not law:
+        since = time - time_of(scene)
+        place, speed = place + (speed + push * since / 2) * since, speed + push * since
+    return place * (180 / math.pi if driver.kind == "turn" else 1.0), speed, push
+
+
+def parameters(scene: Scene) -> list[Argument]:
+    """The parameters of a scene; their prefix keeps them from being keywords of any language."""
+    return [
+        Argument(f"p_{name}", f"parameter {name}", float(value), f"parameter {name}")
+        for name, value in scene.values.items()
+    ]
 
 
 def results_of(graph: Graph, solution: Solution) -> dict[str, int]:

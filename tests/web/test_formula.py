@@ -13,12 +13,15 @@ from pathlib import Path
 
 import pytest
 from click.testing import CliRunner
+from msgspec.structs import replace
 
 from graphkin.cli.export_command import export
 from graphkin.mechanism import Mechanism, load
+from graphkin.motion.driving import stated_motion
+from graphkin.motion.sweep import law_of_time
+from graphkin.scene.quantity import exact
 from graphkin.text.errors import GraphkinError, SceneError
 from graphkin.web.formula import LANGUAGES, Formula, formula_of
-from graphkin.web.page_driver import driven_by
 
 SCENES = Path(__file__).resolve().parents[2] / "examples" / "scenes"
 TOLERANCE = 1e-9
@@ -74,15 +77,23 @@ def motion_of(mechanism: Mechanism) -> dict[str, float]:
     return found
 
 
+def places(mechanism: Mechanism) -> Case:
+    """The time, or the coordinates of the drivers in degrees or in the scene's unit of length."""
+    scene = mechanism.scene
+    if law_of_time(scene):
+        return [float(scene.time.number(scene.values)) if scene.time else 0.0]
+    unit = {"mm": 1e-3, "cm": 1e-2, "m": 1.0, "in": 0.0254}[scene.units["length"]]
+    return [
+        stated_motion(driver, scene)[0] / (1.0 if driver.kind == "turn" else unit)
+        for driver in scene.drivers
+    ]
+
+
 @cache
 def compared(name: str) -> tuple[Formula, list[Case], list[dict[str, float]]]:
     """The formula of a scene as written, arguments of other variants, and what ``solve`` gives."""
     variants = at_other_values(name)
-    cases = []
-    for each in variants:
-        driven = driven_by(each.scene)
-        assert driven is not None
-        cases.append([driven.start, *map(float, each.scene.values.values())])
+    cases = [[*places(each), *map(float, each.scene.values.values())] for each in variants]
     return formula_of(variants[0]), cases, [motion_of(each) for each in variants]
 
 
@@ -145,6 +156,20 @@ def test_the_numbers_are_those_of_solve(name: str, language: str, tmp_path: Path
 def test_most_scenes_are_compared_at_several_positions() -> None:
     counts = [len(compared(name)[1]) for name in KINDS]
     assert sum(counts) >= 3 * len(KINDS)
+
+
+def test_a_law_of_time_is_a_function_of_the_time(tmp_path: Path) -> None:
+    mechanism = scene_named("excavator-absolute")
+    formula = formula_of(mechanism)
+    assert formula.arguments[0].name == "t_s"
+    scene = mechanism.scene
+    assert scene.time is not None
+    later = replace(scene.time, tree=exact(Fraction(7, 10)).tree, text="0.7")
+    wanted = motion_of(Mechanism(replace(scene, time=later)))
+    (found,) = by_python(formula, [[0.7, *(a.value for a in formula.arguments[1:])]], tmp_path)
+    assert found == pytest.approx(wanted, rel=TOLERANCE, abs=TOLERANCE)
+    (before,) = by_python(formula, [[a.value for a in formula.arguments]], tmp_path)
+    assert before != pytest.approx(wanted, rel=1e-3)
 
 
 def test_no_number_where_the_mechanism_cannot_be_assembled(tmp_path: Path) -> None:
