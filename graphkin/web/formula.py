@@ -144,7 +144,8 @@ def formula_of(mechanism: Mechanism) -> Formula:
     graph = Graph()
     arguments = [*coordinates(scene), *parameters(scene)]
     inputs = {each.input: TracedNumber(graph, graph.input(each.input)) for each in arguments}
-    known = {name: inputs[f"parameter {name}"] for name in scene.values}
+    known = {name: inputs[f"parameter {name}"] for name in scene.parameters}
+    known |= {TIME: inputs[TIME_INPUT]} if TIME_INPUT in inputs else {}
     needed = program.needed(program.answers)
     try:
         overrides: dict[int, Any] = {}
@@ -198,9 +199,9 @@ def at_time(
     A driver without a law has its stated position at the time of the scene, as on the moving page.
     """
     law = TIME in driver.position.uses()
-    values, kind = {**known, **({TIME: time} if law else {})}, traced_kind()
+    kind = traced_kind()
     place, speed, push = (
-        quantity.si(values, kind)
+        quantity.si(known, kind)
         for quantity in (driver.position, driver.speed, driver.acceleration)
     )
     if not law:
@@ -212,8 +213,8 @@ def at_time(
 def parameters(scene: Scene) -> list[Argument]:
     """The parameters of a scene; their prefix keeps them from being keywords of any language."""
     return [
-        Argument(f"p_{name}", f"parameter {name}", float(value), f"parameter {name}")
-        for name, value in scene.values.items()
+        Argument(f"p_{name}", f"parameter {name}", float(scene.values[name]), f"parameter {name}")
+        for name in scene.parameters
     ]
 
 
@@ -233,9 +234,9 @@ def results_of(graph: Graph, solution: Solution) -> dict[str, int]:
                 part, letter = entered(graph, value), LETTERS[quantity.target]
                 add(f"{letter}x_{identifier(point)}", part.node)
                 add(f"{letter}y_{identifier(point)}", part.below())
-    for link, motion in solution.links.items():
+    for link, turning in solution.links.items():
         for quantity in RATES:
-            value = motion_value(motion, quantity)
+            value = motion_value(turning, quantity)
             if value is not None:
                 add(f"{quantity.target}_{identifier(link)}", entered(graph, value).node)
     return found
