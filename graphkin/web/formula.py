@@ -32,7 +32,7 @@ from graphkin.motion.sweep import law_of_time
 from graphkin.scene.expression import TIME
 from graphkin.scene.model import Driver, Scene
 from graphkin.scene.quantity import LENGTHS
-from graphkin.text.errors import Problem, SceneError, message
+from graphkin.text.errors import Message, Problem, SceneError, message
 from graphkin.web.page_driver import driven_by, time_of
 
 TIME_INPUT = "time"
@@ -136,11 +136,11 @@ def formula_of(mechanism: Mechanism) -> Formula:
     scene, program = mechanism.scene, mechanism.program
     driven = driven_by(scene)
     if driven is None:
-        raise refusal("the mechanism has no driver")
+        raise refusal(message("the mechanism has no driver"))
     if mechanism.is_of_higher_class:
-        raise refusal("a group of class III or higher is closed by trial")
+        raise refusal(message("a group of class III or higher is closed by trial"))
     if any(counted_link(step) is not None for step in program.steps):
-        raise refusal("the turns of a link are counted along the motion")
+        raise refusal(message("the turns of a link are counted along the motion"))
     graph = Graph()
     arguments = [*coordinates(scene), *parameters(scene)]
     inputs = {each.input: TracedNumber(graph, graph.input(each.input)) for each in arguments}
@@ -160,16 +160,16 @@ def formula_of(mechanism: Mechanism) -> Formula:
         ready = made_ready(program, needed, known, needed, frozenset(overrides))
         trace = run_moving(ready, known, traced_kind(), overrides=overrides)
     except UntraceableError as error:
-        raise refusal("the course of a step depends on a value") from error
+        raise refusal(message("the course of a step depends on a value")) from error
     name = f"motion_of_{identifier(scene.name)}"
     results = results_of(graph, gathered(trace, scene.links))
     return Formula(name, scene.title, graph, arguments, results)
 
 
-def refusal(why: str) -> SceneError:
+def refusal(why: Message) -> SceneError:
     """The error of a mechanism that is no straight line of formulas."""
     expected = message("a mechanism that one line of formulas gives")
-    return SceneError([Problem("export", message(why), expected)])
+    return SceneError([Problem("export", why, expected)])
 
 
 def coordinates(scene: Scene) -> list[Argument]:
