@@ -35,6 +35,7 @@ LATER = {
     "sheet": "graphkin.cli.draw_commands:sheet",
     "cycle": "graphkin.cli.draw_commands:cycle",
     "accuracy": "graphkin.cli.draw_commands:accuracy",
+    "export": "graphkin.cli.export_command:export",
     "print": "graphkin.cli.print_command:print_sheets",
     "grade": "graphkin.cli.grade_command:grade",
     "read": "graphkin.cli.read_command:read",
