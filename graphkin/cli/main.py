@@ -44,6 +44,7 @@ LATER = {
     "new": "graphkin.cli.class_commands:new",
     "variants": "graphkin.cli.class_commands:variants",
     "ranges": "graphkin.cli.class_commands:ranges",
+    "import": "graphkin.cli.import_command:import_scene",
     "studio": "graphkin.cli.studio_command:studio",
     "manual": "graphkin.cli.manual_command:manual",
     "help": "graphkin.cli.manual_command:help_on",
