@@ -142,8 +142,8 @@ def has_forces(top: Table, asked: Table) -> bool:
     """Whether a file says anything of forces, the readers of which are imported only then."""
     keys = top.take("gravity"), top.take("loads"), asked.take("reactions"), asked.take("balance")
     links = top.raw.get("links")
-    written = [*links.values()] if isinstance(links, dict) else []
-    masses = (key in e for e in (*written, top.raw.get(FRAME_WORD)) if e for key in MASS_KEYS)
+    written = [top.raw.get(FRAME_WORD), *(links.values() if isinstance(links, dict) else ())]
+    masses = (key in each for each in written if isinstance(each, dict) for key in MASS_KEYS)
     return any(key is not None for key in keys) or any(masses)
 
 
