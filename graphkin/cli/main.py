@@ -230,8 +230,16 @@ def solve(
 
         found = certify(mechanism, found, digits, targets)
     lines: tuple[str, ...] = ()
+    by_forces = mechanism.forces()
+    if by_forces is not None and mechanism.scene.forces is not None:
+        from graphkin.cli.report.force_report import force_lines, force_record
+
+        held = force_record(mechanism.scene.forces, *by_forces)
+        found |= held
+        lines = tuple(force_lines(held))
     if pencil is not None and drawn_at is not None:
-        found["pencil"], lines = by_pencil(mechanism, drawn_at, pencil)
+        found["pencil"], errors = by_pencil(mechanism, drawn_at, pencil)
+        lines += errors
     if as_json:
         import json
 
@@ -241,6 +249,7 @@ def solve(
         tell(lines)
     uncertain = not_certified(found)
     doubtful = doubts(mechanism.scene, trace, solution, verdict, proved=digits is not None)
+    doubtful |= by_forces is not None and not by_forces[1].agrees
     if doubtful or uncertain:
         leave(FAILED)
 

@@ -14,6 +14,7 @@ from typing import Any
 import numpy as np
 from msgspec import Struct
 
+from graphkin.construction.reactions import ForceSolution
 from graphkin.loops.loop_motion import Motion
 from graphkin.loops.rigid_bodies import Reals
 from graphkin.scene.forces import Forces
@@ -31,7 +32,7 @@ class Equilibrium(Struct, frozen=True):
 
     ``pairs`` holds for each (name, link) the force and its moment about the pin or the block's
     first point. ``drivers`` holds forces along guides as vectors, and moments as numbers, by link.
-    ``power`` is the sum of Σ F·v + Σ M·ω over loads, inertia and ``drivers``, per Σ |F·v| + |M·ω|.
+    ``size`` (m) is the longest length, by which moments are compared with forces.
     """
 
     pairs: Mapping[tuple[str, str], tuple[complex, float]]
@@ -221,3 +222,32 @@ def power(
         terms.append((complex(given).conjugate() * rate).real)
     whole = sum(map(abs, terms))
     return sum(terms) / whole if whole else 0.0
+
+
+def compare_forces(
+    scene: Scene, forces: Forces, motion: Motion, here: Equilibrium, found: ForceSolution
+) -> ForceVerdict:
+    """The difference of constructed reactions and balance from two independent routes."""
+    largest = max([abs(force) for force, _ in here.pairs.values()], default=0.0)
+    largest = max([largest, *(abs(m) / here.size for _, m in here.pairs.values())])
+    for balance in found.balance:
+        value = abs(here.drivers[balance.link])
+        largest = max(largest, value if balance.moment is None else value / here.size)
+    off: dict[str, float] = {}
+    own = {(each.name, each.link): each for each in found.reactions}
+    for (name, link), (force, turned) in here.pairs.items():
+        each = own.get((name, link))
+        missed = np.inf if each is None else abs(each.force - force)
+        by_arm = 0.0 if each is None else abs(each.moment - turned) / here.size
+        off[f"reaction {name} on {link}"] = max(missed, by_arm)
+    drivers: dict[str, complex | float] = {}
+    for balance in found.balance:
+        is_force = balance.moment is None
+        given = balance.force if is_force else balance.moment
+        assert given is not None
+        drivers[balance.link] = given
+        missed = abs(given - here.drivers[balance.link])
+        off[f"balance {balance.link}"] = missed if is_force else missed / here.size
+    worst = max(off, key=lambda name: off[name])
+    difference = float(off[worst] / largest) if largest else float(off[worst])
+    return ForceVerdict(difference, worst, float(power(scene, forces, motion, drivers)))
