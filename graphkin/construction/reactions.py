@@ -92,7 +92,9 @@ def given_loads(scene: Scene, forces: Forces, solution: Solution) -> dict[str, W
     def add(link: str, wrench: Wrench) -> None:
         found[link] = found[link].plus(wrench)
 
-    falls = 0j if forces.gravity is None else complex(*(float(q.si(values)) for q in forces.gravity))
+    falls = (
+        0j if forces.gravity is None else complex(*(float(q.si(values)) for q in forces.gravity))
+    )
     for link, each in forces.masses.items():
         centre, mass = solution.points[each.centre], float(each.mass.si(values))
         assert centre.position is not None and centre.acceleration is not None
@@ -137,9 +139,7 @@ class Standing(Struct):
         other = second if link == first else first
         name = joint.place if isinstance(joint, Pin) else "-".join(joint.links)
         self.spots[name] = (
-            (self.pin(joint.place), None)
-            if isinstance(joint, Pin)
-            else self.guide(joint)  # type: ignore[arg-type]
+            (self.pin(joint.place), None) if isinstance(joint, Pin) else self.guide(joint)  # type: ignore[arg-type]
         )
         for each, wrench in ((link, on), (other, -on)):
             before = self.carried.get((name, each), NOTHING)

@@ -158,8 +158,10 @@ def equilibrium(scene: Scene, forces: Forces, motion: Motion) -> Equilibrium:
         k = rows[each.link]
         right[k : k + 3] -= [each.force.real, each.force.imag, turned]
     refuse_undetermined(columns, matrix)
-    values = np.linalg.solve(matrix, right) if matrix.shape[0] == matrix.shape[1] else (
-        np.linalg.lstsq(matrix, right, rcond=None)[0]
+    values = (
+        np.linalg.solve(matrix, right)
+        if matrix.shape[0] == matrix.shape[1]
+        else (np.linalg.lstsq(matrix, right, rcond=None)[0])
     )
     return gathered(columns, values, size)
 

@@ -168,8 +168,10 @@ def reactions(asked: Table, scene: Scene) -> tuple[str, ...]:
             continue
         hint = nearest(name, known)
         findings.add(
-            f"{place}[{index}]", shown(each), message("a pin or a block, {names}",
-            names=listed(known)), hint
+            f"{place}[{index}]",
+            shown(each),
+            message("a pin or a block, {names}", names=listed(known)),
+            hint,
         )
     return tuple(dict.fromkeys(found))
 

@@ -57,9 +57,7 @@ def force_lines(found: Record) -> list[str]:
         for link, each in on.items():
             x, y = (cleaned(part, biggest) for part in each["force"])
             size = abs(complex(x, y))
-            rows.append(
-                [name, "frame" if link == FRAME else link, x, y, size, each.get("moment")]
-            )
+            rows.append([name, "frame" if link == FRAME else link, x, y, size, each.get("moment")])
     if rows:
         heads = ["reaction", "on link", "Fx, N", "Fy, N", "F, N", "moment, N·m"]
         lines += ["", *table(heads, rows)]
