@@ -1,4 +1,4 @@
-"""Reactions and balance as JSON and as text: SI units, x right, y up, counter-clockwise positive."""
+"""Reactions and balance as JSON and as text, in SI units; counter-clockwise is positive."""
 
 from __future__ import annotations
 
