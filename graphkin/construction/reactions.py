@@ -34,7 +34,7 @@ class Wrench(NamedTuple):
 
     def about(self, place: complex) -> float:
         """The moment about a place."""
-        return self.moment - cross(place, self.force)
+        return float(self.moment - cross(place, self.force))
 
     def __neg__(self) -> Wrench:
         return Wrench(-self.force, -self.moment)
@@ -92,9 +92,8 @@ def given_loads(scene: Scene, forces: Forces, solution: Solution) -> dict[str, W
     def add(link: str, wrench: Wrench) -> None:
         found[link] = found[link].plus(wrench)
 
-    falls = (
-        0j if forces.gravity is None else complex(*(float(q.si(values)) for q in forces.gravity))
-    )
+    given = forces.gravity
+    falls = 0j if given is None else complex(*(float(q.si(values)) for q in given))
     for link, each in forces.masses.items():
         centre, mass = solution.points[each.centre], float(each.mass.si(values))
         assert centre.position is not None and centre.acceleration is not None

@@ -158,12 +158,8 @@ def equilibrium(scene: Scene, forces: Forces, motion: Motion) -> Equilibrium:
         k = rows[each.link]
         right[k : k + 3] -= [each.force.real, each.force.imag, turned]
     refuse_undetermined(columns, matrix)
-    values = (
-        np.linalg.solve(matrix, right)
-        if matrix.shape[0] == matrix.shape[1]
-        else (np.linalg.lstsq(matrix, right, rcond=None)[0])
-    )
-    return gathered(columns, values, size)
+    values = np.linalg.lstsq(matrix, right, rcond=None)[0]
+    return gathered(columns, values.tolist(), size)
 
 
 def refuse_undetermined(columns: list[Column], matrix: Reals) -> None:
@@ -186,7 +182,7 @@ def refuse_undetermined(columns: list[Column], matrix: Reals) -> None:
     raise StructureError(Problem("loads", found, message("a position away from the dead point")))
 
 
-def gathered(columns: list[Column], values: Reals, size: float) -> Equilibrium:
+def gathered(columns: list[Column], values: list[float], size: float) -> Equilibrium:
     """The unknowns by pair and link, and by driver; couples in N·m."""
     pairs: dict[tuple[str, str], tuple[complex, float]] = {}
     drivers: dict[str, complex] = {}

@@ -38,8 +38,8 @@ def masses(top: Table, scene: Scene, measures: Measures) -> Iterator[tuple[str, 
     """The masses of links, as written."""
     findings, links = measures.findings, top.raw.get("links")
     frame = top.raw.get(FRAME_WORD)
-    for key in MASS_KEYS if isinstance(frame, dict) else ():
-        if key in frame:
+    if isinstance(frame, dict):
+        for key in filter(frame.__contains__, MASS_KEYS):
             place = f"{FRAME_WORD}.{key}"
             findings.add(place, message("the frame is at rest"), message("a moving link"))
     for name, raw in links.items() if isinstance(links, dict) else ():
