@@ -230,11 +230,12 @@ def solve(
 
         found = certify(mechanism, found, digits, targets)
     lines: tuple[str, ...] = ()
-    by_forces = mechanism.forces()
-    if by_forces is not None and mechanism.scene.forces is not None:
+    given = mechanism.scene.forces
+    by_forces = mechanism.forces() if given is not None and given.asked else None
+    if given is not None and by_forces is not None:
         from graphkin.cli.report.force_report import force_lines, force_record
 
-        held = force_record(mechanism.scene.forces, *by_forces)
+        held = force_record(given, *by_forces)
         found |= held
         lines = tuple(force_lines(held))
     if pencil is not None and drawn_at is not None:

@@ -44,6 +44,11 @@ class Forces(Struct, frozen=True):
     reactions: tuple[str, ...] = ()
     balance: bool = False
 
+    @property
+    def asked(self) -> bool:
+        """Whether any reaction or the balance is asked."""
+        return bool(self.reactions) or self.balance
+
     def called(self, names: Mapping[str, str]) -> Forces:
         """The same with links renamed."""
         return replace(

@@ -378,7 +378,8 @@ class Checking:
 
     def forces(self) -> list[str]:
         """How far the other routes are from the constructed forces; a difference is a doubt."""
-        found = self.mechanism.forces()
+        given = self.mechanism.scene.forces
+        found = self.mechanism.forces() if given is not None and given.asked else None
         if found is None:
             return []
         from graphkin.cli.report.force_report import force_verdict_words, witness_of_forces
