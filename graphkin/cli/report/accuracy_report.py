@@ -14,7 +14,7 @@ from graphkin.accuracy.study import DOUBLE, Agreement, Flattening, Study
 from graphkin.construction.core.timing import Timing
 from graphkin.numbers.kinds import GUARD
 from graphkin.scene.quantity import LENGTHS
-from graphkin.text.plain_table import table
+from graphkin.text.tables import table
 
 HEADS = (
     "method",
