@@ -11,19 +11,17 @@ import numpy as np
 from msgspec import Struct
 
 from graphkin.accuracy.comparison import Found, Reference, radii_of, rows_of
-from graphkin.accuracy.effort import Effort
 from graphkin.construction.core.program import Program, Target
 from graphkin.construction.core.quantities import BY_TARGET, KINDS, MOTION
 from graphkin.construction.core.run import StepFailed, run, run_blocks
 from graphkin.construction.core.solution import gathered
-from graphkin.construction.core.timing import Timing, Work
+from graphkin.construction.core.timing import Clock, Stopwatch, Timing, Work
 from graphkin.construction.tape.batch_runner import BatchRunner, Way
 from graphkin.loops.closing_groups import counted_in_order
 from graphkin.loops.equations import equations
 from graphkin.loops.loop_motion import Motion
 from graphkin.loops.newton import newton, ratios_at
 from graphkin.loops.rigid_bodies import Reals
-from graphkin.loops.rounding import Rounding
 from graphkin.loops.witness.examine import started
 from graphkin.motion.sweep import names
 from graphkin.numbers.arithmetic import FLOAT, Kind
@@ -37,18 +35,58 @@ FEW = 1_000
 """The most variants of a batch with a group of higher class, because each is a search."""
 
 
+class Effort(Struct, frozen=True):
+    """The extent of a study: positions compared, rounds of a time, variants of a batch.
+
+    ``timed`` is the number of positions at which decimals and balls are timed. ``drawn`` is the
+    number of positions towards a dead point at which a drawing is predicted.
+
+    ``least`` is the least time of a round and ``patience`` the most time for all rounds of one
+    method, in seconds. ``groups`` and ``each`` divide the way to a dead point.
+    """
+
+    places: int = 32
+    rounds: int = 25
+    variants: int = 20_000
+    least: float = 2e-3
+    patience: float = 4.0
+    groups: int = 24
+    each: int = 8
+    timed: int = 8
+    drawn: int = 12
+    compiled: bool = True
+
+    def watch(self, clock: Clock, say: Callable[[str], None]) -> Stopwatch:
+        """The stopwatch for this effort."""
+        return Stopwatch(self.rounds, self.least, self.patience, clock=clock, say=say)
+
+
+QUICK = Effort(
+    places=6,
+    rounds=3,
+    variants=64,
+    least=0,
+    patience=0.2,
+    groups=14,
+    each=4,
+    timed=1,
+    drawn=4,
+    compiled=False,
+)
+"""A few positions with hardly any timing: to try the command, and for its tests."""
+
+
 class MethodRow(Struct, frozen=True):
     """A method: its largest errors as shares of the largest of each quantity, and its time.
 
     An error is None for a quantity that the method does not give, infinite if the method fails at
     some position. ``variants`` is the number of positions of one run. ``certified`` marks errors
     that the method itself proves, so that they are radii. ``time`` is that of one position, in
-    seconds, None if the method is not timed. ``key`` is the short name on pictures.
+    seconds, None if the method is not timed.
     """
 
     family: str
     method: str
-    key: str
     errors: tuple[float | None, float | None, float | None]
     time: Timing | None
     variants: int = 1
@@ -66,16 +104,14 @@ class Method(Struct, frozen=True):
 
 def own_methods(reference: Reference, effort: Effort) -> Iterator[Method]:
     """Every kind of number with the same program, one position after the other or in batches."""
-    yield one_by_one(reference, effort, FLOAT, "float64", "float64, one by one", "one by one")
+    yield one_by_one(reference, effort, FLOAT, "float64", "float64, one by one")
     yield from batches(reference, effort)
     for digits in DIGITS:
         name = f"mpmath, {digits} digits"
-        yield one_by_one(
-            reference, effort, decimal_kind(digits), "mpmath", name, f"{digits} digits"
-        )
+        yield one_by_one(reference, effort, decimal_kind(digits), "mpmath", name)
     for bits in BITS:
         kind, name = ball_kind(bits), f"Arb, {bits} bits"
-        yield one_by_one(reference, effort, kind, "Arb", name, f"{bits} bits", certified=True)
+        yield one_by_one(reference, effort, kind, "Arb", name, certified=True)
 
 
 def one_by_one(
@@ -84,7 +120,6 @@ def one_by_one(
     kind: Kind,
     family: str,
     name: str,
-    key: str,
     *,
     certified: bool = False,
 ) -> Method:
@@ -97,7 +132,7 @@ def one_by_one(
         for number in some:
             singly(reference, kind, number)
 
-    row = MethodRow(family, name, key, reference.relative(missed), None, 1, certified)
+    row = MethodRow(family, name, reference.relative(missed), None, 1, certified)
     return Method(row, work, len(some))
 
 
@@ -139,18 +174,14 @@ def radii_in(found: Sequence[Found], reference: Reference) -> Any:
 
 def batches(reference: Reference, effort: Effort) -> Iterator[Method]:
     """Arrays of three precisions; doubles by steps, by emitted numpy code, and compiled."""
-    ways: list[tuple[str, Way, str, str]] = [
-        ("float64", "steps", "float64 batch, by steps", "batch, by steps"),
-        ("float64", "numpy", "float64 batch, emitted numpy", "batch, emitted"),
-        ("float64", "numba", "float64 batch, compiled", "batch, compiled"),
-    ]
-    for kind, way, name, key in ways:
+    ways: dict[Way, str] = {"steps": "by steps", "numpy": "emitted numpy", "numba": "compiled"}
+    for way, words in ways.items():
         if way == "numba" and (not effort.compiled or find_spec("numba") is None):
             continue
         if way == "steps" or can_be_emitted(reference):
-            yield batch(reference, effort, kind, way, name, key)
+            yield batch(reference, effort, "float64", way, f"float64 batch, {words}")
     for kind in ("float32", "longdouble"):
-        yield batch(reference, effort, kind, "steps", f"{kind} batch, by steps", f"{kind} batch")
+        yield batch(reference, effort, kind, "steps", f"{kind} batch, by steps")
 
 
 def variants_of(reference: Reference, effort: Effort) -> int:
@@ -160,14 +191,14 @@ def variants_of(reference: Reference, effort: Effort) -> int:
     return max(wanted, len(reference.places.at))
 
 
-def batch(reference: Reference, effort: Effort, kind: str, way: Way, name: str, key: str) -> Method:
+def batch(reference: Reference, effort: Effort, kind: str, way: Way, name: str) -> Method:
     """A method that computes many positions at once; the reference's positions are repeated."""
     count, positions = variants_of(reference, effort), len(reference.places.at)
     values = reference.places.repeated(count)
     work = batch_work(reference.places.course.program, reference.answers.every, values, kind, way)
     columns = {t: head_of(v, positions) for t, v in work().items()}
     missed = reference.missed(rows_of(columns, positions))
-    row = MethodRow(kind, name, key, reference.relative(missed), None, count)
+    row = MethodRow(kind, name, reference.relative(missed), None, count)
     return Method(row, work, count)
 
 
@@ -226,11 +257,6 @@ def plain(number: float) -> str:
     return f"1e{round(log10(number))}"
 
 
-def power(number: float) -> str:
-    """A power of ten as a picture writes it."""
-    return f"$10^{{{round(log10(number))}}}$"
-
-
 def other_methods(reference: Reference, effort: Effort) -> Iterator[Method]:
     """Newton's method to three tolerances, and central differences with three steps."""
     yield from newton_rows(reference, effort)
@@ -269,18 +295,18 @@ def newton_rows(reference: Reference, effort: Effort) -> Iterator[Method]:
     """Newton's method to each tolerance; without errors where it cannot solve the loops."""
     count = min(variants_of(reference, effort), MOST)
     for tolerance in TOLERANCES:
-        name, key = f"Newton, to {plain(tolerance)}", f"to {power(tolerance)}"
+        name = f"Newton, to {plain(tolerance)}"
         try:
             work = newton_work(reference, count, tolerance)
             columns = work()
         except (GraphkinError, np.linalg.LinAlgError) as error:
             note = str(error).partition(";")[0]
-            yield Method(MethodRow("Newton", name, key, NOTHING, None, count, note=note))
+            yield Method(MethodRow("Newton", name, NOTHING, None, count, note=note))
             continue
         positions = len(reference.places.at)
         found = rows_of({t: v[:positions] for t, v in columns.items()}, positions)
         errors = reference.relative(reference.missed(found))
-        yield Method(MethodRow("Newton", name, key, errors, None, count), work, count)
+        yield Method(MethodRow("Newton", name, errors, None, count), work, count)
 
 
 def newton_work(
@@ -317,8 +343,8 @@ def start_before(reference: Reference, scene: Scene, before: Values) -> Reals:
     return started(scene, loops, gathered(trace, scene.links))[0]
 
 
-def columns_of(motion: Motion | Rounding, reference: Reference) -> dict[Target, Any]:
-    """The answers as arrays, from the motion that the loops give, or from its bounds."""
+def columns_of(motion: Motion, reference: Reference) -> dict[Target, Any]:
+    """The answers as arrays, from the motion that the loops give."""
     found: dict[Target, Any] = {}
     for targets in reference.answers.targets:
         for what, name in targets:
@@ -339,16 +365,16 @@ def difference_rows(reference: Reference, effort: Effort) -> Iterator[Method]:
     natural = natural_time(scene, values, float(reference.scales[0]))
     way: Way = "numpy" if can_be_emitted(reference) else "steps"
     for share in STEPS:
-        name, key = f"central differences, h = {plain(share)}", f"h = {power(share)}"
+        name = f"central differences, h = {plain(share)}"
         if natural == 0:
             note = "every driver stands still: there is nothing to differ"
-            yield Method(MethodRow("differences", name, key, NOTHING, None, count, note=note))
+            yield Method(MethodRow("differences", name, NOTHING, None, count, note=note))
             continue
         work = difference_work(reference, values, share * natural, way)
         columns = {target: head_of(v, len(places.at)) for target, v in work().items()}
         missed = reference.missed(rows_of(columns, len(places.at)))
         _, velocity, acceleration = reference.relative(missed)
-        row = MethodRow("differences", name, key, (None, velocity, acceleration), None, count)
+        row = MethodRow("differences", name, (None, velocity, acceleration), None, count)
         yield Method(row, work, count)
 
 

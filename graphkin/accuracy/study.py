@@ -1,9 +1,15 @@
-"""The whole comparison for one scene: methods, the way to a dead point, cost by scope."""
+"""The whole comparison for one scene: methods, and errors on the way to a dead point."""
 
 from __future__ import annotations
 
+import os
+import platform
+import re
 from collections.abc import Callable, Iterator, Mapping, Sequence
+from importlib.metadata import version
+from importlib.util import find_spec
 from itertools import chain
+from pathlib import Path
 from time import perf_counter
 
 import numpy as np
@@ -13,7 +19,6 @@ from msgspec.structs import replace
 from graphkin.accuracy.comparison import (
     Approach,
     ComparedTargets,
-    Found,
     Ground,
     Reference,
     answers_of,
@@ -23,176 +28,20 @@ from graphkin.accuracy.comparison import (
     reference_of,
     rows_of,
 )
-from graphkin.accuracy.effort import Effort
 from graphkin.accuracy.methods import (
+    Effort,
     Method,
     MethodRow,
     batch_work,
-    can_be_emitted,
-    columns_of,
-    found_singly,
-    in_floats,
     other_methods,
     own_methods,
-    radii_in,
-    start_before,
-    variants_of,
 )
 from graphkin.accuracy.pencil import Forecast, Pencil, forecast, original
-from graphkin.construction.core.program import Target
-from graphkin.construction.core.quantities import BY_TARGET, KINDS
-from graphkin.construction.core.timing import Clock, Stopwatch, Timing, Work, one_position
-from graphkin.construction.tape.batch_runner import Way
+from graphkin.construction.core.timing import Clock, Stopwatch
 from graphkin.drawing.scale import Scales
-from graphkin.loops.closing_groups import counted_in_order
-from graphkin.loops.equations import equations
-from graphkin.loops.newton import closed_from
 from graphkin.mechanism import Mechanism
 from graphkin.motion.course import Reals
-from graphkin.numbers.arithmetic import FLOAT
-from graphkin.numbers.kinds import ball_kind
 from graphkin.text.errors import GraphkinError
-
-DOUBLE = 53
-"""The bits of a ball with the precision of a double."""
-
-
-class Agreement(Struct, frozen=True):
-    """How doubles, and balls of as many bits, compare with the certified answers.
-
-    ``bound`` is the largest bound of a double's error over the largest of its quantity. ``single``
-    and ``batch`` are the largest errors over their bounds. Of ``answers`` balls, ``bounded`` have a
-    finite radius and ``contained`` of these contain the true value; ``tightness`` is their largest
-    radius over its bound.
-    """
-
-    bound: float
-    single: float
-    batch: float
-    tightness: float
-    contained: int
-    bounded: int
-    answers: int
-
-
-def agreement(reference: Reference) -> Agreement:
-    """Compare doubles one by one, doubles in a batch, and balls with the reference."""
-    places, targets = reference.places, reference.answers.every
-    count = len(places.at)
-    columns = batch_work(
-        places.course.program, targets, places.repeated(count), "float64", "steps"
-    )()
-    balls = found_singly(reference, ball_kind(DOUBLE))
-    bounds = bounds_of(reference)
-    single = in_parts(reference.missed(found_singly(reference, FLOAT)), bounds)
-    batch = in_parts(reference.missed(rows_of(columns, count)), bounds)
-    radii = in_parts(radii_in(balls, reference), bounds)
-    return Agreement(
-        float(in_parts(bounds, reference.scales).max()),
-        float(single.max()),
-        float(batch.max()),
-        float(radii[np.isfinite(radii)].max(initial=0.0)),
-        *contained(balls, reference),
-        len(targets) * count,
-    )
-
-
-def in_parts(errors: Reals, of: Reals) -> Reals:
-    """Errors divided by other numbers; 0/0 is 0, as for the velocities of points at rest."""
-    with np.errstate(divide="ignore", invalid="ignore"):
-        return np.asarray(np.where(errors == 0, 0.0, errors / of))
-
-
-def bounds_of(reference: Reference) -> Reals:
-    """The largest bound of each quantity at each position, (P, 3), from the loop equations."""
-    places = reference.places
-    scene, values = places.course.scene, in_floats(places.repeated(len(places.at)))
-    start = start_before(reference, scene, values)
-    bounds = closed_from(counted_in_order(equations(scene, values)), start, singular=True).rounding
-    every = columns_of(bounds, reference)
-    rows = [np.stack([every[t] for t in some if t in every]) for some in reference.answers.targets]
-    return np.stack([row.max(axis=0) for row in rows], axis=1)
-
-
-def contained(balls: Sequence[Found], reference: Reference) -> tuple[int, int]:
-    """The number of balls that contain the reference's ball, and of those with a finite radius."""
-    pairs = [
-        (ball, sure[target])
-        for found, sure in zip(balls, reference.found, strict=True)
-        for target, ball in found.items()
-        if bool(ball.is_finite())
-    ]
-    return sum(bool(ball.contains(sure)) for ball, sure in pairs), len(pairs)
-
-
-# --- the cost of each scope
-# ------------------------------------------------------------------------
-
-
-SCOPES = dict(zip(KINDS, ("position", "+ velocity", "+ acceleration"), strict=True))
-"""The scope of each kind of quantity, which includes the scopes before it."""
-CENTRES = "+ centres, poles"
-"""The last scope: centres and poles in links."""
-ASKED = "asked only"
-
-
-class Scope(Struct, frozen=True):
-    """A scope, the number of steps it needs, and the time of a position in both ways."""
-
-    name: str
-    steps: int
-    single: Timing
-    batch: Timing
-
-
-def scopes(
-    mechanism: Mechanism, reference: Reference, effort: Effort, watch: Stopwatch
-) -> tuple[Scope, ...]:
-    """The cost of each scope, one position after the other and in a batch; the asked one is last.
-
-    A scope that adds nothing is left out, as for a mechanism without centres.
-    """
-    program = reference.places.course.program
-    wanted: list[Target] = []
-    known: dict[str, tuple[Target, ...]] = {}
-    for name in (*SCOPES.values(), CENTRES):
-        new = [target for target in program.answers if scope_of(target) == name]
-        wanted += new
-        if new:
-            known[name] = tuple(wanted)
-    known[ASKED] = tuple(target for target in mechanism.asked() if target in program.targets)
-    works = [work for some in known.values() for work in ways(some, reference, effort)]
-    times = watch.times(works)
-    pairs = zip(times[::2], times[1::2], strict=True)
-    return tuple(
-        Scope(name, len(program.needed(some)), *pair)
-        for (name, some), pair in zip(known.items(), pairs, strict=True)
-    )
-
-
-def scope_of(target: Target) -> str | None:
-    """The scope that adds a target; None if the target is not a quantity of a motion."""
-    quantity = BY_TARGET.get(target[0])
-    if quantity is None:
-        return None
-    in_link = quantity.whose == "links" and quantity.sort == "place"
-    return CENTRES if in_link else SCOPES[quantity.kind]
-
-
-def ways(
-    targets: Sequence[Target], reference: Reference, effort: Effort
-) -> Iterator[tuple[Work, int]]:
-    """The work that runs some targets one position after the other, and the work in a batch."""
-    places = reference.places
-    program = places.course.program
-    needed = program.needed(targets)
-
-    singly = [one_position(program, needed, values) for values in reference.exact_values]
-    yield lambda: [work() for work in singly], len(places.at)
-    count = variants_of(reference, effort)
-    way: Way = "numpy" if can_be_emitted(reference) else "steps"
-    yield batch_work(program, targets, places.repeated(count), "float64", way), count
-
 
 # --- errors while a crossing grows flat -----------------------------------------------------------
 
@@ -223,6 +72,11 @@ class Flattening(Struct, frozen=True, eq=False):
     sines: Reals
     roots: Reals
     errors: Mapping[str, Reals]
+
+    @property
+    def has_end(self) -> bool:
+        """Whether the driver was moved towards a dead point or change point."""
+        return self.approach.end != "range"
 
     @property
     def falls(self) -> bool:
@@ -310,17 +164,16 @@ def pencil_rows(mechanism: Mechanism, reference: Reference, scales: Scales) -> I
     """Three pencils at the scene's own position, at the scales of its sheets."""
     note = "95 of 100 drawings of the scene's own position are off by less; a person's hour"
     for point in PENCILS:
-        name, key = f"pencil, {point:g} mm", f"{point:g} mm"
+        name = f"pencil, {point:g} mm"
         try:
             exact = original(mechanism, scales, reference.answers.every)
             worst = worst_of(forecast(exact, Pencil(point)), reference.answers)
         except GraphkinError as error:
             note = f"cannot be drawn: {error.problems[0]}"
-            yield MethodRow("pencil", name, key, (None, None, None), None, note=note)
+            yield MethodRow("pencil", name, (None, None, None), None, note=note)
             continue
-        errors = worst / reference.scales
-        first, second, third = (float(each) for each in errors)
-        yield MethodRow("pencil", name, key, (first, second, third), None, note=note)
+        first, second, third = (float(each) for each in worst / reference.scales)
+        yield MethodRow("pencil", name, (first, second, third), None, note=note)
 
 
 def worst_of(found: Forecast, answers: ComparedTargets) -> Reals:
@@ -383,11 +236,9 @@ class Study(Struct, frozen=True, eq=False):
 
     mechanism: Mechanism
     reference: Reference
-    agreement: Agreement
     rows: tuple[MethodRow, ...]
     flattening: Flattening | None
     pencil: tuple[Reals, Reals]
-    scopes: tuple[Scope, ...]
 
     def row(self, method: str) -> MethodRow:
         return next(row for row in self.rows if row.method == method)
@@ -428,9 +279,7 @@ def study(
         say("no way to a dead point")
     if flattening is not None and scales is not None:
         pencil = pencilled(ground, answers, scales, flattening, effort.drawn)
-    say("cost by scope")
-    costs = scopes(mechanism, reference, effort, watch)
-    return Study(mechanism, reference, agreement(reference), tuple(rows), flattening, pencil, costs)
+    return Study(mechanism, reference, tuple(rows), flattening, pencil)
 
 
 def timed(methods: Sequence[Method], watch: Stopwatch) -> list[MethodRow]:
@@ -441,3 +290,26 @@ def timed(methods: Sequence[Method], watch: Stopwatch) -> list[MethodRow]:
         method.row if method.work is None else replace(method.row, time=next(times))
         for method in methods
     ]
+
+
+# --- the machine on which something was timed, in words -------------------------------------------
+
+
+CPU = Path("/proc/cpuinfo")
+LIBRARIES = {"numpy": "numpy", "numba": "numba", "mpmath": "mpmath", "python-flint": "flint"}
+"""The libraries whose speed is measured, with their modules."""
+
+
+def machine_words() -> str:
+    """Processor, system, and the versions of Python and of the numerical libraries."""
+    cores = os.cpu_count() or 1
+    listed = CPU.read_text(encoding="utf-8", errors="replace") if CPU.exists() else ""
+    model = re.search(r"^model name\s*:\s*(.*\S)", listed, re.MULTILINE)
+    own = platform.processor() or platform.machine() or "unknown processor"
+    parts = [
+        f"{model[1] if model else own}, {cores} core{'s' if cores > 1 else ''}",
+        f"{platform.system()} {platform.machine()}",
+        f"Python {platform.python_version()}",
+    ]
+    known = {name: version(name) for name, module in LIBRARIES.items() if find_spec(module)}
+    return "; ".join([*parts, *(f"{name} {each}" for name, each in known.items())])

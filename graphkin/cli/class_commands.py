@@ -273,7 +273,7 @@ def ranges(name: str, folder: Path | None, force: bool) -> None:
     from graphkin.classroom.lab.fair_ranges import fair_ranges
     from graphkin.classroom.lab.proposed_ranges import range_lines
     from graphkin.classroom.lab.read_lab import read_lab
-    from graphkin.text.plain_table import labelled
+    from graphkin.text.tables import labelled
     from graphkin.writers.files import refuse_folder, write_all
 
     lab = read_lab(name)

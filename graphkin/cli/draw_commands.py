@@ -211,10 +211,10 @@ def accuracy(
     120 digits, and balls that prove their radius. Newton's method on the loop equations, central
     differences and a pencil are compared too.
 
-    Writes a table (CSV) and three pictures: error against time; error towards a dead point; cost by
-    what is asked. Ends with the times that you wait (load, solve, check, page) and the accuracy of
-    a drawing and of the numbers. The command takes about half a minute; groups of class III and
-    higher take some minutes.
+    Writes a table (CSV) and two pictures: digits and time of each method; errors towards a dead
+    point. Ends with the times that you wait (load, solve, check, page) and the accuracy of drawing
+    and numbers. The command takes about half a minute, groups of class III and higher take
+    some minutes. The command explain measures what each quantity costs.
 
     \b
     Examples:
@@ -222,7 +222,7 @@ def accuracy(
       graphkin accuracy mine.toml -o accuracy --quick
     """
     kinds = option_words("--format", formats, ("svg", "png"))
-    from graphkin.accuracy.effort import QUICK, Effort
+    from graphkin.accuracy.methods import QUICK, Effort
     from graphkin.accuracy.study import study
     from graphkin.accuracy.study_pictures import picture_files
     from graphkin.cli.report.accuracy_report import accuracy_lines, accuracy_table

@@ -321,7 +321,7 @@ def not_certified(found: Record) -> bool:
     """Warn of numbers whose digits are not proved; True if there are any."""
     undecided = found.get("undecided", {})
     if undecided:
-        from graphkin.text.plain_table import listed
+        from graphkin.text.tables import listed
 
         complain(f"not certified: {listed(undecided, 6)}")
     return bool(undecided)

@@ -10,15 +10,18 @@ from graphkin.construction.core.plan_vector import plan_vector
 from graphkin.construction.core.quantities import OnPaper, in_mm
 from graphkin.construction.core.relation import value_of
 from graphkin.construction.core.segments import segment_of
-from graphkin.drawing.columns import SMALL, ColumnTable, Row, laid_out, on_sheets
+from graphkin.drawing.columns import SMALL, ColumnTable, laid_out, on_sheets
 from graphkin.drawing.field import Rect
 from graphkin.drawing.marks import Mark, Text
 from graphkin.drawing.richtext import flowed
 from graphkin.drawing.symbol_markup import escape, symbol
 from graphkin.numbers.plane import Vector
+from graphkin.text.tables import CellTable, Row
 
-VECTORS, TURNS, SLID = (13.5, 13.5, 13, 16), (13, 14, 33), (12.5, 12, 31.5)
-"""Widths of the columns of the tables, in mm."""
+WIDTHS = {"vectors": (13.5, 13.5, 13, 16), "turns": (13, 14, 33), "slides": (12.5, 12, 31.5)}
+"""Widths of the columns of each table on paper, in mm."""
+NUMBERS = {"vectors": (2, 3), "turns": (1,), "slides": (1,)}
+"""The columns of numbers of each table; those before them name the row."""
 LEGIBLE = 2.0
 """Least length in mm of a vector that is read off a plan: an error of 0.5 mm is a quarter of it."""
 LEADING = 2.9
@@ -152,26 +155,33 @@ def tables_on_sheets(
     return [*sheets, [*last, *note]]
 
 
-def column_tables(drawing: Drawing, *, empty: bool) -> list[ColumnTable]:
-    """The tables that have rows: vectors, angular values, blocks."""
+def result_tables(drawing: Drawing, *, empty: bool) -> list[CellTable]:
+    """The tables of a sheet that have rows: vectors, turning of links, sliding of blocks."""
     words = drawing.words
-    unit = words(f"table.{drawing.kind}")
-    head = Row((words("table.symbol"), words("table.segment"), words("table.millimetres"), unit))
-    turning = words(f"table.{drawing.rate.target}")
-    turn_head = Row((words("table.symbol"), turning, words("table.sense")))
-    slide_head = Row((words("table.symbol"), unit, words("table.sense")))
+    symbol_head, sense_head = words("table.symbol"), words("table.sense")
+    unit, turning = words(f"table.{drawing.kind}"), words(f"table.{drawing.rate.target}")
+    measured = words("table.segment"), words("table.millimetres")
     every = (
-        ColumnTable(VECTORS, head, tuple(vector_rows(drawing, empty=empty)), numbers=(2, 3)),
-        ColumnTable(
-            TURNS,
-            turn_head,
-            tuple(turning_rows(drawing, empty=empty)),
-            beside=True,
-            numbers=(1,),
-        ),
-        ColumnTable(SLID, slide_head, tuple(slide_rows(drawing, empty=empty)), numbers=(1,)),
+        ((symbol_head, *measured, unit), vector_rows, "vectors"),
+        ((symbol_head, turning, sense_head), turning_rows, "turns"),
+        ((symbol_head, unit, sense_head), slide_rows, "slides"),
     )
-    return [table for table in every if table.rows]
+    found = (CellTable(heads, rows(drawing, empty=empty), kind=kind) for heads, rows, kind in every)
+    return [table for table in found if table.rows]
+
+
+def column_tables(drawing: Drawing, *, empty: bool) -> list[ColumnTable]:
+    """The tables of a sheet, as paper rules them."""
+    return [
+        ColumnTable(
+            WIDTHS[table.kind],
+            Row(table.heads),
+            tuple(table.rows),
+            beside=table.kind == "turns",
+            numbers=NUMBERS[table.kind],
+        )
+        for table in result_tables(drawing, empty=empty)
+    ]
 
 
 def reasons(drawing: Drawing, rows: Sequence[Row], rect: Rect) -> list[Mark]:

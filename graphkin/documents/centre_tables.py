@@ -15,7 +15,7 @@ from graphkin.numbers.arithmetic import at
 from graphkin.numbers.plane import Ratio
 from graphkin.scene.model import FRAME, Scene
 from graphkin.structure.pairs import guides_under
-from graphkin.text.plain_table import NOISE, Cell, number, table
+from graphkin.text.tables import NOISE, Cell, number, table
 
 FAR = 1e9
 """Distance beyond which a centre counts as at infinity, in breadths of the mechanism."""

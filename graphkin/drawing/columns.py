@@ -14,6 +14,7 @@ from graphkin.drawing.field import Rect
 from graphkin.drawing.marks import LineMark, Mark, Text, box
 from graphkin.drawing.richtext import extent
 from graphkin.text.errors import PageError, Problem, message
+from graphkin.text.tables import Row
 
 HEIGHT, SMALL = 2.5, 1.8
 """Letter heights in mm: the preferred one and the least."""
@@ -60,13 +61,6 @@ BY_HAND = tuple(Look(row, row / 2 + 1.0, *how) for row in (7.0, 6.0, 5.0) for ho
 """Looks of tables to be filled in by hand, where space permits."""
 NUMBER = re.compile(r"(\(?[−<\s\d]+)(.*)", re.DOTALL)
 """A number in a cell: the part before its decimal mark, and the rest."""
-
-
-class Row(Struct, frozen=True):
-    """A row of cells in markup."""
-
-    cells: tuple[str, ...]
-    name: str = ""
 
 
 class ColumnTable(Struct, frozen=True):

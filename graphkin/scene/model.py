@@ -17,7 +17,7 @@ from graphkin.numbers.arithmetic import FLOAT, Kind, Point
 from graphkin.scene.expression import TIME
 from graphkin.scene.quantity import Quantity
 from graphkin.text.errors import Message, message
-from graphkin.text.plain_table import listed
+from graphkin.text.tables import listed
 
 if TYPE_CHECKING:
     from graphkin.numbers.cam_motions import Rise

@@ -26,7 +26,7 @@ from graphkin.structure.wheel_groups import (
     other_of,
 )
 from graphkin.text.errors import NO_WORDS, Message, message
-from graphkin.text.plain_table import listed
+from graphkin.text.tables import listed
 
 Joined = tuple[str, str]
 

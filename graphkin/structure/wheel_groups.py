@@ -20,7 +20,7 @@ from graphkin.structure.joints import Joints, partner
 from graphkin.structure.pairs import Contact, ContactName, Joint, Leading, Pin, Sliding
 from graphkin.structure.turning import LEVEL
 from graphkin.text.errors import Message, message
-from graphkin.text.plain_table import listed
+from graphkin.text.tables import listed
 
 
 class OneLink(Struct, frozen=True):

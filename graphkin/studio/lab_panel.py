@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections import Counter
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from math import isnan
@@ -15,10 +14,16 @@ import tomlkit
 from msgspec import Struct, field
 
 from graphkin.classroom.lab.fair_ranges import FairRanges, fair_ranges
-from graphkin.classroom.lab.fairness import Fault
-from graphkin.classroom.lab.fairness_words import SCALES, some
+from graphkin.classroom.lab.fairness_words import (
+    broken_table,
+    fault_words,
+    scale_table,
+    some,
+    spread_table,
+    spreads_of,
+)
 from graphkin.classroom.lab.lab_model import Lab
-from graphkin.classroom.lab.lab_trial import LabTrial, quantiles, tried
+from graphkin.classroom.lab.lab_trial import LabTrial, tried
 from graphkin.classroom.lab.proposed_ranges import (
     APART,
     FormulaFaults,
@@ -31,13 +36,11 @@ from graphkin.classroom.lab.proposed_ranges import (
 from graphkin.classroom.lab.read_lab import LAB, SCENE, read_lab
 from graphkin.classroom.lab.rules import exact_text
 from graphkin.classroom.variants.assign import Assigned
-from graphkin.drawing.columns import Row
-from graphkin.drawing.scale import ratio
 from graphkin.drawing.symbol_markup import symbol
 from graphkin.studio.mends import Edit, units
-from graphkin.studio.result_panel import table
 from graphkin.text import Words
 from graphkin.text.errors import GraphkinError, Problem
+from graphkin.writers.templates import tables_html
 
 POLL = 0.05
 """Seconds between two checks whether a result is still wanted."""
@@ -141,16 +144,6 @@ def told(work: Callable[[LabTexts], Any], texts: LabTexts, sending: Any) -> None
 # --- the page's view of a lab that was tried ------------------------------------------------------
 
 
-UNITS = {
-    "crossing": (1, "°"),
-    "segment": (1, " mm"),
-    "triangle": (1, ""),
-    "apart": (100, " %"),
-    "pencil": (100, " %"),
-}
-"""The factor and unit in which the value of a limit is printed."""
-
-
 class StudentRow(Struct, frozen=True):
     """A student of the class: name, data, faults, and what makes the sheet hard.
 
@@ -197,7 +190,9 @@ def lab_report(outcome: LabTrial, words: Words) -> LabReport:
         gaps = {"own": names[own], "other": names[other], "share": str(shares[own][other])}
         closest = words("studio.closest", **gaps)
     rows = [student_row(i, each, shares, names, words) for i, each in enumerate(outcome.compared)]
-    tables = "".join(trial_tables(outcome, words))
+    broken = broken_table(outcome, words, lambda at: outcome.symbols.get(at) or symbol(at))
+    found = [broken, spread_table(spreads_of(outcome), words)]
+    tables = str(tables_html([*found, scale_table(outcome, words)]))
     limit = outcome.lab.fair.apart
     apart = percent(APART if limit is None else limit)
     exact = ""
@@ -228,74 +223,6 @@ def student_row(
         "" if most is None else f"{shares[index][most]} %",
         "" if most is None else names[most],
     )
-
-
-def fault_words(fault: Fault, words: Words, where: Callable[[str], str] = str) -> str:
-    """A broken limit with its place, value and bound; ``where`` formats the name of the place."""
-    what = f"{words(f'studio.limit_{fault.limit}')} {where(fault.where)}".strip()
-    if isnan(fault.value):
-        return what
-    factor, unit = UNITS[fault.limit]
-    side = "<" if fault.value < fault.bound else ">"
-    value, bound = (words.decimal(f"{factor * each:.3g}") for each in (fault.value, fault.bound))
-    return f"{what}: {value}{unit} {side} {bound}{unit}"
-
-
-def trial_tables(outcome: LabTrial, words: Words) -> Iterator[str]:
-    """The tables of a lab that was tried: faults, spread, and scales."""
-    head = tuple(map(words, ("studio.limit_broken", "studio.times", "studio.whose")))
-    yield table(words("studio.unfair"), head, list(unfair_rows(outcome, words)))
-    head = tuple(map(words, ("studio.on_sheets", "studio.least", "studio.half", "studio.most")))
-    yield table(words("studio.spread"), head, list(spread_rows(outcome, words)))
-    scales = (words("studio.scale"), "*m*", "*m′*", words("studio.times"))
-    yield table(words("studio.scales"), scales, list(scale_rows(outcome)))
-
-
-def unfair_rows(outcome: LabTrial, words: Words) -> Iterator[Row]:
-    """Each broken limit with its worst value, its count, and the students concerned."""
-    found: dict[tuple[str, str], list[tuple[str, Fault]]] = {}
-    for name, faults in outcome.faults():
-        for fault in faults:
-            where = "" if fault.limit == "apart" else fault.where
-            found.setdefault((fault.limit, where), []).append((name, fault))
-    for broken in found.values():
-        _, worst = max(broken, key=lambda one: abs(one[1].value - one[1].bound))
-        names = [name for name, _ in broken]
-        told = fault_words(worst, words, lambda name: outcome.symbols.get(name) or symbol(name))
-        yield Row((told, str(len(names)), some(names)))
-
-
-def spread_rows(outcome: LabTrial, words: Words) -> Iterator[Row]:
-    """Minimum, median and maximum of the quantities that make sheets hard or alike."""
-    fairness, near = outcome.fairness, outcome.neighbours
-    drawn = fairness.closes & fairness.fits
-    spread = [
-        ("studio.flattest", "°", fairness.flattest[drawn]),
-        ("studio.flattest_rays", "°", fairness.flattest_rays[drawn]),
-        ("studio.shortest", " mm", fairness.shortest[drawn]),
-    ]
-    if near is not None:
-        spread += [
-            ("studio.key_earns", " %", 100 * near.exact.ravel()),
-            ("studio.drawing_earns", " %", 100 * near.drawn.ravel()),
-            ("studio.pencil_error", " %", 100 * near.pencil),
-        ]
-    for key, unit, values in spread:
-        if found := quantiles(values):
-            yield Row((words(key), *(f"{words.fixed(each, 1)}{unit}" for each in found[::2])))
-
-
-def scale_rows(outcome: LabTrial) -> Iterator[Row]:
-    """The scales of the sheets with their numbers of students, the most frequent first."""
-    fairness = outcome.fairness
-    drawn = (fairness.closes & fairness.fits).nonzero()[0]
-    columns = (fairness.kL, fairness.larger, fairness.larger_still)
-    found = Counter(tuple(float(column[i]) for column in columns) for i in drawn)
-    for (kL, m, again), times in found.most_common(SCALES):
-        yield Row((ratio(kL), f"{m:.4g}", f"{again:.4g}", str(times)))
-    if len(found) > SCALES:
-        shown = sum(times for _, times in found.most_common(SCALES))
-        yield Row(("…", "…", "…", str(len(drawn) - shown)))
 
 
 class ParameterShares(Struct, frozen=True):

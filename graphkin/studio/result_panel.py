@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from cmath import isnan
-from collections.abc import Callable, Iterable, Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from itertools import chain
 from math import degrees
 
@@ -14,16 +14,15 @@ from graphkin.construction.core.drawn_scene import METRES, Drawing
 from graphkin.construction.core.program import Part
 from graphkin.construction.core.quantities import CENTRES, motion_value, names_asked
 from graphkin.construction.core.solution import Solution, Verdict
-from graphkin.construction.result_tables import slide_rows, turning_rows, unread, vector_rows
+from graphkin.construction.result_tables import NUMBERS, result_tables, unread
 from graphkin.documents.centre_tables import breadth_of, place_of, with_blocks
 from graphkin.documents.flattest import crossings_on
-from graphkin.drawing.columns import Row
 from graphkin.drawing.symbol_markup import symbol
 from graphkin.numbers.plane import Ratio
 from graphkin.scene.model import Scene
 from graphkin.text import Words
-from graphkin.text.plain_table import NOISE
-from graphkin.writers.templates import from_template
+from graphkin.text.tables import NOISE, CellTable, Row
+from graphkin.writers.templates import from_template, tables_html
 
 FLATTEST = 6
 """Number of crossings shown."""
@@ -46,25 +45,26 @@ def results(drawings: Sequence[Drawing], solution: Solution) -> str:
     The notes say what is asked for but cannot be read off.
     """
     notes = [note for drawing in drawings for note in unread(drawing, symbol)]
-    parts: list[str] = [from_template("studio/web/notes.html", notes=notes)]
-    parts += [part for drawing in drawings for part in read_off(drawing, solution)]
-    return "".join([*parts, *places(drawings[0].scene, solution, drawings[0].words)])
+    said = from_template("studio/web/notes.html", notes=notes)
+    found = [table for drawing in drawings for table in read_off(drawing, solution)]
+    found += places(drawings[0].scene, solution, drawings[0].words)
+    return f"{said}{tables_html(found)}"
 
 
-def read_off(drawing: Drawing, solution: Solution) -> Iterator[str]:
+def read_off(drawing: Drawing, solution: Solution) -> Iterator[CellTable]:
     """The tables of one sheet, with a dash for each value without a reliable digit."""
-    words = drawing.words
-    lost = losses(drawing, solution)
-    unit = words(f"table.{drawing.kind}")
-    spin = words(f"table.{drawing.rate.target}")
-    first, sense = words("table.symbol"), words("table.sense")
-    caption = words(f"sheet.{drawing.kind}")
-    vectors = (first, words("table.segment"), words("table.millimetres"), unit)
-    yield table(caption, vectors, told(vector_rows(drawing, empty=False), lost, 2))
-    turning = words("studio.turning_of", plan=caption)
-    yield table(turning, (first, spin, sense), told(turning_rows(drawing, empty=False), lost, 1))
-    sliding = words("studio.sliding_of", plan=caption)
-    yield table(sliding, (first, unit, sense), told(slide_rows(drawing, empty=False), lost, 1))
+    words, lost = drawing.words, losses(drawing, solution)
+    plan = words(f"sheet.{drawing.kind}")
+    captions = {"vectors": plan, "turns": words("studio.turning_of", plan=plan)}
+    captions["slides"] = words("studio.sliding_of", plan=plan)
+    for table in result_tables(drawing, empty=False):
+        heads = NUMBERS[table.kind][0]
+        dashes = ("–",) * (len(table.heads) - heads)
+        rows = [
+            replace(row, cells=(*row.cells[:heads], *dashes)) if lost(row.name) else row
+            for row in table.rows
+        ]
+        yield replace(table, rows=rows, caption=captions[table.kind], kind="")
 
 
 def losses(drawing: Drawing, solution: Solution) -> Callable[[str], bool]:
@@ -87,17 +87,7 @@ def losses(drawing: Drawing, solution: Solution) -> Callable[[str], bool]:
     return lambda name: not sure.get(name, all(sure.values()))
 
 
-def told(rows: Iterable[Row], lost: Callable[[str], bool], heads: int) -> list[Row]:
-    """Rows in which lost values are replaced by dashes, after the first ``heads`` cells."""
-    return [
-        replace(row, cells=(*row.cells[:heads], *["–"] * (len(row.cells) - heads)))
-        if lost(row.name)
-        else row
-        for row in rows
-    ]
-
-
-def places(scene: Scene, solution: Solution, words: Words) -> Iterator[str]:
+def places(scene: Scene, solution: Solution, words: Words) -> Iterator[CellTable]:
     """The places of the centres and poles that are asked for, in the unit of the scene."""
     full, breadth, unit = with_blocks(scene, solution), breadth_of(solution), scene.units["length"]
     asked: list[tuple[str, Ratio | None]] = [
@@ -124,7 +114,7 @@ def places(scene: Scene, solution: Solution, words: Words) -> Iterator[str]:
             cells = (words("calculation.everywhere"), "")
         rows.append(Row((symbol(name), *cells)))
     head = (words("table.symbol"), f"*x*, {unit}", f"*y*, {unit}")
-    yield table(words("studio.places"), head, rows)
+    yield CellTable(head, rows, words("studio.places"))
 
 
 def margins(drawings: Sequence[Drawing]) -> str:
@@ -135,8 +125,8 @@ def margins(drawings: Sequence[Drawing]) -> str:
     keys = ("studio.crossing", "studio.drawn_in", "studio.angle", "studio.pencil")
     head = tuple(map(words, keys))
     rows = [margin_row(crossing, words) for crossing in worst]
-    looks = [look_of(crossing) for crossing in worst]
-    return table(words("studio.margins"), head, rows, looks)
+    looks = [{"class": look} if (look := look_of(crossing)) else {} for crossing in worst]
+    return str(tables_html([CellTable(head, rows, words("studio.margins"), marks=looks)]))
 
 
 def margin_row(crossing: Crossing, words: Words) -> Row:
@@ -167,14 +157,3 @@ def verdict_words(verdict: Verdict, scene: Scene, words: Words) -> str:
         stated = verdict.not_as_stated(scene.branches)
         says.append(words("studio.not_as_stated", branches=stated))
     return " ".join(says)
-
-
-def table(caption: str, head: Sequence[str], rows: Sequence[Row], looks: Iterable[str] = ()) -> str:
-    """A table as HTML with cells given as markup; empty without rows."""
-    if not rows:
-        return ""
-    cells = [row.cells for row in rows]
-    looks = [*looks, *[""] * len(rows)]
-    return from_template(
-        "studio/web/table.html", caption=caption, head=head, rows=cells, looks=looks
-    )

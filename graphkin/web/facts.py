@@ -2,55 +2,38 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping
 
-from msgspec import Struct
+from msgspec.structs import replace
 
 from graphkin.construction.core.drawn_scene import Drawing
 from graphkin.construction.core.naming import length_scale
 from graphkin.construction.core.quantities import names_asked
-from graphkin.construction.result_tables import slide_rows, slide_sense, turning_rows, vector_rows
+from graphkin.construction.result_tables import result_tables, slide_sense
 from graphkin.documents.sheet import asked_words, members, plan_at
 from graphkin.scene.link_points import lettered
+from graphkin.text.tables import CellTable
 from graphkin.writers.templates import marked_up
 
 SLIDES = {"velocity": "slide", "acceleration": "slide acceleration"}
 """The quantity asked for of a block on each sheet."""
 
 
-class ResultTable(Struct, frozen=True):
-    """A table of results: rows by the name of their quantity, and the names that are asked for."""
-
-    kind: str
-    caption: str
-    head: Sequence[str]
-    rows: Sequence[tuple[str, tuple[str, ...]]]
-    asked: frozenset[str]
-
-
-def results(drawing: Drawing) -> Iterator[ResultTable]:
-    """The tables of a sheet: vectors of the plan, angular values, sliding values."""
-    words = drawing.words
-    unit, rate = words(f"table.{drawing.kind}"), words(f"table.{drawing.rate.target}")
-    first, millimetres, sense = (
-        words(f"table.{key}") for key in ("symbol", "millimetres", "sense")
-    )
-    asked_for = asked_rows(drawing)
+def results(drawing: Drawing, found: Mapping[str, int]) -> Iterator[CellTable]:
+    """The tables of a sheet; ``found`` says at which step of the page each row is known."""
+    asked = asked_rows(drawing)
     names = {f"slide {block}": name for name, block in blocks_asked(drawing).items()}
-    kinds = (
-        (
-            "vectors",
-            "screen.vectors",
-            (first, words("table.segment"), millimetres, unit),
-            vector_rows,
-        ),
-        ("turns", "screen.turns", (first, rate, sense), turning_rows),
-        ("slides", "screen.slides", (first, unit, sense), slide_rows),
-    )
-    for kind, key, head, rows in kinds:
-        found = [(names.get(row.name, row.name), row.cells) for row in rows(drawing, empty=False)]
-        if found:
-            yield ResultTable(kind, words(key), head, found, asked_for)
+    for table in result_tables(drawing, empty=False):
+        rows = [names.get(row.name, row.name) for row in table.rows]
+        yield replace(
+            table,
+            caption=drawing.words(f"screen.{table.kind}"),
+            marks=[
+                {"data-row": name, "data-found": str(found[name])}
+                | ({"data-asked": True} if name in asked else {})
+                for name in rows
+            ],
+        )
 
 
 def blocks_asked(drawing: Drawing) -> dict[str, str]:

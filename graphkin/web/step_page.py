@@ -43,7 +43,7 @@ from graphkin.web.screen_sheets import ScreenSheet, screen_sheets
 from graphkin.web.your_turn import NOBODY, TurnOwner, palette, your_turn
 from graphkin.web.your_turn import record as turn_record
 from graphkin.writers.svg import number
-from graphkin.writers.templates import from_template, marked_up
+from graphkin.writers.templates import from_template, marked_up, tables_html
 
 if TYPE_CHECKING:
     from markupsafe import Markup
@@ -237,10 +237,9 @@ def step_page(
         no_step=NO_STEP,
         degrees=degrees,
         results=[
-            (sheet.drawing.kind, sheet_name(sheet), list(facts.results(sheet.drawing)))
-            for sheet in sheets
+            (each.drawing.kind, sheet_name(each), tables_html(facts.results(each.drawing, found)))
+            for each in sheets
         ],
-        found=found,
         sought=[piece for sheet in sheets for piece in asked_words(sheet.drawing)],
         data=[datum.said for datum in given_data],
         datum=place_of(moves.datum, given_data),

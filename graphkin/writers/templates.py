@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from functools import lru_cache
 from html import escape
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 from graphkin.drawing.richtext import TextPiece, pieces
+from graphkin.text.tables import CellTable
 
 if TYPE_CHECKING:
     from jinja2 import Environment
@@ -39,6 +41,11 @@ def from_template(name: str, /, **values: object) -> Markup:
     from markupsafe import Markup
 
     return Markup(environment().get_template(name).render(values))
+
+
+def tables_html(tables: Iterable[CellTable]) -> Markup:
+    """Tables as HTML, those without rows left out."""
+    return from_template("writers/tables.html", tables=[each for each in tables if each.rows])
 
 
 @lru_cache(maxsize=1)

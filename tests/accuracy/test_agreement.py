@@ -15,9 +15,9 @@ from graphkin.accuracy.comparison import (
     sizeable,
 )
 from graphkin.accuracy.methods import found_singly
-from graphkin.accuracy.study import agreement, contained
 from graphkin.mechanism import load
 from graphkin.numbers.kinds import ball_kind, decimal_kind
+from tests.accuracy.agreement import agreement, contained
 from tests.chosen import FOLDER, HALVES
 
 SCENES = Path(__file__).resolve().parents[2] / "examples" / "scenes"

@@ -10,18 +10,16 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from matplotlib import rc_context
 from matplotlib.figure import Figure
 
 from graphkin.accuracy.comparison import approach, ground_of, places_around
-from graphkin.accuracy.effort import QUICK
-from graphkin.accuracy.methods import BITS, DIGITS, STEPS, TOLERANCES, plain
+from graphkin.accuracy.methods import BITS, DIGITS, QUICK, STEPS, TOLERANCES, MethodRow, plain
 from graphkin.accuracy.study import LAW, Study, study
-from graphkin.accuracy.study_pictures import scope_panel
+from graphkin.accuracy.study_pictures import digits_of, methods_picture
 from graphkin.cli.report.accuracy_report import HEADS, accuracy_table
-from graphkin.construction.core.timing import Timing
 from graphkin.documents.sheet_documents import scales
 from graphkin.mechanism import load
+from tests.accuracy.agreement import agreement
 from tests.running import Run
 
 SCENES = Path(__file__).resolve().parents[2] / "examples" / "scenes"
@@ -78,7 +76,7 @@ def test_balls_shrink_with_their_bits(name):
 @every_case
 def test_single_precision_double_and_extended_err_as_their_last_digits(name):
     of = found(name)
-    stretch = of.agreement.bound / 2.0**-52
+    stretch = agreement(of.reference).bound / 2.0**-52
     for kind, digits in (("float32", 24), ("float64", 53)):
         worst = max(of.row(f"{kind} batch, by steps").errors)
         assert 2.0 ** -(digits + 2) < worst < 2.0**-digits * stretch
@@ -172,7 +170,7 @@ def test_the_command_writes_table_and_pictures(run: Run, tmp_path: Path):
     result = run(*args)
     assert result.exit_code == 0, result.stderr
     names = {path.name for path in tmp_path.iterdir()}
-    pictures = {f"pump-n7-accuracy-{p}.svg" for p in ("time", "dead-point", "scope")}
+    pictures = {f"pump-n7-accuracy-{p}.svg" for p in ("time", "dead-point")}
     assert names == {"pump-n7-accuracy.csv", *pictures}
     assert "What accuracy costs: Pump mechanism" in result.stdout
     assert result.stderr == ""
@@ -181,13 +179,33 @@ def test_the_command_writes_table_and_pictures(run: Run, tmp_path: Path):
     assert "--force" in again.stderr
 
 
-def test_no_line_of_a_grid_runs_along_the_bars():
-    """Also where somebody's own settings of Matplotlib ask for a grid."""
-    with rc_context({"axes.grid": True}):
-        axes = Figure().add_subplot()
-        scope_panel(axes, ["all", "one"], ["C0", "C1"], [Timing(2e-6, 1e-6, 3e-6, 3)] * 2)
-    assert not any(line.get_visible() for line in axes.yaxis.get_gridlines())
-    assert [bar.get_width() for bar in axes.patches] == pytest.approx([2, 2])
+def test_each_row_of_the_table_has_its_digits_and_its_time_on_the_picture():
+    """A drawing by hand has no time that was measured."""
+    of = found("pump")
+    digits, times = methods_picture(of).axes
+    assert [label.get_text() for label in digits.get_yticklabels()] == [r.method for r in of.rows]
+    drawn = points(digits)
+    for y, row in enumerate(of.rows):
+        assert drawn[y] == pytest.approx([-np.log10(e) for e in row.errors if e is not None])
+    measured = {y: [row.time.median] for y, row in enumerate(of.rows) if row.time is not None}
+    assert points(times) == measured
+
+
+def points(axes) -> dict[int, list[float]]:
+    """The places of single marks along the axis, by row."""
+    found = {}
+    for line in axes.lines:
+        if len(line.get_xdata()) == 1:
+            found.setdefault(int(line.get_ydata()[0]), []).append(float(line.get_xdata()[0]))
+    return found
+
+
+def test_an_answer_without_a_correct_digit_is_crossed_out():
+    axes = Figure().add_subplot()
+    axes.set_xscale("log")
+    digits_of(axes, 0, MethodRow("float32", "float32", (1e-7, 2.0, np.inf), None))
+    assert points(axes) == {0: pytest.approx([7.0])}
+    assert [text.get_text() for text in axes.texts] == ["✗"]
 
 
 def test_an_error_without_bound_fails_and_is_no_number():

@@ -9,11 +9,12 @@ import shapely
 from graphkin.construction.result_tables import slide_rows, tables, turning_rows, vector_rows
 from graphkin.documents.calculation import calculation
 from graphkin.documents.sheet import sheet
-from graphkin.drawing.columns import HEIGHT, SMALL, ColumnTable, Look, Row, laid_out
+from graphkin.drawing.columns import HEIGHT, SMALL, ColumnTable, Look, laid_out
 from graphkin.drawing.field import TABLES
 from graphkin.drawing.marks import LineMark, Mark, Text, reach
 from graphkin.drawing.symbol_markup import symbol
 from graphkin.text.errors import PageError
+from graphkin.text.tables import Row
 from tests.chosen import SPOKEN
 from tests.documents.full_scenes import DYADS, NAMED, STAR, drawings_from
 from tests.documents.sheet_tools import collisions, outside

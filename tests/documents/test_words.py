@@ -18,6 +18,7 @@ from graphkin.construction.core.drawn_scene import Drawing
 from graphkin.construction.core.given_data import variant
 from graphkin.construction.core.quantities import OnPaper, in_mm
 from graphkin.construction.registry import PALETTE
+from graphkin.construction.result_tables import WIDTHS
 from graphkin.documents.calculation import calculation
 from graphkin.documents.centre_tables import centre_words
 from graphkin.documents.sheet import Moved, asked_words
@@ -237,6 +238,7 @@ def test_every_sentence_is_used():
     waiting -= {f"page.{each.value}" for each in Moved} | {f"desk.{key}" for key in SAID}
     waiting -= {f"page.motion_{name.replace(' ', '_')}" for name in MOTIONS}
     waiting -= {f"studio.limit_{limit}" for limit in LIMITS}
+    waiting -= {f"screen.{kind}" for kind in WIDTHS}
     waiting -= {f"animation.{kind}" for kind in ("dead", "change")}
     assert waiting >= RARELY_SAID
     waiting -= RARELY_SAID

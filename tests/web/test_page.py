@@ -241,7 +241,7 @@ def test_each_result_is_found_by_a_sentence_of_its_own_sheet(name):
     found, told = rows_found(sheets_of(name), told_of(name)), told_of(name)
     for place, sheet in enumerate(sheets_of(name)):
         first, last = told.bounds(place)
-        rows = [row for table in results(sheet.drawing) for row, _ in table.rows]
+        rows = [each["data-row"] for t in results(sheet.drawing, found) for each in t.marks]
         assert rows
         assert all(found[row] == 0 or first <= found[row] <= last for row in rows)
         assert len({found[row] for row in rows}) > 2

@@ -7,7 +7,8 @@ import re
 import pytest
 from jinja2 import UndefinedError
 
-from graphkin.writers.templates import HOUSE, environment, from_template
+from graphkin.text.tables import CellTable, Row
+from graphkin.writers.templates import HOUSE, environment, from_template, tables_html
 
 HOSTILE = "<script>alert(\"1\")</script> & 'two'"
 ESCAPED = "&lt;script&gt;alert(&quot;1&quot;)&lt;/script&gt; &amp; &#x27;two&#x27;"
@@ -26,16 +27,14 @@ def test_markup_of_the_sheets_becomes_tags_and_its_text_is_escaped():
 
 
 def test_a_filled_template_goes_into_another_as_it_is():
-    table = from_template(
-        "studio/web/table.html", caption=HOSTILE, head=["*x*"], rows=[["1"]], looks=[""]
-    )
-    assert ESCAPED in table
+    table = tables_html([CellTable(("*x*",), [Row(("1",))], HOSTILE)])
+    assert ESCAPED in table and "<i>x</i>" in table
     assert environment().from_string("{{ table }}").render(table=table) == table
 
 
 def test_a_gap_that_nothing_fills_is_no_page():
     with pytest.raises(UndefinedError):
-        from_template("studio/web/table.html", caption="", rows=[])
+        from_template("studio/web/notes.html")
 
 
 def test_what_is_let_through_is_known():

@@ -11,18 +11,17 @@ import re
 import zipfile
 from collections import Counter
 from collections.abc import Callable, Collection, Iterator, Mapping, Sequence
-from copy import copy
+from contextlib import contextmanager
 from fractions import Fraction
 from pathlib import Path
-from typing import NoReturn
-from xml.parsers.expat import ExpatError, ParserCreate
+from typing import Any
 
 from msgspec import Struct
-from openpyxl.utils import column_index_from_string, get_column_letter
 
 from graphkin.classroom.roster.read_roster import NAMES, POSSIBLE
 from graphkin.classroom.roster.spreadsheets import (
     MOST_CELLS,
+    ZIP,
     bytes_of,
     cell_text,
     folded,
@@ -31,7 +30,6 @@ from graphkin.classroom.roster.spreadsheets import (
     opened,
     separator_of,
     too_large,
-    unreadable,
 )
 from graphkin.classroom.roster.student_signs import EMAIL, Match, Signs
 from graphkin.classroom.roster.student_signs import signs as signs_of
@@ -392,7 +390,7 @@ BOMS = {b"\xef\xbb\xbf": "utf-8-sig", b"\xff\xfe": "utf-16-le", b"\xfe\xff": "ut
 def read_gradebook(path: Path) -> Gradebook:
     """Read an export, CSV or XLSX. Raises GradebookError where it is no table."""
     data = bytes_of(path)
-    if data.startswith(START):
+    if data.startswith(ZIP):
         return read_workbook(data, path.name)
     bom = next((mark for mark in BOMS if data.startswith(mark)), b"")
     coding = BOMS.get(bom, "utf-8").removesuffix("-sig")
@@ -457,57 +455,103 @@ def cell(raw: str) -> Cell:
     return Cell(raw, bare)
 
 
-START = b"PK\x03\x04"
-"""The first bytes of an XLSX file, which is a ZIP file."""
-WORKBOOK = re.compile(r"xl/workbook[0-9]*\.xml")
-"""The part of the file that says how formulas are computed."""
+KEPT_PARTS = re.compile(
+    r"(?!xl/).*|xl/(_rels/.*|(workbook|styles|sharedStrings|calcChain)\.xml|theme/.*|tables/.*"
+    r"|(worksheets|externalLinks)/(_rels/)?[^/]*|printerSettings/.*|comments.*"
+    r"|drawings/vmlDrawing[^/]*|vbaProject.*)"
+)
+"""The parts of a workbook whose contents openpyxl writes again as it has read them."""
+EXTENSIONS = b"<extLst"
+"""What begins the things in a sheet that openpyxl does not read, such as sparklines."""
+PACKED = (1980, 1, 1, 0, 0, 0)
+"""The date of each part of a written workbook, so that equal marks give equal files."""
 
 
 class Workbook(Gradebook, frozen=True):
     """An export as XLSX: its bytes, and the cells of the sheet that was open last.
 
     An empty row has no cells. ``formulas`` are the places of formulas, by line and column from
-    zero. ``sheet`` is the part of the file with this sheet, ``sheets`` are the parts with all
-    sheets.
+    zero.
     """
 
     data: bytes
     formulas: frozenset[tuple[int, int]]
-    sheet: str
-    sheets: tuple[str, ...]
 
     def filled(self, column: int, marks: Mapping[int, Fraction]) -> bytes:
-        """The bytes with the marks. Raises GradebookError where they would replace formulas."""
-        wrong = [line for line in marks if (line, column) in self.formulas]
-        if wrong:
-            where = f"{self.name}, row {wrong[0] + 1}"
-            text = message('"{text}" holds a formula', text=self.rows[0][column].text)
-            hint = message("name another one with --column")
-            raise GradebookError(Problem(where, text, message("a column for points"), hint))
-        numbers = {
-            (line + 1, column + 1): mark_text(mark, comma=False) for line, mark in marks.items()
-        }
-        try:
-            return with_cells(self, numbers)
-        except (ExpatError, ValueError) as error:
-            raise GradebookError(unreadable(self.name).problems) from error
+        """The bytes with the marks; programs compute the formulas anew when they open the file.
+
+        Raises GradebookError where a mark would replace a formula, and where the workbook holds
+        something that would be lost.
+        """
+        from openpyxl.cell.cell import MergedCell
+
+        if not marks:
+            return self.data
+        refuse_loss(self)
+        with workbook(self.data, self.name, read_only=False) as book:
+            for line, mark in marks.items():
+                cell = open_sheet(book).cell(line + 1, column + 1)
+                if (line, column) in self.formulas or isinstance(cell, MergedCell):
+                    where = f"{self.name}, row {line + 1}"
+                    text = self.rows[0][column].text
+                    if isinstance(cell, MergedCell):
+                        found = message('"{text}" holds merged cells', text=text)
+                    else:
+                        found = message('"{text}" holds a formula', text=text)
+                    hint = message("name another one with --column")
+                    expected = message("a column for points")
+                    raise GradebookError(Problem(where, found, expected, hint))
+                cell.value = float(mark_text(mark, comma=False))
+            book.calculation.fullCalcOnLoad = True
+            return saved(book)
+
+
+@contextmanager
+def workbook(data: bytes, name: str, *, read_only: bool) -> Iterator[Any]:
+    """The workbook, opened with its formulas. Raises GradebookError where it is none."""
+    try:
+        with opened(data, name, data_only=False, read_only=read_only) as book:
+            yield book
+    except RosterError as error:
+        raise GradebookError(error.problems) from error
+
+
+def refuse_loss(book: Workbook) -> None:
+    """Raise GradebookError for a workbook with pictures, charts or others that would be lost."""
+    with zipfile.ZipFile(io.BytesIO(book.data)) as packed:
+        names = packed.namelist()
+        lost = [name for name in names if not KEPT_PARTS.fullmatch(name)]
+        sheets = [name for name in names if name.startswith("xl/worksheets/")]
+        lost += [f"extLst of {name}" for name in sheets if EXTENSIONS in packed.read(name)]
+    if lost:
+        found = message("has parts that would be lost: {parts}", parts=", ".join(lost))
+        expected = message("cells, formats and formulas, without pictures or charts")
+        hint = message("save the sheet with the marks as CSV UTF-8 and name that file")
+        raise GradebookError(Problem(book.name, found, expected, hint))
+
+
+def saved(book: Any) -> bytes:
+    """The bytes of a workbook, the same for the same cells at any time."""
+    from openpyxl.writer.excel import ExcelWriter
+
+    written, found = io.BytesIO(), io.BytesIO()
+    ExcelWriter(book, zipfile.ZipFile(written, "w")).save()
+    with zipfile.ZipFile(written) as packed, zipfile.ZipFile(found, "w") as again:
+        for part in packed.infolist():
+            named = zipfile.ZipInfo(part.filename, PACKED)
+            again.writestr(named, packed.read(part), zipfile.ZIP_DEFLATED)
+    return found.getvalue()
 
 
 def read_workbook(data: bytes, name: str) -> Workbook:
     """Read an export as XLSX. Raises GradebookError where it is no table."""
     rows: list[tuple[Cell, ...]] = []
     formulas: set[tuple[int, int]] = set()
-    try:
-        with opened(data, name, data_only=False) as book:
-            sheet = open_sheet(book)
-            for number, cells in full_rows(sheet, name):
-                rows += [()] * (number - 1 - len(rows))
-                formulas |= {(len(rows), i) for i, c in enumerate(cells) if c.data_type == "f"}
-                rows.append(tuple(Cell(text, text.strip()) for text in map(cell_text, cells)))
-            parts = tuple(each._worksheet_path for each in book.worksheets)
-            part = sheet._worksheet_path
-    except RosterError as error:
-        raise GradebookError(error.problems) from error
+    with workbook(data, name, read_only=True) as book:
+        for number, cells in full_rows(open_sheet(book), name):
+            rows += [()] * (number - 1 - len(rows))
+            formulas |= {(len(rows), i) for i, c in enumerate(cells) if c.data_type == "f"}
+            rows.append(tuple(Cell(text, text.strip()) for text in map(cell_text, cells)))
     if not rows or not rows[0]:
         raise GradebookError(
             Problem(name, message("has nothing in its first row"), message("the names of columns"))
@@ -516,156 +560,4 @@ def read_workbook(data: bytes, name: str) -> Workbook:
         raise GradebookError(
             Problem(name, message("has no row below its head"), message("a gradebook"))
         )
-    return Workbook(name, tuple(rows), data, frozenset(formulas), part, parts)
-
-
-def with_cells(book: Workbook, numbers: Mapping[tuple[int, int], str]) -> bytes:
-    """The file with numbers in cells of its sheet; parts that need no change are copied."""
-
-    found = io.BytesIO()
-    with zipfile.ZipFile(io.BytesIO(book.data)) as packed, zipfile.ZipFile(found, "w") as again:
-        changed: dict[str, bytes] = {}
-        for name in book.sheets if numbers else ():
-            xml = packed.read(name)
-            new = with_numbers(xml, numbers if name == book.sheet else {})
-            changed |= {name: new} if new != xml else {}
-        if changed.keys() - {book.sheet} or (changed and book.formulas):
-            main = filter(WORKBOOK.fullmatch, packed.namelist())
-            changed |= {name: computed_anew(packed.read(name)) for name in main}
-        for part in packed.infolist():
-            content = packed.read(part)
-            again.writestr(copy(part), changed.get(part.filename, content), part.compress_type)
-    return found.getvalue()
-
-
-# --- the XML of a workbook with new numbers in some cells; every other byte is kept ---------------
-
-
-ROW = ["worksheet", "sheetData", "row"]
-CELL = [*ROW, "c"]
-FORMULA, VALUE = [*CELL, "f"], [*CELL, "v"]
-PLACE = re.compile(r"([A-Z]+)[0-9]+")
-TYPE = re.compile(rb"""\st\s*=\s*("[^"]*"|'[^']*')""")
-COMPUTES = re.compile(rb"<([\w.-]+:)?calcPr\b[^>]*>")
-FULL_CALCULATION = re.compile(rb"""\sfullCalcOnLoad\s*=\s*("[^"]*"|'[^']*')""")
-BEFORE = re.compile(rb"</([\w.-]+:)?(?:sheets|functionGroups|externalReferences|definedNames)\s*>")
-"""The ends of the elements after which a workbook says how it computes."""
-
-
-def with_numbers(xml: bytes, numbers: Mapping[tuple[int, int], str]) -> bytes:
-    """A worksheet with numbers in cells, by row and column from 1, without results of formulas.
-
-    Every row of a number already holds a cell. Raises ExpatError or ValueError where the bytes are
-    no worksheet that can be changed.
-    """
-    if b"\0" in xml:
-        raise ValueError("not UTF-8")
-    return Worksheet(xml, numbers).changed()
-
-
-class Worksheet:
-    """A parser of a worksheet that collects the replacements of byte ranges."""
-
-    def __init__(self, xml: bytes, numbers: Mapping[tuple[int, int], str]) -> None:
-        self.xml = xml
-        self.rows: dict[int, dict[int, str]] = {}
-        for (row, column), number in sorted(numbers.items()):
-            self.rows.setdefault(row, {})[column] = number
-        self.pieces: list[tuple[int, int, bytes]] = []
-        self.path: list[str] = []
-        self.row = self.column = 0
-        self.tag = self.style = ""
-        self.begin = 0
-        self.formula = False
-        self.value: tuple[int, int] | None = None
-        self.parser = ParserCreate()
-        self.parser.StartElementHandler = self.start
-        self.parser.EndElementHandler = self.end
-        self.parser.StartDoctypeDeclHandler = refuse
-
-    def changed(self) -> bytes:
-        """The bytes with all replacements made."""
-        self.parser.Parse(self.xml, True)
-        found, at = [], 0
-        for begin, end, new in self.pieces:
-            found += [self.xml[at:begin], new]
-            at = end
-        return b"".join([*found, self.xml[at:]])
-
-    def start(self, name: str, attributes: dict[str, str]) -> None:
-        """Handle the start of an element."""
-        self.path.append(name.rpartition(":")[2])
-        here = self.parser.CurrentByteIndex
-        if self.path == ROW:
-            self.row = int(attributes.get("r", self.row + 1))
-            self.column = 0
-        elif self.path == CELL:
-            place = PLACE.fullmatch(attributes.get("r", ""))
-            self.column = column_index_from_string(place[1]) if place else self.column + 1
-            self.insert(here, self.column)
-            self.tag, self.style, self.begin = name, attributes.get("s", ""), here
-            self.formula, self.value = False, None
-        elif self.path == FORMULA:
-            self.formula = True
-        elif self.path == VALUE:
-            self.value = (here, here)
-
-    def end(self, name: str) -> None:
-        """Handle the end of an element."""
-        here = self.parser.CurrentByteIndex
-        if self.path == VALUE and self.value is not None:
-            self.value = (self.value[0], self.behind(name, here))
-        elif self.path == CELL:
-            number = self.rows.get(self.row, {}).pop(self.column, None)
-            if number is not None:
-                whole = self.cell(self.column, number, self.style)
-                self.pieces.append((self.begin, self.behind(name, here), whole))
-            elif self.formula and self.value is not None:
-                inner = self.xml.index(b">", self.begin) + 1
-                tag = TYPE.sub(b"", self.xml[self.begin : inner])
-                self.pieces += [(self.begin, inner, tag), (*self.value, b"")]
-        elif self.path == ROW:
-            self.insert(here)
-        self.path.pop()
-
-    def insert(self, here: int, column: int | None = None) -> None:
-        """Insert the numbers of missing cells before a column, or at the end of the row."""
-        waiting = self.rows.get(self.row, {})
-        for each in [each for each in waiting if column is None or each < column]:
-            self.pieces.append((here, here, self.cell(each, waiting.pop(each))))
-
-    def cell(self, column: int, number: str, style: str = "") -> bytes:
-        """A cell with a number, in the format ``style``."""
-        prefix = self.tag[:-1]
-        form = f' s="{style}"' if style else ""
-        place = f"{get_column_letter(column)}{self.row}"
-        return (
-            f'<{self.tag} r="{place}"{form}><{prefix}v>{number}</{prefix}v></{self.tag}>'.encode()
-        )
-
-    def behind(self, name: str, here: int) -> int:
-        """The position after an element's end tag.
-
-        After an element with a single tag, the parser is already past it.
-        """
-        tag = f"</{name}".encode()
-        ends = self.xml.startswith(tag, here) and self.xml[here + len(tag)] in b"> \t\r\n"
-        return self.xml.index(b">", here) + 1 if ends else here
-
-
-def refuse(*_: object) -> NoReturn:
-    """Raise ValueError: a document type may declare entities, which shift the byte positions."""
-    raise ValueError("a document type")
-
-
-def computed_anew(xml: bytes) -> bytes:
-    """The XML of a workbook that makes programs recompute all formulas on opening."""
-    found = COMPUTES.search(xml)
-    if found:
-        name = (found[1] or b"") + b"calcPr"
-        tag = FULL_CALCULATION.sub(b"", found[0])
-        tag = tag.replace(b"<" + name, b"<" + name + b' fullCalcOnLoad="1"', 1)
-        return xml[: found.start()] + tag + xml[found.end() :]
-    *_, last = BEFORE.finditer(xml)
-    tag = b"<" + (last[1] or b"") + b'calcPr fullCalcOnLoad="1"/>'
-    return xml[: last.end()] + tag + xml[last.end() :]
+    return Workbook(name, tuple(rows), data, frozenset(formulas))

@@ -19,10 +19,10 @@ from graphkin.classroom.grading.graded import Decision, Graded, Result, Status
 from graphkin.classroom.grading.standard import Expectation
 from graphkin.classroom.lab.lab_model import Lab
 from graphkin.classroom.printing.file_names import stems
-from graphkin.classroom.roster.spreadsheets import csv_text
 from graphkin.scene.model import Scene
 from graphkin.text import Words, words
 from graphkin.text.errors import Refusals
+from graphkin.text.tables import csv_text
 from graphkin.writers.pdf import write_pdf
 
 BEFORE = (

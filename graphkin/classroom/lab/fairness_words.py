@@ -2,23 +2,25 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from fractions import Fraction
+from math import isnan
 
 from graphkin.classroom.grading.neighbours import Neighbours
-from graphkin.classroom.lab.fairness import WORDS, Fairness, Fault
+from graphkin.classroom.lab.fairness import Fault
 from graphkin.classroom.lab.lab_model import Fair, Lab, LabRule, Range, ValueList
 from graphkin.classroom.lab.lab_trial import LabTrial, quantiles
 from graphkin.classroom.lab.rules import Settings, exact_text
 from graphkin.construction.registry import LIMITED
+from graphkin.drawing.richtext import plain
 from graphkin.drawing.scale import ratio
-from graphkin.text.plain_table import labelled, listed, table
+from graphkin.text import Words, words
+from graphkin.text.tables import CellTable, Row, labelled, listed, table
 
 SHOWN = 6
 """The most names listed for one limit."""
 SCALES = 8
 """The most scales listed."""
-SPREAD = ("", "least", "quarter", "half", "three quarters", "most")
 
 
 def trial_lines(outcome: LabTrial) -> Iterator[str]:
@@ -38,20 +40,16 @@ def trial_lines(outcome: LabTrial) -> Iterator[str]:
         )
     yield from labelled("fair", good)
     who = "number" if lab.rule.counts else "id"
-    yield from labelled("unfair", list(broken_lines(outcome.faults(), who)))
+    english = words("en")
+    yield from labelled("unfair", lines_of(broken_table(outcome, english)))
     if lab.rule.draws:
         yield from labelled("again", [again_words(lab.rule, outcome.spoiled_share)])
     computed = [(name, fairness.computed(i)) for i, name in enumerate(outcome.names)]
     yield from labelled("compute", list(fields_by_whom(computed, who)))
-    drawn = fairness.closes & fairness.fits
-    spread = spread_lines(
-        fairness.flattest[drawn], fairness.shortest[drawn], fairness.flattest_rays[drawn]
-    )
-    yield from labelled("spread", spread)
-    yield from labelled("scales", scale_lines(fairness, outcome.names, who))
+    yield from labelled("spread", lines_of(spread_table(spreads_of(outcome), english)))
+    yield from labelled("scales", lines_of(scale_table(outcome, english)))
     compared = [each.student.id for each in outcome.compared]
     yield from labelled("apart", apart_lines(outcome.neighbours, compared, who))
-    yield from labelled("pencil", pencil_lines(outcome.neighbours))
     yield from labelled("marks", list(mark_lines(outcome)))
 
 
@@ -80,14 +78,6 @@ def data_words(settings: Settings) -> str:
     return ", ".join(f"{name} = {exact_text(value)}" for name, value in settings.items())
 
 
-def pencil_lines(neighbours: Neighbours | None) -> list[str]:
-    """The spread of the error of a careful pencil in the least accurate field of each sheet."""
-    if neighbours is None:
-        return ["nothing to compare"]
-    row = (f"{100 * value:.1f}" for value in quantiles(neighbours.pencil))
-    return table(SPREAD, [("error of the least exact field, %", *row)])
-
-
 def draw_words(values: Range | ValueList) -> str:
     """The values that are drawn, in words: from 20 to 60 by 5, or 75."""
     if isinstance(values, ValueList):
@@ -112,80 +102,6 @@ def limit_words(fair: Fair) -> str:
     )
 
 
-def scale_lines(fairness: Fairness, names: Sequence[str], who: str) -> list[str]:
-    """The scales of the sheets, and how many students have each, the most frequent first."""
-    found: dict[tuple[float, float, float], list[str]] = {}
-    columns = (fairness.kL, fairness.larger, fairness.larger_still)
-    for i in (fairness.closes & fairness.fits).nonzero()[0]:
-        own = float(columns[0][i]), float(columns[1][i]), float(columns[2][i])
-        found.setdefault(own, []).append(names[i])
-    if len(found) == 1:
-        (each,) = found
-        return [f"all: {' '.join(scale_words(each))}"]
-    many = sorted(found.items(), key=lambda each: -len(each[1]))
-    rows = [(*scale_words(each), str(len(own)), f"{who} {some(own)}") for each, own in many]
-    lines = table(("mechanism", "velocities", "accelerations", "times", "whose"), rows[:SCALES])
-    if len(many) > SCALES:
-        rest = sum(len(own) for _, own in many[SCALES:])
-        lines.append(f"and {rest} variants at {len(many) - SCALES} other scales")
-    return lines
-
-
-def scale_words(scales: tuple[float, float, float]) -> tuple[str, str, str]:
-    """The scale of the mechanism, and the enlargements of both plans."""
-    kL, m, again = scales
-    return ratio(kL), f"m = {m:.4g}", f"m′ = {again:.4g}"
-
-
-def apart_lines(neighbours: Neighbours | None, names: Sequence[str], who: str) -> list[str]:
-    """What right values of one student earn on another's sheet: the spread, and the closest pairs.
-
-    ``names`` are numbers or ids; ``who`` says which.
-    """
-    if neighbours is None:
-        return ["nothing to compare"]
-    rows = [
-        (words, *(f"{100 * value:.0f}" for value in quantiles(shares.ravel())))
-        for words, shares in (
-            ("another's key earns, %", neighbours.exact),
-            ("another's careful drawing, %", neighbours.drawn),
-        )
-    ]
-    (own, other), *more = neighbours.closest()
-    share = f"{100 * neighbours.exact[own, other]:.0f} %"
-    closest = f"closest: {who} {names[other]}'s right values earn {share} on the sheet of"
-    alike = [f"{names[j]}'s on that of {names[i]}" for i, j in more[:SHOWN]]
-    if len(more) > SHOWN:
-        alike.append(f"and of {len(more) - SHOWN} more pairs")
-    likewise = f"; likewise {', '.join(alike)}" if alike else ""
-    return [*table(SPREAD, rows), f"{closest} {names[own]}{likewise}"]
-
-
-def broken_lines(named: Iterable[tuple[str, Sequence[Fault]]], who: str = "") -> Iterator[str]:
-    """A row for each broken limit: where, how often, by whom, and the worst value."""
-    found: dict[tuple[str, str], list[tuple[str, Fault]]] = {}
-    for name, faults in named:
-        for fault in faults:
-            where = "" if fault.limit == "apart" else fault.where
-            found.setdefault((fault.limit, where), []).append((name, fault))
-    rows = []
-    for (limit, where), broken in found.items():
-        worst = max(broken, key=lambda one: abs(one[1].value - one[1].bound))
-        names = [name for name, _ in broken]
-        what = f"{limit} {where}".strip() if where else WORDS[limit]
-        rows.append((what, str(len(names)), f"{who} {some(names)}".strip(), worst_words(worst)))
-    yield from table(("limit", "times", "whose", "worst"), rows) if rows else ["none"]
-
-
-def worst_words(worst: tuple[str, Fault]) -> str:
-    """The value farthest from its bound, with the bound."""
-    fault = worst[1]
-    if fault.limit in ("apart", "pencil"):
-        return f"{100 * fault.value:.0f} % against {100 * fault.bound:g} %"
-    unit = {"crossing": "°", "segment": " mm", "triangle": ""}.get(fault.limit)
-    return "" if unit is None else f"{fault.value:.3g}{unit} against {fault.bound:g}{unit}"
-
-
 def fields_by_whom(many: Iterable[tuple[str, Sequence[str]]], who: str) -> Iterator[str]:
     """A row for each field that is listed for some student or number, and for whom."""
     found: dict[str, list[str]] = {}
@@ -201,26 +117,6 @@ def some(names: Sequence[str]) -> str:
     return ", ".join(names[:SHOWN]) + (", …" if len(names) > SHOWN else "")
 
 
-def spread_lines(
-    flattest: Sequence[float], shortest: Sequence[float], rays: Sequence[float]
-) -> list[str]:
-    """How much the difficulty differs from variant to variant.
-
-    Rays to centres and poles have a row of their own, since they cross flatter and spoil nothing
-    else.
-    """
-    rows = [
-        (words, *(f"{value:.1f}" for value in found))
-        for words, values in (
-            ("flattest crossing, °", flattest),
-            ("flattest rays to a centre or pole, °", rays),
-            ("shortest segment, mm", shortest),
-        )
-        if (found := quantiles(values))
-    ]
-    return table(SPREAD, rows) if rows else ["nothing is drawn"]
-
-
 def mark_lines(outcome: LabTrial) -> Iterator[str]:
     """The total of the points, what earns none, and what no sheet draws."""
     points = outcome.lab.rubric.points
@@ -230,3 +126,131 @@ def mark_lines(outcome: LabTrial) -> Iterator[str]:
         yield f"asked, and earns none: {listed(outcome.unmarked, 12)}"
     if outcome.unasked:
         yield f"earns marks, and is drawn on no sheet: {listed(outcome.unasked, 12)}"
+
+
+# --- the tables of a trial, for the terminal and the studio ---------------------------------------
+
+
+UNITS = {
+    "crossing": (1, "°"),
+    "segment": (1, " mm"),
+    "triangle": (1, ""),
+    "apart": (100, " %"),
+    "pencil": (100, " %"),
+}
+"""The factor and unit in which the value of a limit is printed."""
+Spreads = Mapping[str, tuple[str, Sequence[float]]]
+"""The unit and the values of each quantity whose spread is shown, by the key of its words."""
+
+
+def lines_of(table: CellTable) -> list[str]:
+    """A table for a terminal; the line ``none`` if it has no rows."""
+    return table.lines(plain) if table.rows else ["none"]
+
+
+def apart_lines(neighbours: Neighbours | None, names: Sequence[str], who: str) -> list[str]:
+    """The pairs of students of whom one's right values earn most on the other's sheet.
+
+    ``names`` are numbers or ids; ``who`` says which.
+    """
+    if neighbours is None:
+        return ["nothing to compare"]
+    (own, other), *more = neighbours.closest()
+    share = f"{100 * neighbours.exact[own, other]:.0f} %"
+    closest = f"closest: {who} {names[other]}'s right values earn {share} on the sheet of"
+    alike = [f"{names[j]}'s on that of {names[i]}" for i, j in more[:SHOWN]]
+    if len(more) > SHOWN:
+        alike.append(f"and of {len(more) - SHOWN} more pairs")
+    likewise = f"; likewise {', '.join(alike)}" if alike else ""
+    return [f"{closest} {names[own]}{likewise}"]
+
+
+def fault_words(fault: Fault, words: Words, named: Callable[[str], str] = str) -> str:
+    """A broken limit with its place, value and bound; ``named`` formats the name of the place."""
+    what = f"{words(f'studio.limit_{fault.limit}')} {named(fault.where)}".strip()
+    if isnan(fault.value):
+        return what
+    factor, unit = UNITS[fault.limit]
+    side = "<" if fault.value < fault.bound else ">"
+    value, bound = (words.decimal(f"{factor * each:.3g}") for each in (fault.value, fault.bound))
+    return f"{what}: {value}{unit} {side} {bound}{unit}"
+
+
+def broken_table(outcome: LabTrial, words: Words, named: Callable[[str], str] = str) -> CellTable:
+    """Each broken limit with its worst value, its count, and the students concerned."""
+    found: dict[tuple[str, str], list[tuple[str, Fault]]] = {}
+    for name, faults in outcome.faults():
+        for fault in faults:
+            where = "" if fault.limit == "apart" else fault.where
+            found.setdefault((fault.limit, where), []).append((name, fault))
+    rows = []
+    for broken in found.values():
+        _, worst = max(broken, key=lambda one: abs(one[1].value - one[1].bound))
+        said = fault_words(worst, words, named)
+        rows.append(Row((said, str(len(broken)), some([name for name, _ in broken]))))
+    heads = tuple(map(words, ("studio.limit_broken", "studio.times", "studio.whose")))
+    return CellTable(heads, rows, words("studio.unfair"))
+
+
+def spreads_of(outcome: LabTrial) -> Spreads:
+    """What makes the sheets of a trial hard or alike."""
+    fairness = outcome.fairness
+    drawn = fairness.closes & fairness.fits
+    flattest, rays = fairness.flattest[drawn], fairness.flattest_rays[drawn]
+    return spreads(flattest, rays, fairness.shortest[drawn], outcome.neighbours)
+
+
+def spreads(
+    flattest: Sequence[float],
+    rays: Sequence[float],
+    shortest: Sequence[float],
+    neighbours: Neighbours | None,
+) -> Spreads:
+    """What makes the sheets of a class hard, and, where they are compared, alike.
+
+    Rays to centres and poles have a row of their own, since they cross flatter and spoil nothing
+    else.
+    """
+    found: dict[str, tuple[str, Sequence[float]]] = {
+        "studio.flattest": ("°", flattest),
+        "studio.flattest_rays": ("°", rays),
+        "studio.shortest": (" mm", shortest),
+    }
+    if neighbours is not None:
+        found |= {
+            "studio.key_earns": (" %", 100 * neighbours.exact.ravel()),
+            "studio.drawing_earns": (" %", 100 * neighbours.drawn.ravel()),
+            "studio.pencil_error": (" %", 100 * neighbours.pencil),
+        }
+    return found
+
+
+def spread_table(found: Spreads, words: Words) -> CellTable:
+    """Minimum, median and maximum of quantities that make sheets hard or alike."""
+    rows = [
+        Row((words(key), *(f"{words.fixed(each, 1)}{unit}" for each in parts[::2])))
+        for key, (unit, values) in found.items()
+        if (parts := quantiles(values))
+    ]
+    keys = ("studio.on_sheets", "studio.least", "studio.half", "studio.most")
+    return CellTable(tuple(map(words, keys)), rows, words("studio.spread"))
+
+
+def scale_table(outcome: LabTrial, words: Words) -> CellTable:
+    """The scales of the sheets with their students, the most frequent first."""
+    fairness = outcome.fairness
+    found: dict[tuple[float, ...], list[str]] = {}
+    columns = (fairness.kL, fairness.larger, fairness.larger_still)
+    for i in (fairness.closes & fairness.fits).nonzero()[0]:
+        own = tuple(float(column[i]) for column in columns)
+        found.setdefault(own, []).append(outcome.names[i])
+    many = sorted(found.items(), key=lambda each: -len(each[1]))
+    rows = [
+        Row((ratio(kL), f"{m:.4g}", f"{again:.4g}", str(len(names)), some(names)))
+        for (kL, m, again), names in many[:SCALES]
+    ]
+    if len(many) > SCALES:
+        rest = sum(len(names) for _, names in many[SCALES:])
+        rows.append(Row(("…", "…", "…", str(rest), "…")))
+    whose = tuple(map(words, ("studio.times", "studio.whose")))
+    return CellTable((words("studio.scale"), "*m*", "*m′*", *whose), rows, words("studio.scales"))

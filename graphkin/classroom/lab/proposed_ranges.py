@@ -21,7 +21,7 @@ from graphkin.classroom.roster.student import Student
 from graphkin.classroom.variants.assign import assigned
 from graphkin.scene.model import DRIVEN, JOINED
 from graphkin.text.errors import GraphkinError
-from graphkin.text.plain_table import labelled, table
+from graphkin.text.tables import labelled, table
 
 CHANGES = (1, 2, 3, 5, 8, 12)
 """The changes tried, in percent: the smallest first, up before down."""

@@ -15,7 +15,7 @@ from msgspec.structs import replace
 
 from graphkin.classroom.lab.lab_model import Lab
 from graphkin.classroom.roster.language_names import HEADS
-from graphkin.classroom.roster.spreadsheets import columns, read_sheet, safe
+from graphkin.classroom.roster.spreadsheets import columns, read_sheet
 from graphkin.classroom.roster.student import Student
 from graphkin.classroom.roster.student_signs import EMAIL, Signs, signs
 from graphkin.classroom.roster.taker import Taker
@@ -26,6 +26,7 @@ from graphkin.scene.file_limits import whole_file
 from graphkin.scene.read_scene import read_text
 from graphkin.text import LANGUAGES, Words
 from graphkin.text.errors import NO_WORDS, Problem, SceneError, either, message
+from graphkin.text.tables import safe
 from graphkin.writers.commit import reason_of, settle
 from graphkin.writers.files import write_all
 

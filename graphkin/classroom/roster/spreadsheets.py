@@ -521,6 +521,8 @@ LARGEST_UNPACKED, MOST_ELEMENTS = 64 * 1024 * 1024, 1_000_000
 A cell with a number has two elements.
 """
 BLOCK = 1 << 20
+MACROS = "xl/vbaProject.bin"
+"""The part of a workbook with its macros."""
 PADDED = re.compile(r"0+")
 """A number format that shows leading zeros: 0000."""
 
@@ -560,10 +562,11 @@ def full_rows(sheet: Any, name: str) -> Iterator[tuple[int, Sequence[Any]]]:
 
 
 @contextmanager
-def opened(data: bytes, name: str, *, data_only: bool) -> Iterator[Any]:
-    """The workbook, opened for reading row by row: its values, or the formulas that give them.
+def opened(data: bytes, name: str, *, data_only: bool, read_only: bool = True) -> Iterator[Any]:
+    """The workbook: its values, or the formulas that give them.
 
-    Raises RosterError if openpyxl is missing or the file is not a workbook.
+    It is opened for reading row by row, or whole with macros and the fonts within cells. Raises
+    RosterError if openpyxl is missing or the file is not a workbook.
     """
     try:
         from openpyxl import load_workbook
@@ -578,9 +581,14 @@ def opened(data: bytes, name: str, *, data_only: bool) -> Iterator[Any]:
         with catch_warnings():  # openpyxl warns of parts it skips, which are not written either
             simplefilter("ignore")
             book = load_workbook(
-                io.BytesIO(data), read_only=True, data_only=data_only, keep_links=False
+                io.BytesIO(data),
+                read_only=read_only,
+                data_only=data_only,
+                keep_links=not read_only,
+                keep_vba=not read_only and MACROS in zipfile.ZipFile(io.BytesIO(data)).namelist(),
+                rich_text=not read_only,
             )
-            with closing(book):
+            with closing(book), closing(book.vba_archive or book):
                 yield book
     except GraphkinError:
         raise
@@ -644,41 +652,3 @@ def cell_text(cell: Any) -> str:
     if isinstance(value, datetime | date):
         return value.isoformat()
     return repr(value) if isinstance(value, float) else str(value)
-
-
-# --- writing tables -------------------------------------------------------------------------------
-
-
-NUMBER = re.compile(r"[+-]?(?:\d+(?:[.,]\d*)?|[.,]\d+)(?:[eE][+-]?\d+)?", re.ASCII)
-RUNS = re.compile(r"""^(?=\s*[=+\-@＝＋－＠]|[\t\r\n])|([;\t\r\n][\s"]*)(?=[=+\-@＝＋－＠])""")
-"""The places where a spreadsheet reads what follows as a formula.
-
-They are the beginning of a text, and any end of a cell for a spreadsheet that expects semicolons or
-tabs between cells.
-"""
-QUOTED = re.compile(r'[",;\t\r\n]')
-"""The signs that require quotes: some spreadsheet ends a cell at each of them."""
-
-
-def safe(cell: object) -> str:
-    """A cell that no spreadsheet runs: a text that looks like a formula gets a leading '.
-
-    A number stays a number, including -5.
-    """
-    text = str(cell)
-    if not isinstance(cell, str) or NUMBER.fullmatch(text):
-        return text
-    return RUNS.sub(r"\1'", text)
-
-
-def csv_text(rows: Iterable[Sequence[object]]) -> str:
-    """The text of a CSV file, a line for each row; None is an empty cell."""
-    return "".join(
-        ",".join("" if cell is None else quoted(safe(cell)) for cell in row) + "\r\n"
-        for row in rows
-    )
-
-
-def quoted(text: str) -> str:
-    """A cell, in quotes if it needs them."""
-    return '"' + text.replace('"', '""') + '"' if QUOTED.search(text) else text

@@ -15,18 +15,19 @@ from graphkin.classroom.lab.fairness_words import (
     data_words,
     fields_by_whom,
     limit_words,
-    pencil_lines,
+    lines_of,
     rule_words,
-    spread_lines,
+    spread_table,
+    spreads,
 )
 from graphkin.classroom.lab.lab_model import Lab
 from graphkin.classroom.lab.rules import exact_text
-from graphkin.classroom.roster.spreadsheets import csv_text
 from graphkin.classroom.roster.student import Student
 from graphkin.classroom.variants.assign import Assigned, held_against
 from graphkin.classroom.variants.manifest import COPY, MANIFEST, TABLE, as_text, code, manifest
 from graphkin.scene.file_limits import whole_file
-from graphkin.text.plain_table import labelled, table
+from graphkin.text import words
+from graphkin.text.tables import csv_text, labelled, table
 from graphkin.writers.commit import settle
 from graphkin.writers.files import write_all
 
@@ -139,7 +140,6 @@ def class_lines(lab: Lab, found: Sequence[Assigned]) -> Iterator[str]:
     angles = [each.flattest for each in drawn if each.flattest is not None]
     lengths = [each.shortest for each in drawn if each.shortest is not None]
     rays = [each.rays for each in drawn if each.rays is not None]
-    yield from labelled("spread", spread_lines(angles, lengths, rays))
     if len(drawn) > COMPARED:
         told = f"{COMPARED} of {len(drawn)} students, evenly spaced in the list"
         yield from labelled("compared", [told])
@@ -147,8 +147,9 @@ def class_lines(lab: Lab, found: Sequence[Assigned]) -> Iterator[str]:
     names = [each.student.id for each in drawn]
     standards = held_against(lab, drawn)
     neighbours = compared(standards)
+    found_spreads = spreads(angles, rays, lengths, neighbours)
+    yield from labelled("spread", lines_of(spread_table(found_spreads, words("en"))))
     yield from labelled("apart", apart_lines(neighbours, names, "id"))
-    yield from labelled("pencil", pencil_lines(neighbours))
     unsure = list(zip(names, map(unsure_fields, standards), strict=True))
     yield from labelled("unsure", unsure_lines(unsure, f"{100 * lab.rubric.cap:g} %"))
     if not lab.rule.draws:

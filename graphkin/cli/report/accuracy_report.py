@@ -2,19 +2,16 @@
 
 from __future__ import annotations
 
-import csv
-import io
 from collections.abc import Iterator
 from math import isinf
 
 from graphkin.accuracy.comparison import BITS
-from graphkin.accuracy.effort import machine_words
 from graphkin.accuracy.methods import MethodRow
-from graphkin.accuracy.study import DOUBLE, Agreement, Flattening, Study
+from graphkin.accuracy.study import Flattening, Study, machine_words
 from graphkin.construction.core.timing import Timing
 from graphkin.numbers.kinds import GUARD
 from graphkin.scene.quantity import LENGTHS
-from graphkin.text.plain_table import table
+from graphkin.text.tables import csv_text, table
 
 HEADS = (
     "method",
@@ -37,27 +34,23 @@ HEADS = (
 
 def accuracy_table(study: Study) -> str:
     """A row for each method: errors, certified or not, time with quartiles, and conditions."""
-    out = io.StringIO()
-    writer = csv.writer(out, lineterminator="\n")
-    writer.writerow(HEADS)
     machine, reference = machine_words(), study.reference
-    for row in study.rows:
-        time = row.time
-        writer.writerow(
-            [
-                row.method,
-                row.family,
-                *("" if error is None else f"{error:.3g}" for error in row.errors),
-                "yes" if row.certified else "no",
-                *(("", "", "", "") if time is None else (*timed(time), time.rounds)),
-                row.variants,
-                len(reference.places.at),
-                f"{reference.radius:.2g}",
-                machine,
-                row.note,
-            ]
+    rows = [
+        (
+            row.method,
+            row.family,
+            *("" if error is None else f"{error:.3g}" for error in row.errors),
+            "yes" if row.certified else "no",
+            *(("",) * 4 if row.time is None else (*timed(row.time), row.time.rounds)),
+            row.variants,
+            len(reference.places.at),
+            f"{reference.radius:.2g}",
+            machine,
+            row.note,
         )
-    return out.getvalue()
+        for row in study.rows
+    ]
+    return csv_text([HEADS, *rows], "\n")
 
 
 def timed(time: Timing) -> list[str]:
@@ -78,11 +71,8 @@ def accuracy_lines(study: Study) -> Iterator[str]:
         "Arb: radii that the balls themselves prove. mpmath carries "
         f"{GUARD} digits more than are asked."
     )
-    yield from agreement_lines(study.agreement)
     yield ""
     yield from flat_lines(study)
-    yield ""
-    yield from scope_lines(study)
 
 
 def head_lines(study: Study) -> Iterator[str]:
@@ -140,31 +130,6 @@ def shown(error: float | None) -> str:
     return "fails" if isinf(error) else f"{error:.1e}"
 
 
-def agreement_lines(found: Agreement) -> Iterator[str]:
-    """How doubles, and balls of as many bits, keep within the error bound of doubles."""
-    yield (
-        f"Doubles keep to {max(found.single, found.batch):.1g} of their bound, at most "
-        f"{found.bound:.1g} of the largest of a quantity"
-    )
-    yield (
-        "(4·ε of all that enters, led through the loop equations: 1/s, 1/s² and 1/s³ for each "
-        "crossing on the way)."
-    )
-    radius = f"their radius is at most {found.tightness:.1g} times that bound"
-    if found.bounded == found.answers:
-        yield (
-            f"Balls of {DOUBLE} bits hold the true value in {found.contained} of {found.answers} "
-            f"answers; {radius}."
-        )
-        return
-    yield (
-        f"Balls of {DOUBLE} bits bound {found.bounded} of {found.answers} answers; elsewhere they "
-        "grow too wide from step to step to tell anything."
-    )
-    if found.bounded:
-        yield f"They hold the true value in {found.contained} of these {found.bounded}; {radius}."
-
-
 def flat_lines(study: Study) -> Iterator[str]:
     """How errors grow on the way to a dead point."""
     found = study.flattening
@@ -199,12 +164,3 @@ def goal_words(found: Flattening, length: str) -> str:
     )
     name = "dead point" if found.approach.end == "dead" else "change point"
     return f"{name}  at {goal:.6g} {unit}: towards it errors grow as 1/s, 1/s², 1/s³ with {measure}"
-
-
-def scope_lines(study: Study) -> Iterator[str]:
-    """The steps and times of each scope."""
-    rows = [
-        (each.name, str(each.steps), micro(each.single.median), micro(each.batch.median))
-        for each in study.scopes
-    ]
-    yield from table(("scope", "steps", "µs one by one", "µs in a batch"), rows)

@@ -8,7 +8,7 @@ from graphkin.construction.core.quantities import CENTRES, RATES, VECTORS
 from graphkin.scene import scene_files
 from graphkin.scene.model import Ask, Scene
 from graphkin.scene.parameters import range_words
-from graphkin.text.plain_table import labelled, listed
+from graphkin.text.tables import labelled, listed
 
 OF_LINKS = [(each.asked_by[0], f"{each.circle or each.words}s of") for each in CENTRES]
 ASKED = (

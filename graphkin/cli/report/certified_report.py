@@ -43,7 +43,7 @@ from graphkin.numbers.plane import Ratio
 from graphkin.scene.link_points import ends_of
 from graphkin.scene.model import Scene
 from graphkin.text.errors import NO_WORDS, message
-from graphkin.text.plain_table import table
+from graphkin.text.tables import table
 
 FAR = "at infinity, or too far to tell: not decided"
 NOWHERE = "none: at infinity, or the link is at rest"

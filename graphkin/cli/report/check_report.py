@@ -34,7 +34,7 @@ from graphkin.structure.groups import Group, Higher, Tie
 from graphkin.structure.pairs import all_pairs, sharers
 from graphkin.structure.turn_counting import place_of_turns
 from graphkin.text.errors import ClosureError, GraphkinError, Problem, StructureError, WitnessError
-from graphkin.text.plain_table import labelled, listed, table
+from graphkin.text.tables import labelled, listed, table
 
 Places = Mapping[str, complex]
 TOLD = 10

@@ -7,7 +7,7 @@ from graphkin.construction.core.pen import image, letter, second_image
 from graphkin.construction.core.program import Part, Program
 from graphkin.scene.link_points import ends_of
 from graphkin.structure.pairs import name_words
-from graphkin.text.plain_table import listed
+from graphkin.text.tables import listed
 
 
 def crossing(program: Program, number: int) -> tuple[str, str]:

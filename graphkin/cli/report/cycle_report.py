@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-import csv
-import io
 from collections.abc import Iterable, Iterator, Sequence
 from itertools import groupby
 from typing import TYPE_CHECKING, Any
@@ -20,7 +18,7 @@ from graphkin.numbers.arithmetic import np
 from graphkin.numbers.plane import Ratio
 from graphkin.scene.model import Closure
 from graphkin.scene.quantity import SI
-from graphkin.text.plain_table import labelled, listed
+from graphkin.text.tables import csv_text, labelled, listed
 
 if TYPE_CHECKING:
     from graphkin.motion.cycle import Cycle
@@ -42,12 +40,8 @@ def cycle_table(cycle: Cycle) -> str:
     no digit of the value is sure.
     """
     columns = list(columns_of(cycle))
-    out = io.StringIO()
-    writer = csv.writer(out, lineterminator="\n")
-    writer.writerow([head for head, _ in columns])
-    for row in range(len(cycle.at)):
-        writer.writerow([cell(values[row]) for _, values in columns])
-    return out.getvalue()
+    rows = ([cell(values[row]) for _, values in columns] for row in range(len(cycle.at)))
+    return csv_text([[head for head, _ in columns], *rows], "\n")
 
 
 def cell(value: Any) -> str:

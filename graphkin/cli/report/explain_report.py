@@ -15,7 +15,7 @@ from graphkin.construction.core.timing import Stopwatch, Timing
 from graphkin.diagnosis.effects import EFFECTS, EffectRow, effects, measured
 from graphkin.scene.model import Scene
 from graphkin.text.errors import ClosureError
-from graphkin.text.plain_table import table
+from graphkin.text.tables import table
 
 if TYPE_CHECKING:
     from graphkin.mechanism import Mechanism

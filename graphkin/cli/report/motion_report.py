@@ -27,7 +27,7 @@ from graphkin.documents.centre_tables import (
     with_blocks,
 )
 from graphkin.scene.model import Scene
-from graphkin.text.plain_table import Cell, cleaned, listed, number, table
+from graphkin.text.tables import Cell, cleaned, listed, number, table
 
 COLUMNS = {"place": ("x", "y"), "vector": ("x", "y", "")}
 """The components of each sort of quantity, the magnitude last."""

@@ -20,7 +20,7 @@ from graphkin.construction.core.crossings import (
 from graphkin.construction.core.kind import construction
 from graphkin.construction.core.plan_vector import plan_vector
 from graphkin.construction.core.program import Part, Program, Step
-from graphkin.text.plain_table import at_the_point, listed, table
+from graphkin.text.tables import at_the_point, listed, table
 
 UNSURE = 0.1
 """The relative error above which not even the first digit read off is sure."""

@@ -15,7 +15,7 @@ from graphkin.accuracy.pencil import Pencil, forecast, original
 from graphkin.construction.core.timing import Stopwatch, Timing
 from graphkin.loops.witness import Check
 from graphkin.text.errors import GraphkinError
-from graphkin.text.plain_table import table
+from graphkin.text.tables import table
 
 if TYPE_CHECKING:
     from graphkin.mechanism import Mechanism

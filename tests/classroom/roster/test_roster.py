@@ -19,16 +19,14 @@ from graphkin.classroom.roster import spreadsheets
 from graphkin.classroom.roster.read_roster import NAMES, read_roster
 from graphkin.classroom.roster.spreadsheets import (
     MOST_CELLS,
-    NUMBER,
     SEPARATORS,
-    csv_text,
     folded,
-    safe,
     xlsx_rows,
 )
 from graphkin.classroom.roster.student import Student
 from graphkin.classroom.variants.assign import check_of
 from graphkin.text.errors import InTable, RosterError
+from graphkin.text.tables import NUMBER, csv_text, safe
 
 PLAIN = "number,id,name,group\n1,0042,Ann Lee,A\n2,0043,Bob Roe,B\n"
 READ = [

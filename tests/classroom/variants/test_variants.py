@@ -247,7 +247,7 @@ def test_the_command_writes_tells_and_leaves_with_1_for_unfair_data(tmp_path, ro
         "30      0030  Student 30  n = 30  triangle v_DC v/l 0.0441, at least 0.05" in result.stdout
     )
     assert "computed instead of measured" in result.stdout
-    assert "flattest crossing, °" in result.stdout
+    assert "flattest crossing  " in result.stdout
     assert "1 student has unfair data" in result.stderr
     assert (tmp_path / "out" / "manifest.json").is_file()
 

@@ -1,14 +1,45 @@
-"""Numbers in words and columns: six significant digits, decimal points aligned."""
+"""Tables as records, and their renderers as aligned text and as comma-separated values.
+
+The renderer for pages is ``tables_html`` in writers/templates.py.
+"""
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+import re
+from collections.abc import Callable, Iterable, Mapping, Sequence
+
+from msgspec import Struct
 
 DIGITS = 6
 NOISE = 1e-12
 """Share of the largest magnitude of its kind below which a printed number is rounding."""
 
 Cell = str | float | None
+
+
+class Row(Struct, frozen=True):
+    """A row of cells in markup; ``name`` says what the row is about."""
+
+    cells: tuple[str, ...]
+    name: str = ""
+
+
+class CellTable(Struct, frozen=True):
+    """A table of cells in markup: its heads, its rows, and its caption.
+
+    ``kind`` is the class of the table on a page. ``marks`` are the attributes of each row there; an
+    attribute that is True has no value.
+    """
+
+    heads: tuple[str, ...]
+    rows: Sequence[Row]
+    caption: str = ""
+    kind: str = ""
+    marks: Sequence[Mapping[str, str | bool]] = ()
+
+    def lines(self, plain: Callable[[str], str] = str) -> list[str]:
+        """The table as aligned text; ``plain`` takes the markup out of a cell."""
+        return table(list(map(plain, self.heads)), [[*map(plain, r.cells)] for r in self.rows])
 
 
 def number(value: float) -> str:
@@ -65,3 +96,40 @@ def listed(names: Iterable[str], most: int = 12) -> str:
     if len(known) > most:
         known = [*known[:most], f"{len(known) - most} more"]
     return " and ".join([", ".join(known[:-1]), known[-1]]) if len(known) > 1 else "".join(known)
+
+
+# --- comma-separated values -----------------------------------------------------------------------
+
+
+NUMBER = re.compile(r"[+-]?(?:\d+(?:[.,]\d*)?|[.,]\d+)(?:[eE][+-]?\d+)?", re.ASCII)
+RUNS = re.compile(r"""^(?=\s*[=+\-@＝＋－＠]|[\t\r\n])|([;\t\r\n][\s"]*)(?=[=+\-@＝＋－＠])""")
+"""The places where a spreadsheet reads what follows as a formula.
+
+They are the beginning of a text, and any end of a cell for a spreadsheet that expects semicolons or
+tabs between cells.
+"""
+QUOTED = re.compile(r'[",;\t\r\n]')
+"""The signs that require quotes: some spreadsheet ends a cell at each of them."""
+
+
+def safe(cell: object) -> str:
+    """A cell that no spreadsheet runs: a text that looks like a formula gets a leading '.
+
+    A number stays a number, including -5.
+    """
+    text = str(cell)
+    if not isinstance(cell, str) or NUMBER.fullmatch(text):
+        return text
+    return RUNS.sub(r"\1'", text)
+
+
+def csv_text(rows: Iterable[Sequence[object]], end: str = "\r\n") -> str:
+    """The text of a CSV file, a line for each row; None is an empty cell."""
+    return "".join(
+        ",".join("" if cell is None else quoted(safe(cell)) for cell in row) + end for row in rows
+    )
+
+
+def quoted(text: str) -> str:
+    """A cell, in quotes if it needs them."""
+    return '"' + text.replace('"', '""') + '"' if QUOTED.search(text) else text
