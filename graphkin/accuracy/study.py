@@ -175,8 +175,7 @@ def scope_of(target: Target) -> str | None:
     quantity = BY_TARGET.get(target[0])
     if quantity is None:
         return None
-    in_link = quantity.whose == "links" and quantity.sort == "place"
-    return CENTRES if in_link else SCOPES[quantity.kind]
+    return CENTRES if quantity.sort == "centre" else SCOPES[quantity.kind]
 
 
 def ways(
