@@ -6,6 +6,7 @@ rim on a cycloid; any other point as the circle through three places near one an
 
 from __future__ import annotations
 
+import re
 from math import cos, hypot, pi, radians, sin
 
 import pytest
@@ -15,8 +16,11 @@ from graphkin.classroom.grading.slips import times_as_far
 from graphkin.cli.report.solution_record import record
 from graphkin.construction.core.solution import Solution
 from graphkin.documents.centre_tables import breadth_of, place_of
+from graphkin.documents.sentences import sentences
+from graphkin.documents.sheet_documents import drawings_of
 from graphkin.mechanism import Mechanism
 from graphkin.numbers.plane import cross
+from graphkin.text import words
 from tests.mechanisms import mechanism_of
 from tests.scene_files import scene_text
 
@@ -162,3 +166,29 @@ def test_the_loops_find_a_centre_out_that_is_a_little_off():
         wrong = replace(own, curvature_centre=times_as_far(own.curvature_centre, times))
         points = {**solution.points, "P": wrong}
         assert not mechanism.witness(replace(solution, points=points)).agrees
+
+
+REASON = re.compile(r"\((?P<m>[\d.]+)·\*k\*_v\)\^2 = \*k\*_L·(?P<n>[\d.]+)·\*k\*_a")
+
+
+@pytest.mark.parametrize("language", ["en", "ro", "it"])
+def test_a_sheet_says_once_why_the_vectors_are_divided(language):
+    """v²/a of the drawn lengths is a length at the mechanism's scale: the printed scales say so."""
+    mechanism = four_bar(speed=4)
+    solution = mechanism.solve()
+    drawing = drawings_of(mechanism, mechanism.witness(solution), words(language), None)[1]
+    said = [each.markup.replace(",", ".") for each in sentences(drawing)]
+    (found,) = [match for each in said if (match := REASON.search(each))]
+    m, n, scales = float(found["m"]), float(found["n"]), drawing.scales
+    assert (m * scales.kv) ** 2 == pytest.approx(scales.kL * n * scales.ka)
+    assert any(f"/{found['m']}" in each for each in said) and m != 1 != n
+    speed, across = abs(solution.points["P"].velocity), curved(solution, "P")
+    drawn = (speed / scales.kv / m) ** 2 / (across / scales.ka / n)
+    place = solution.points["P"].position
+    assert drawn * scales.kL == pytest.approx(abs(centre(solution, "P") - place))
+
+
+def curved(solution: Solution, point: str) -> float:
+    """The component of a point's acceleration across its path, in m/s²."""
+    motion = solution.points[point]
+    return abs(cross(motion.velocity, motion.acceleration)) / abs(motion.velocity)

@@ -20,6 +20,7 @@ from graphkin.construction.centres.centre import (
 )
 from graphkin.construction.core.canvas import Canvas
 from graphkin.construction.core.drawn_scene import NOISE, Drawing
+from graphkin.construction.core.kind import constructions
 from graphkin.construction.core.naming import drawn_amount, drawn_in, scale_of
 from graphkin.construction.core.palette import MECHANISM, Move, PaletteAction, Picked, Picks
 from graphkin.construction.core.pen import Pen, letter
@@ -29,13 +30,17 @@ from graphkin.construction.core.relation import (
     answer,
     as_read,
     divided,
+    figure,
+    laid_times,
     put_in,
     set_length,
+    squared,
 )
 from graphkin.construction.core.vocabulary import action, perpendicular_at
 from graphkin.drawing.symbol_markup import bar, symbol
 from graphkin.numbers.arithmetic import Point, Real
 from graphkin.numbers.plane import Circle, Line, Ratio, cross, crossing_sine, dot
+from graphkin.text.markup import AND
 
 # --- its value, and the steps by hand ------------------------------------------------------------
 
@@ -140,14 +145,25 @@ class CurvatureEdge(LineToCentre, frozen=True, kw_only=True):
         """The sentence for the velocity set at the point, or for the component laid off."""
         values, known = drawing.trace.values, self.symbols()
         component = abs(values[self.foot] - values[self.normal.place])
-        return drawing.words(
-            f"step.curvature-{role}",
-            name=drawing.lettered(getattr(self, role)),
-            set=set_length(drawing, known["v"]),
-            laid=divided(drawing, known["a"], drawing.scales.times("acceleration")),
-            drawn=drawn_amount(drawing, component),
+        fields = {
             **known,
-        )
+            "name": drawing.lettered(getattr(self, role)),
+            "set": set_length(drawing, known["v"]),
+            "laid": divided(drawing, known["a"], drawing.scales.larger_still),
+            "drawn": drawn_amount(drawing, component),
+        }
+        said = [drawing.words(f"step.curvature-{role}", **fields)]
+        if role == "foot" and self.explains_scales(drawing):
+            fields["scales"] = scales_of_triangle(drawing)
+            said.append(drawing.words("step.curvature-scales", **fields))
+        return AND.join(said)
+
+    def explains_scales(self, drawing: Drawing) -> bool:
+        """Whether it is the first on a sheet whose plans are larger than its vectors."""
+        edges = constructions(drawing.trace.program, CurvatureEdge)
+        scales, drawn = drawing.scales, drawing.trace.values
+        first = next(each.foot for each in edges if each.foot in drawn)
+        return (scales.larger, scales.larger_still) != (1, 1) and self.foot == first
 
     def clause(self, drawing: Drawing, role: str) -> str:
         """The clause for the perpendicular at the tip."""
@@ -157,6 +173,13 @@ class CurvatureEdge(LineToCentre, frozen=True, kw_only=True):
     def places(self, drawing: Drawing) -> Places:
         """The tip."""
         return {drawing.trace.program.steps[self.tip].name: drawing.trace.values[self.tip]}
+
+
+def scales_of_triangle(drawing: Drawing) -> str:
+    """The condition that makes v²/a a length of the mechanism: (5·kv)² = kL·3·ka."""
+    m = drawing.scales.larger
+    enlarged = "*k*_v" if m == 1 else f"{figure(drawing, m)}·*k*_v"
+    return f"{squared(enlarged)} = *k*_L·{laid_times(drawing)}*k*_a"
 
 
 class PathCentre(Centre, frozen=True, kw_only=True):
