@@ -27,7 +27,7 @@ from graphkin.construction.flat_rods import Laid, laid
 from graphkin.numbers.arithmetic import FLOAT, Kind, np
 from graphkin.scene import scene_files
 from graphkin.scene.link_names import in_language
-from graphkin.scene.link_points import ends_of
+from graphkin.scene.link_points import point_of
 from graphkin.scene.model import Scene
 from graphkin.scene.read_scene import read_scene
 from graphkin.structure.decomposition import decompose
@@ -414,12 +414,6 @@ class Mechanism(Struct, frozen=True, dict=True):
     def _repr_svg_(self) -> str:
         """The first sheet as SVG, for a notebook."""
         return str(service("picture")(self))
-
-
-def point_of(scene: Scene, name: str) -> str:
-    """The name under which a point's motion is found: A for A@3 if link 3 owns A."""
-    point, link = ends_of(name)
-    return point if link and point in scene.link(link).points else name
 
 
 def refuse_shapes(arrays: Mapping[str, NDArray[Any]]) -> None:

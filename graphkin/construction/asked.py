@@ -8,6 +8,7 @@ from graphkin.construction.core.palette import TRANSFER, Move, vector_at_point
 from graphkin.construction.core.pen import Pen, letter
 from graphkin.construction.core.plan_vector import PlanVector
 from graphkin.construction.core.program import Plane
+from graphkin.construction.core.quantities import CENTRES, MOTION, names_asked
 from graphkin.construction.core.vocabulary import action
 from graphkin.construction.guides.coincident_points import image_under
 from graphkin.construction.plan import Plan
@@ -33,8 +34,12 @@ SET_ON = {"velocity": set_on, "acceleration": set_on_twice}
 
 
 def show(pen: Pen, plan: Plan, tips: Iterable[str]) -> None:
-    """Draw the vectors of driven tips and requested points, on the mechanism and in the plan."""
-    names: tuple[str, ...] = getattr(pen.scene.ask, plan.quantity)
+    """Draw the vectors of driven tips and requested points, on the mechanism and in the plan.
+
+    The centres of points follow from these vectors.
+    """
+    centres = (each for each in CENTRES if each.whose == "points")
+    names = names_asked(pen.scene.ask, MOTION[plan.quantity], *centres)
     asked = [constructed(pen, name, plan) for name in names]
     for point in asked:
         if pen.the(plan.quantity, point) != pen.pole(plan.plane):  # a fixed point has no arrow

@@ -19,6 +19,7 @@ from graphkin.construction.group_images import ACCELERATIONS, VELOCITIES, GroupI
 from graphkin.construction.guides.guides import axis, standing_guide
 from graphkin.construction.links import plate_points, position
 from graphkin.construction.plan import omega_of
+from graphkin.scene.link_points import point_of
 from graphkin.scene.model import Scene
 from graphkin.structure.groups import (
     CamFollower,
@@ -236,3 +237,7 @@ def draw_centres(pen: Pen, bases: Sequence[Base]) -> None:
             from graphkin.construction.centres.inflection import draw_circle
 
             draw_circle(pen, base)
+    for name in pen.scene.ask.curvature:
+        from graphkin.construction.centres.path_curvature import draw_curvature
+
+        draw_curvature(pen, point_of(pen.scene, name))

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Mapping
 
+from graphkin.construction.centres.path_curvature import CURVATURE, PathCentre
 from graphkin.construction.centres.relative_centre import with_centres_together
 from graphkin.construction.core.component import Component
 from graphkin.construction.core.drawn_scene import Drawing
@@ -57,10 +58,13 @@ PALETTE: Mapping[str, PaletteAction] = {
         JOIN,
         DIVIDE,
         POLE,
+        CURVATURE,
         TRANSFER,
     )
 }
 """The actions of a page's palette, in its order."""
+SLIPPING: tuple[type[Component] | type[PathCentre], ...] = (PathCentre, *COMPONENTS)
+"""The kinds of constructions in which slips are made, each with its ``slips``."""
 CAUSES: tuple[type[Component] | TouchingEffect, ...] = (*COMPONENTS, *TOUCHING)
 """The classes that can say why an effect is in or out of a scene."""
 SAID_FIRST = {PLAN: BEGINNING}

@@ -7,7 +7,7 @@ from collections.abc import Callable, Iterator, Sequence
 from graphkin.construction.core.drawn_scene import Drawing
 from graphkin.construction.core.naming import drawn_in, sense, way_of
 from graphkin.construction.core.plan_vector import plan_vector
-from graphkin.construction.core.quantities import OnPaper, in_mm
+from graphkin.construction.core.quantities import RATES, OnPaper, in_mm, names_asked
 from graphkin.construction.core.relation import value_of
 from graphkin.construction.core.segments import segment_of
 from graphkin.drawing.columns import SMALL, ColumnTable, laid_out, on_sheets
@@ -100,7 +100,7 @@ def turning_links(drawing: Drawing) -> Iterator[tuple[str, float]]:
     """The links whose angular velocity or acceleration a sheet shows, with its value."""
     scene = drawing.scene
     for link in scene.links:
-        if link in scene.unseen and link not in (*scene.ask.omega, *scene.ask.epsilon):
+        if link in scene.unseen and link not in names_asked(scene.ask, *RATES):
             continue
         value = drawing.turning(link)
         if value is not None:

@@ -14,6 +14,7 @@ from msgspec import Struct
 from msgspec.structs import replace
 
 from graphkin.construction.core.program import OF_PART, Effect, Part, Program, Step, Target
+from graphkin.construction.core.quantities import QUANTITIES, names_asked
 from graphkin.construction.core.timing import Stopwatch, Timing, one_position, work_of_steps
 from graphkin.construction.registry import CAUSES, LIMITED
 from graphkin.mechanism import Mechanism
@@ -177,19 +178,24 @@ def cause_of(scene: Scene, effect: Effect) -> str:
 
 def absence_of(scene: Scene, effect: Effect) -> str:
     """The cause in the scene of an effect's absence; empty where only missing requests are."""
-    ask = scene.ask
     match effect:
         case "laws of time" if not timed_drivers(scene):
             return "no driver is written in t"
         case "driver acceleration" if not accelerated_drivers(scene):
             return "every driver has a constant speed"
-        case "instantaneous centres" if not ask.any_centres:
+        case "instantaneous centres" if not centres_asked(scene, "velocity"):
             return "[ask] names no centres"
-        case "centrodes" if not ask.centrodes:
+        case "centrodes" if not scene.ask.centrodes:
             return "[ask] names no centrodes"
-        case "acceleration poles" if not ask.any_poles:
+        case "acceleration poles" if not centres_asked(scene, "acceleration"):
             return "[ask] names no poles"
     return next((kind.absence(scene) for kind in CAUSES if kind.effect == effect), "")
+
+
+def centres_asked(scene: Scene, kind: str) -> bool:
+    """Whether centres found by velocities, or by accelerations, are requested."""
+    found = (each for each in QUANTITIES if each.sort == "centre" and each.kind == kind)
+    return bool(names_asked(scene.ask, *found))
 
 
 def drivers_words(numbers: list[int]) -> str:

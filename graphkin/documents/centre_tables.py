@@ -9,8 +9,8 @@ from typing import Any
 
 from msgspec.structs import replace
 
-from graphkin.construction.core.quantities import MotionQuantity
-from graphkin.construction.core.solution import UNKNOWN, LinkMotion, PointMotion, Solution
+from graphkin.construction.core.quantities import LinkMotion, MotionQuantity, PointMotion
+from graphkin.construction.core.solution import UNKNOWN, Solution
 from graphkin.numbers.arithmetic import at
 from graphkin.numbers.plane import Ratio
 from graphkin.scene.model import FRAME, Scene
@@ -154,20 +154,20 @@ def relative_table(solution: Solution, names: Iterable[str]) -> list[str]:
     return table(["links", "centre of both, m"], rows) if rows else []
 
 
-def circles_table(links: Mapping[str, dict[str, Any]], quantity: MotionQuantity) -> list[str]:
-    """The circle of a quantity for each link that reports one (m)."""
+def circles_table(records: Mapping[str, dict[str, Any]], quantity: MotionQuantity) -> list[str]:
+    """The circle of a quantity for each link or point that reports one (m)."""
+    assert quantity.circle is not None
+    found = {name: one[quantity.key] for name, one in records.items() if quantity.key in one}
+    heads = list(quantity.circle.parts(0j, 0j))
     rows: list[list[Cell]] = []
-    for name, link in links.items():
-        if quantity.target not in link:
-            continue
-        circle = link[quantity.target]
-        pole, centre, radius = "at infinity", None, None
+    for name, circle in found.items():
+        cells: list[Cell] = [quantity.circle.missing, *[None] * (len(heads) - 1)]
         if circle is not None:
-            pole, centre = (pair_words(circle[key]) for key in ("pole", "centre"))
-            radius = circle["radius"]
-        rows.append([name, pole, centre, radius])
-    heads = ["link", f"{quantity.words}, m", "centre of circle, m", "radius, m"]
-    return table(heads, rows) if rows else []
+            cells = [circle[key] if key == "radius" else pair_words(circle[key]) for key in heads]
+        rows.append([name, *cells])
+    named = {heads[0]: quantity.words, "centre": "centre of circle", "radius": "radius"}
+    columns = [f"{({**named, heads[0]: quantity.words})[key]}, m" for key in heads]
+    return table([quantity.whose.removesuffix("s"), *columns], rows) if rows else []
 
 
 def pair_words(pair: list[float | None]) -> str:

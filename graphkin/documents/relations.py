@@ -21,6 +21,7 @@ from graphkin.construction.core.link_poses import Disc
 from graphkin.construction.core.naming import drawn_in, scale_of
 from graphkin.construction.core.plan_vector import plan_vector, sign_of
 from graphkin.construction.core.program import Part, Step
+from graphkin.construction.core.quantities import BY_TARGET, Whose
 from graphkin.construction.core.relation import (
     Relation,
     answer,
@@ -232,6 +233,7 @@ def sections_of(drawing: Drawing) -> list[Section]:
         ("spinning", turning),
         ("sliding", list(of_slides(drawing))),
         ("poles", list(of_centres(drawing))),
+        ("curvatures", list(of_centres(drawing, "points"))),
     ]
 
 
@@ -351,25 +353,36 @@ def of_components(drawing: Drawing) -> list[Section]:
     return list(found.items())
 
 
-def of_centres(drawing: Drawing) -> Iterator[Relation]:
-    """The places of instantaneous centres and acceleration poles.
+def of_centres(drawing: Drawing, whose: Whose = "links") -> Iterator[Relation]:
+    """The places of the centres and poles of links, or of the centres of points' paths.
 
     They are in millimetres on paper from the first fixed pivot, as measured, and in the axes of the
     frame.
     """
-    part = Part.CENTRE if drawing.kind == "velocity" else Part.POLE
-    for _, step, value in drawing.on_mechanism:
+    part, owners = Part.CENTRE if drawing.kind == "velocity" else Part.POLE, owners_of(drawing)
+    for number, step, value in drawing.on_mechanism:
         if step.part is not part or not isinstance(value, Ratio) or not step.name:
+            continue
+        if owners.get(number, "links") != whose:
             continue
         point = drawing.place(value)
         blank = blank_place(drawing)
         if point is None:
             everywhere = drawing.is_everywhere(value)
             key, equals = ("everywhere", "=") if everywhere else ("at_infinity", "")
+            key, equals = ("no_curvature", "") if whose == "points" else (key, equals)
             said = drawing.words(f"calculation.{key}")
             yield Relation(symbol(step.name), result=said, equals=equals, blank=blank)
         else:
+            kind = construction(step)
+            yield from kind.equations(drawing, step.role) if kind is not None else ()
             yield replace(of_place(drawing, symbol(step.name), point), blank=blank)
+
+
+def owners_of(drawing: Drawing) -> dict[int, Whose]:
+    """The kind of owner of each quantity, by its step."""
+    targets = drawing.trace.program.targets.items()
+    return {n: BY_TARGET[what].whose for (what, _), n in targets if what in BY_TARGET}
 
 
 def blank_place(drawing: Drawing) -> tuple[str, str]:

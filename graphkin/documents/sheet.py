@@ -24,7 +24,7 @@ from graphkin.construction.core.paper_canvas import (
     draw_part,
 )
 from graphkin.construction.core.program import Plane
-from graphkin.construction.core.quantities import ASKED, PLANES, SHEETS
+from graphkin.construction.core.quantities import ASKED, PLANES, SHEETS, WHOSE
 from graphkin.construction.core.relation import beside_plan, figure
 from graphkin.construction.drivers import driver_symbols
 from graphkin.construction.drivers.driver_relations import driven_bars, plan_scales
@@ -48,7 +48,6 @@ from graphkin.drawing.style import VECTORS
 from graphkin.drawing.symbol_markup import bar, escape, symbol
 from graphkin.scene.link_points import lettered
 from graphkin.scene.model import Link
-from graphkin.scene.requests import LINKS_ASKED
 from graphkin.text import Words
 from graphkin.text.errors import PageError, Problem, message
 from graphkin.text.markup import names_in
@@ -732,7 +731,7 @@ def asked_words(drawing: Drawing) -> Sequence[str]:
         names: tuple[str, ...] = getattr(ask, key)
         if names and any(each.kind in shown for each in some if each.words):
             what = f"slides_{drawing.kind}" if key == "slides" else key
-            told = (escape(n) if key in LINKS_ASKED else symbol(lettered(n)) for n in names)
+            told = (symbol(lettered(n)) if WHOSE[key] == "points" else escape(n) for n in names)
             mentioned = words("list_mark").join(told)
             found.append(words(f"ask.{what}" + ("_many" if len(names) > 1 else ""), list=mentioned))
     return found or ([words("ask.for_accelerations")] if ask.anything else [])

@@ -2,6 +2,11 @@
 
 from __future__ import annotations
 
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from graphkin.scene.model import Scene
+
 SIGN = "@"
 """The character between the name of a point and its link."""
 
@@ -10,6 +15,12 @@ def ends_of(name: str) -> tuple[str, str]:
     """A point and its link, from a name; the link is "" for a point of its own."""
     point, _, link = name.partition(SIGN)
     return point, link
+
+
+def point_of(scene: Scene, name: str) -> str:
+    """The name under which a point's motion is found: A for A@3 if link 3 owns A."""
+    point, link = ends_of(name)
+    return point if link and point in scene.link(link).points else name
 
 
 def under(point: str, link: str) -> str:

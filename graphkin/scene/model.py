@@ -469,44 +469,44 @@ class Closure(Struct, frozen=True):
 Branch = Side | Way | Closure
 
 
+PointNames = tuple[str, ...]
+"""Names of points, which may be written ``A@3``."""
+LinkNames = tuple[str, ...]
+
+
 class Ask(Struct, frozen=True):
-    """The requested quantities; points may be written ``A@3``.
+    """The requested quantities, each with the points or links of which it is requested.
 
     ``pairs`` are two links with a dash, such as ``2-4``, whose relative centre is requested. They
     are in the order of the scene, with the frame first. ``curves`` are points whose paths are
     requested.
     """
 
-    velocity: tuple[str, ...] = ()
-    acceleration: tuple[str, ...] = ()
-    omega: tuple[str, ...] = ()
-    epsilon: tuple[str, ...] = ()
-    poles: tuple[str, ...] = ()
-    centres: tuple[str, ...] = ()
-    centrodes: tuple[str, ...] = ()
-    slides: tuple[str, ...] = ()
-    pairs: tuple[str, ...] = ()
-    inflection: tuple[str, ...] = ()
-    curves: tuple[str, ...] = ()
+    velocity: PointNames = ()
+    acceleration: PointNames = ()
+    omega: LinkNames = ()
+    epsilon: LinkNames = ()
+    poles: LinkNames = ()
+    centres: LinkNames = ()
+    centrodes: LinkNames = ()
+    slides: LinkNames = ()
+    pairs: LinkNames = ()
+    inflection: LinkNames = ()
+    curvature: PointNames = ()
+    curves: PointNames = ()
 
     @property
     def anything(self) -> bool:
         return any(astuple(self))
 
     @property
-    def any_centres(self) -> bool:
-        """Whether instantaneous centres are drawn: as requested, or for inflection circles."""
-        return bool(self.centres or self.pairs or self.inflection)
-
-    @property
     def chosen_by_place(self) -> bool:
         """Whether a request is solved in a way that depends on the position of the mechanism."""
         return bool(self.pairs or self.inflection)
 
-    @property
-    def any_poles(self) -> bool:
-        """Whether acceleration poles are drawn: as requested, or for inflection circles."""
-        return bool(self.poles or self.inflection)
+
+POINTS_ASKED = tuple(key for key, names in Ask.__annotations__.items() if names == "PointNames")
+"""The keys of [ask] that list points; the others list links."""
 
 
 class Sheet(Struct, frozen=True):

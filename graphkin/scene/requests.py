@@ -11,7 +11,7 @@ from graphkin.scene.findings import Findings, Table, numbered, plain_text, shown
 from graphkin.scene.known_names import THE_MECHANISM, known_link, known_point
 from graphkin.scene.link_points import ends_of
 from graphkin.scene.measures import Measures
-from graphkin.scene.model import FRAME, Ask, Branch, Link, Scene, Sheet
+from graphkin.scene.model import FRAME, POINTS_ASKED, Ask, Branch, Link, Scene, Sheet
 from graphkin.scene.phrases import (
     CLOSURE,
     SIDES,
@@ -26,14 +26,9 @@ from graphkin.scene.quantity import Quantity, exact
 from graphkin.text.errors import Hint, Message, Written, either, joined, message
 
 LANGUAGES = ("en", "it", "ro")
-POINTS_ASKED = ("velocity", "acceleration")
 PATHS_ASKED = "curves"
-CENTRES_ASKED = "centres"
-LINKS_ASKED = tuple(
-    key
-    for key in Ask.__struct_fields__
-    if key not in (*POINTS_ASKED, PATHS_ASKED, CENTRES_ASKED, "pairs")
-)
+CENTRES_ASKED, PAIRS = "centres", "pairs"
+"""The key that may also hold pairs of links, and where the scene keeps these."""
 ALL = "all"
 """Requests the relative centres of all links."""
 BRANCH_WORDS = message('"left of P-Q", "right of P-Q", "forward", "backward" or "closure 1"')
@@ -100,10 +95,8 @@ def sides(name: str, links: Mapping[str, Link], branch: object = "") -> tuple[Me
 
 def read_ask(table: Table, findings: Findings, scene: Scene) -> Ask:
     """The requested results of a scene; each key holds a list of its points or links."""
-    names = {
-        key: names_asked(table, key, findings, scene)
-        for key in (*POINTS_ASKED, PATHS_ASKED, *LINKS_ASKED)
-    }
+    keys = (key for key in Ask.__struct_fields__ if key not in (CENTRES_ASKED, PAIRS))
+    names = {key: names_asked(table, key, findings, scene) for key in keys}
     centres, pairs = centres_asked(table, findings, scene)
     table.finish()
     return Ask(**names, centres=centres, pairs=pairs)
@@ -117,7 +110,7 @@ def names_asked(table: Table, key: str, findings: Findings, scene: Scene) -> tup
 
 def name_asked(place: str, key: str, raw: object, findings: Findings, scene: Scene) -> str | None:
     """The name of a point or a link; None, with a problem noted, if it cannot be requested."""
-    if key in LINKS_ASKED or key == CENTRES_ASKED:
+    if key not in POINTS_ASKED:
         name = moving_link(place, raw, findings)
         link = None if name is None else known_link(scene, name, place, findings)
         if key == "slides" and link is not None and not link.slides:
@@ -140,7 +133,7 @@ def items(table: Table, key: str) -> Iterator[tuple[str, object]]:
     if isinstance(raw, list) and len(raw) <= MOST:
         yield from ((f"{table.at(key)}[{index}]", each) for index, each in enumerate(raw))
     elif raw is not None:
-        what = '["A", "B"]' if key in (*POINTS_ASKED, PATHS_ASKED) else "[2, 3]"
+        what = '["A", "B"]' if key in POINTS_ASKED else "[2, 3]"
         table.findings.add(table.at(key), shown(raw), message("a list, such as {what}", what=what))
 
 

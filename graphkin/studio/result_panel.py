@@ -3,22 +3,24 @@
 from __future__ import annotations
 
 from cmath import isnan
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from itertools import chain
 from math import degrees
+from typing import Any
 
 from msgspec.structs import replace
 
 from graphkin.construction.core.crossings import Crossing
 from graphkin.construction.core.drawn_scene import METRES, Drawing
 from graphkin.construction.core.program import Part
-from graphkin.construction.core.quantities import CENTRES, motion_value, names_asked
+from graphkin.construction.core.quantities import CENTRES, Whose, motion_value, names_asked
 from graphkin.construction.core.solution import Solution, Verdict
 from graphkin.construction.result_tables import NUMBERS, result_tables, unread
 from graphkin.documents.centre_tables import breadth_of, place_of, with_blocks
 from graphkin.documents.flattest import crossings_on
 from graphkin.drawing.symbol_markup import symbol
 from graphkin.numbers.plane import Ratio
+from graphkin.scene.link_points import lettered, point_of
 from graphkin.scene.model import Scene
 from graphkin.text import Words
 from graphkin.text.tables import NOISE, CellTable, Row
@@ -90,18 +92,16 @@ def losses(drawing: Drawing, solution: Solution) -> Callable[[str], bool]:
 def places(scene: Scene, solution: Solution, words: Words) -> Iterator[CellTable]:
     """The places of the centres and poles that are asked for, in the unit of the scene."""
     full, breadth, unit = with_blocks(scene, solution), breadth_of(solution), scene.units["length"]
-    asked: list[tuple[str, Ratio | None]] = [
-        (
-            f"{quantity.letter}_{name}",
-            motion_value(full.links[name], quantity)
-            if name in full.links
-            else solution.centres.get(name),
-        )
-        for quantity in CENTRES
-        for name in names_asked(scene.ask, quantity)
-    ]
+    asked: list[tuple[str, Ratio | None, Whose]] = []
+    for quantity in CENTRES:
+        motions: Mapping[str, Any] = getattr(full, quantity.whose)
+        for name in names_asked(scene.ask, quantity):
+            own = point_of(scene, name) if quantity.whose == "points" else name
+            found = motion_value(motions[own], quantity) if own in motions else None
+            ratio = solution.centres.get(own, found)
+            asked.append((f"{quantity.letter}_{lettered(own)}", ratio, quantity.whose))
     rows = []
-    for name, ratio in asked:
+    for name, ratio, whose in asked:
         at = place_of(ratio, breadth)
         cells: tuple[str, str] = (words("calculation.at_infinity"), "")
         if at is not None and isnan(at):
@@ -110,6 +110,8 @@ def places(scene: Scene, solution: Solution, words: Words) -> Iterator[CellTable
             metre, least = METRES[unit], NOISE * breadth
             x, y = (0.0 if abs(part) < least else part / metre for part in (at.real, at.imag))
             cells = (words.significant(x, 5), words.significant(y, 5))
+        elif whose == "points":
+            cells = (words("calculation.no_curvature"), "")
         elif ratio is None or ratio.shift == 0:
             cells = (words("calculation.everywhere"), "")
         rows.append(Row((symbol(name), *cells)))

@@ -15,7 +15,7 @@ from graphkin.construction.core.link_poses import Touch
 from graphkin.construction.core.naming import angle_symbol
 from graphkin.construction.core.paper_canvas import Plot
 from graphkin.construction.core.program import Step
-from graphkin.construction.core.quantities import MOTION
+from graphkin.construction.core.quantities import MOTION, points_asked
 from graphkin.construction.drivers.driver_symbols import draw_drivers
 from graphkin.construction.guides.rails import REACH, Rail, rails_of
 from graphkin.construction.guides.slide_symbols import STROKE, draw_frame_guides, merged, within
@@ -533,12 +533,12 @@ def taken(drawing: Drawing) -> Iterator[complex]:
 
 
 def paths_of(motion: FrameSequence) -> Iterator[tuple[complex, ...]]:
-    """The paths of the points whose velocity, acceleration or path is asked for."""
+    """The paths of the points of which anything is asked for."""
     cycle = motion.cycle
     ask, fixed = cycle.scene.ask, cycle.scene.fixed_points
     rows = np.isin(cycle.piece, range(1, len(cycle.path.ranges[0]) + 1))
     closes = cycle.sweep.whole and cycle.path.whole and cycle.path.returns
-    for name in dict.fromkeys((*ask.velocity, *ask.acceleration, *ask.curves)):
+    for name in points_asked(ask):
         point = cycle.solution.points.get(name)
         if point is None or name in fixed or point.position is None or not rows.any():
             continue

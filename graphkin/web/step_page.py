@@ -14,6 +14,7 @@ from graphkin.construction.core.given_data import Datum, data, given
 from graphkin.construction.core.naming import name_of_sheet, scale_of
 from graphkin.construction.core.plan_vector import PlanVector, plan_vector
 from graphkin.construction.core.program import Part, Step
+from graphkin.construction.core.quantities import CENTRES
 from graphkin.construction.result_tables import unread
 from graphkin.documents.sheet import HEADING, apart, asked_words, title_of
 from graphkin.drawing.field import Rect
@@ -54,8 +55,6 @@ PLANS = {
     "acceleration": ("*k*_a", "*ε*", "legend.epsilon"),
 }
 """The scale of each plan, and the symbol and meaning of a link's rate on its sheet."""
-FOUND = {Part.CENTRE: ("*I*", "legend.centre"), Part.POLE: ("*J*", "legend.pole")}
-"""The letters of the points found on the mechanism."""
 
 
 def meanings(words: Words, sheets: Sequence[ScreenSheet]) -> Iterator[tuple[str, str]]:
@@ -72,9 +71,11 @@ def meanings(words: Words, sheets: Sequence[ScreenSheet]) -> Iterator[tuple[str,
         yield from images(words, arrows, sheet)
         yield from components(words, arrows)
         yield rate, words(turning)
-        parts = {drawing.trace.program.steps[number].part for number in drawing.trace.values}
-        own = parts & {Part.CENTRE if drawing.kind == "velocity" else Part.POLE}
-        yield from ((term, words(key)) for part, (term, key) in FOUND.items() if part in own)
+        targets = drawing.trace.program.targets
+        found = {what for (what, _), number in targets.items() if number in drawing.trace.values}
+        for each in CENTRES:
+            if each.kind == drawing.kind and each.target in found:
+                yield f"*{each.letter}*", words(f"legend.{each.target}")
 
 
 def images(words: Words, arrows: Sequence[Arrow], sheet: ScreenSheet) -> Iterator[tuple[str, str]]:

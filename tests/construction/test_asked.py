@@ -10,7 +10,8 @@ from msgspec.structs import replace
 from graphkin.construction.core.pen import letter
 from graphkin.construction.core.plan_vector import plan_vector
 from graphkin.construction.core.program import Plane
-from graphkin.mechanism import Mechanism, point_of
+from graphkin.mechanism import Mechanism
+from graphkin.scene.link_points import point_of
 from graphkin.scene.model import FRAME
 from tests.chance.checking import case
 from tests.chosen import CHOSEN, EVERY

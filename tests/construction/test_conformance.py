@@ -62,6 +62,7 @@ OWN = {
     path.stem: path
     for path in (
         TESTS / "motion" / "scenes" / "planet-on-coupler.toml",
+        TESTS / "scenes" / "construction" / "coupler-point-curvature.toml",
         TESTS / "scenes" / "construction" / "wheels-that-speed-up.toml",
         TESTS / "scenes" / "structure" / "pins" / "rod-in-two-bushings.toml",
         TESTS / "scenes" / "structure" / "plate-on-parallel-bars.toml",

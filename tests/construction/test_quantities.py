@@ -6,8 +6,14 @@ from typing import get_args
 
 import pytest
 
-from graphkin.construction.core.quantities import QUANTITIES, Whose
-from graphkin.construction.core.solution import LinkMotion, PointMotion, SlideMotion, Solution
+from graphkin.construction.core.quantities import (
+    QUANTITIES,
+    LinkMotion,
+    PointMotion,
+    SlideMotion,
+    Whose,
+)
+from graphkin.construction.core.solution import Solution
 
 MOTIONS = {"points": PointMotion, "links": LinkMotion, "slides": SlideMotion}
 

@@ -6,7 +6,8 @@ import numpy as np
 import pytest
 from msgspec.structs import replace
 
-from graphkin.construction.core.solution import PointMotion, Solution, gathered
+from graphkin.construction.core.quantities import PointMotion
+from graphkin.construction.core.solution import Solution, gathered
 from graphkin.loops.equations import Equations
 from graphkin.loops.witness import examine
 from graphkin.mechanism import Mechanism

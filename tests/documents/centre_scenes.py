@@ -50,5 +50,7 @@ ASKING = {
     "block on a lever with its centre": scene_text("documents/lever"),
     "gears with their centre": scene_text("documents/gears"),
     "roller with its inflection circle": scene_text("documents/roller"),
+    "coupler point with its centre of curvature": four_bar('curvature = ["B"]'),
+    "slider-crank with centres of curvature": scene_text("documents/curvatures"),
 }
 """Scenes by what is rare in them."""

@@ -16,7 +16,7 @@ from graphkin.classroom.grading.feedback import SLIPS
 from graphkin.classroom.lab.fairness import WORDS as LIMITS
 from graphkin.construction.core.drawn_scene import Drawing
 from graphkin.construction.core.given_data import variant
-from graphkin.construction.core.quantities import OnPaper, in_mm
+from graphkin.construction.core.quantities import CENTRES, OnPaper, in_mm
 from graphkin.construction.registry import PALETTE
 from graphkin.construction.result_tables import WIDTHS
 from graphkin.documents.calculation import calculation
@@ -218,6 +218,7 @@ TELLING = (
     *("too-short-to-be-drawn", "slider-crank-at-its-dead-point", "bar-on-drum", "platform-3rpr"),
     *("stephenson-2-ternary", "cam-plate", "four-bar with all its centres"),
     *("pinion-driven-by-a-rack", "cam-rocker", "roller-plates", "trammel with all its centres"),
+    *("coupler point with its centre of curvature", "slider-crank with centres of curvature"),
 )
 """Scenes that say all that any says but for plates-ring; all others come after them."""
 
@@ -240,6 +241,7 @@ def test_every_sentence_is_used():
     waiting -= {f"studio.limit_{limit}" for limit in LIMITS}
     waiting -= {f"screen.{kind}" for kind in WIDTHS}
     waiting -= {f"animation.{kind}" for kind in ("dead", "change")}
+    waiting -= {f"legend.{each.target}" for each in CENTRES}
     assert waiting >= RARELY_SAID
     waiting -= RARELY_SAID
     for name in dict.fromkeys((*TELLING, "plates-ring", *RARE, *OTHERS, *CHOSEN)):

@@ -5,7 +5,8 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import Any
 
-from graphkin.construction.core.solution import LinkMotion, PointMotion, SlideMotion, Solution
+from graphkin.construction.core.quantities import LinkMotion, PointMotion, SlideMotion
+from graphkin.construction.core.solution import Solution
 from graphkin.loops.assemble import assemble
 from graphkin.loops.loop_motion import Motion
 from graphkin.loops.newton import LoopSolution

@@ -9,7 +9,8 @@ import numpy as np
 import pytest
 from msgspec.structs import replace
 
-from graphkin.construction.core.solution import PointMotion, Solution
+from graphkin.construction.core.quantities import PointMotion
+from graphkin.construction.core.solution import Solution
 from graphkin.loops.assemble import assemble, led_by
 from graphkin.loops.freedom import true_mobility
 from graphkin.loops.rigid_bodies import half_angle

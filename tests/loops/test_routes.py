@@ -2,26 +2,42 @@
 
 from __future__ import annotations
 
+from functools import cache
 from typing import Any
 
 import numpy as np
 import pytest
 
 from graphkin.construction.core import quantities
-from graphkin.construction.core.quantities import ASKED, BY_TARGET, QUANTITIES, MotionQuantity
+from graphkin.construction.core.quantities import (
+    ASKED,
+    BY_TARGET,
+    QUANTITIES,
+    MotionQuantity,
+    PointMotion,
+)
 from graphkin.construction.core.run import run
-from graphkin.construction.core.solution import PointMotion, Solution, gathered
+from graphkin.construction.core.solution import Solution, gathered
 from graphkin.loops.witness import compare, differences
 from graphkin.loops.witness.differences import ROUTES
-from graphkin.mechanism import Mechanism
+from graphkin.mechanism import Mechanism, load
 from graphkin.numbers.arithmetic import FLOAT
 from graphkin.numbers.plane import Ratio
 from graphkin.scene.model import Ask
 from graphkin.text.errors import WitnessError
 from tests.diagnosis.scope import shipped
+from tests.scene_files import FOLDER as SCENE_FILES
 
 SCENES = ("pump", "crank-slot", "instant-centres", "inflection-cardan", "centrodes-four-bar")
-"""Scenes that ask for every quantity between them."""
+"""Scenes that ask for every quantity of links and blocks between them."""
+CURVED = "construction/coupler-point-curvature"
+"""A scene of the tests that asks for the centre of curvature of a point's path."""
+
+
+@cache
+def asking(name: str) -> Mechanism:
+    """A scene by its name."""
+    return load(SCENE_FILES / f"{name}.toml") if name == CURVED else shipped(name)
 
 
 def doubled(value: Any) -> Any:
@@ -54,9 +70,9 @@ def caught(mechanism: Mechanism, target: tuple[str, str]) -> bool | None:
 @pytest.mark.parametrize("quantity", [each.target for each in QUANTITIES])
 def test_a_quantity_constructed_twice_as_large_does_not_agree(quantity):
     found = {
-        (name, *target): caught(shipped(name), target)
-        for name in SCENES
-        for target in shipped(name).program.targets
+        (name, *target): caught(asking(name), target)
+        for name in (*SCENES, CURVED)
+        for target in asking(name).program.targets
         if target[0] == quantity
     }
     judged = [target for target, seen in found.items() if seen is not None]

@@ -6,7 +6,8 @@ import numpy as np
 import pytest
 from msgspec.structs import replace
 
-from graphkin.construction.core.solution import PointMotion, Solution
+from graphkin.construction.core.quantities import PointMotion
+from graphkin.construction.core.solution import Solution
 from graphkin.loops.witness import compare
 from graphkin.mechanism import Mechanism
 from graphkin.numbers.kinds import ball_kind

@@ -13,6 +13,7 @@ from graphkin.construction.core.solution import Verdict
 from graphkin.documents.sheet_documents import hand_out
 from graphkin.mechanism import Mechanism, load
 from graphkin.scene import scene_files
+from graphkin.scene.link_points import lettered
 from graphkin.scene.read_scene import read_text
 from graphkin.studio.panels import Memory, StaleError, around
 from graphkin.text import LANGUAGES
@@ -235,6 +236,7 @@ def test_every_place_that_is_asked_has_a_row_with_its_coordinates():
     ask = read_text(text, "own", None, {}).ask
     wanted = {f"I{name}" for name in (*ask.centres, *ask.pairs)}
     wanted |= {f"J{name}" for name in ask.poles} | {f"W{name}" for name in ask.inflection}
+    wanted |= {f"Ω{lettered(name)}" for name in ask.curvature}
     assert {*places_in(text)} == wanted
     bar = (FOLDER / "inflection-cardan.toml").read_text(encoding="utf-8")
     assert places_in(bar) == {"W2": ["0", "0"]}

@@ -10,7 +10,7 @@ from msgspec import Struct
 
 from graphkin.accuracy.pencil.original import Original
 from graphkin.construction.core.program import Step, Target
-from graphkin.construction.core.quantities import BY_TARGET, RATES, MotionQuantity, Sort
+from graphkin.construction.core.quantities import BY_TARGET, RATES, MotionQuantity
 from graphkin.numbers.plane import Ratio
 
 FAR = 10.0
@@ -26,7 +26,7 @@ class DrawnQuantity(Struct, frozen=True):
 
     target: Target
     number: int
-    sort: Sort
+    is_place: bool
     value: Any
     unit: str
     millimetre: float
@@ -34,12 +34,12 @@ class DrawnQuantity(Struct, frozen=True):
     @property
     def size(self) -> float | None:
         """The size that a relative error refers to; None for a place, whose size has no meaning."""
-        return None if self.sort == "place" else abs(self.value)
+        return None if self.is_place else abs(self.value)
 
     def of(self, found: Mapping[int, Any]) -> Any:
         """The answer in some drawings, an element for each."""
         value = found[self.number]
-        return placed(value) if self.sort == "place" else value
+        return placed(value) if self.is_place else value
 
     def error(self, found: Mapping[int, Any]) -> Any:
         """The difference of the answer from the exact one in some drawings."""
@@ -69,13 +69,13 @@ def answer(
     """One answer; None for a place that no drawing shows."""
     value = original.trace.values[number]
     mm = original.paper.millimetre(quantity.plane)
-    if quantity.sort == "place":
+    if quantity.is_place:
         value = placed(value)
         if value is None or not isfinite(abs(value)) or abs(value) > FAR * 1000 * mm:
             return None
     elif quantity in RATES:
         mm = mm / bar_of(original, original.program.steps[number])
-    return DrawnQuantity(target, number, quantity.sort, value, quantity.unit, mm)
+    return DrawnQuantity(target, number, quantity.is_place, value, quantity.unit, mm)
 
 
 def bar_of(original: Original, step: Step) -> float:

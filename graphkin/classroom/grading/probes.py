@@ -14,8 +14,9 @@ from graphkin.classroom.lab.lab_model import Item
 from graphkin.construction.core.kind import PlanPole, construction
 from graphkin.construction.core.program import Plane, Target
 from graphkin.construction.core.quantities import BY_TARGET, VECTORS
-from graphkin.mechanism import Mechanism, point_of
+from graphkin.mechanism import Mechanism
 from graphkin.numbers.plane import Ratio
+from graphkin.scene.link_points import point_of
 from graphkin.text.errors import NO_WORDS, Problem, SceneError, message
 
 

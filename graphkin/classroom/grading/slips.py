@@ -12,13 +12,14 @@ from msgspec.structs import replace
 from graphkin.accuracy.pencil.pencil import Paper
 from graphkin.classroom.grading.standard import Standard
 from graphkin.classroom.lab.items import motion_of
-from graphkin.construction.core.component import component_of
 from graphkin.construction.core.crossings import Determined
-from graphkin.construction.core.program import Plane
+from graphkin.construction.core.kind import Construction
+from graphkin.construction.core.program import Plane, Step
 from graphkin.construction.core.quantities import OMEGA, RATES
-from graphkin.construction.registry import COMPONENTS
+from graphkin.construction.registry import SLIPPING
 from graphkin.construction.velocity.turning_of_link import TurningOfLink
 from graphkin.numbers.arithmetic import turn_by
+from graphkin.numbers.plane import Ratio
 from graphkin.scene.model import Driver
 from graphkin.structure.groups import Crank
 
@@ -284,9 +285,19 @@ def of_sides(standard: Standard) -> Iterator[tuple[str, dict[str, float]]]:
 
 
 def of_components(standard: Standard) -> Iterator[tuple[str, dict[str, float]]]:
-    """Components left out, or laid off in the wrong direction."""
-    values, program = standard.exact.trace.values, standard.mechanism.program
-    for kind in reversed(COMPONENTS):
-        found = [n for n in standard.layout.needed if isinstance(component_of(program, n), kind)]
+    """Components left out or laid off in the wrong direction, and centres on the wrong side."""
+    values, steps = standard.exact.trace.values, standard.mechanism.program.steps
+    for kind in reversed(SLIPPING):
+        found = [n for n in standard.layout.needed if is_result(steps[n], kind)]
         for name, times in kind.slips.items() if found else ():
-            yield name, standard.told({n: times * values[n] for n in found})
+            yield name, standard.told({n: times_as_far(values[n], times) for n in found})
+
+
+def is_result(step: Step, kind: type[Construction]) -> bool:
+    """Whether a step is the result of a kind of construction: its component, or its centre."""
+    return isinstance(step.of, kind) and step.role in ("vector", "found")
+
+
+def times_as_far(value: Any, times: complex) -> Any:
+    """A component times a number; a centre so many times as far from where it is counted."""
+    return value._replace(shift=times * value.shift) if isinstance(value, Ratio) else times * value

@@ -25,8 +25,14 @@ from graphkin.construction.core.drawn_scene import ENDLESS
 from graphkin.construction.core.layout import held_beside, room_below
 from graphkin.construction.core.paper_canvas import WITHIN
 from graphkin.construction.core.program import Part, Plane
-from graphkin.construction.core.quantities import BY_TARGET, RATES
-from graphkin.construction.core.solution import FAIR, LinkMotion, PointMotion, SlideMotion
+from graphkin.construction.core.quantities import (
+    BY_TARGET,
+    RATES,
+    LinkMotion,
+    PointMotion,
+    SlideMotion,
+)
+from graphkin.construction.core.solution import FAIR
 from graphkin.construction.registry import LIMITED
 from graphkin.drawing.field import AREA
 from graphkin.drawing.scale import Extent, Scales

@@ -28,8 +28,8 @@ from graphkin.construction.core.quantities import (
     names_asked,
 )
 from graphkin.drawing.symbol_markup import escape, symbol
-from graphkin.mechanism import Mechanism, point_of
-from graphkin.scene.link_points import lettered
+from graphkin.mechanism import Mechanism
+from graphkin.scene.link_points import lettered, point_of
 
 GREEK = {"ν": "nu", "τ": "tau", "c": "cor"}
 ARROW = "arrow"
@@ -91,9 +91,10 @@ def asked(mechanism: Mechanism) -> Iterator[Item]:
     for block in ask.slides:
         yield from slide_items(block, scene.links[block].slides[0].on)
     for quantity in CENTRES:
-        for link in names_asked(ask, quantity):
-            if mechanism.gives((quantity.target, link)):
-                yield from place_items(quantity, link)
+        for name in names_asked(ask, quantity):
+            own = point_of(scene, name) if quantity.whose == "points" else name
+            if mechanism.gives((quantity.target, own)):
+                yield from place_items(quantity, own)
 
 
 def moving(mechanism: Mechanism) -> Iterator[Item]:
@@ -160,7 +161,7 @@ def vector_items(quantity: MotionQuantity, point: str) -> Iterator[Item]:
 def rate_items(quantity: MotionQuantity, link: str) -> Iterator[Item]:
     """An angular velocity or acceleration, and its sense."""
     sign = symbol(f"{quantity.letter}_{link}")
-    yield from with_sense(f"{quantity.target}_{plain(link)}", sign, quantity, link)
+    yield from with_sense(f"{quantity.name}_{plain(link)}", sign, quantity, link)
 
 
 def slide_items(block: str, guide: str) -> Iterator[Item]:
@@ -177,13 +178,12 @@ def with_sense(name: str, sign: str, quantity: MotionQuantity, of: str) -> Itera
     yield Item(name, "sense", sign, "", quantity.target, of)
 
 
-def place_items(quantity: MotionQuantity, link: str) -> Iterator[Item]:
-    """The coordinates of a centre or a pole on paper, from the first fixed pivot."""
-    letter = quantity.letter
+def place_items(quantity: MotionQuantity, of: str) -> Iterator[Item]:
+    """The coordinates of a centre of a link or a point on paper, from the first fixed pivot."""
     for axis in ("x", "y"):
-        name = f"{letter}_{plain(link)}"
-        sign = f"*{axis}*({symbol(f'{letter}_{link}')})"
-        yield Item(name, "place", sign, "mm", quantity.target, link, axis=axis)
+        name = f"{quantity.name}_{plain(of)}"
+        sign = f"*{axis}*({symbol(f'{quantity.letter}_{lettered(of)}')})"
+        yield Item(name, "place", sign, "mm", quantity.target, of, axis=axis)
 
 
 def plain(name: str) -> str:

@@ -31,7 +31,15 @@ from graphkin.classroom.lab.proposed_ranges import (
 from graphkin.classroom.lab.read_lab import LAB, SCENE, lab_of
 from graphkin.classroom.lab.slip_names import NAMES
 from graphkin.construction.core.plan_vector import PlanVector
-from graphkin.construction.core.quantities import CENTRES, RATES, SHEETS, TURNING, VECTORS
+from graphkin.construction.core.quantities import (
+    BY_TARGET,
+    CENTRES,
+    RATES,
+    SHEETS,
+    TURNING,
+    VECTORS,
+    Whose,
+)
 from graphkin.drawing.richtext import plain as text_of
 from graphkin.drawing.style import COMPONENTS
 from graphkin.mechanism import Mechanism
@@ -41,16 +49,6 @@ from graphkin.text import words
 from graphkin.text.errors import Problem, SceneError, message
 from graphkin.writers.files import RESERVED, refuse_folder, write_all
 
-QUANTITY = {
-    "velocity": "velocity of {of}",
-    "acceleration": "acceleration of {of}",
-    "omega": "angular velocity of link {of}",
-    "epsilon": "angular acceleration of link {of}",
-    "slide speed": "speed of block {of} along its guide",
-    "slide acceleration": "acceleration of block {of} along its guide",
-    **{each.target: f"{each.words} of link {{of}}" for each in CENTRES},
-}
-"""The name of each quantity that a form asks for."""
 COMPONENT = {kind.sign: words("en")(kind.legend).partition(":")[0] for kind in COMPONENTS}
 """The name of each component of an acceleration, by its sign."""
 SHEET = {sheet[0]: sheet for sheet in SHEETS}
@@ -69,13 +67,14 @@ def kinds() -> Mapping[str, str]:
 
 def examples() -> Iterator[Item]:
     """A field of each kind, for point B, link 3 and block 2."""
+    names: Mapping[Whose, str] = {"points": "B", "links": "3", "slides": "2"}
     for vector in VECTORS:
-        yield from vector_items(vector, "B")
+        yield from vector_items(vector, names[vector.whose])
     for rate in RATES:
-        yield from rate_items(rate, "3")
-    yield from slide_items("2", "0")
+        yield from rate_items(rate, names[rate.whose])
+    yield from slide_items(names["slides"], "0")
     for centre in CENTRES:
-        yield from place_items(centre, "3")
+        yield from place_items(centre, names[centre.whose])
     for quantity in VECTORS:
         for sign in ("", *COMPONENT) if quantity.kind == "acceleration" else ("",):
             yield from arrow_items(PlanVector(quantity.letter, "BA", sign=sign), quantity.unit)
@@ -100,7 +99,7 @@ def thing(item: Item) -> str:
     """The object of a field: a quantity, or an arrow of a plan by its letters."""
     vector = item.vector
     if vector is None:
-        return QUANTITY[item.quantity].format(of=item.of)
+        return BY_TARGET[item.quantity].of(item.of)
     name = f"{vector.letter}_{plain(vector.index)}"
     whole = f"vector {name} of the {SHEET[vector.letter]} plan"
     return f"{COMPONENT[vector.sign]} of {name}" if vector.sign in COMPONENT else whole

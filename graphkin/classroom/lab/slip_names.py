@@ -1,6 +1,6 @@
 """The names of known slips, which rubrics use to give them shares of the points."""
 
-from graphkin.construction.registry import COMPONENTS
+from graphkin.construction.registry import SLIPPING
 
 NAMES = (
     "rpm_as_rad",
@@ -13,7 +13,7 @@ NAMES = (
     "diameter_for_radius",
     "radius_for_diameter",
     "other_side",
-    *(name for kind in reversed(COMPONENTS) for name in kind.slips),
+    *(name for kind in reversed(SLIPPING) for name in kind.slips),
     "sense_reversed",
     "wrong_scale",
     "scale_missing",

@@ -10,16 +10,16 @@ from graphkin.scene.model import Ask, Scene
 from graphkin.scene.parameters import range_words
 from graphkin.text.tables import labelled, listed
 
-OF_LINKS = [(each.asked_by[0], f"{each.circle or each.words}s of") for each in CENTRES]
-ASKED = (
-    *((each.target, f"{each.words} of") for each in (*VECTORS, *RATES)),
-    ("slides", "sliding of"),
-    OF_LINKS[0],
-    ("pairs", "relative centres of"),
-    *OF_LINKS[1:],
-    ("centrodes", "centrodes of"),
-    ("curves", "paths of"),
-)
+ASKED = {
+    **{each.asked_by[0]: f"{each.words} of" for each in (*VECTORS, *RATES)},
+    "slides": "sliding of",
+    CENTRES[0].asked_by[0]: f"{CENTRES[0].words}s of",
+    "pairs": "relative centres of",
+    **{q.asked_by[0]: f"{q.circle.words if q.circle else q.words}s of" for q in CENTRES[1:]},
+    "centrodes": "centrodes of",
+    "curves": "paths of",
+}
+"""What each key of [ask] asks for, in words."""
 
 
 def labs_lines() -> Iterator[str]:
@@ -47,5 +47,5 @@ def lab_lines(scene: Scene) -> list[str]:
 
 def ask_words(ask: Ask) -> str:
     """What a scene asks for, in words."""
-    wanted = [(words, getattr(ask, key)) for key, words in ASKED]
+    wanted = [(words, getattr(ask, key)) for key, words in ASKED.items()]
     return "; ".join(f"{words} {listed(names)}" for words, names in wanted if names) or "nothing"

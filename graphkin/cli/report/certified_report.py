@@ -6,7 +6,7 @@ is null, and ``undecided`` gives the reason by its path.
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from typing import Any
 
 from msgspec import Struct, field
@@ -21,18 +21,15 @@ from graphkin.construction.core.quantities import (
     CIRCLES,
     OF_SLIDES,
     QUANTITIES,
-    RATES,
+    Around,
+    PointMotion,
+    SlideMotion,
+    Sort,
+    Whose,
     motion_value,
 )
 from graphkin.construction.core.run import StepFailed
-from graphkin.construction.core.solution import (
-    LinkMotion,
-    PointMotion,
-    SlideMotion,
-    Solution,
-    Verdict,
-    gathered,
-)
+from graphkin.construction.core.solution import Solution, Verdict, gathered
 from graphkin.construction.higher_class.closure_solver import closer_of
 from graphkin.diagnosis.assembly_failure import not_found, why
 from graphkin.documents.centre_tables import motion_of_block, with_pole
@@ -52,10 +49,14 @@ SECTIONS = {"points": "point", "links": "link", "centres": "links", "slides": "b
 CALLED = {
     **{each.attribute: (each.words, each.unit) for each in QUANTITIES if each.words},
     "": ("centre of both", "m"),
+    **{key: (circle.words, "m") for key, circle in CIRCLES.items()},
+    **{
+        f"{each.key}.{part}": (f"{each.circle.words}, {part}" if n else each.words, "m")
+        for each in CENTRES
+        if each.circle
+        for n, part in enumerate(each.circle.parts(0j, 0j))
+    },
 }
-for _key, _each in CIRCLES.items():
-    CALLED |= {_key: (_each.circle, "m"), f"{_key}.pole": (_each.words, "m")}
-    CALLED |= {f"{_key}.{part}": (f"{_each.circle}, {part}", "m") for part in ("centre", "radius")}
 """The words and units of the record's keys."""
 
 
@@ -184,48 +185,59 @@ def completed(scene: Scene, solution: Solution) -> Solution:
 
 
 def point(name: str, entry: Record, solution: Solution, printer: Printer) -> Record:
-    """Position, velocity and acceleration of a point, those in its entry in floats."""
+    """The quantities of a point, those in its entry in floats."""
     motion = motion_of(name, solution) or PointMotion()
     of = name if (next(iter(entry)), name) in printer.targets else ends_of(name)[0]
-    return {
-        key: printer.pair(f"points.{name}.{key}", getattr(motion, key), (key, of)) for key in entry
-    }
+    return printed("points", name, of, entry, motion, printer)
 
 
 def link(name: str, entry: Record, solution: Solution, printer: Printer) -> Record:
     """Turning and centres of a link, those in its entry in floats."""
-    motion, path = solution.links[name], f"links.{name}"
-    targets = {each.attribute: each for each in (*RATES, *CENTRES)}
+    return printed("links", name, name, entry, solution.links[name], printer)
+
+
+def printed(
+    whose: Whose, name: str, of: str, entry: Record, motion: Any, printer: Printer
+) -> Record:
+    """The quantities in an entry with their digits; ``of`` names its owner in the program."""
+    found = {each.key: each for each in QUANTITIES if each.whose == whose and each.words}
     record: Record = {}
     for key in entry:
-        if key in CIRCLES:
-            record[key] = circle(f"{path}.{key}", (key, name), motion, printer)
-            continue
-        quantity = targets[key]
-        printed = printer.real if quantity in RATES else printer.centre
-        record[key] = printed(
-            f"{path}.{key}", motion_value(motion, quantity), (quantity.target, name)
-        )
+        each, path = found[key], f"{whose}.{name}.{key}"
+        target, value = (each.target, of), motion_value(motion, each)
+        if each.circle is not None:
+            record[key] = circle(path, target, each.circle, motion, value, printer)
+        else:
+            record[key] = PRINTED[each.sort](printer, path, value, target)
     return record
 
 
-def circle(path: str, target: Target, motion: LinkMotion, printer: Printer) -> Record | None:
-    """The circle of a target; None, without a doubt recorded, only if the link does not turn."""
-    quantity = CIRCLES[target[0]]
-    ratios = getattr(motion, quantity.circle_from), motion_value(motion, quantity)
-    if ratios[0] is None or ratios[1] is None:
+PRINTED: Mapping[Sort, Callable[[Printer, str, Any, Target], Any]] = {
+    "number": Printer.real,
+    "vector": Printer.pair,
+    "place": Printer.pair,
+    "centre": Printer.centre,
+}
+"""How the digits of each sort of quantity are printed."""
+
+
+def circle(
+    path: str, target: Target, around: Around, motion: Any, found: Ratio | None, printer: Printer
+) -> Record | None:
+    """The circle of a target; None, without a doubt recorded, only if it has no finite radius."""
+    ends = getattr(motion, around.start), found
+    if ends[0] is None or ends[1] is None:
         printer.lost(path, target)
         return None
-    if ratios[0].size == 0 or ratios[1].size == 0:
+    if any(isinstance(end, Ratio) and end.size == 0 for end in ends):
         return None
-    first, pole = place_of(ratios[0]), place_of(ratios[1])
-    if first is None or pole is None:
+    first, last = (place_of(end) if isinstance(end, Ratio) else end for end in ends)
+    if first is None or last is None:
         printer.doubted(path, FAR)
         return None
     return {
-        "pole": printer.pair(f"{path}.pole", pole, target),
-        "centre": printer.pair(f"{path}.centre", (first + pole) / 2, target),
-        "radius": printer.real(f"{path}.radius", abs(pole - first) / 2, target),
+        part: (printer.real if part == "radius" else printer.pair)(f"{path}.{part}", value, target)
+        for part, value in around.parts(first, last).items()
     }
 
 

@@ -2,17 +2,19 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from itertools import groupby
 from typing import TYPE_CHECKING, Any
 
 from graphkin.cli.report.solution_record import heading
 from graphkin.construction.core.quantities import (
+    CENTRES,
     OF_POINTS,
     OF_SLIDES,
     RATES,
     MotionQuantity,
     motion_value,
+    names_asked,
 )
 from graphkin.numbers.arithmetic import np
 from graphkin.numbers.plane import Ratio
@@ -62,6 +64,7 @@ def columns_of(cycle: Cycle) -> Iterator[Column]:
     yield "piece", cycle.piece
     yield from of_points(cycle)
     yield from of_links(cycle)
+    yield from of_centres(cycle)
     yield from of_slides(cycle)
     yield from of_cams(cycle)
     for pin, margin in cycle.margins.items():
@@ -97,13 +100,31 @@ def of_links(cycle: Cycle) -> Iterator[Column]:
         for rate in RATES:
             value = motion_value(motion, rate)
             if value is not None:
-                yield f"{rate.target}_{name} [{rate.caret_unit}]", value
-        centre = motion.instant_centre
-        if isinstance(centre, Ratio):
-            with np.errstate(all="ignore"):
-                place = centre.start + centre.shift / centre.size
-            yield f"Ix_{name} [m]", place.real
-            yield f"Iy_{name} [m]", place.imag
+                yield f"{rate.name}_{name} [{rate.caret_unit}]", value
+        yield from centre_columns(FIRST_CENTRE, name, motion)
+
+
+FIRST_CENTRE = CENTRES[0]
+"""The centre that the table has for every link; the others are there where [ask] names them."""
+
+
+def of_centres(cycle: Cycle) -> Iterator[Column]:
+    """The other centres that [ask] names."""
+    for quantity in CENTRES[1:]:
+        for name in names_asked(cycle.scene.ask, quantity):
+            motions: Mapping[str, Any] = getattr(cycle.sure, quantity.whose)
+            if name in motions:
+                yield from centre_columns(quantity, name, motions[name])
+
+
+def centre_columns(quantity: MotionQuantity, name: str, motion: Any) -> Iterator[Column]:
+    """The place of a centre, if it is known."""
+    centre = motion_value(motion, quantity)
+    if isinstance(centre, Ratio):
+        with np.errstate(all="ignore"):
+            place = centre.start + centre.shift / centre.size
+        yield f"{quantity.name}x_{name} [{quantity.unit}]", place.real
+        yield f"{quantity.name}y_{name} [{quantity.unit}]", place.imag
 
 
 def of_cams(cycle: Cycle) -> Iterator[Column]:

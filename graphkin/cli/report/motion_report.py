@@ -9,10 +9,10 @@ from typing import Any
 from graphkin.cli.report.solution_record import Record, heading
 from graphkin.construction.core.quantities import (
     CENTRES,
-    CIRCLES,
     OF_POINTS,
     OF_SLIDES,
     RATES,
+    MotionQuantity,
     motion_value,
 )
 from graphkin.construction.core.run import Trace
@@ -26,13 +26,14 @@ from graphkin.documents.centre_tables import (
     relative_table,
     with_blocks,
 )
+from graphkin.numbers.plane import Ratio
 from graphkin.scene.model import Scene
 from graphkin.text.tables import Cell, cleaned, listed, number, table
 
 COLUMNS = {"place": ("x", "y"), "vector": ("x", "y", "")}
 """The components of each sort of quantity, the magnitude last."""
 POINT_HEADS = {
-    each.attribute: [f"{each.letter}{part}, {each.unit}" for part in COLUMNS[each.sort]]
+    each.key: [f"{each.letter}{part}, {each.unit}" for part in COLUMNS[each.sort]]
     for each in OF_POINTS
 }
 
@@ -45,7 +46,7 @@ def motion_text(scene: Scene, solution: Solution, found: Record, verdict: Verdic
         turning_table(found["links"], solution),
         centres_table(scene, solution, found["links"]),
         relative_table(solution, found.get("centres", {})),
-        *(circles_table(found["links"], each) for each in CIRCLES.values()),
+        *(circles_table(found[each.whose], each) for each in CENTRES if each.circle),
         slides_table(found["slides"]),
         scale_lines(found["scales"]) if "scales" in found else [],
         [f"witness  {verdict_words(verdict, scene)}", *sure_lines(verdict)],
@@ -97,7 +98,7 @@ def turning_table(links: Mapping[str, Record], solution: Solution) -> list[str]:
     unsure = {
         name
         for name, link in solution.links.items()
-        if any(value is not None and isnan(value) for value in (link.omega, link.epsilon))
+        if any((value := motion_value(link, rate)) is not None and isnan(value) for rate in RATES)
     }
     every = zip(*columns, strict=True)
     rows = [row for row in every if row[0] in unsure or any(cell is not None for cell in row[1:])]
@@ -114,19 +115,29 @@ def sense(value: float | None) -> str | None:
 def centres_table(scene: Scene, solution: Solution, links: Mapping[str, Record]) -> list[str]:
     """Instantaneous centre and acceleration pole of each link for which they are reported."""
     full, breadth = with_blocks(scene, solution), breadth_of(solution)
-    kinds = {each.attribute: f"{each.words}, {each.unit}" for each in CENTRES}
-    known = [key for key in kinds if any(key in link for link in links.values())]
+    of_links = (each for each in CENTRES if each.whose == "links" and not each.circle)
+    known = [each for each in of_links if any(each.key in link for link in links.values())]
     rows: list[list[Cell]] = []
     for name, link in links.items():
-        cells: dict[str, Cell] = {
-            "instant_centre": centre_words(full.links[name].instant_centre, breadth),
-            "acceleration_pole": pole_words(
-                full.links[name].acceleration_pole, acceleration_of(scene, full, name), breadth
-            ),
-        }
-        if any(key in link for key in known):
-            rows.append([name, *(cells[key] if key in link else None for key in known)])
-    return table(["link", *(kinds[key] for key in known)], rows) if rows else []
+        moves = acceleration_of(scene, full, name)
+        cells = [
+            words_of(each, motion_value(full.links[name], each), moves, breadth)
+            if each.key in link
+            else None
+            for each in known
+        ]
+        if any(cells):
+            rows.append([name, *cells])
+    return table(["link", *(f"{each.words}, {each.unit}" for each in known)], rows) if rows else []
+
+
+def words_of(
+    quantity: MotionQuantity, ratio: Ratio | None, acceleration: complex | None, breadth: float
+) -> str:
+    """The place of a centre of velocities or accelerations, or what holds where it has none."""
+    if quantity.kind == "velocity":
+        return centre_words(ratio, breadth)
+    return pole_words(ratio, acceleration, breadth)
 
 
 def acceleration_of(scene: Scene, solution: Solution, link: str) -> complex | None:

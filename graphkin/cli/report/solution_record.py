@@ -15,19 +15,20 @@ from graphkin.construction.core.quantities import (
     OF_SLIDES,
     RATES,
     SLIDING,
-    MotionQuantity,
-    motion_value,
-    names_asked,
-)
-from graphkin.construction.core.solution import (
+    Around,
     LinkMotion,
+    MotionQuantity,
     PointMotion,
     SlideMotion,
-    Solution,
-    Verdict,
+    Whose,
+    motion_value,
+    names_asked,
+    points_asked,
 )
+from graphkin.construction.core.solution import Solution, Verdict
 from graphkin.documents.centre_tables import breadth_of, place_of, with_blocks
 from graphkin.numbers.arithmetic import FLOAT, Kind
+from graphkin.numbers.plane import Ratio
 from graphkin.scene.link_points import ends_of, is_under
 from graphkin.scene.model import Scene
 
@@ -52,12 +53,14 @@ def record(
     Without ``scales`` the record has none: they belong to a drawing.
     """
     full, wanted = with_blocks(scene, solution), wanted_of(scene, asked)
-    slides = as_given(scene, full.slides)
+    slides, breadth = as_given(scene, full.slides), breadth_of(full)
     return {
         "name": scene.name,
         "parameters": {name: plain(scene.values.get(name)) for name in scene.parameters},
-        "points": named(point_names(scene, full), lambda n: point(n, motion_of(n, full), wanted)),
-        "links": named(scene.links, lambda n: link(n, full.links[n], wanted, breadth_of(full))),
+        "points": named(
+            point_names(scene, full), lambda n: point(n, motion_of(n, full), wanted, breadth)
+        ),
+        "links": named(scene.links, lambda n: link(n, full.links[n], wanted, breadth)),
         **centres(scene, full),
         "slides": named(
             filter(slides.__contains__, scene.links), lambda n: slide(n, slides[n], wanted)
@@ -88,7 +91,7 @@ def wanted_of(scene: Scene, asked: bool) -> Wanted:
 def point_names(scene: Scene, solution: Solution) -> list[str]:
     """The frame's points, the links' points as written, then points such as A@3."""
     written = [p for link in scene.every_link for p in link.points]
-    asked = [name for name in (*scene.ask.velocity, *scene.ask.acceleration) if is_under(name)]
+    asked = filter(is_under, points_asked(scene.ask))
     names = dict.fromkeys((*written, *asked, *solution.points))
     return [name for name in names if motion_of(name, solution) is not None]
 
@@ -104,32 +107,44 @@ def named(names: Any, entry: Callable[[str], Record]) -> Record:
     return {name: found for name, found in entries if found}
 
 
-def point(name: str, motion: PointMotion | None, wanted: Wanted) -> Record:
-    """Position, velocity and acceleration of a point, if wanted and known."""
-    found = {q.attribute: motion_value(motion, q) for q in OF_POINTS if wanted(q, name)}
-    return {key: pair(value) for key, value in found.items() if value is not None}
+def point(name: str, motion: PointMotion | None, wanted: Wanted, breadth: float) -> Record:
+    """Position, velocity and acceleration of a point, and its centres, if wanted and known."""
+    found = {q.key: motion_value(motion, q) for q in OF_POINTS if wanted(q, name)}
+    known = {key: pair(value) for key, value in found.items() if value is not None}
+    return known | of_centres("points", name, motion, wanted, breadth)
 
 
 def link(name: str, motion: LinkMotion, wanted: Wanted, breadth: float) -> Record:
-    """Turning of a link, and its centres, or null if they are at infinity."""
-    found: Record = {q.attribute: real(motion_value(motion, q)) for q in RATES if wanted(q, name)}
+    """Turning of a link, and its centres."""
+    found = {q.key: real(motion_value(motion, q)) for q in RATES if wanted(q, name)}
+    return found | of_centres("links", name, motion, wanted, breadth)
+
+
+def of_centres(whose: Whose, name: str, motion: Any, wanted: Wanted, breadth: float) -> Record:
+    """The centres of a link or a point, or null if they are at infinity.
+
+    A centre with a circle is reported as that circle, if it is known.
+    """
+    found: Record = {}
     for q in CENTRES:
-        if not wanted(q, name):
+        if q.whose != whose or not wanted(q, name):
             continue
-        if not q.circle:
-            found[q.attribute] = pair(place_of(motion_value(motion, q), breadth))
-        elif motion_value(motion, q) is not None:
-            found[q.target] = circle(motion, q, breadth)
+        value = motion_value(motion, q)
+        if q.circle is None:
+            found[q.key] = pair(place_of(value, breadth))
+        elif value is not None:
+            found[q.key] = circle(q.circle, motion, place_of(value, breadth), breadth)
     return found
 
 
-def circle(motion: LinkMotion, quantity: MotionQuantity, breadth: float) -> Record | None:
-    """The circle of a quantity: its pole, centre and radius; null if the link does not turn."""
-    first = place_of(getattr(motion, quantity.circle_from), breadth)
-    pole = place_of(motion_value(motion, quantity), breadth)
-    if first is None or pole is None:
+def circle(around: Around, motion: Any, found: complex | None, breadth: float) -> Record | None:
+    """The circle of a centre that was found; null if it has no finite radius."""
+    start = getattr(motion, around.start)
+    first = place_of(start, breadth) if isinstance(start, Ratio) else start
+    if first is None or found is None:
         return None
-    return {"pole": pair(pole), "centre": pair((first + pole) / 2), "radius": abs(pole - first) / 2}
+    parts = around.parts(first, found)
+    return {key: real(part) if key == "radius" else pair(part) for key, part in parts.items()}
 
 
 def centres(scene: Scene, solution: Solution) -> Record:

@@ -100,7 +100,7 @@ class VelocityNormal(LineToCentre, frozen=True, kw_only=True):
 
 
 class Centre(Construction, frozen=True, kw_only=True):
-    """A place of a link that may lie at infinity, with its letter.
+    """A place of a link, or of a point's path, that may lie at infinity, with its letter.
 
     It is a Ratio that starts at ``point``. ``found`` is its numerically stable value. ``crossing``
     is the place found by hand, where its ``ways`` meet.
@@ -111,7 +111,7 @@ class Centre(Construction, frozen=True, kw_only=True):
     called: ClassVar[str] = "the centre of link"
 
     name: str
-    link: str
+    link: str = ""
     point: str
     found: int
     crossing: int | None = None

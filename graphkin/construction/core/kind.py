@@ -121,7 +121,7 @@ class Construction(Roles, frozen=True):
         return ""
 
     def equations(self, drawing: Drawing, role: str) -> Iterator[Relation]:
-        """The vector equations of a plan that belong to the step of a role."""
+        """The vector equations of a plan, or of a centre, that belong to the step of a role."""
         yield from ()
 
     def marks(self, canvas: Canvas, role: str) -> None:

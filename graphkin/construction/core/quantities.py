@@ -6,12 +6,16 @@ solution, and the names and units in reports, forms and measurements.
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from math import degrees
 from typing import Any, Literal, NewType
 
 from msgspec import Struct
+from msgspec.structs import replace
 
 from graphkin.construction.core.program import Plane, Target
+from graphkin.numbers.arithmetic import Point, Real
+from graphkin.numbers.plane import Ratio
 from graphkin.scene.model import Ask, Scene
 from graphkin.scene.quantity import Quantity
 from graphkin.text import Words
@@ -25,16 +29,40 @@ PLANES = dict(zip(KINDS, (Plane.MECHANISM, Plane.VELOCITIES, Plane.ACCELERATIONS
 
 Whose = Literal["points", "links", "slides"]
 """The owner of a quantity: the part of a solution that holds it."""
-Sort = Literal["vector", "number", "place"]
-"""The sort of a value: a vector of a plan, a number, or a place on the mechanism."""
+Sort = Literal["vector", "number", "place", "centre"]
+"""The sort of a value: a vector of a plan, a number, a place, or a centre.
+
+A centre is a place on the mechanism that may lie at infinity: a Ratio.
+"""
+OWNERS: Mapping[Whose, str] = {"points": "{of}", "links": "link {of}", "slides": "block {of}"}
+"""An owner of a quantity in words."""
+
+
+class Around(Struct, frozen=True):
+    """The circle reported with a centre, through the place ``start`` of the same motion.
+
+    ``across`` says that the segment from that place to the centre found is its diameter, not its
+    radius. ``missing`` says what holds where there is no such circle.
+    """
+
+    words: str
+    start: str
+    across: bool = False
+    missing: str = "at infinity"
+
+    def parts(self, start: Any, found: Any) -> dict[str, Any]:
+        """Its centre (m) and radius (m), after the pole at the end of a diameter."""
+        if self.across:
+            return {"pole": found, "centre": (start + found) / 2, "radius": abs(found - start) / 2}
+        return {"centre": found, "radius": abs(found - start)}
 
 
 class MotionQuantity(Struct, frozen=True):
     """One quantity: ``target`` is its name in a program, ``attribute`` its name in a solution.
 
     ``kind`` is its derivative, or the one by which a centre is found. ``asked_by`` are the keys of
-    [ask] that need it. A quantity without ``words`` only serves another one. A place may have a
-    ``circle``, reported with it: on the segment from the place ``circle_from`` of the link.
+    [ask] that need it. A quantity without ``words`` only serves another one. ``meaning`` names it
+    with its owner, where the words do not. A centre may have a ``circle``, reported with it.
     """
 
     target: str
@@ -46,13 +74,32 @@ class MotionQuantity(Struct, frozen=True):
     unit: str
     words: str
     asked_by: tuple[str, ...]
-    circle: str = ""
-    circle_from: str = ""
+    meaning: str = ""
+    circle: Around | None = None
 
     @property
     def plane(self) -> Plane:
         """The drawing in which it is measured."""
-        return Plane.MECHANISM if self.sort == "place" else PLANES[self.kind]
+        return Plane.MECHANISM if self.is_place else PLANES[self.kind]
+
+    @property
+    def is_place(self) -> bool:
+        """Whether it is a place on the mechanism, at a finite distance or not."""
+        return self.sort in ("place", "centre")
+
+    @property
+    def name(self) -> str:
+        """Its letter in the names of fields, or its target where the letter is not ASCII."""
+        return self.letter if self.letter.isascii() else self.target
+
+    @property
+    def key(self) -> str:
+        """Its key in a record: that of its circle, or the attribute of a solution."""
+        return self.target if self.circle else self.attribute
+
+    def of(self, name: str) -> str:
+        """The quantity of a point, link or block in words."""
+        return (self.meaning or f"{self.words} of {OWNERS[self.whose]}").format(of=name)
 
     @property
     def caret_unit(self) -> str:
@@ -65,37 +112,58 @@ def of_point(kind: str, sort: Sort, letter: str, unit: str, key: str) -> MotionQ
     return MotionQuantity(kind, "points", kind, kind, sort, letter, unit, kind, (key,))
 
 
-def of_link(
-    target: str, attribute: str, kind: str, letter: str, unit: str, words: str, *keys: str
+def rate(target: str, kind: str, letter: str, unit: str, words: str) -> MotionQuantity:
+    """A rate of links, with the same name everywhere; ``words`` are for its meaning."""
+    meaning = f"{words} of {OWNERS['links']}"
+    return MotionQuantity(
+        *(target, "links", target, kind, "number", letter, unit, letter, (target,)), meaning
+    )
+
+
+def centre(
+    target: str, whose: Whose, attribute: str, kind: str, letter: str, words: str, *keys: str
 ) -> MotionQuantity:
-    """A rate of links, or a place (in m) that belongs to a link."""
-    sort: Sort = "place" if unit == "m" else "number"
-    return MotionQuantity(target, "links", attribute, kind, sort, letter, unit, words, keys)
+    """A place (in m) that belongs to a link or a point and may lie at infinity."""
+    return MotionQuantity(target, whose, attribute, kind, "centre", letter, "m", words, keys)
 
 
 def of_slide(target: str, attribute: str, kind: str, letter: str, unit: str) -> MotionQuantity:
     """The motion of blocks along their guides."""
-    own = ("slides",)
-    return MotionQuantity(target, "slides", attribute, kind, "number", letter, unit, attribute, own)
+    meaning = f"{attribute} of {OWNERS['slides']} along its guide"
+    named = (letter, unit, attribute, ("slides",), meaning)
+    return MotionQuantity(target, "slides", attribute, kind, "number", *named)
 
 
 QUANTITIES = (
     of_point("velocity", "vector", "v", "m/s", "velocity"),
     of_point("acceleration", "vector", "a", "m/s²", "acceleration"),
-    of_link("omega", "omega", "velocity", "ω", "rad/s", "ω", "omega"),
-    of_link("epsilon", "epsilon", "acceleration", "ε", "rad/s²", "ε", "epsilon"),
-    of_link(
-        *("centre", "instant_centre", "velocity", "I", "m", "instantaneous centre"),
+    rate("omega", "velocity", "ω", "rad/s", "angular velocity"),
+    rate("epsilon", "acceleration", "ε", "rad/s²", "angular acceleration"),
+    centre(
+        *("centre", "links", "instant_centre", "velocity", "I", "instantaneous centre"),
         *("centres", "pairs", "centrodes"),
     ),
     of_point("position", "place", "", "m", "curves"),
-    of_link("pole", "acceleration_pole", "acceleration", "J", "m", "acceleration pole", "poles"),
-    MotionQuantity(
-        *("inflection", "links", "inflection_pole", "acceleration", "place"),
-        *("W", "m", "inflection pole", ("inflection",)),
-        *("inflection circle", "instant_centre"),
+    centre(
+        *("pole", "links", "acceleration_pole", "acceleration", "J", "acceleration pole"),
+        "poles",
     ),
-    of_link("inflection centre", "instant_centre", "velocity", "I", "m", "", "inflection"),
+    replace(
+        centre(
+            *("inflection", "links", "inflection_pole", "acceleration", "W", "inflection pole"),
+            "inflection",
+        ),
+        circle=Around("inflection circle", "instant_centre", across=True),
+    ),
+    replace(
+        centre(
+            *("curvature", "points", "curvature_centre", "acceleration", "Ω"),
+            *("centre of curvature", "curvature"),
+        ),
+        meaning=f"centre of curvature of the path of {OWNERS['points']}",
+        circle=Around("osculating circle", "position", missing="none: straight, or at rest"),
+    ),
+    centre("inflection centre", "links", "instant_centre", "velocity", "I", "", "inflection"),
     of_slide("slide", "position", "position", "s", "m"),
     of_slide("slide speed", "speed", "velocity", "v", "m/s"),
     of_slide("slide acceleration", "acceleration", "acceleration", "a", "m/s²"),
@@ -115,21 +183,18 @@ WHOSE: dict[str, Whose] = {key: found[0].whose for key, found in ASKED.items()}
 """The owners that each key of [ask] lists."""
 
 
-def those(whose: Whose, *sorts: Sort) -> tuple[MotionQuantity, ...]:
-    """The reported quantities of points, links or blocks, in the order of their derivatives.
-
-    ``sorts`` restricts them to some sorts.
-    """
-    found = [e for e in QUANTITIES if e.whose == whose and (not sorts or e.sort in sorts)]
-    return tuple(sorted(filter(lambda q: q.words, found), key=lambda q: KINDS.index(q.kind)))
+def those(*of: Whose | Sort) -> tuple[MotionQuantity, ...]:
+    """The reported quantities of some owners and sorts, in the order of their derivatives."""
+    found = [e for e in QUANTITIES if e.words and e.whose in of and e.sort in of]
+    return tuple(sorted(found, key=lambda q: KINDS.index(q.kind)))
 
 
-OF_POINTS = those("points")
+OF_POINTS = those("points", "place", "vector")
 VECTORS = those("points", "vector")
 RATES = those("links", "number")
-CENTRES = those("links", "place")
-CIRCLES = {each.target: each for each in CENTRES if each.circle}
-OF_SLIDES = those("slides")
+CENTRES = those("links", "points", "centre")
+CIRCLES = {each.target: each.circle for each in CENTRES if each.circle}
+OF_SLIDES = those("slides", "number", "vector")
 MOTION = {each.kind: each for each in OF_POINTS}
 TURNING = OMEGA, EPSILON = tuple(each.target for each in RATES)
 RATE = {each.kind: each for each in RATES}
@@ -137,15 +202,59 @@ SLIDING = {each.kind: each for each in OF_SLIDES if each.sort == "number"}
 """The quantity of points, of links and of blocks that belongs to each sheet."""
 
 
+# --- the values of a motion, by the attributes of these quantities --------------------------------
+
+
+class PointMotion(Struct, frozen=True):
+    """Position (m), velocity (m/s) and acceleration (m/s²) of a point; None where not asked.
+
+    ``curvature_centre`` is the centre of curvature of its path, at infinity where that is straight.
+    """
+
+    position: Point | None = None
+    velocity: Point | None = None
+    acceleration: Point | None = None
+    curvature_centre: Ratio | None = None
+
+
+class LinkMotion(Struct, frozen=True):
+    """Angular velocity (rad/s) and acceleration (rad/s²), counter-clockwise positive, and centres.
+
+    A centre is a Ratio, so that it may lie at infinity; None where it was not asked for. The
+    inflection circle has the segment from the instantaneous centre to inflection_pole as its
+    diameter.
+    """
+
+    omega: Real | None = None
+    epsilon: Real | None = None
+    instant_centre: Ratio | None = None
+    acceleration_pole: Ratio | None = None
+    inflection_pole: Ratio | None = None
+
+
+class SlideMotion(Struct, frozen=True):
+    """Coordinate (m), speed and acceleration of a block along its guide, and Coriolis vector."""
+
+    position: Real | None = None
+    speed: Real | None = None
+    acceleration: Real | None = None
+    coriolis: Point | None = None
+
+
 def motion_value(motion: Any, quantity: MotionQuantity) -> Any:
     """The value of a quantity in a motion; None where it is not known."""
     return getattr(motion, quantity.attribute)
 
 
-def names_asked(ask: Ask, quantity: MotionQuantity) -> tuple[str, ...]:
-    """The points, links or pairs for which [ask] asks the quantity itself, not a curve."""
-    keys = (key for key in quantity.asked_by if key != "centrodes")
-    return tuple(name for key in keys for name in getattr(ask, key))
+def names_asked(ask: Ask, *quantities: MotionQuantity) -> tuple[str, ...]:
+    """The points, links or pairs for which [ask] asks some quantities themselves, not a curve."""
+    keys = (key for each in quantities for key in each.asked_by if key != "centrodes")
+    return tuple(dict.fromkeys(name for key in keys for name in getattr(ask, key)))
+
+
+def points_asked(ask: Ask) -> tuple[str, ...]:
+    """The points for which [ask] asks anything, curves included."""
+    return names_asked(ask, *(each for each in QUANTITIES if each.whose == "points"))
 
 
 def is_found_on(sheet: str, target: Target) -> bool:

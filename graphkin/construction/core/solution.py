@@ -10,9 +10,15 @@ from msgspec import Struct, field
 from msgspec.structs import asdict, replace
 
 from graphkin.construction.core.program import Part
-from graphkin.construction.core.quantities import QUANTITIES, Whose
+from graphkin.construction.core.quantities import (
+    QUANTITIES,
+    LinkMotion,
+    PointMotion,
+    SlideMotion,
+    Whose,
+)
 from graphkin.construction.core.run import Trace
-from graphkin.numbers.arithmetic import Point, Real, least, np
+from graphkin.numbers.arithmetic import Real, least, np
 from graphkin.numbers.plane import Ratio
 from graphkin.structure.pairs import is_in_scene
 
@@ -20,38 +26,6 @@ FAIR = 1e-4
 """Sine of the flattest crossing at which an answer is still fair and a sheet is handed out."""
 UNKNOWN = complex(nan, nan)
 """The value of a vector without any reliable digit; for a number NaN."""
-
-
-class PointMotion(Struct, frozen=True):
-    """Position (m), velocity (m/s) and acceleration (m/s²) of a point; None where not asked."""
-
-    position: Point | None = None
-    velocity: Point | None = None
-    acceleration: Point | None = None
-
-
-class LinkMotion(Struct, frozen=True):
-    """Angular velocity (rad/s) and acceleration (rad/s²), counter-clockwise positive, and centres.
-
-    A centre is a Ratio, so that it may lie at infinity; None where it was not asked for. The
-    inflection circle has the segment from the instantaneous centre to inflection_pole as its
-    diameter.
-    """
-
-    omega: Real | None = None
-    epsilon: Real | None = None
-    instant_centre: Ratio | None = None
-    acceleration_pole: Ratio | None = None
-    inflection_pole: Ratio | None = None
-
-
-class SlideMotion(Struct, frozen=True):
-    """Coordinate (m), speed and acceleration of a block along its guide, and Coriolis vector."""
-
-    position: Real | None = None
-    speed: Real | None = None
-    acceleration: Real | None = None
-    coriolis: Point | None = None
 
 
 class Solution(Struct, frozen=True):

@@ -27,7 +27,7 @@ from graphkin.loops.loop_motion import Motion
 from graphkin.loops.newton import LoopSolution
 from graphkin.loops.rigid_bodies import Complexes, Reals
 from graphkin.loops.rounding import Rounding
-from graphkin.numbers.plane import Ratio
+from graphkin.numbers.plane import Ratio, dot
 from graphkin.scene.model import FRAME, Scene
 from graphkin.text.errors import Problem, WitnessError, message
 
@@ -152,6 +152,32 @@ def bends_of(solved: LoopSolution, name: str) -> MotionField:
     return MotionField(
         start, -away, omega**3, misplaced, missed, (abs(omega) + turn) ** 3 - abs(omega) ** 3
     )
+
+
+def left_at_curvature(solved: LoopSolution, name: str, centre: Ratio, scales: Sizes) -> Left:
+    """The residual at the centre of curvature of a point's path, relative to its terms.
+
+    The distance of a point P from a fixed point Ω keeps its first two derivatives zero only at the
+    centre of curvature: v·(Ω - P) = 0 and v² = a·(Ω - P). The centre comes from a motion with such
+    errors, so the errors count twice.
+    """
+    place, v, a = solved.motion.point(name)
+    misplaced, slower, later = solved.rounding.point(name)
+    size = np.asarray(centre.size)
+    way = (centre.start - place) * size + centre.shift
+    near, far, speed, push = abs(size), abs(way), abs(v), abs(a)
+    across, along = speed * (far + near * scales.length), speed**2 * near + push * far
+    parts = (
+        (abs(dot(v, way)), slower * far + speed * near * misplaced, across),
+        (
+            abs(speed**2 * size - dot(a, way)),
+            2 * speed * slower * near + later * far + push * near * misplaced,
+            along,
+        ),
+    )
+    relative = [(left / or_one(whole), 2 * bound / or_one(whole)) for left, bound, whole in parts]
+    found, bound = (np.hypot(*each) for each in zip(*relative, strict=True))
+    return Left(np.asarray(found), np.asarray(bound), np.ones_like(found))
 
 
 def left_at(centre: Ratio, field: MotionField, length: Reals) -> Left:
@@ -434,6 +460,7 @@ ROUTES: dict[str, Route] = {
     "inflection centre": of_centres(left_at_centre),
     "pole": of_centres(left_at_pole),
     "inflection": of_centres(left_at_inflection),
+    "curvature": of_centres(left_at_curvature),
 }
 """The independent route to each quantity, by its target; quantities without one are refused."""
 

@@ -11,14 +11,14 @@ import numpy as np
 from msgspec import Struct
 from msgspec.structs import replace
 
-from graphkin.construction.core.quantities import QUANTITIES, motion_value
-from graphkin.construction.core.solution import (
+from graphkin.construction.core.quantities import (
+    QUANTITIES,
     LinkMotion,
     PointMotion,
     SlideMotion,
-    Solution,
-    Verdict,
+    motion_value,
 )
+from graphkin.construction.core.solution import Solution, Verdict
 from graphkin.loops.assemble import (
     ON_LINE,
     closure_numbers,

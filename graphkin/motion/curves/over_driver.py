@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from msgspec import Struct
 
-from graphkin.construction.core.quantities import RATES, motion_value
+from graphkin.construction.core.quantities import RATES, VECTORS, motion_value, names_asked
 from graphkin.construction.core.solution import Solution
 from graphkin.motion.cycle import Cycle
 from graphkin.motion.driving import TURN
@@ -125,7 +125,7 @@ def sampled(cycle: Cycle, fine: int = FINE) -> Sampled:
 
 def moving_points(scene: Scene, solution: Solution) -> list[str]:
     """The requested points, else all that are neither fixed nor on a driven link alone."""
-    asked = dict.fromkeys((*scene.ask.velocity, *scene.ask.acceleration))
+    asked = names_asked(scene.ask, *VECTORS)
     known = [name for name in asked if name in solution.points]
     if known:
         return known
@@ -142,7 +142,7 @@ def moving_points(scene: Scene, solution: Solution) -> list[str]:
 
 def turning_links(scene: Scene, solution: Solution) -> list[str]:
     """The requested links, else all that turn and are not driven at constant speed."""
-    asked = dict.fromkeys((*scene.ask.omega, *scene.ask.epsilon))
+    asked = names_asked(scene.ask, *RATES)
     known = [name for name in asked if name in solution.links]
     if known:
         return known

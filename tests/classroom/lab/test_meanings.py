@@ -7,18 +7,12 @@ import re
 import pytest
 
 from graphkin.classroom.lab.items import all_fields
-from graphkin.classroom.lab.new_lab import QUANTITY, fields_of, new_lab, slips
+from graphkin.classroom.lab.new_lab import fields_of, new_lab, slips
 from graphkin.classroom.lab.read_lab import read_lab
 from graphkin.classroom.lab.slip_names import NAMES
-from graphkin.construction.core.quantities import CENTRES, RATES, SHEETS, SLIDING, VECTORS
 from graphkin.mechanism import load
 from graphkin.text import words
 from tests.classroom.lab.singles import LABS
-
-
-def test_every_quantity_of_a_form_has_a_meaning():
-    asked = [*VECTORS, *RATES, *CENTRES, *(SLIDING[sheet] for sheet in SHEETS)]
-    assert set(QUANTITY) == {each.target for each in asked}
 
 
 def test_every_slip_has_one():
