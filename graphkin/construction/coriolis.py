@@ -36,7 +36,7 @@ from graphkin.construction.core.relation import (
     set_length,
     twice_set,
 )
-from graphkin.construction.core.segments import laid_off
+from graphkin.construction.core.segments import laid_off_words
 from graphkin.construction.core.vocabulary import (
     action,
     join,
@@ -394,7 +394,7 @@ class CoriolisComponent(TriangleComponent, frozen=True, kw_only=True):
             f"2·{'·'.join(figures)}",
             result,
             "m/s^2",
-            laid_off(drawing, "quarter", size, v=v, omega=rate),
+            laid_off_words(drawing, "quarter", size, v=v, omega=rate),
         )
 
     # --- marking students' work ------------------------------------------------------------------

@@ -7,7 +7,7 @@ from itertools import chain
 
 from msgspec.structs import replace
 
-from graphkin.construction.core.component import laid_off
+from graphkin.construction.core.component import component_ending_at
 from graphkin.construction.core.drawn_scene import Drawing
 from graphkin.construction.core.kind import GivesRate, construction, constructions
 from graphkin.construction.core.link_poses import Disc
@@ -185,7 +185,7 @@ def along_guide(drawing: Drawing, number: int) -> str:
     """The vector of the plan that is the motion of a block along its guide, as markup."""
     program = drawing.trace.program
     _, tail, tip = program.steps[number].args
-    laid = laid_off(program, tail)
+    laid = component_ending_at(program, tail)
     if laid is not None and laid.component.follows:
         return symbol(f"a_{laid.component.index}^r")  # it may be drawn from the other end
     return vector_of(drawing, tail, tip)

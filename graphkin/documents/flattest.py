@@ -6,7 +6,7 @@ from collections.abc import Iterator
 from itertools import product
 from math import degrees
 
-from graphkin.construction.core.auxiliary_plan import falls
+from graphkin.construction.core.auxiliary_plan import falls_on_sources
 from graphkin.construction.core.component import TriangleComponent, is_hidden
 from graphkin.construction.core.crossings import Crossing, crossings, flattest
 from graphkin.construction.core.drawn_scene import Drawing
@@ -62,7 +62,7 @@ def crossings_on(drawing: Drawing) -> tuple[Crossing, ...]:
         crossing
         for crossing in crossings(drawing.trace)
         if crossing.name and crossing.part in parts and crossing.number in drawing.trace.values
-        if not falls(drawing, crossing.number)
+        if not falls_on_sources(drawing, crossing.number)
         if not is_hidden(drawing, crossing.number)
     )
 

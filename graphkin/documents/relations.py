@@ -26,7 +26,7 @@ from graphkin.construction.core.relation import (
     Relation,
     answer,
     as_read,
-    laid_off,
+    length_laid_off,
     length_of,
     put_in,
 )
@@ -307,11 +307,11 @@ def laid_off_length(drawing: Drawing, step: Step, value: Vector) -> Relation:
     vector, scale = plan_vector(step), scale_of(drawing, drawing.plane) / 1000
     assert vector is not None
     size = drawing.settled(abs(value.tip - value.tail))
-    drawn = laid_off(drawing, drawn_in(drawing, drawing.plane, size))
+    drawn = length_laid_off(drawing, drawn_in(drawing, drawing.plane, size))
     return Relation(
         segment_of(drawing, step),
         f"{symbol(vector.symbol)}/*k*_{drawing.vector.letter}",
-        "/".join(put_in(drawing, drawn, truediv, size, scale, told=laid_off)),
+        "/".join(put_in(drawing, drawn, truediv, size, scale, told=length_laid_off)),
         drawn,
         "mm",
         drawing.words("calculation.drawn"),

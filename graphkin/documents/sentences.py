@@ -10,7 +10,7 @@ from msgspec.structs import replace
 
 from graphkin.construction.centres.instant_centre import set_before
 from graphkin.construction.core.auxiliary_plan import auxiliary_plan
-from graphkin.construction.core.component import Component, component_of, laid_off
+from graphkin.construction.core.component import Component, component_ending_at, component_of
 from graphkin.construction.core.drawn_scene import Drawing
 from graphkin.construction.core.kind import PlanPole, Sentence, construction
 from graphkin.construction.core.pen import PRIME, image_name
@@ -151,7 +151,7 @@ def said_of_steps(drawing: Drawing) -> Iterator[Sentence]:
     """The sentences of the steps of a sheet, in their order."""
     program, shown = drawing.trace.program, set[type[Component]]()
     for number, step, _ in drawing.steps(Plane.MECHANISM, drawing.plane, Plane.NUMBERS):
-        component, laid = component_of(program, number), laid_off(program, number)
+        component, laid = component_of(program, number), component_ending_at(program, number)
         if component is not None:
             first = type(component) not in shown and component.is_drawn(drawing)
             shown |= {type(component)} if first else set()

@@ -217,13 +217,13 @@ def let_go(document: Any) -> None:
         for key in [key for key in table if key in KEYWORDS]:
             listed = table[key] if isinstance(table[key], list) else [table[key]]
             for n in reversed(range(len(listed))):
-                if isinstance(listed[n], Mapping) and not is_joined(listed[n], own, names):
+                if isinstance(listed[n], Mapping) and not has_all_named(listed[n], own, names):
                     del listed[n]
             if not listed:
                 table.pop(key)
 
 
-def is_joined(record: Any, own: set[str], names: Mapping[Whose, set[str]]) -> bool:
+def has_all_named(record: Any, own: set[str], names: Mapping[Whose, set[str]]) -> bool:
     """Whether everything that a joint of a body names exists; removes counts of missing links.
 
     The centre of a wheel must be one of its body's ``own`` points.

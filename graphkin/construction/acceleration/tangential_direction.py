@@ -12,7 +12,7 @@ from typing import ClassVar
 from msgspec import Struct
 
 from graphkin.construction.core.arrows import acceleration_arrow, component_arrow
-from graphkin.construction.core.component import laid_off
+from graphkin.construction.core.component import component_ending_at
 from graphkin.construction.core.drawn_scene import Drawing
 from graphkin.construction.core.pen import Pen, about, letter
 from graphkin.construction.core.segments import letter_at
@@ -36,7 +36,7 @@ class TangentialDirection(PerpendicularThrough, frozen=True, kw_only=True):
     def clause(self, drawing: Drawing, role: str) -> str:
         """The clause: through the normal component's end, or its start if it is too short."""
         fields = {"vector": symbol(f"a_{self.index}^τ"), **self.symbols()}
-        laid = laid_off(drawing.trace.program, self.start)
+        laid = component_ending_at(drawing.trace.program, self.start)
         if laid is not None and laid.is_short(drawing):
             start = drawing.lettered(laid.start)
             return drawing.words("step.square-to", s=start, **fields)

@@ -18,7 +18,7 @@ from graphkin.construction.core.vocabulary import action, difference, speed_at_r
 from graphkin.construction.velocity.turned_velocity import (
     LaidOffAboutPivot,
     by_bar,
-    falls,
+    falls_key,
     length_drawn,
     rate_words,
 )
@@ -123,7 +123,7 @@ class TurnedAcceleration(LaidOffAboutPivot, GivenVector, EndsComponent, frozen=T
         fields = self.fields(drawing, role)
         if role == "end":
             if has_no_length(drawing, self.end):
-                return drawing.words(falls(drawing, self.end, fields["s"]), **fields)
+                return drawing.words(falls_key(drawing, self.end, fields["s"]), **fields)
             key = by_bar(drawing, self.omega, fields)
             if key == "-scaled" and not self.is_of_driver(drawing, self.omega):
                 fields["vector"] += f" = {fields['omega']}^2·{self.bar}"

@@ -230,7 +230,7 @@ def draw_circle(pen: Pen, base: Base) -> None:
     names = {"name": centre_name("W", base.link), "centre_letter": centre_name("I", base.link)}
     with pen.on(Part.POLE, Plane.MECHANISM):
         centre, crossing, ways = None, None, tuple[InflectionPoint, ...]()
-        if chosen := squarest(pen, known_points(pen, base)):
+        if chosen := squarest_rays(pen, known_points(pen, base)):
             with pen.hands_way():
                 rays = normals_at(pen, chosen, o)
                 lines = (ray.line for ray in rays)
@@ -262,7 +262,7 @@ def draw_circle(pen: Pen, base: Base) -> None:
     pen.want("inflection centre", base.link, opposite)
 
 
-def squarest(pen: Pen, points: list[str]) -> tuple[str, str] | None:
+def squarest_rays(pen: Pen, points: list[str]) -> tuple[str, str] | None:
     """The two points whose rays to the instantaneous centre cross closest to a right angle.
 
     None where no two rays cross: a link on a fixed pin has that pin as its circle.

@@ -90,7 +90,7 @@ def best(
     tried = {
         pair: crossing
         for pair in missing
-        if (crossing := squarest(links, pair, joined, centres)) is not None
+        if (crossing := squarest_lines(links, pair, joined, centres)) is not None
     }
     if not tried:
         return {}
@@ -99,7 +99,7 @@ def best(
     return dict(good) or {first: tried[first][1]}
 
 
-def squarest(
+def squarest_lines(
     links: Sequence[str],
     pair: Pair,
     joined: Mapping[str, set[str]],

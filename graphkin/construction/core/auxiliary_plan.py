@@ -65,7 +65,7 @@ def auxiliary_plan(drawing: Drawing, number: int) -> AuxiliaryPlan | None:
     return plan if isinstance(plan, AuxiliaryPlan) else None
 
 
-def falls(drawing: Drawing, number: int) -> bool:
+def falls_on_sources(drawing: Drawing, number: int) -> bool:
     """Whether a point of an auxiliary plan coincides with all the points that it is drawn from."""
     plan = auxiliary_plan(drawing, number)
     return plan is not None and bool(plan.falls_on(drawing, number))

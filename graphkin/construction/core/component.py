@@ -331,7 +331,7 @@ class LaidOff(EndsComponent, frozen=True, kw_only=True):
         return drawn_between(drawing, self.start, self.corner, steps[self.corner].plane) < TINY
 
 
-def laid_off(program: Program, number: int) -> LaidOff | None:
+def component_ending_at(program: Program, number: int) -> LaidOff | None:
     """The component whose end a step of the plan is; None where it ends no component."""
     kind = construction(program.steps[number])
     return kind if isinstance(kind, LaidOff) and kind.corner == number else None
@@ -342,7 +342,7 @@ def end_before(drawing: Drawing, number: int) -> int:
 
     For any other step, the step itself.
     """
-    laid = laid_off(drawing.trace.program, number)
+    laid = component_ending_at(drawing.trace.program, number)
     return laid.start if laid is not None and laid.is_short(drawing) else number
 
 

@@ -168,7 +168,7 @@ def ruler_places(millimetres: OnPaper) -> int:
     return max(1 - floor(log10(millimetres)), 1) if millimetres else 1
 
 
-def laid_off(drawing: Drawing, millimetres: float) -> str:
+def length_laid_off(drawing: Drawing, millimetres: float) -> str:
     """A length to be laid off, as the sheet prints it: to 0.01 mm, or finer if tiny."""
     return drawing.words.fixed(millimetres, max(ruler_places(OnPaper(millimetres)), 2))
 

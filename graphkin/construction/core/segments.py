@@ -22,7 +22,7 @@ def is_short(drawing: Drawing, size: float, plane: Plane) -> bool:
     return drawn_in(drawing, plane, abs(size)) < TINY
 
 
-def laid_off(drawing: Drawing, key: str, size: float, **fields: str) -> str:
+def laid_off_words(drawing: Drawing, key: str, size: float, **fields: str) -> str:
     """The words for how a computed vector is laid off, and its length, or that it is too short.
 
     Empty for a vector that is zero.

@@ -21,7 +21,7 @@ from graphkin.construction.core.relation import Relation, answer
 from graphkin.construction.core.segments import letter_at
 from graphkin.construction.core.vocabulary import action
 from graphkin.construction.velocity.relative_motion import AlongGuide
-from graphkin.construction.velocity.turned_velocity import LaidOffByRate, falls, length_drawn
+from graphkin.construction.velocity.turned_velocity import LaidOffByRate, falls_key, length_drawn
 from graphkin.drawing.symbol_markup import escape, symbol
 from graphkin.numbers.arithmetic import Point, Real
 from graphkin.numbers.plane import Line
@@ -100,7 +100,7 @@ class DrivenSlide(AlongGuide, LaidOffByRate, frozen=True, kw_only=True):
 
     def fallen(self, drawing: Drawing, start: str) -> tuple[str, str]:
         """The key of the sentence for a zero motion, and the rate in that sentence."""
-        key, driver = falls(drawing, self.image, start), driver_of_rate(drawing, self.speed)
+        key, driver = falls_key(drawing, self.image, start), driver_of_rate(drawing, self.speed)
         name = drawing.trace.program.steps[self.speed].name
         if driver is None:
             return key.removesuffix("-nought"), ""

@@ -183,11 +183,11 @@ def path_of_carrier(pen: Pen, pair: Sliding, line: int, point: str) -> int:
     if lies_on(pair.slide, point):
         return line
     with pen.on(Part.SHAPE, Plane.NUMBERS):
-        beside = beside_line(pen, carrier, point, ends)
+        beside = beside_guide_of(pen, carrier, point, ends)
     return shift_guide(pen, pair.block, line, beside)
 
 
-def beside_line(pen: Pen, link: str, point: str, ends: tuple[int, int]) -> int:
+def beside_guide_of(pen: Pen, link: str, point: str, ends: tuple[int, int]) -> int:
     """The distance of a link's point to the left of a guide through two places on the link."""
     along = pen.draw(way_between, *ends)
     return pen.draw(beside_guide, local_place(pen, link, point), ends[0], along)
@@ -230,7 +230,7 @@ def height_of(pen: Pen, pair: Sliding, pins: dict[str, str]) -> int | None:
     with pen.on(Part.SHAPE, Plane.NUMBERS):
         here = pen.draw(across, local_place(pen, block, first), local_place(pen, block, on_block))
         ends = local_line(pen, pair.slide, carrier)
-        there = beside_line(pen, carrier, on_carrier, ends)
+        there = beside_guide_of(pen, carrier, on_carrier, ends)
         offset = pen.given("length", pair.slide.offset)
         return pen.draw(gap, offset, here, there)
 
@@ -277,8 +277,8 @@ def height_over(pen: Pen, pair: Sliding, pin: str, rail: str, point: str) -> int
     ends, offset = local_line(pen, pair.slide, carrier), pen.given("length", pair.slide.offset)
     if carrier == rail:
         here = pen.draw(across, first, local_place(pen, block, pin))
-        return pen.draw(gap, offset, here, beside_line(pen, rail, point, ends))
-    there = beside_line(pen, carrier, pin, ends)
+        return pen.draw(gap, offset, here, beside_guide_of(pen, rail, point, ends))
+    there = beside_guide_of(pen, carrier, pin, ends)
     lower = pen.draw(across, first, local_place(pen, block, point))
     return pen.draw(difference, there, pen.draw(gap, lower, offset, pen.given("nought")))
 

@@ -12,7 +12,7 @@ from collections.abc import Mapping
 from typing import Any, ClassVar
 
 from graphkin.construction.core.canvas import Canvas
-from graphkin.construction.core.component import component_of, index_before, laid_off
+from graphkin.construction.core.component import component_ending_at, component_of, index_before
 from graphkin.construction.core.drawn_scene import Drawing
 from graphkin.construction.core.kind import Construction
 from graphkin.construction.core.layout import BEYOND
@@ -158,7 +158,7 @@ class GuideMisclosure(LineMisclosure, frozen=True, kw_only=True):
         """The line parallel to the guide, from the end of the part laid off."""
         fields = {"guide": way_of(drawing, self.block)}
         program = drawing.trace.program
-        laid = laid_off(program, self.start)
+        laid = component_ending_at(program, self.start)
         if laid is None:
             return "parallel", {**fields, "s": symbol(program.steps[self.start].name)}
         fields |= {"a": laid.component.symbol, "s": symbol(program.steps[laid.start].name)}

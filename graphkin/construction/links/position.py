@@ -163,7 +163,7 @@ def refuse_misfit(pen: Pen, group: Tie) -> None:
     link, p = group.link, group.first.point
     place = pen.peek(pen.the("position", p))
     if isinstance(group.second, Sliding):
-        found = beside_guide(pen, group.second, link, p)
+        found = off_guide_words(pen, group.second, link, p)
         expected = message("a guide through it: the link is idle, the rest moves without it")
     else:
         q = group.second.point
@@ -193,7 +193,7 @@ def refuse_misfit(pen: Pen, group: Tie) -> None:
     )
 
 
-def beside_guide(pen: Pen, pair: Sliding, link: str, point: str) -> Message:
+def off_guide_words(pen: Pen, pair: Sliding, link: str, point: str) -> Message:
     """The words for an idle block's pin that is off its guide; empty within printed accuracy."""
     from graphkin.construction.guides.swung_guide import breadth_about
 

@@ -34,7 +34,7 @@ from graphkin.construction.core.relation import (
     set_length,
     squared,
 )
-from graphkin.construction.core.segments import laid_off
+from graphkin.construction.core.segments import laid_off_words
 from graphkin.construction.core.vocabulary import (
     action,
     lay_off,
@@ -260,7 +260,7 @@ class NormalComponent(TriangleComponent, frozen=True, kw_only=True):
             f"{squared(v)}/{over}",
             result,
             "m/s^2",
-            laid_off(drawing, "laid_off", size, p=symbol(self.p), q=symbol(self.q)),
+            laid_off_words(drawing, "laid_off", size, p=symbol(self.p), q=symbol(self.q)),
             over=((self.p, self.q),),
         )
 

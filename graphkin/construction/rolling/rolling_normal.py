@@ -20,7 +20,7 @@ from graphkin.construction.core.plan_vector import PlanVector
 from graphkin.construction.core.program import Part, Plane
 from graphkin.construction.core.quantities import in_mm
 from graphkin.construction.core.relation import Relation, answer, figure, length_of, squared
-from graphkin.construction.core.segments import laid_off
+from graphkin.construction.core.segments import laid_off_words
 from graphkin.construction.core.vocabulary import action, along_bar, join, lay_off
 from graphkin.drawing.symbol_markup import bar, symbol
 from graphkin.numbers.arithmetic import Point, Real
@@ -142,7 +142,7 @@ class RollingNormal(Component, frozen=True, kw_only=True):
             f"{squared(figure(drawing, rate))}·{lengths}",
             answer(drawing, size),
             "m/s^2",
-            laid_off(drawing, "laid_off", size, p=symbol(self.q), q=symbol(self.p)),
+            laid_off_words(drawing, "laid_off", size, p=symbol(self.q), q=symbol(self.p)),
             over=self.bars(),
         )
 

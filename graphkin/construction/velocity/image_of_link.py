@@ -184,7 +184,7 @@ class ImageOfLink(Construction, frozen=True, kw_only=True):
             return
         corners = [self.first, self.second, self.image]
         sides = [*combinations(corners, 2)]
-        bare = [side for side in sides if not is_joined(drawing, *side)]
+        bare = [side for side in sides if not is_arrow_drawn(drawing, *side)]
         if bare != sides and self.is_in_line(drawing):
             share = drawing.trace.values[self.ratio].real
             along = dict(zip(corners, (0.0, 1.0, share), strict=True))
@@ -232,7 +232,7 @@ class ImageOfLink(Construction, frozen=True, kw_only=True):
             yield Relation(drawing.words(f"calculation.{key}", vector=vector, **fields))
 
 
-def is_joined(drawing: Drawing, one: int, other: int) -> bool:
+def is_arrow_drawn(drawing: Drawing, one: int, other: int) -> bool:
     """Whether a plan draws an arrow between two of its points, or between coinciding points."""
     values, near = drawing.trace.values, NOISE * drawing.largest
     for (tail, tip), step in drawing.joins.items():

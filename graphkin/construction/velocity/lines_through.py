@@ -10,7 +10,7 @@ from collections.abc import Iterator, Mapping
 from typing import ClassVar
 
 from graphkin.construction.core.canvas import Canvas
-from graphkin.construction.core.component import end_before, laid_off
+from graphkin.construction.core.component import component_ending_at, end_before
 from graphkin.construction.core.drawn_scene import Drawing
 from graphkin.construction.core.kind import FindsImage, Run, construction
 from graphkin.construction.core.palette import PARALLEL, PERPENDICULAR, Move, point_and_bar, two
@@ -120,7 +120,7 @@ class ParallelThrough(AlongGuide, frozen=True, kw_only=True):
         if letter and not steps[start].name:
             key = "parallel-to-foot"
         elif not letter:
-            laid = laid_off(drawing.trace.program, start)
+            laid = component_ending_at(drawing.trace.program, start)
             back = laid is not None and laid.back
             key = "parallel-to-tail" if back else "parallel-to-end"
         fields = {"guide": self.way(drawing), "vector": self.vector_along(drawing, self.line)}

@@ -7,7 +7,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 
-from graphkin.construction.core.component import index_before, laid_off
+from graphkin.construction.core.component import component_ending_at, index_before
 from graphkin.construction.core.drawn_scene import Drawing
 from graphkin.construction.core.kind import Construction, GivenVector, construction
 from graphkin.construction.core.naming import vector_of, way_of
@@ -130,7 +130,7 @@ class AlongGuide(Construction, frozen=True, kw_only=True):
             whole, first = unknown, known_term(drawing, beneath)
         at_rest = first is not unknown and beneath in drawing.scene.frame.points
         terms = [] if at_rest else [first]
-        laid = laid_off(drawing.trace.program, self.start)
+        laid = component_ending_at(drawing.trace.program, self.start)
         if laid is not None:
             component = laid.component
             name = symbol(f"a_{point}{beneath}^{component.sign}")

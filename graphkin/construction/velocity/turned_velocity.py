@@ -27,7 +27,7 @@ from graphkin.construction.core.palette import LAYS_OFF, Move
 from graphkin.construction.core.pen import Pen, against, letter
 from graphkin.construction.core.quantities import OMEGA, in_mm
 from graphkin.construction.core.relation import Relation, answer, figure, length_of
-from graphkin.construction.core.segments import laid_off
+from graphkin.construction.core.segments import laid_off_words
 from graphkin.construction.core.vocabulary import action
 from graphkin.construction.velocity.relative_motion import AboutPivot
 from graphkin.drawing.symbol_markup import symbol
@@ -75,7 +75,7 @@ class LaidOffAboutPivot(AboutPivot, LaidOffByRate, frozen=True, kw_only=True):
             own = symbol(f"{letter}_{self.link}")
             remark = f"{remark}; {own} = {rate_symbol(drawing, rate, letter)}"
         if square:
-            remark = laid_off(drawing, "laid_off", size, p=symbol(self.p), q=symbol(self.q))
+            remark = laid_off_words(drawing, "laid_off", size, p=symbol(self.p), q=symbol(self.q))
         return Relation(
             symbol(f"{drawing.vector.letter}_{self.index}{signed(sign)}"),
             f"{rate_symbol(drawing, rate, letter)}{square}·{self.bar}",
@@ -108,7 +108,7 @@ def by_bar(drawing: Drawing, rate: int, fields: dict[str, str]) -> str:
     return {0.0: "-scaled", 1.0: ""}.get(times, "-times")
 
 
-def falls(drawing: Drawing, number: int, start: str) -> str:
+def falls_key(drawing: Drawing, number: int, start: str) -> str:
     """The key of the sentence for an image at the ``start`` of its vector, whose rate is zero.
 
     In an auxiliary plan, which tries the rate, the sentence does not mention it.
@@ -183,7 +183,7 @@ class TurnedVelocity(LaidOffAboutPivot, GivenVector, frozen=True, kw_only=True):
         """The sentence on how it is laid off: as long as the bar if the driver sets the scale."""
         fields = self.fields(drawing, role)
         if has_no_length(drawing, self.image):
-            return drawing.words(falls(drawing, self.image, fields["s"]), **fields)
+            return drawing.words(falls_key(drawing, self.image, fields["s"]), **fields)
         return drawing.words(f"step.turned-velocity{by_bar(drawing, self.omega, fields)}", **fields)
 
     def equations(self, drawing: Drawing, role: str) -> Iterator[Relation]:

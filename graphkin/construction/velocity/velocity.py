@@ -86,12 +86,12 @@ def slide_arrow(pen: Pen, pair: Joint, link: str, point: str) -> None:
     """
     known, o = partner(pair, link), pen.pole(Plane.VELOCITIES)
     start, tip = image_under(pen, known, point, VELOCITY), pen.the("velocity", point)
-    told = not pen.turns(known) and tip != o and is_joined(pen, tip, start)
+    told = not pen.turns(known) and tip != o and arrow_joins(pen, tip, start)
     if start not in (o, tip) and not told:
         arrow_between(pen, start, tip, point, letter(under(point, known)))
 
 
-def is_joined(pen: Pen, tail: int, tip: int) -> bool:
+def arrow_joins(pen: Pen, tail: int, tip: int) -> bool:
     """Whether an arrow joins two images, or two images that coincide with them."""
     ends = source_of(pen, tail), source_of(pen, tip)
     arrows = (step.args for step in pen.steps if step.arrow and step.action is join)
