@@ -1,7 +1,7 @@
 """How far apart variants are: what right values of one variant earn on another's sheet.
 
 A neighbour's values are the exact key, or a careful drawing with its scatter. Only answers right by
-the key count. Follow-through and slips do not, since copied answers do not build on one another.
+the key count. Follow-through and causes do not, since copied answers do not build on one another.
 """
 
 from __future__ import annotations
@@ -14,8 +14,8 @@ from msgspec import Struct
 
 from graphkin.classroom.grading.class_standards import standards
 from graphkin.classroom.grading.keys import Keys
-from graphkin.classroom.grading.marking import is_one_drawing, sense_is_open
-from graphkin.classroom.grading.standard import Standard
+from graphkin.classroom.grading.marking import is_one_drawing
+from graphkin.classroom.grading.standard import Standard, sense_is_open
 from graphkin.classroom.lab.fairness import Fault
 from graphkin.classroom.lab.items import items, worth
 from graphkin.classroom.lab.lab_model import Lab

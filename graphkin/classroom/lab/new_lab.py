@@ -1,4 +1,4 @@
-"""Makes a lab to start from: a sound scene and rule, with each key, field and slip explained."""
+"""Makes a lab to start from: a sound scene and rule, with each key, field and cause explained."""
 
 from __future__ import annotations
 
@@ -6,6 +6,7 @@ import re
 from collections.abc import Iterator, Mapping
 from pathlib import Path
 
+from graphkin.classroom.lab.cause_names import GRADES, NAMES
 from graphkin.classroom.lab.fair_ranges import space_of
 from graphkin.classroom.lab.items import (
     all_fields,
@@ -19,7 +20,6 @@ from graphkin.classroom.lab.items import (
 )
 from graphkin.classroom.lab.lab_model import Item
 from graphkin.classroom.lab.proposed_ranges import COURSE, variants_lines
-from graphkin.classroom.lab.slip_names import NAMES
 from graphkin.construction.core.plan_vector import PlanVector
 from graphkin.construction.core.quantities import CENTRES, RATES, SHEETS, TURNING, VECTORS
 from graphkin.drawing.richtext import plain as text_of
@@ -95,10 +95,10 @@ def thing(item: Item) -> str:
     return f"{COMPONENT[vector.sign]} of {name}" if vector.sign in COMPONENT else whole
 
 
-def slips() -> Mapping[str, str]:
-    """Every slip by name, with what the student did."""
+def causes() -> Mapping[str, str]:
+    """Every cause by name, with what the student did."""
     spoken = words("en")
-    return {name: text_of(spoken(f"feedback.slip_{name}")) for name in NAMES}
+    return {name: text_of(spoken(f"cause.{name}")) for name in NAMES}
 
 
 START = Path(__file__).parent / "start"
@@ -140,7 +140,7 @@ def rules_for(mechanism: Mechanism) -> str:
 
 
 def explained(text: str, mechanism: Mechanism) -> str:
-    """The text of a lab.toml with all fields of a mechanism and all slips, and their meanings."""
+    """The text of a lab.toml with all fields of a mechanism and all causes, and their meanings."""
     fields = fields_of(mechanism)
     stated = {line.partition(" =")[0] for line in text.splitlines()}
     lines = []
@@ -149,8 +149,8 @@ def explained(text: str, mechanism: Mechanism) -> str:
         if line == "# FIELDS":
             more = ((f"# {each} = 1", told) for each, told in fields.items() if each not in stated)
             lines += [beside(*pair) for pair in more]
-        elif line == "# SLIPS":
-            lines += [beside(f"# {each} = 0.5", told) for each, told in slips().items()]
+        elif line == "# CAUSES":
+            lines += [beside(f'# {n} = "{GRADES[n]}"', told) for n, told in causes().items()]
         else:
             lines.append(beside(line, fields[name]) if name in fields else line)
     return "\n".join(lines) + "\n"
