@@ -223,28 +223,41 @@ def mark_all(book: Book, every: Sequence[tuple[Taker, Given | None]]) -> list[Ma
         with Refusals().alone("together"):
             book.prepare(taker for taker, _ in part)
         looks = [look(book, *each) for each in part]
-        told = explained_all(looks)
-        for (taker, answers), each, why in zip(part, looks, told, strict=True):
-            found.append(marked(taker, answers is not None, each, why))
+        told, faults = explained_all(looks)
+        for i, (taker, answers) in enumerate(part):
+            seen = looks[i] if i not in faults else withheld(book, taker, faults[i])
+            found.append(marked(book, taker, answers is not None, seen, told[i]))
     return found
 
 
 def look(book: Book, taker: Taker, answers: Given | None) -> SeenSheet:
     """A student's answers by the key; all of them wait where they cannot be marked."""
-    who, refusals, found = taker.student.id, Refusals(), SeenSheet()
+    who, refusals = taker.student.id, Refusals()
+    with refusals.alone(who):
+        marker = book.marker_of(taker)
+        marker.standard.expectation  # noqa: B018 - whatever fails, fails here
+        return SeenSheet(marker, marker.first_look(answers or {}))
+    return withheld(book, taker, tuple(refusals.found[who]))
+
+
+def withheld(book: Book, taker: Taker, problems: tuple[Problem, ...]) -> SeenSheet:
+    """A student's sheet whose answers all wait, because of some problems."""
+    who, refusals = taker.student.id, Refusals()
     waiting = dict.fromkeys((item.field for item in book.form), WAITING)
-    for given in (answers or {}, waiting):
-        with refusals.alone(who):
-            marker = book.marker_of(taker)
-            found = SeenSheet(marker, marker.first_look(given))
-            marker.standard.expectation  # noqa: B018 - whatever fails, fails here
-        if found.first is not None:
-            break
-    return replace(found, problems=tuple(dict.fromkeys(refusals.found.get(who, ()))))
+    with refusals.alone(who):
+        marker = book.marker_of(taker)
+        marker.standard.expectation  # noqa: B018 - whatever fails, fails here
+        return SeenSheet(marker, marker.first_look(waiting), problems)
+    return SeenSheet(problems=tuple(dict.fromkeys((*problems, *refusals.found[who]))))
 
 
-def explained_all(looks: Sequence[SeenSheet]) -> list[SheetCauses | None]:
-    """The explanations of some students; where some cannot be had together, each alone."""
+def explained_all(
+    looks: Sequence[SeenSheet],
+) -> tuple[list[SheetCauses | None], dict[int, tuple[Problem, ...]]]:
+    """The explanations of some students, and the problems of those that cannot be explained.
+
+    Where some cannot be had together, each is explained alone.
+    """
     known = [(i, (e.marker, e.first)) for i, e in enumerate(looks) if e.marker and e.first]
     found: list[SheetCauses | None] = [None] * len(looks)
     refusals = Refusals()
@@ -254,15 +267,23 @@ def explained_all(looks: Sequence[SeenSheet]) -> list[SheetCauses | None]:
     for i, sheet in known if refusals.found else ():
         with refusals.alone(str(i)):
             (found[i],) = explained([sheet])
-    return found
+    faults = {i: tuple(refusals.found[str(i)]) for i, _ in known if str(i) in refusals.found}
+    return found, faults
 
 
-def marked(taker: Taker, present: bool, seen: SeenSheet, why: SheetCauses | None) -> Marked:
-    """The marks of one student."""
+def marked(
+    book: Book, taker: Taker, present: bool, seen: SeenSheet, why: SheetCauses | None
+) -> Marked:
+    """The marks of one student; all answers wait where they cannot be marked."""
     if seen.marker is None or seen.first is None:
         return Marked(problems=seen.problems)
-    graded = seen.marker.graded(taker, seen.first, why, present)
-    return Marked(graded, seen.marker.standard.expectation, seen.problems)
+    who, refusals = taker.student.id, Refusals()
+    with refusals.alone(who):
+        graded = seen.marker.graded(taker, seen.first, why, present)
+        return Marked(graded, seen.marker.standard.expectation, seen.problems)
+    if seen.problems:
+        return Marked(problems=(*seen.problems, *refusals.found[who]))
+    return marked(book, taker, present, withheld(book, taker, tuple(refusals.found[who])), None)
 
 
 def shared(found: Iterable[tuple[Graded, Expectation]]) -> list[Expectation]:

@@ -118,7 +118,9 @@ class RightValues(Struct, frozen=True):
     def rows(self, which: Sequence[int]) -> RightValues:
         """The right values of some of the variants."""
         parts = (self.allowed, self.most, self.points, self.senses, self.unclear, self.sense_points)
-        return RightValues(self.keys.rows(which), *(part[list(which)] for part in parts), self.sized)
+        return RightValues(
+            self.keys.rows(which), *(part[list(which)] for part in parts), self.sized
+        )
 
     def by_key(self, other: RightValues) -> Array:
         """The shares that exact values of others earn, a row for each sheet."""
