@@ -11,6 +11,7 @@ from fractions import Fraction
 from typing import Any
 
 from msgspec import Struct
+from msgspec.structs import replace
 
 from graphkin.classroom.grading.class_standards import standards
 from graphkin.classroom.grading.keys import Keys
@@ -117,10 +118,9 @@ class RightValues(Struct, frozen=True):
 
     def rows(self, which: Sequence[int]) -> RightValues:
         """The right values of some of the variants."""
-        parts = (self.allowed, self.most, self.points, self.senses, self.unclear, self.sense_points)
-        return RightValues(
-            self.keys.rows(which), *(part[list(which)] for part in parts), self.sized
-        )
+        parts = ("allowed", "most", "points", "senses", "unclear", "sense_points")
+        own = {name: getattr(self, name)[list(which)] for name in parts}
+        return replace(self, keys=self.keys.rows(which), **own)
 
     def by_key(self, other: RightValues) -> Array:
         """The shares that exact values of others earn, a row for each sheet."""
