@@ -108,7 +108,7 @@ def test_where_there_is_no_room_the_last_fair_data_stay_and_the_fault_is_told():
     lab = drawing_lab(0.0, tries=3)
     found = assigned(lab, STUDENTS)
     near = [each for each in found if not each.fair]
-    assert len(near) == len(found) - 1
+    assert len(near) > len(found) / 2 and near[0] != found[0]
     assert all(fault.limit == "apart" for each in near for fault in each.faults)
     assert "of the points, at most 0 %" in str(near[0].faults[0])
 
