@@ -42,7 +42,9 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from numpy.typing import NDArray
 
+    from graphkin.construction.reactions import ForceSolution
     from graphkin.construction.tape.batch_runner import BatchRunner
+    from graphkin.loops.equilibrium import ForceVerdict
     from graphkin.loops.witness import Check
 
 K = TypeVar("K")
@@ -266,6 +268,26 @@ class Mechanism(Struct, frozen=True, dict=True):
         count shows whether the stated closure is drawn, and takes longer than everything else.
         """
         return self.check.compare(solution, numbered=numbered)
+
+    def forces(self) -> tuple[ForceSolution, ForceVerdict] | None:
+        """Reactions and balance with the verdict of two independent routes; None without forces.
+
+        Raises StructureError where equilibrium does not determine the reactions, and for groups
+        whose reactions have no construction.
+        """
+        given = self.scene.forces
+        if given is None:
+            return None
+        from graphkin.construction.core.link_poses import LinkPoses
+        from graphkin.construction.reactions import construct
+        from graphkin.loops.equilibrium import compare_forces, equilibrium
+
+        trace = self.trace()
+        solution = gathered(trace, self.scene.links)
+        motion = self.check.examine(solution, numbered=0).solved.motion
+        here = equilibrium(self.scene, given, motion)
+        found = construct(self.scene, given, self.groups, solution, LinkPoses(self.scene, trace))
+        return found, compare_forces(self.scene, given, motion, here, found)
 
     def batch(
         self,

@@ -12,6 +12,7 @@ from graphkin.cli.options import (
     READING,
     FolderType,
     complain,
+    current,
     folder_option,
     force_option,
     jobs_option,
@@ -26,6 +27,7 @@ from graphkin.cli.options import (
 if TYPE_CHECKING:
     from graphkin.classroom.lab.fair_ranges import FairRanges
     from graphkin.classroom.lab.lab_model import Lab
+    from graphkin.classroom.lab.proposed_ranges import ProposedRanges
     from graphkin.classroom.roster.student import Student
     from graphkin.classroom.variants.assign import Assigned
 
@@ -48,21 +50,40 @@ def new(context: click.Context) -> None:
 @folder_option(
     "Folder in which the lab's folder is made; the current one by default.", default=Path()
 )
+@click.option("--from", "scene", metavar="SCENE", help="Make the lab for this scene.")
 @force_option
-def new_lab(name: str, folder: Path, force: bool) -> None:
+def new_lab(name: str, folder: Path, scene: str | None, force: bool) -> None:
     """Make a lab: a folder with a scene and a rule.
 
     The folder is called NAME and holds a scene and the rule of its variants, for you to change.
     Both files have a comment at each key, and graphkin check accepts them unchanged.
 
+    With --from, the scene is a copy of SCENE, a path or the name of a shipped lab. At least one of
+    its parameters needs min and max. The rule draws from the ranges in which every variant is fair
+    and lists every field and every slip of this scene.
+
     \b
     Example:
       graphkin new lab crank-lab
-      graphkin check crank-lab
+      graphkin new lab my-lab --from my-mechanism.toml
+      graphkin check my-lab
     """
+    from graphkin.classroom.lab.new_lab import lab_from
     from graphkin.classroom.lab.new_lab import new_lab as made
 
-    tell(str(path) for path in made(name, folder, force=force))
+    if scene is None:
+        tell(str(path) for path in made(name, folder, force=force))
+        return
+    from graphkin.scene import scene_files
+
+    path = scene_files.find(scene)
+    current().meta[READING] = path
+    lab = lab_from(Path(path), name, folder, force=force)
+    tell(map(str, lab.files))
+    if lab.proposed is None:
+        complain(f"{NO_RANGES}: graphkin ranges {folder / name} lists the limits that are broken")
+    else:
+        tell(["", *notes_of(lab.proposed)])
 
 
 @click.command()
@@ -270,6 +291,9 @@ def ranges(name: str, folder: Path | None, force: bool) -> None:
         tell(["", *map(str, write_all(folder, files, force))])
 
 
+NO_RANGES = "no ranges were found in which all is fair"
+
+
 def formula_lines(lab: Lab) -> list[str]:
     """The numbers for which a formula is unfair, the reasons, and the change that helps."""
     from graphkin.classroom.lab.proposed_ranges import formula_faults, mending_lines
@@ -284,12 +308,17 @@ def proposed(lab: Lab, found: FairRanges) -> list[str]:
 
     new = proposed_ranges(lab, found)
     if new is None:
-        complain("no ranges were found in which all is fair")
+        complain(NO_RANGES)
         return []
+    return [*(f"# {note}" for note in notes_of(new)), *variants_lines(new.ranges, new.course)]
+
+
+def notes_of(new: ProposedRanges) -> list[str]:
+    """How many different data the proposed ranges give, and to how many students."""
     room = f"{new.kept} of {new.of} students"
     if new.kept == new.of:
         room = f"all {new.of} students of a class"
-    told = f"# {new.count} different data; at apart = {new.apart:g} they keep {room} apart"
+    note = f"{new.count} different data; at apart = {new.apart:g} they keep {room} apart"
     again = "the others are drawn again"
-    coarse = [f"# a pencil draws {100 * new.exact:.0f} % of these exactly enough, {again}"]
-    return [told, *(coarse if new.exact < 1 else ()), *variants_lines(new.ranges, new.course)]
+    coarse = f"a pencil draws {100 * new.exact:.0f} % of these exactly enough, {again}"
+    return [note, coarse] if new.exact < 1 else [note]

@@ -35,6 +35,7 @@ LATER = {
     "sheet": "graphkin.cli.draw_commands:sheet",
     "cycle": "graphkin.cli.draw_commands:cycle",
     "accuracy": "graphkin.cli.draw_commands:accuracy",
+    "export": "graphkin.cli.export_command:export",
     "print": "graphkin.cli.print_command:print_sheets",
     "grade": "graphkin.cli.grade_command:grade",
     "read": "graphkin.cli.read_command:read",
@@ -43,6 +44,7 @@ LATER = {
     "new": "graphkin.cli.class_commands:new",
     "variants": "graphkin.cli.class_commands:variants",
     "ranges": "graphkin.cli.class_commands:ranges",
+    "import": "graphkin.cli.import_command:import_scene",
     "studio": "graphkin.cli.studio_command:studio",
     "manual": "graphkin.cli.manual_command:manual",
     "help": "graphkin.cli.manual_command:help_on",
@@ -230,8 +232,17 @@ def solve(
 
         found = certify(mechanism, found, digits, targets)
     lines: tuple[str, ...] = ()
+    given = mechanism.scene.forces
+    by_forces = mechanism.forces() if given is not None and given.asked else None
+    if given is not None and by_forces is not None:
+        from graphkin.cli.report.force_report import force_lines, force_record
+
+        held = force_record(given, *by_forces)
+        found |= held
+        lines = tuple(force_lines(held))
     if pencil is not None and drawn_at is not None:
-        found["pencil"], lines = by_pencil(mechanism, drawn_at, pencil)
+        found["pencil"], errors = by_pencil(mechanism, drawn_at, pencil)
+        lines += errors
     if as_json:
         import json
 
@@ -241,6 +252,7 @@ def solve(
         tell(lines)
     uncertain = not_certified(found)
     doubtful = doubts(mechanism.scene, trace, solution, verdict, proved=digits is not None)
+    doubtful |= by_forces is not None and not by_forces[1].agrees
     if doubtful or uncertain:
         leave(FAILED)
 

@@ -143,7 +143,7 @@ class Course(Struct, frozen=True, dict=True):
         some = self.counting if links is None else tuple(links)
         wanted = [("turned", link) for link in some]
         keep = [self.program.targets[target] for target in wanted]
-        overrides = self.closing(values, at) | dict(closed or {})
+        overrides = self.closing(values, at, closed=closed)
         with np.errstate(all="ignore"):
             trace = run_batch(
                 self.program,
@@ -235,17 +235,24 @@ class Course(Struct, frozen=True, dict=True):
         return GroupOnWay(trying, lambda at: self.known_at(step, at), self.sweep.usual)
 
     def closing(
-        self, values: Mapping[str, Any], at: Reals, before: int | None = None
+        self,
+        values: Mapping[str, Any],
+        at: Reals,
+        before: int | None = None,
+        closed: Mapping[int, Any] | None = None,
     ) -> dict[int, tuple[Any, ...]]:
         """The values that close the followed groups, by step, for each u (N,).
 
-        With ``before``, only the groups before that step.
+        With ``before``, only the groups before that step. Groups in ``closed`` are taken as given:
+        beyond where a group was followed, each position would be searched anew.
         """
-        found: dict[int, tuple[Any, ...]] = {}
+        found: dict[int, tuple[Any, ...]] = dict(closed or {})
         for k, way in enumerate(self.closures):
             number = self.closers[k]
             if number == before:
                 break
+            if number in found:
+                continue
             known = self.known_of(number, values, len(at), found)
             stated = closing(self.program.steps[number]).number
             with np.errstate(all="ignore"):

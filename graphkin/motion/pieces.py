@@ -280,22 +280,23 @@ def from_start(course: Course, start: float, turns: int) -> Path:
 
     A motion that comes back is given from 0 degrees to the end of its circle. A motion that goes on
     without coming back is given for one turn, from the last whole turn before the position. Where
-    the wheels' period is unknown, a dead point may lie many turns away.
+    the wheels' period is unknown, a dead point may lie many turns away. With a group of higher
+    class, it is sought there only once a dead point within one turn shows that the motion ends.
     """
     sweep = course.sweep
     if not sweep.whole:
         found = both_ways(course, start, max(sweep.high, start), min(sweep.low, start))
         return Path((found,), False, False)
     first = max(turns, 1)
-    unknown = 1 if course.closers else MOST_TURNS  # closures cost too much to be followed so far
-    far = (turns or unknown) * TURN if wheels(course) else TURN
+    far = (turns or MOST_TURNS) * TURN if wheels(course) else TURN
+    enough = far if turns or not course.closers else TURN  # each position of a group is dear
     ahead = marched(course, start, start + first * TURN)
     if goes_on(ahead):
         for count in counts(ahead, course, start, first):
             way = ahead if count == first else marched(course, start, start + count * TURN)
             if comes_back(way, course, start, start + count * TURN):
                 return Path((counted_from_nought(way, start, count * TURN),), True, True, count)
-        if goes_on(marched(course, start, start + far)):
+        if goes_on(marched(course, start, start + enough)):
             last = TURN * floor(start / TURN)
             found = both_ways(course, start, last + TURN, last)
             if found[0].low.kind != "window" or not goes_on(found):

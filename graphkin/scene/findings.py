@@ -70,7 +70,7 @@ class Findings:
             raise SceneError(self.problems)
 
 
-WHOLE = ("graphkin", "title", "time", "module")
+WHOLE = ("graphkin", "title", "time", "module", "gravity")
 """Top-level keys that hold no table: written below a heading, they belong to that table."""
 ABOVE = message("it belongs at the top of the file, above the first heading in brackets")
 

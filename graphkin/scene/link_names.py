@@ -75,6 +75,7 @@ def in_language(scene: Scene, language: str) -> Scene:
         branches={names.get(name, name): branch for name, branch in scene.branches.items()},
         ask=asked(scene.ask, names),
         names={},
+        forces=None if scene.forces is None else scene.forces.called(names),
     )
 
 

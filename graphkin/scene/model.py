@@ -21,6 +21,7 @@ from graphkin.text.plain_table import listed
 
 if TYPE_CHECKING:
     from graphkin.numbers.cam_motions import Rise
+    from graphkin.scene.forces import Forces
 
 FRAME = "0"
 """Name of the fixed link."""
@@ -338,7 +339,11 @@ class Cam(Struct, frozen=True):
 
 JOINED = ("slides", "rolls", "belt", "wheel", "wheels")
 """The keys of a link's joints other than points."""
-KEYWORDS = frozenset((*JOINED, "touches", "profiles", "cam"))
+MASS_KEYS = ("mass", "centre", "inertia")
+"""The keys of a link's mass."""
+TABLES = frozenset((*JOINED, "touches", "profiles", "cam"))
+"""The keys of a link that hold tables."""
+KEYWORDS = TABLES.union(MASS_KEYS)
 LEADING = message("slides or rolls")
 """The keys, in words, of joints that guide a link along another."""
 LINK_KEYS = message("slides, rolls, belt, wheel, touches or profiles")
@@ -550,7 +555,7 @@ class Scene(Struct, frozen=True, dict=True):
     ``near`` gives angles within half a turn of which links' angles are taken, where a motion says
     more than the ``start`` of a rolling. Scenes do not state them; sweeps do. ``titles`` and
     ``notes`` hold texts per language, and ``names`` the links' names in each. ``values`` holds the
-    parameters as set, exact.
+    parameters as set, exact. ``forces`` are its masses and loads, None if it has none.
     """
 
     name: str
@@ -570,6 +575,7 @@ class Scene(Struct, frozen=True, dict=True):
     notes: Mapping[str, str] = field(default_factory=dict)
     values: Mapping[str, Any] = field(default_factory=dict)
     source: str | None = None
+    forces: Forces | None = None
 
     @property
     def every_link(self) -> tuple[Link, ...]:

@@ -13,7 +13,18 @@ from msgspec import Struct, field
 
 from graphkin.scene.findings import Findings, Table, listed, nearest, shown
 from graphkin.scene.measures import Measures, Pair
-from graphkin.scene.model import KEYWORDS, Angled, Apart, At, OnLine, Placing, Polar, Side, Triangle
+from graphkin.scene.model import (
+    KEYWORDS,
+    TABLES,
+    Angled,
+    Apart,
+    At,
+    OnLine,
+    Placing,
+    Polar,
+    Side,
+    Triangle,
+)
 from graphkin.scene.phrases import (
     PLACES,
     OnWords,
@@ -105,9 +116,9 @@ def misspelt(key: str, raw: object, place: str, findings: Findings) -> bool:
     if held is raw and sum(bool(nearest(each, POLAR)) for each in raw) > 1:
         return False
     expected = message(
-        "a point by {{from, length, angle}}, or {keywords}", keywords=", ".join(sorted(KEYWORDS))
+        "a point by {{from, length, angle}}, or {keywords}", keywords=", ".join(sorted(TABLES))
     )
-    findings.add(place, message("unknown table"), expected, nearest(key, KEYWORDS))
+    findings.add(place, message("unknown table"), expected, nearest(key, TABLES))
     return True
 
 

@@ -45,7 +45,7 @@ def si_factors() -> dict[str, tuple[Fraction, bool]]:
     bases = {unit: (factor, False) for unit, factor in LENGTHS.items()} | TURNS
     per_second = {f"{unit}/s": factor for unit, factor in bases.items()}
     per_square = {f"{unit}/s²": factor for unit, factor in bases.items()}
-    others = {"": (Fraction(1), False), "s": (Fraction(1), False)}
+    others = dict.fromkeys(("", "s", "kg", "kg·m²", "N", "N·m"), (Fraction(1), False))
     return bases | per_second | per_square | others | {"rev/min": (Fraction(1, 30), True)}
 
 

@@ -15,7 +15,7 @@ from graphkin.scene.file_limits import decoded, read_bytes, tables_of
 from graphkin.scene.findings import Findings, Table, listed, nearest, shown
 from graphkin.scene.link_names import read_names
 from graphkin.scene.measures import Measures, quantity
-from graphkin.scene.model import FRAME, Ask, Driver, DriverKind, Link, Scene
+from graphkin.scene.model import FRAME, MASS_KEYS, Ask, Driver, DriverKind, Link, Scene
 from graphkin.scene.parameters import read_parameters, set_values
 from graphkin.scene.phrases import FRAME_WORD, LONGEST_NAME, is_link_name, line_words, link_name
 from graphkin.scene.placing import read_shape
@@ -108,6 +108,11 @@ def read_into(
     check_version(top, findings)
     scene = assembled(top, name, source, settings, findings)
     asked = top.table("ask")
+    if has_forces(top, asked):
+        from graphkin.scene.read_forces import read_forces
+
+        measures = Measures(findings, scene.units, scene.values)
+        scene = replace(scene, forces=read_forces(top, asked, scene, measures))
     top.finish()
     check_scene(scene, findings)
     scene = replace(scene, ask=read_ask(asked, findings, scene))
@@ -131,6 +136,15 @@ def note_structure(scene: Scene, findings: Findings) -> None:
         table, _, name = problem.place.partition(".")
         if "branches" not in tables or table != "branches" or name in left:
             findings.extend([problem])
+
+
+def has_forces(top: Table, asked: Table) -> bool:
+    """Whether a file says anything of forces, the readers of which are imported only then."""
+    keys = top.take("gravity"), top.take("loads"), asked.take("reactions"), asked.take("balance")
+    links = top.raw.get("links")
+    written = [top.raw.get(FRAME_WORD), *(links.values() if isinstance(links, dict) else ())]
+    masses = (key in each for each in written if isinstance(each, dict) for key in MASS_KEYS)
+    return any(key is not None for key in keys) or any(masses)
 
 
 def check_version(top: Table, findings: Findings) -> None:

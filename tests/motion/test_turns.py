@@ -346,3 +346,21 @@ def test_a_locus_too_short_to_draw_gives_no_curve():
     assert mechanism.witness(mechanism.solve()).agrees
     assert {curve.kind for curve in curves_of(mechanism)} == {"locus"}
     assert any(not curve.runs for curve in curves_of(mechanism))
+
+
+def test_the_ends_of_a_tried_group_are_the_same_wherever_it_stands():
+    """From 60 degrees both dead points lie within a turn, from 80 and 120 one of them does."""
+    text = FILES["rope-levers"].read_text("utf-8")
+
+    def ends(angle):
+        scene = text.replace("value = 80", f"value = {angle}")
+        found = cycle(Mechanism(read_text(scene, Path("rope.toml"))), steps=60)
+        assert [each.kind for each in found.singulars] == ["dead", "dead"]
+        ((low, high),) = found.ranges
+        return low, high
+
+    low, high = ends(60)
+    assert high - low > 360
+    assert low < 80 - 360
+    assert ends(80) == pytest.approx((low, high), abs=1e-7)
+    assert ends(120) == pytest.approx((low, high), abs=1e-7)

@@ -27,6 +27,7 @@ ORDER = (
     "diagnosis",
     "accuracy",
     "documents",
+    "importing",
     "web",
     "classroom",
     "manual",
@@ -40,7 +41,7 @@ FACES = {"__init__", "__main__"}
 command line."""
 BESIDE = {"__pycache__", "py.typed"}
 """Entries that are no room."""
-MOST = 21
+MOST = 22
 """Entries of the package that one takes in at a glance."""
 
 

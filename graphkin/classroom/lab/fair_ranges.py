@@ -152,7 +152,7 @@ def space_of(scene: Scene) -> dict[str, Range]:
             message("no parameter has min and max"),
             message("n = {{ value = …, min = …, max = … }}"),
         )
-        raise SceneError(Problem("scene.toml: parameters", found, wanted))
+        raise SceneError(Problem("parameters", found, wanted, file="scene.toml"))
     return space
 
 

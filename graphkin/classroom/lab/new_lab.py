@@ -5,9 +5,12 @@ from __future__ import annotations
 import re
 from collections.abc import Iterator, Mapping
 from pathlib import Path
+from tempfile import TemporaryDirectory
+
+from msgspec import Struct
 
 from graphkin.classroom.lab.cause_names import GRADES, NAMES
-from graphkin.classroom.lab.fair_ranges import space_of
+from graphkin.classroom.lab.fair_ranges import FairRanges, fair_ranges, space_of
 from graphkin.classroom.lab.items import (
     all_fields,
     arrow_items,
@@ -19,16 +22,24 @@ from graphkin.classroom.lab.items import (
     vector_items,
 )
 from graphkin.classroom.lab.lab_model import Item
-from graphkin.classroom.lab.proposed_ranges import COURSE, variants_lines
+from graphkin.classroom.lab.proposed_ranges import (
+    APART,
+    COURSE,
+    ProposedRanges,
+    proposed_ranges,
+    variants_lines,
+)
+from graphkin.classroom.lab.read_lab import LAB, SCENE, lab_of
 from graphkin.construction.core.plan_vector import PlanVector
 from graphkin.construction.core.quantities import CENTRES, RATES, SHEETS, TURNING, VECTORS
 from graphkin.drawing.richtext import plain as text_of
 from graphkin.drawing.style import COMPONENTS
 from graphkin.mechanism import Mechanism
+from graphkin.scene.file_limits import decoded, read_bytes
 from graphkin.scene.read_scene import read_text
 from graphkin.text import words
 from graphkin.text.errors import Problem, SceneError, message
-from graphkin.writers.files import RESERVED, write_all
+from graphkin.writers.files import RESERVED, refuse_folder, write_all
 
 QUANTITY = {
     "velocity": "velocity of {of}",
@@ -102,7 +113,7 @@ def causes() -> Mapping[str, str]:
 
 
 START = Path(__file__).parent / "start"
-FILES = ("scene.toml", "lab.toml")
+FILES = (SCENE, LAB)
 NAME = re.compile(r"[A-Za-z0-9][A-Za-z0-9_-]{0,59}")
 
 
@@ -112,31 +123,70 @@ def new_lab(name: str, folder: Path, *, force: bool = False) -> list[Path]:
     Raises SceneError for a name that is no folder name on some system, and PageError for files in
     the way.
     """
-    if not NAME.fullmatch(name) or name.upper() in RESERVED:
-        expected = message("letters, digits, - and _, at most 60, such as crank-lab")
-        hint = message("-o DIR says in which folder it is made")
-        raise SceneError(Problem(f'"{name}"', message("is no name for a lab"), expected, hint))
+    check_name(name)
     texts = {file: (START / file).read_text(encoding="utf-8") for file in FILES}
-    texts["lab.toml"] = explained(
-        texts["lab.toml"], Mechanism(read_text(texts["scene.toml"], name))
-    )
+    texts[LAB] = explained(texts[LAB], Mechanism(read_text(texts[SCENE], name)))
     files = {file: text.replace("NAME", name).encode("utf-8") for file, text in texts.items()}
     return write_all(folder / name, files, force)
 
 
-def rules_for(mechanism: Mechanism) -> str:
+def check_name(name: str) -> None:
+    if not NAME.fullmatch(name) or name.upper() in RESERVED:
+        expected = message("letters, digits, - and _, at most 60, such as crank-lab")
+        hint = message("-o DIR says in which folder it is made")
+        raise SceneError(Problem(f'"{name}"', message("is no name for a lab"), expected, hint))
+
+
+class OwnLab(Struct, frozen=True):
+    """A lab made from a scene: its files, where its parameters are fair, and what it draws from.
+
+    ``proposed`` is None where no ranges were found in which all is fair. The lab then draws from
+    all that the scene allows.
+    """
+
+    files: list[Path]
+    found: FairRanges
+    proposed: ProposedRanges | None
+
+
+def lab_from(scene: Path, name: str, folder: Path, *, force: bool = False) -> OwnLab:
+    """Make the folder of a lab for a scene, with the ranges in which all its variants are fair.
+
+    The scene is copied unchanged. Raises SceneError for a scene with a problem or without a
+    parameter that has both ends, and for a name that is no folder name on some system; PageError
+    for files in the way.
+    """
+    check_name(name)
+    refuse_folder(folder / name, FILES, force=force)
+    data = read_bytes(scene)
+    mechanism = Mechanism(read_text(decoded(data), name))
+    with TemporaryDirectory() as tried:
+        place = Path(tried)
+        (place / SCENE).write_bytes(data)
+        lab = lab_of(rules_for(mechanism), place, mechanism, name)
+        found = fair_ranges(lab)
+        proposed = proposed_ranges(lab, found)
+    rules = lab.text if proposed is None else rules_for(mechanism, proposed)
+    files = write_all(folder / name, {SCENE: data, LAB: rules.encode("utf-8")}, force)
+    return OwnLab(files, found, proposed)
+
+
+def rules_for(mechanism: Mechanism, proposed: ProposedRanges | None = None) -> str:
     """The text of a lab.toml to start from, for any scene.
 
-    It draws from all that the parameters allow, with the usual limits and a point for each asked
-    field. Raises SceneError where no parameter of the scene has both ends.
+    It draws from the proposed ranges, or else from all that the parameters allow. No student's
+    right values may earn another more than half of the points. Each asked field earns a point.
+    Raises SceneError where no parameter of the scene has both ends.
     """
     start = (START / "lab.toml").read_text(encoding="utf-8")
     limits, rubric = start.index("[fair]"), start.index("[marks]")
     first = start.index("\n", rubric) + 1
     more = start.index("# What is not asked", first)
-    head = ["graphkin = 1", "", *variants_lines(space_of(mechanism.scene), COURSE), "", ""]
+    ranges = space_of(mechanism.scene) if proposed is None else proposed.ranges
+    head = ["graphkin = 1", "", *variants_lines(ranges, COURSE), "", ""]
+    fair = re.sub(r"(?m)^# apart = \S+", lambda line: f"apart = {APART:<5}", start[limits:first])
     fields = "".join(f"{name} = 1\n" for name in asked_fields(mechanism))
-    return explained("\n".join(head) + start[limits:first] + fields + start[more:], mechanism)
+    return explained("\n".join(head) + fair + fields + start[more:], mechanism)
 
 
 def explained(text: str, mechanism: Mechanism) -> str:

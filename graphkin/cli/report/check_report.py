@@ -371,9 +371,22 @@ class Checking:
             yield from labelled("note", fallen_together(scene, trace))
             self.doubts += [flat_words(scene, trace)] if is_flat(trace) else []
             yield from labelled("witness", [self.witness(trace)])
+            yield from labelled("forces", self.forces())
             self.scale_factors()
         except GraphkinError as error:
             self.problems += error.problems
+
+    def forces(self) -> list[str]:
+        """How far the other routes are from the constructed forces; a difference is a doubt."""
+        given = self.mechanism.scene.forces
+        found = self.mechanism.forces() if given is not None and given.asked else None
+        if found is None:
+            return []
+        from graphkin.cli.report.force_report import force_verdict_words, witness_of_forces
+
+        words = force_verdict_words(witness_of_forces(found[1]))
+        self.doubts += [] if found[1].agrees else [words]
+        return [words]
 
     def closing(self) -> Iterator[str]:
         """Closures of the dyads, and the driver's angles at which the mechanism closes."""

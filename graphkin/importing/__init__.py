@@ -1,0 +1,1 @@
+"""Mechanisms from the files and links of other programs, written as scenes."""

@@ -1,0 +1,183 @@
+"""PMKS+: the content of its links, new and old, and of its ``.pmks`` files.
+
+The new text has thousandths as numbers in base 64 and flags as bits (class StringTranscoder of
+github.com/PMKS-Web/PMKSWeb); the old one has decimal numbers under ``j=``, ``l=``, ``f=``, ``s=``.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping
+from itertools import takewhile
+from urllib.parse import parse_qs
+
+from msgspec import Struct
+
+from graphkin.documents.pmks_file import (
+    ALPHABET,
+    GROUND,
+    INPUT,
+    LETTER_OF_LENGTH,
+    PRISMATIC,
+    THOUSANDTH,
+)
+from graphkin.importing.record import (
+    DrawnGuide,
+    DrawnInput,
+    DrawnJoint,
+    DrawnLink,
+    Imported,
+    damaged,
+    few,
+    named,
+    number,
+    refused,
+)
+from graphkin.text.errors import Message, message
+
+PROGRAM = "PMKS+"
+UNITS = {"0": "in", "1": "cm", "2": "m"}
+OLD_UNITS = {"cm": "cm", "m": "m", "in": "in", "inch": "in"}
+CLOCKWISE = 1
+DIGITS = 12
+"""The most digits of a number."""
+NUMBER_OF_OLD_FIELDS = 8
+
+
+class PmksJoint(Struct, frozen=True):
+    """A joint as the text has it; ``slot`` is the link of a moving guide and two of its joints."""
+
+    joint: DrawnJoint
+    driven: bool
+    prismatic: bool
+    angle: float
+    slot: tuple[str, ...] = ()
+
+
+def new_text(text: str) -> Imported:
+    """The mechanism of a new link, from what follows its question mark, or of a file."""
+    said, last = text[:-1], text[-1:]
+    if LETTER_OF_LENGTH[len(said) % len(LETTER_OF_LENGTH)] != last:
+        raise refused(
+            message("the last letter does not fit the length of the text"),
+            message("the whole link, or the whole file"),
+        )
+    flags, _, speeds, units, rest = said.split(".", 4)
+    parts = iter(rest.split("."))
+    lines, links, forces = (list(takewhile(bool, parts)) for _ in range(3))
+    few(len(lines))
+    found = dict(map(new_joint, lines))
+    bodies = {}
+    for line in links:
+        own, name, *others = line[2:].split(",")
+        if line[0] == "Y":
+            held = others[5:]
+            bodies[own] = DrawnLink(name, tuple(held[: held.index("")]))
+    notes = [left_out(force.split(",")[2]) for force in forces]
+    sense = -1 if ALPHABET.index(flags[-1]) & CLOCKWISE else 1
+    speed = sense * whole(speeds.split(",")[0])
+    return gathered(found, bodies, UNITS.get(units[:1], "cm"), speed, notes)
+
+
+def new_joint(line: str) -> tuple[str, PmksJoint]:
+    """A joint of the new text, after its id."""
+    flags, (own, name, x, y, angle, *slot) = ALPHABET.index(line[0]), line[1:].split(",")
+    place = complex(decimal(x), decimal(y))
+    joint = DrawnJoint(name, place, bool(flags & GROUND))
+    return own, PmksJoint(
+        joint, bool(flags & INPUT), bool(flags & PRISMATIC), decimal(angle), tuple(slot)
+    )
+
+
+def old_text(text: str) -> Imported:
+    """The mechanism of an old link, from what follows its question mark."""
+    fields = parse_qs(text, keep_blank_values=True, max_num_fields=NUMBER_OF_OLD_FIELDS)
+    lines = [line.split(",") for line in fields["j"][0].splitlines() if line]
+    few(len(lines))
+    found: dict[str, PmksJoint] = {}
+    for own, x, y, _, kind, fixed, angle, driven, *_ in lines:
+        joint = DrawnJoint(own, complex(number(x), number(y)), fixed == "t")
+        turned = number(angle) if kind == "P" else 0.0
+        found[own] = PmksJoint(joint, driven == "t", kind == "P", turned)
+    bodies = {}
+    for line in filter(None, fields["l"][0].splitlines()):
+        own, _, _, _, _, _, held, *_ = line.split(",")
+        bodies[own] = DrawnLink(own, tuple(held.split("|")))
+    forces = fields.get("f", [""])[0].splitlines()
+    notes = [left_out(force.split(",")[0]) for force in filter(None, forces)]
+    speed, clockwise, _, unit = fields["s"][0].strip().split(",")[:4]
+    signed = number(speed, -1.0 if clockwise == "true" else 1.0)
+    return gathered(found, bodies, OLD_UNITS.get(unit, "cm"), signed, notes)
+
+
+def gathered(
+    found: Mapping[str, PmksJoint],
+    bodies: Mapping[str, DrawnLink],
+    unit: str,
+    speed: float,
+    notes: Iterable[Message],
+) -> Imported:
+    """The mechanism of joints and links; a prismatic joint is the guide of the link that has it."""
+    few(len(bodies))
+    told = list(notes)
+    guides, inputs, held = [], [], {}
+    for own, body in bodies.items():
+        if not all(joint in found for joint in body.joints):
+            raise damaged()
+        sliding = [joint for joint in body.joints if found[joint].prismatic]
+        others = tuple(joint for joint in body.joints if joint not in sliding)
+        first = next((j for j in others if sliding and same(found, j, sliding[0])), None)
+        kept = others if first else body.joints
+        held[own] = DrawnLink(body.name, kept)
+        for joint in sliding:
+            drawn, start = found[joint], first or joint
+            if drawn.slot:
+                on, one, other = drawn.slot
+                guides.append(DrawnGuide(own, start, on, (one, other)))
+            else:
+                guides.append(DrawnGuide(own, start, angle=drawn.angle))
+            if drawn.driven:
+                told.append(message("a speed along a guide is not in the file; 1 per second"))
+                inputs.append(DrawnInput(own, 1.0))
+    for guide in guides:
+        if guide.along and not {*guide.along} <= {*held[guide.on].joints}:
+            raise damaged()
+    for own, drawn in found.items():
+        if drawn.driven and not drawn.prismatic:
+            at = [name for name, body in held.items() if own in body.joints]
+            if not at or (not drawn.joint.fixed and len(at) < 2):
+                raise damaged()
+            against = "" if drawn.joint.fixed else at[1]
+            inputs.append(DrawnInput(at[0], speed, own, against))
+    used = {joint for body in held.values() for joint in body.joints}
+    joints = {
+        own: DrawnJoint(drawn.joint.name, drawn.joint.at, drawn.joint.fixed and not drawn.prismatic)
+        for own, drawn in found.items()
+        if own in used
+    }
+    return Imported(
+        PROGRAM, unit, 1 / THOUSANDTH, joints, held, tuple(guides), tuple(inputs), tuple(told)
+    )
+
+
+def same(found: Mapping[str, PmksJoint], one: str, other: str) -> bool:
+    """Whether two joints are drawn in one place."""
+    return abs(found[one].joint.at - found[other].joint.at) < 1.5 / THOUSANDTH
+
+
+def left_out(force: str) -> Message:
+    return message("force {name} is left out", name=named(force))
+
+
+def decimal(text: str) -> float:
+    """A number of thousandths."""
+    return number(str(whole(text)), 1 / THOUSANDTH)
+
+
+def whole(text: str) -> int:
+    """A whole number in base 64; a zero before it makes it negative."""
+    if not text or len(text) > DIGITS:
+        raise damaged()
+    value = 0
+    for sign in text:
+        value = len(ALPHABET) * value + ALPHABET.index(sign)
+    return -value if text[0] == "0" else value

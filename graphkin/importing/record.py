@@ -1,0 +1,107 @@
+"""An imported mechanism: joints where the other program draws them, links, guides and inputs."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from math import isfinite
+
+from msgspec import Struct
+
+from graphkin.text.errors import NO_WORDS, Message, Problem, SceneError, message
+
+MOST = 200
+"""The most joints, and the most links."""
+FARTHEST = 1e6
+"""The largest number that is read, in the unit of the file."""
+LONGEST_NAME = 40
+
+
+class DrawnJoint(Struct, frozen=True):
+    """A joint by its id in the file: its name and place, and whether it is fixed."""
+
+    name: str
+    at: complex
+    fixed: bool = False
+
+
+class DrawnLink(Struct, frozen=True):
+    """A link by its id in the file: its name and the ids of its joints."""
+
+    name: str
+    joints: tuple[str, ...]
+
+
+class DrawnGuide(Struct, frozen=True):
+    """The straight guide of a link: on another link, or on the frame where ``on`` is empty.
+
+    ``first`` is the joint of the link that slides along it. The guide runs along two joints of
+    ``on``, or through ``first`` as it is drawn at an ``angle`` in radians.
+    """
+
+    body: str
+    first: str
+    on: str = ""
+    along: tuple[str, str] | None = None
+    angle: float = 0.0
+
+
+class DrawnInput(Struct, frozen=True):
+    """What is driven: a link about a joint, in rev/min; along its guide where ``about`` is empty,
+    in units of length per second.
+
+    ``against`` is the other link at a joint that is not fixed.
+    """
+
+    body: str
+    speed: float
+    about: str = ""
+    against: str = ""
+
+
+class Imported(Struct, frozen=True):
+    """A mechanism of another program; places in ``unit``, exact to ``rounding``.
+
+    ``notes`` name what has no counterpart in a scene.
+    """
+
+    program: str
+    unit: str
+    rounding: float
+    joints: Mapping[str, DrawnJoint]
+    bodies: Mapping[str, DrawnLink]
+    guides: tuple[DrawnGuide, ...]
+    inputs: tuple[DrawnInput, ...]
+    notes: tuple[Message, ...] = ()
+
+
+def refused(found: Message, expected: Message = NO_WORDS) -> SceneError:
+    """The error of a text that cannot be imported."""
+    return SceneError(Problem("import", found, expected))
+
+
+def number(text: str, factor: float = 1.0) -> float:
+    """A decimal number times a factor. Raises SceneError where it is none or too large."""
+    try:
+        value = float(text) * factor
+    except ValueError:
+        value = float("nan")
+    if not isfinite(value) or abs(value) > FARTHEST:
+        raise refused(message("{text} is no number that can be drawn", text=named(text)))
+    return value
+
+
+def named(text: str) -> str:
+    """A name from a file in one short line, without characters that control a terminal."""
+    shown = "".join(sign for sign in text if sign.isprintable())
+    return shown[:LONGEST_NAME]
+
+
+def few(count: int) -> None:
+    """Raise SceneError for more joints or links than are read."""
+    if count > MOST:
+        raise refused(message("more than {most} joints or links", most=MOST))
+
+
+def damaged() -> SceneError:
+    """The error of a text that breaks off or does not keep to its format."""
+    return refused(message("the text breaks off or is damaged"))

@@ -1,0 +1,307 @@
+"""An imported mechanism as the text of a scene, in the closure nearest to the drawing."""
+
+from __future__ import annotations
+
+import re
+from cmath import phase, rect
+from collections.abc import Iterator
+from math import degrees, inf
+
+from msgspec import Struct
+
+from graphkin.construction.core.branches import key_of
+from graphkin.construction.core.drawn_scene import METRES
+from graphkin.diagnosis.closures import Choice, GroupClosure, choices
+from graphkin.importing.record import (
+    FARTHEST,
+    DrawnGuide,
+    DrawnInput,
+    DrawnLink,
+    Imported,
+    named,
+    refused,
+)
+from graphkin.mechanism import Mechanism
+from graphkin.scene.model import FRAME
+from graphkin.scene.read_scene import read_text
+from graphkin.structure.decomposition import decompose
+from graphkin.structure.groups import Dyad, Group, Higher, Stretched
+from graphkin.structure.pairs import Pin
+from graphkin.text.errors import Message, message
+
+NAME = "import"
+DIGITS = 9
+"""Decimals of a number, so that lengths of a drawing close as it does."""
+SEEN = 20
+"""Roundings of the file by which a closed position may differ from the drawing unnoticed."""
+
+
+class SceneText(Struct, frozen=True):
+    """A scene as text, and what of the mechanism has no counterpart in it."""
+
+    text: str
+    notes: tuple[Message, ...]
+
+
+def scene_text(found: Imported) -> SceneText:
+    """The scene of an imported mechanism; it names its notes in comments at its head.
+
+    Raises SceneError or StructureError where no scene can be made of it.
+    """
+    writer = SceneWriter(found)
+    branches = nearest_closures(writer)
+    mechanism = Mechanism(read_text(writer.text(branches), NAME))
+    notes = (*writer.notes, *moved(writer, mechanism))
+    head = [f"# from {found.program}", *(f"# {named_whole(note)}" for note in notes)]
+    return SceneText(writer.text(branches, head), notes)
+
+
+def named_whole(note: Message) -> str:
+    return "".join(sign for sign in note if sign.isprintable())
+
+
+class SceneWriter:
+    """The tables of a scene: points by the names of joints, links by numbers."""
+
+    def __init__(self, found: Imported) -> None:
+        self.found = found
+        self.notes = list(found.notes)
+        self.guided = {guide.body for guide in found.guides}
+        fixed = {own for own, joint in found.joints.items() if joint.fixed}
+        self.bodies: dict[str, DrawnLink] = {}
+        for own, body in found.bodies.items():
+            if len(fixed & {*body.joints}) > 1 and own not in self.guided:
+                fixed |= {*body.joints}
+            elif len(body.joints) > 1 or own in self.guided:
+                self.bodies[own] = self.ordered(own, body, fixed)
+            else:
+                self.notes.append(
+                    message("link {name} holds nothing and is left out", name=named(body.name))
+                )
+        if not self.bodies:
+            raise refused(message("nothing in it moves"))
+        moving = {joint for body in self.bodies.values() for joint in body.joints}
+        led = {j for g in found.guides if g.on not in self.bodies and g.along for j in g.along}
+        self.fixed = [own for own in found.joints if own in fixed and own in moving | led]
+        self.points = dict(
+            point_names(found, [*self.fixed, *sorted(moving, key=[*found.joints].index)])
+        )
+        self.numbers = {own: str(number) for number, own in enumerate(self.bodies, 1)}
+        self.at = {own: joint.at for own, joint in found.joints.items()}
+        self.drivers = [each for each in found.inputs if each.body in self.bodies]
+        if not self.drivers:
+            self.drivers = [self.some_driver(fixed)]
+
+    def ordered(self, own: str, body: DrawnLink, fixed: set[str]) -> DrawnLink:
+        """A link with its sliding joint first, else its fixed one."""
+        first = [guide.first for guide in self.found.guides if guide.body == own]
+        joints = sorted(body.joints, key=lambda j: (j not in first, j not in fixed))
+        return DrawnLink(body.name, tuple(joints))
+
+    def some_driver(self, fixed: set[str]) -> DrawnInput:
+        """A driver where the file has none."""
+        pivoted = ((own, j) for own, body in self.bodies.items() for j in body.joints if j in fixed)
+        own, about = next(pivoted, (next(iter(self.guided), ""), ""))
+        if own not in self.bodies:
+            raise refused(message("nothing in it is driven"))
+        self.notes.append(
+            message(
+                "nothing is driven in the file; link {name} is, at speed 1",
+                name=self.numbers_of(own),
+            )
+        )
+        return DrawnInput(own, 1.0, about)
+
+    def numbers_of(self, own: str) -> str:
+        return str(1 + [*self.bodies].index(own))
+
+    def guide(self, own: str) -> DrawnGuide | None:
+        return next((guide for guide in self.found.guides if guide.body == own), None)
+
+    def way(self, guide: DrawnGuide) -> complex:
+        """The direction of a guide as drawn, of length 1."""
+        if guide.along is None:
+            return rect(1.0, guide.angle)
+        one, other = guide.along
+        return direction(self.at[other] - self.at[one])
+
+    def axis(self, own: str) -> complex:
+        """The direction of a link's x axis as drawn, of length 1."""
+        if guide := self.guide(own):
+            return self.way(guide)
+        first, second, *_ = self.bodies[own].joints
+        return direction(self.at[second] - self.at[first])
+
+    def text(self, branches: dict[str, str], head: list[str] | None = None) -> str:
+        """The text of the scene."""
+        lines = [
+            "graphkin = 1",
+            *(head or []),
+            f'title = "Mechanism from {self.found.program}"',
+            f'units = {{ length = "{self.found.unit}", angle = "deg", speed = "rev/min" }}',
+            "",
+            "[frame]",
+            *(f"{self.points[own]} = {pair(self.at[own])}" for own in self.fixed),
+        ]
+        for own in self.bodies:
+            lines += ["", f"[links.{self.numbers[own]}]", *self.link(own)]
+        for driver in self.drivers:
+            lines += ["", "[[drivers]]", *self.driver(driver)]
+        if branches:
+            lines += ["", "[branches]", *(f'{key} = "{words}"' for key, words in branches.items())]
+        return "\n".join([*lines, ""])
+
+    def link(self, own: str) -> Iterator[str]:
+        """The keys of a link: a bar by its length, others by coordinates in their own axes."""
+        joints, guide = self.bodies[own].joints, self.guide(own)
+        if guide is None and len(joints) == 2:
+            one, other = joints
+            length = plain(abs(self.at[other] - self.at[one]))
+            yield f"{self.points[one]}-{self.points[other]} = {length}"
+            return
+        axis = self.axis(own)
+        for joint in joints:
+            place = (self.at[joint] - self.at[joints[0]]) / axis
+            yield f"{self.points[joint]} = {pair(place)}"
+        if guide is not None:
+            yield f"slides = {{ {', '.join(self.slide(guide))} }}"
+
+    def slide(self, guide: DrawnGuide) -> Iterator[str]:
+        """The words of a guide."""
+        yield f"on = {self.numbers.get(guide.on, FRAME)}"
+        if guide.along is None:
+            yield f"through = {pair(self.at[guide.first])}"
+            yield f"angle = {plain(degrees(guide.angle))}"
+            return
+        one, other = guide.along
+        yield f'along = "{self.points[one]}-{self.points[other]}"'
+        off = self.aside(guide)
+        if abs(off) > 2 * self.found.rounding:
+            yield f"offset = {plain(off)}"
+
+    def aside(self, guide: DrawnGuide) -> float:
+        """How far to the left of its guide a joint is drawn."""
+        assert guide.along is not None
+        return ((self.at[guide.first] - self.at[guide.along[0]]) / self.way(guide)).imag
+
+    def driver(self, driver: DrawnInput) -> Iterator[str]:
+        """The keys of a driver."""
+        number = self.numbers[driver.body]
+        if driver.about:
+            axis = self.axis(driver.body)
+            yield f"turn = {number}"
+            if driver.against in self.numbers:
+                yield f"against = {self.numbers[driver.against]}"
+                axis /= self.axis(driver.against)
+            yield f"angle = {plain(degrees(phase(axis)))}"
+        else:
+            guide = self.guide(driver.body)
+            assert guide is not None
+            start = self.at[guide.along[0] if guide.along else guide.first]
+            yield f"slide = {number}"
+            yield f"position = {plain(((self.at[guide.first] - start) / self.way(guide)).real)}"
+        yield f"speed = {plain(driver.speed)}"
+
+
+def nearest_closures(writer: SceneWriter) -> dict[str, str]:
+    """The branches of every group, chosen one group after another by the drawing."""
+    scene = read_text(writer.text({}), NAME)
+    branches = {}
+    for group in decompose(scene):
+        if key := key_of(scene, group):
+            branches[key] = first_words(writer, group)
+    known: set[str] = set()
+    while True:
+        mechanism = Mechanism(read_text(writer.text(branches), NAME))
+        found = choices(mechanism.scene, *mechanism.laid)
+        choice = next((c for c in found if c.key in branches and c.key not in known), None)
+        if choice is None:
+            return branches
+        known.add(choice.key)
+        if not choice.closures:
+            continue
+        best = min(choice.closures, key=lambda closure: distance(writer, choice, closure))
+        branches[choice.key] = best.words
+
+
+def first_words(writer: SceneWriter, group: Group) -> str:
+    """A branch that a group may have; of three pins, that of the drawing."""
+    group = group.dyad if isinstance(group, Stretched) else group
+    if isinstance(group, Higher):
+        return "closure 1"
+    if isinstance(group, Dyad) and group.type == "RRR" and isinstance(group.inner, Pin):
+        places = {writer.points[own]: writer.at[own] for own in writer.points}
+        outer = [pair.point for pair in (group.left, group.right) if isinstance(pair, Pin)]
+        if len(outer) == 2 and places[outer[0]] != places[outer[1]]:
+            one, other = outer
+            turn = (places[group.inner.point] - places[one]) / (places[other] - places[one])
+            return f"{'left' if turn.imag > 0 else 'right'} of {one}-{other}"
+    return "forward"
+
+
+def distance(writer: SceneWriter, choice: Choice, closure: GroupClosure) -> float:
+    """How far a closure is from the drawing, in the file's unit."""
+    if closure.place is None:
+        return inf
+    metre = METRES[writer.found.unit]
+    places = {writer.points[own]: writer.at[own] for own in writer.points}
+    owns = {number: own for own, number in writer.numbers.items()}
+    size = max(
+        abs(one - writer.at[writer.fixed[0]]) if writer.fixed else abs(one)
+        for one in places.values()
+    )
+    total = 0.0
+    for (what, name), value in closure.stands.items():
+        if what == "position" and name in places:
+            total += abs(value / metre - places[name])
+        elif what == "axis" and name in owns:
+            total += size * abs(value - writer.axis(owns[name]))
+    return total
+
+
+def moved(writer: SceneWriter, mechanism: Mechanism) -> Iterator[Message]:
+    """A note for each point that cannot be where it is drawn."""
+    metre = METRES[writer.found.unit]
+    solved = mechanism.solve().points
+    for own, name in writer.points.items():
+        point = solved.get(name)
+        if point is None or point.position is None:
+            continue
+        off = abs(complex(point.position) / metre - writer.at[own])
+        if off > SEEN * writer.found.rounding:
+            yield message(
+                "{name} closes {off} {unit} from where it is drawn",
+                name=name,
+                off=f"{off:.3g}",
+                unit=writer.found.unit,
+            )
+
+
+def point_names(found: Imported, owns: list[str]) -> Iterator[tuple[str, str]]:
+    """Names of points for joints: letters, digits and _, different also in small letters."""
+    taken: set[str] = set()
+    for own in dict.fromkeys(owns):
+        base = re.sub(r"[^A-Za-z0-9_]", "_", named(found.joints[own].name)) or "P"
+        base = base if base[0].isalpha() else f"P{base}"
+        name, count = base, 1
+        while name.lower() in taken:
+            count += 1
+            name = f"{base}_{count}"
+        taken.add(name.lower())
+        yield own, name
+
+
+def direction(way: complex) -> complex:
+    if abs(way) * FARTHEST < 1:
+        raise refused(message("two joints of a link or a guide lie in one place"))
+    return way / abs(way)
+
+
+def pair(place: complex) -> str:
+    return f"[{plain(place.real)}, {plain(place.imag)}]"
+
+
+def plain(value: float) -> str:
+    """A number in decimals, without idle zeros."""
+    text = f"{value:.{DIGITS}f}".rstrip("0").rstrip(".")
+    return "0" if text == "-0" else text

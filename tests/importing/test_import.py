@@ -1,0 +1,176 @@
+"""An imported scene stands as the file draws it, and moves as its closure does.
+
+The places are read from the text by other code, and speeds are differences of closures found here.
+"""
+
+from __future__ import annotations
+
+import re
+from cmath import phase, pi, rect, sqrt
+from pathlib import Path
+from string import ascii_lowercase, ascii_uppercase, digits
+
+import pytest
+from click.testing import CliRunner
+
+from graphkin.cli.main import app
+from graphkin.importing.formats import content, imported
+from graphkin.importing.scene_text import scene_text
+from graphkin.mechanism import Mechanism
+from graphkin.scene.read_scene import read_text
+from graphkin.text.errors import GraphkinError
+
+HERE = Path(__file__).parent
+LINKS = dict(line.split(" ", 1) for line in (HERE / "pmks_links.txt").read_text().splitlines())
+PYSLVS = {
+    "four-bar": "M[J[R, color[Green], P[0.0, 0.0], L[ground, a]], J[R, color[Green], "
+    "P[12.92, 32.53], L[a, b]], J[R, color[Green], P[73.28, 67.97], L[b, c]], "
+    "J[R, color[Green], P[33.3, 66.95],"
+    " L[b]], J[R, color[Green], P[90.0, 0.0], L[ground, c]]]",
+    "slider": "M[J[R, P[-49.625, 4.125], L[ground, b]], J[R, P[-26.625, 46.125], L[a, b]],"
+    " J[RP, A[10.0], P[0.0, 0.0], L[ground, a]]]",
+}
+BASE = f"{digits}{ascii_uppercase}{ascii_lowercase}_-"
+CENTIMETRE = 0.01
+STEP = 1e-6
+
+
+def opened(text: str) -> Mechanism:
+    return Mechanism(read_text(scene_text(imported(text)).text, "imported"))
+
+
+def places(mechanism: Mechanism, unit: float) -> dict[str, complex]:
+    return {n: complex(p.position) / unit for n, p in mechanism.solve().points.items()}
+
+
+def thousandths(text: str) -> float:
+    value = 0
+    for sign in text.removeprefix("0"):
+        value = 64 * value + BASE.index(sign)
+    return (-value if text.startswith("0") else value) / 1000
+
+
+def drawn(text: str) -> dict[str, complex]:
+    """Names and places of the joints in a new or old text."""
+    if text.startswith("j="):
+        rows = [line.split(",") for line in text[2 : text.index("&l=")].split("%0A") if line]
+        return {row[0]: complex(float(row[1]), float(row[2])) for row in rows}
+    rows = [joint.split(",") for joint in text[: text.index("..")].split(".")[4:]]
+    return {row[1]: complex(thousandths(row[2]), thousandths(row[3])) for row in rows}
+
+
+def crossing(one: complex, a: float, other: complex, b: float, near: complex) -> complex:
+    """The crossing of two circles that is nearest to a place."""
+    way = other - one
+    along = (a * a - b * b + abs(way) ** 2) / (2 * abs(way))
+    height = sqrt(a * a - along * along)
+    both = [one + way / abs(way) * (along + sign * 1j * height) for sign in (1, -1)]
+    return min(both, key=lambda place: abs(place - near))
+
+
+def turned(place: complex, pivot: complex, angle: float) -> complex:
+    return pivot + (place - pivot) * rect(1, angle)
+
+
+def rate(angle_at) -> float:
+    return (angle_at(STEP) - angle_at(-STEP)) / (2 * STEP)
+
+
+@pytest.mark.parametrize("name", LINKS)
+def test_every_joint_stands_where_the_link_draws_it(name):
+    found, at = places(opened(LINKS[name]), CENTIMETRE), drawn(LINKS[name])
+    assert len(found) >= 2
+    for point in (name for name in found if "@" not in name):
+        assert abs(found[point] - at[point]) < 2e-3, point
+
+
+@pytest.mark.parametrize("name", ["inverted-slider-crank", "whitworth"])
+def test_a_lever_with_a_slot_turns_as_the_line_to_its_pin(name):
+    at, solved = drawn(LINKS[name]), opened(LINKS[name]).solve()
+    omega = -20 * pi / 30
+    lever = rate(
+        lambda t: phase((turned(at["B"], at["A"], omega * t) - at["C"]) / (at["D"] - at["C"]))
+    )
+    assert float(solved.links["2"].omega) == pytest.approx(lever, rel=1e-3)
+
+
+def test_a_four_bar_turns_as_its_circles_cross():
+    at, solved = (
+        drawn(LINKS["teaching-lab-four-bar"]),
+        opened(LINKS["teaching-lab-four-bar"]).solve(),
+    )
+    omega, (a, b, c, d) = -20 * pi / 30, (at[name] for name in "ABCD")
+
+    def rocker(time: float) -> float:
+        return phase(crossing(turned(b, a, omega * time), abs(c - b), d, abs(c - d), c) - d)
+
+    assert float(solved.links["3"].omega) == pytest.approx(rate(rocker), rel=1e-5)
+
+
+def test_an_old_link_turns_counter_clockwise_where_it_says_so():
+    assert float(opened(LINKS["old-four-bar"]).solve().links["1"].omega) == pytest.approx(pi / 3)
+
+
+@pytest.mark.parametrize("name", ["crank", "pick"])
+def test_a_file_of_linkage_stands_in_96ths_of_an_inch(name):
+    text = (HERE / f"{name}.linkage2").read_text()
+    found = places(opened(text), 0.001)
+    rows = [line.split('"') for line in text.splitlines() if ' x="' in line]
+    at = {f"P{row[1]}": complex(float(row[3]), float(row[5])) / 96 * 25.4 for row in rows}
+    assert len(found) >= 4
+    for point in found:
+        assert abs(found[point] - at[point]) < 1e-3, point
+
+
+@pytest.mark.parametrize("name", PYSLVS)
+def test_an_expression_stands_at_its_coordinates(name):
+    found = places(opened(PYSLVS[name]), 0.001)
+    spots = re.findall(r"P\[([^],]*),([^]]*)\]", PYSLVS[name])
+    assert len(found) == len(spots)
+    for number, (x, y) in enumerate(spots):
+        assert abs(found[f"P{number}"] - complex(float(x), float(y))) < 1e-3, number
+
+
+def test_a_moving_slot_of_an_expression_is_refused():
+    slot = "M[J[R, P[0, 0], L[ground, a]], J[RP, A[0.0], P[1, 0], L[a, b]]]"
+    with pytest.raises(GraphkinError, match="P1"):
+        imported(slot)
+
+
+def test_what_has_no_counterpart_is_named_in_the_scene():
+    for name, words in (("loaded", "force F1"), ("trammel", "nothing is driven")):
+        found = scene_text(imported(LINKS[name]))
+        assert [words in note for note in found.notes] == [True]
+        assert f"# {found.notes[0]}" in found.text.splitlines()
+
+
+def test_a_text_that_breaks_off_is_refused_in_words():
+    for text in (LINKS["trammel"], LINKS["old-four-bar"], PYSLVS["slider"]):
+        for length in range(0, len(text), 3):
+            cut = text[:length]
+            for said in (cut, cut + f"{digits}{ascii_uppercase}{ascii_lowercase}"[length % 62]):
+                try:
+                    scene_text(imported(said))
+                except GraphkinError as error:
+                    assert str(error)
+
+
+def test_entities_large_numbers_and_many_joints_are_refused():
+    bomb = '<!DOCTYPE a [<!ENTITY b "c">]><linkage2>&b;</linkage2>'
+    many = "<linkage2>" + '<connector id="1" x="1" y="1"/>' * 201 + "</linkage2>"
+    far = '<linkage2><connector id="1" x="1e99" y="nan"/></linkage2>'
+    gear = '<linkage2><Link id="1" gear="true"/></linkage2>'
+    for text, words in ((bomb, "XML"), (many, "200"), (far, "1e99"), (gear, "gear")):
+        with pytest.raises(GraphkinError, match=words):
+            imported(text)
+
+
+def test_a_link_is_read_and_not_opened():
+    assert content(f"https://nowhere.invalid/?{LINKS['trammel']}") == LINKS["trammel"]
+
+
+def test_the_command_writes_a_scene_that_solves(tmp_path):
+    scene = tmp_path / "crank.toml"
+    done = CliRunner().invoke(app, ["import", str(HERE / "crank.linkage2"), "-o", str(scene)])
+    assert done.exit_code == 0, done.output
+    assert CliRunner().invoke(app, ["solve", str(scene)]).exit_code == 0
