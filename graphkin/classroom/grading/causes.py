@@ -66,6 +66,7 @@ class Change(Struct, frozen=True):
 class Cause(Struct, frozen=True):
     """One thing that a student took wrongly, by its name, and the way in which it was done.
 
+    No two causes of a form have the same name and the same way.
     ``change`` is what it changes in the construction, ``reads`` what it changes in reading and
     computing (:mod:`graphkin.classroom.grading.readings`). ``rare`` is the part of the cause's
     share that the way has.

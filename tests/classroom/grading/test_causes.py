@@ -12,14 +12,16 @@ import pytest
 from msgspec.structs import replace
 
 from graphkin.classroom.grading.answer_numbers import read_answer
+from graphkin.classroom.grading.causes import Variants
 from graphkin.classroom.grading.class_marking import graded_class
 from graphkin.classroom.grading.feedback import notes
 from graphkin.classroom.grading.graded import Answer
+from graphkin.classroom.grading.readings import FormFields
 from graphkin.text import words
 from graphkin.text.errors import RosterError
 from tests.bench.causes import a_class, is_named
 from tests.classroom.grading.mistaken import CAUSES
-from tests.classroom.grading.students import book_of, given, key_answers, marker_of, taker
+from tests.classroom.grading.students import LABS, book_of, given, key_answers, marker_of, taker
 
 SLICE = (
     ("offset-slider-crank", "the crank's diameter for its radius"),
@@ -40,6 +42,13 @@ def test_one_mistake_is_named_and_paid_once(lab, name):
     assert np.mean(marks) >= 75
     for graded, _ in found:
         assert graded.cost <= graded.points / 4
+
+
+@pytest.mark.parametrize("lab", LABS)
+def test_no_two_causes_share_a_name_and_a_way(lab):
+    """Else a pair that is tried for one student stands for another pair of a fellow student."""
+    made = FormFields(Variants([marker_of(lab, 7).standard])).causes
+    assert len({(cause.name, cause.way) for cause in made}) == len(made)
 
 
 def test_nobody_honest_has_a_mistake_named():
