@@ -21,6 +21,7 @@ from collections.abc import Iterator
 from pathlib import Path
 
 import click
+from pytest import MonkeyPatch
 
 from graphkin.classroom.lab.read_lab import lab_of
 from graphkin.cli.main import app
@@ -138,9 +139,10 @@ def must_parse(line: str) -> None:
 
 
 def must_print(program: str) -> None:
-    """A program must run, and print the numbers that its comments say."""
+    """A program must run in the current folder, and print the numbers that its comments say."""
     said = io.StringIO()
-    with contextlib.redirect_stdout(said):
+    with MonkeyPatch.context() as patch, contextlib.redirect_stdout(said):
+        patch.syspath_prepend(str(Path.cwd()))
         exec(compile(program, "manual", "exec"), {"__name__": "__main__"})
     for line, told in zip(said.getvalue().splitlines(), PRINTED.findall(program), strict=False):
         for number in re.findall(r"-?\d+\.\d+|True|False", told):
