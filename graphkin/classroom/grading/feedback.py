@@ -14,6 +14,7 @@ from graphkin.classroom.grading.graded import (
     THOUSANDS,
     WITHHELD,
     Decision,
+    EarnedCause,
     EarnedMark,
     Graded,
     Status,
@@ -76,7 +77,7 @@ POWERS = {"²": "^2"}
 
 
 class FeedbackRow(Struct, frozen=True):
-    """One field: its cells in the order of ``COLUMNS``, the reason, and the status."""
+    """One field or cause: its cells in the order of ``COLUMNS``, the reason, and the status."""
 
     cells: tuple[str, ...]
     why: str
@@ -84,12 +85,20 @@ class FeedbackRow(Struct, frozen=True):
 
 
 def rows(graded: Graded, words: Words) -> list[FeedbackRow]:
-    """A row for each field that earns points.
+    """A row for each field that earns points, and one for each cause that costs points.
 
     Where nothing was handed in, only fields with a decision have a row.
     """
     told = (mark for mark in graded.marks if graded.present or mark.decision is not None)
-    return [row_of(graded, mark, words) for mark in told if mark.points]
+    fields = [row_of(graded, mark, words) for mark in told if mark.points]
+    return [*fields, *(cause_row(each, words) for each in graded.causes if each.cost)]
+
+
+def cause_row(cause: EarnedCause, words: Words) -> FeedbackRow:
+    """The row of a cause: what it was, and what it costs."""
+    cost = f"−{points_words(cause.cost, words)}"
+    cells = (words("feedback.mistake"), "", "", "", "", cost)
+    return FeedbackRow(cells, words(f"cause.{cause.name}"), Status.CAUSE)
 
 
 def row_of(graded: Graded, mark: EarnedMark, words: Words) -> FeedbackRow:
@@ -314,7 +323,8 @@ def cause_words(graded: Graded, words: Words) -> list[str]:
     names = [cause.name for cause in graded.causes]
     if not names or not is_shown(graded):
         return []
-    cost = points_words(graded.cost, words)
+    own = (mark.points - mark.earned for mark in graded.marks if mark.status is Status.CAUSE)
+    cost = points_words(graded.cost + sum(own), words)
     told = [words(f"cause.{name}") for name in names]
     if len(names) == 1:
         parts = [words("feedback.one_mistake", cost=cost, cause=told[0])]

@@ -14,7 +14,7 @@ from msgspec.structs import replace
 from graphkin.classroom.grading.answer_numbers import read_answer
 from graphkin.classroom.grading.causes import Variants
 from graphkin.classroom.grading.class_marking import graded_class
-from graphkin.classroom.grading.feedback import notes
+from graphkin.classroom.grading.feedback import notes, points_words, rows
 from graphkin.classroom.grading.graded import Answer
 from graphkin.classroom.grading.readings import FormFields
 from graphkin.text import words
@@ -72,6 +72,8 @@ def test_all_senses_reversed_are_worth_no_more_than_blank_ones():
     found = marker.mark(taker(), {**key, **other})
     assert [cause.name for cause in found.causes] == ["sense_reversed"]
     assert found.earned <= blank
+    lost = points_words(found.points - found.earned, words("en"))
+    assert notes(found, words("en"))[0].startswith(f"One mistake, −{lost} points")
 
 
 def test_a_named_cause_never_costs_more_than_the_same_values_unexplained():
@@ -87,6 +89,13 @@ def test_feedback_begins_with_the_mistake_in_every_language():
         assert notes(graded, words(language))[0].startswith(start)
     text = notes(graded, words("en"))[0]
     assert "diameter" in text and text.endswith("Everything else follows from it.")
+
+
+def test_the_points_of_the_table_add_up_to_the_mark():
+    for lab, name in SLICE[:3]:
+        for graded, _ in a_class(lab, CAUSES[name], 1, count=2):
+            told = [row.cells[-1].split(" ")[0] for row in rows(graded, words("en"))]
+            assert sum(float(each.replace("−", "-")) for each in told) == float(graded.earned)
 
 
 def keys_of(count: int) -> tuple[list, dict[str, Mapping[str, Answer]]]:
