@@ -14,7 +14,7 @@ from typing import Any
 from msgspec.structs import replace
 
 from graphkin.accuracy.pencil.original import original
-from graphkin.accuracy.pencil.pencil import Pencil
+from graphkin.accuracy.pencil.pencil import Pencil, PencilMark
 from graphkin.classroom.grading.standard import FormLayout, Standard, alike, layout, pencil_errors
 from graphkin.classroom.lab.lab_model import Item, Rubric
 from graphkin.classroom.lab.variant_scales import Scaling, by_arrays, scaled
@@ -78,9 +78,14 @@ def standards(
 
 
 def blocks(found: Sequence[Standard]) -> Iterator[list[int]]:
-    """The indices of variants that draw the same, with at most ``DRAWINGS`` drawings together."""
+    """The indices of variants that draw the same, with at most ``DRAWINGS`` drawings together.
+
+    Variants with groups of higher class are left out: these are closed for each variant alone.
+    """
     for places in alike(found):
         marks = found[places[0]].exact.marks.values()
+        if PencilMark.CLOSING in marks:
+            continue
         size = max(1, DRAWINGS // (2 * sum(mark.errors for mark in marks) or 1))
         yield from (places[i : i + size] for i in range(0, len(places), size))
 
