@@ -203,7 +203,7 @@ def quiz(
     Writes LAB-moodle.xml (question bank, import, Moodle XML) with a category for each fair variant.
     A category has one question with embedded answers: the task as pictures and as a PDF to print at
     100 %, and a gap for each field, with the tolerance of that variant's own drawing. A gap also
-    accepts the results of slips, each with its share of the points (lab.toml) and a sentence of
+    accepts the results of causes, each with what the cause leaves (lab.toml) and a sentence of
     feedback. Only graphkin grade can recognise what follows from a student's own wrong values.
 
     \b

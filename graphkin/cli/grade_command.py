@@ -135,9 +135,10 @@ def grade(  # noqa: PLR0915
     be read, or that is signed with the id of another student. All other answers are marked.
 
     The tolerance of a value is the error of a careful pencil in that student's own drawing;
-    tolerances.csv lists the tolerances. A value that is wrong by the key is compared with what
-    follows from the student's own earlier values, and with slips known by name. Writes marks.csv, a
-    feedback page for each student and a report on the class, and fills in gradebooks.
+    tolerances.csv lists the tolerances. A sheet with wrong values is first explained as a whole: a
+    cause that is known by name costs once, and everything that agrees with it is right. Any other
+    wrong value is compared with what follows from the student's own earlier values. Writes
+    marks.csv, a feedback page for each student and a report on the class, and fills in gradebooks.
 
     You have the last word: REPORT/decisions.csv is yours and is never overwritten. Its columns are
     id;field;points;reason. A row sets the points of a field, or of the whole form (total). Without

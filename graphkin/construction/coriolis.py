@@ -17,6 +17,7 @@ from graphkin.construction.core.component import (
     Measured,
     OwnSizes,
     Size,
+    Slip,
     TriangleComponent,
 )
 from graphkin.construction.core.drawn_scene import NOISE, Drawing
@@ -125,7 +126,11 @@ class CoriolisComponent(TriangleComponent, frozen=True, kw_only=True):
         ),
         ByHand.LAID_OFF,
     )
-    slips: ClassVar[Mapping[str, complex]] = {"coriolis_missing": 0, "coriolis_reversed": -1}
+    slips: ClassVar[Mapping[str, Slip]] = {
+        "coriolis_missing": Slip(0, "serious"),
+        "coriolis_reversed": Slip(-1, "moderate"),
+        "coriolis_halved": Slip(0.5, "moderate"),
+    }
     palette: ClassVar[PaletteAction] = PaletteAction(
         "coriolis",
         (("rate", ("rate",)), ("velocity", ("arrow",))),

@@ -12,14 +12,13 @@ from math import cos, hypot, pi, radians, sin
 import pytest
 from msgspec.structs import replace
 
-from graphkin.classroom.grading.slips import times_as_far
 from graphkin.cli.report.solution_record import record
 from graphkin.construction.core.solution import Solution
 from graphkin.documents.centre_tables import breadth_of, place_of
 from graphkin.documents.sentences import sentences
 from graphkin.documents.sheet_documents import drawings_of
 from graphkin.mechanism import Mechanism
-from graphkin.numbers.plane import cross
+from graphkin.numbers.plane import Ratio, cross
 from graphkin.text import words
 from tests.mechanisms import mechanism_of
 from tests.scene_files import scene_text
@@ -162,8 +161,9 @@ def test_the_loops_find_a_centre_out_that_is_a_little_off():
     mechanism = four_bar()
     solution = mechanism.solve()
     own = solution.points["P"]
+    start, shift, size = own.curvature_centre
     for times in (1 + 1e-6, -1, 1 + 1e-6j):
-        wrong = replace(own, curvature_centre=times_as_far(own.curvature_centre, times))
+        wrong = replace(own, curvature_centre=Ratio(start, times * shift, size))
         points = {**solution.points, "P": wrong}
         assert not mechanism.witness(replace(solution, points=points)).agrees
 

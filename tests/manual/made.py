@@ -1,4 +1,4 @@
-"""The parts of the manual that the program writes: commands, Python, fields, slips, gallery.
+"""The parts of the manual that the program writes: commands, Python, fields, causes, gallery.
 
 A page holds such a part between ``<!-- made: NAME -->`` and ``<!-- end -->``.
 """
@@ -16,7 +16,7 @@ from typing import Any
 
 import click
 
-from graphkin.classroom.lab.new_lab import kinds, slips
+from graphkin.classroom.lab.new_lab import causes, kinds
 from graphkin.cli.main import app
 from graphkin.diagnosis.effects import effects
 from graphkin.documents.scaling import sheet_motion
@@ -85,9 +85,9 @@ def fields_table() -> str:
     return table(("field", "meaning"), kinds())
 
 
-def slips_table() -> str:
+def causes_table() -> str:
     """Every slip that is known by name."""
-    return table(("slip", "what the student did"), slips())
+    return table(("cause", "what the student did"), causes())
 
 
 def commands() -> str:
@@ -263,6 +263,6 @@ MAKERS = {
     "fields": fields_table,
     "gallery": gallery,
     "python": python,
-    "slips": slips_table,
+    "causes": causes_table,
 }
 """The function that writes each part."""

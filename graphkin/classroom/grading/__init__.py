@@ -1,1 +1,1 @@
-"""Marks answers against each student's own drawing: tolerances, follow-through, slips."""
+"""Marks answers against each student's own drawing: tolerances, causes, follow-through."""

@@ -9,9 +9,11 @@ from functools import cached_property, partial
 from msgspec import Struct, field
 from msgspec.structs import replace
 
+from graphkin.classroom.grading.class_look import look_at_class
 from graphkin.classroom.grading.class_standards import standards
 from graphkin.classroom.grading.copied_answers import copies, wrong_variants
 from graphkin.classroom.grading.decisions import by_student, settled, with_decisions
+from graphkin.classroom.grading.explanations import CauseWay, SheetCauses, ways_of
 from graphkin.classroom.grading.graded import (
     WAITING,
     Answer,
@@ -21,9 +23,10 @@ from graphkin.classroom.grading.graded import (
     Result,
     Status,
 )
-from graphkin.classroom.grading.marking import Marker
-from graphkin.classroom.grading.slips import Slip
+from graphkin.classroom.grading.marking import FirstLook, Marker, explained, unread_left_out
+from graphkin.classroom.grading.others_data import with_others_data
 from graphkin.classroom.grading.standard import Expectation, standard
+from graphkin.classroom.lab.cause_names import ANOTHER
 from graphkin.classroom.lab.items import items
 from graphkin.classroom.lab.lab_model import Item, Lab
 from graphkin.classroom.printing.workers import chunks, engine
@@ -34,8 +37,8 @@ from graphkin.text.errors import GraphkinError, Problem, Refusals
 
 Variant = tuple[tuple[tuple[str, str], ...], tuple[str, ...]]
 Given = Mapping[str, Answer]
-KEPT = 64
-"""The most variants whose constructions are kept. A class with a formula has few variants."""
+KEPT = 256
+"""The most variants whose constructions are kept, and the most students explained together."""
 
 
 class Book(Struct, dict=True):
@@ -85,15 +88,15 @@ class Book(Struct, dict=True):
         """The expected answers to a student's variant."""
         return self.marker(taker.settings, taker.compute).standard.expectation
 
-    def slips(self, graded: Graded) -> tuple[Slip, ...]:
-        """The slips with a student's data."""
-        return self.marker(graded.taker.settings, graded.taker.compute).slips
+    def marker_of(self, taker: Taker) -> Marker:
+        """The marker for a student's variant."""
+        return self.marker(taker.settings, taker.compute)
 
-    def mark(self, taker: Taker, answers: Given | None) -> tuple[Graded, Expectation]:
-        """The marks of one student and the expected answers; ``answers`` is None where absent."""
-        marker = self.marker(taker.settings, taker.compute)
-        graded = marker.mark(taker, answers or {}, answers is not None)
-        return graded, marker.standard.expectation
+    def ways(self, graded: Graded) -> tuple[CauseWay, ...]:
+        """The ways of working with a student's data and one cause, or those that were found."""
+        marker = self.marker_of(graded.taker)
+        first = marker.first_look({mark.item.field: mark.answer for mark in graded.marks})
+        return ways_of(marker.standard, unread_left_out(first), frozenset(first.wrong))
 
 
 class Marked(Struct, frozen=True):
@@ -106,19 +109,6 @@ class Marked(Struct, frozen=True):
     graded: Graded | None = None
     expected: Expectation | None = None
     problems: tuple[Problem, ...] = ()
-
-
-def marked(book: Book, taker: Taker, answers: Given | None) -> Marked:
-    """The marks of one student, with any problem of the answers or the variant."""
-    who, refusals, found = taker.student.id, Refusals(), Marked()
-    waiting = dict.fromkeys((item.field for item in book.form), WAITING)
-    for given in (answers, waiting):
-        with refusals.alone(who):
-            graded, expected = book.mark(taker, given)
-            found = Marked(graded, expected)
-        if found.graded is not None:
-            break
-    return replace(found, problems=tuple(dict.fromkeys(refusals.found.get(who, ()))))
 
 
 def variant(settings: Mapping[str, str], computed: tuple[str, ...]) -> Variant:
@@ -154,18 +144,19 @@ def graded_class(
         raise GraphkinError(p for problems in refusals.found.values() for p in problems)
     graded = [each for each, _ in found]
     expected = shared(found)
-    others = wrong_variants(graded, expected, book.slips, refusals.alone)
-    twice = copies(graded, expected, book.slips, refusals.alone)
-    fits = {each.students[0]: each.fields for each in others}
-    flagged = {*fits, *(who for each in twice for who in each.students)}
+    look_at_class(graded, expected)
+    twice = copies(graded, expected, book.ways, refusals.alone)
+    copied = {who for each in twice for who in each.students}
+    graded = with_others_data(book, graded, expected, copied, refusals.alone)
+    others = wrong_variants(graded, expected, book.ways, refusals.alone)
+    flagged = {*(each.students[0] for each in others), *copied}
     free = settled(decisions).union(released)
     held = flagged.difference(free) if book.lab.rubric.hold else set()
+    fits = {each.students[0]: each.fields for each in others}
     graded = [
-        replace(
-            unguessed(each, fits[who]) if (who := each.taker.student.id) in fits else each,
-            held=who in held,
-        )
+        replace(unfollowed(each, fits.get(who, ())), held=who in held)
         for each in graded
+        for who in [each.taker.student.id]
     ]
     own = by_student(decisions)
     graded = [with_decisions(each, own.get(each.taker.student.id, ())) for each in graded]
@@ -173,28 +164,17 @@ def graded_class(
     return Result(tuple(graded), others, twice, open_yet, tuple(expected), refusals.found)
 
 
-def unguessed(graded: Graded, fits: Sequence[str]) -> Graded:
-    """The marks of a student whose answers fit another student's data in some fields.
+def unfollowed(graded: Graded, fits: Sequence[str]) -> Graded:
+    """The marks of a student, without follow-through where answers fit another student's data."""
+    if not fits or any(cause.name == ANOTHER for cause in graded.causes):
+        return graded
 
-    In these fields nothing follows from the student's own values. Slips that fit by chance and
-    earned nothing are dropped.
-    """
-    return replace(graded, marks=tuple(unfollowed(without_slip(m), fits) for m in graded.marks))
+    def without(mark: EarnedMark) -> EarnedMark:
+        if mark.status is not Status.FOLLOWS or mark.item.sized not in fits:
+            return mark
+        return replace(mark, status=Status.WRONG, earned=Fraction(), source="")
 
-
-def unfollowed(mark: EarnedMark, fits: Sequence[str]) -> EarnedMark:
-    """A mark without follow-through where the answer fits another student's data."""
-    if mark.status is not Status.FOLLOWS or mark.item.sized not in fits:
-        return mark
-    return replace(mark, status=Status.WRONG, earned=Fraction(), source="")
-
-
-def without_slip(mark: EarnedMark) -> EarnedMark:
-    """A mark without the name of a slip that earned nothing."""
-    if not mark.slip or (mark.status is Status.SLIP and mark.earned):
-        return mark
-    status = Status.WRONG if mark.status is Status.SLIP else mark.status
-    return replace(mark, slip="", odds=0.0, status=status)
+    return replace(graded, marks=tuple(map(without, graded.marks)))
 
 
 def handed_in(answers: Given | None) -> Given | None:
@@ -220,6 +200,17 @@ def spread(book: Book, every: Sequence[tuple[Taker, Given | None]], jobs: int) -
     return found
 
 
+class SeenSheet(Struct, frozen=True):
+    """A student's variant and answers, before they are marked; without a marker where that fails.
+
+    ``problems`` are those of the variant or of the answers. With problems, all answers wait.
+    """
+
+    marker: Marker | None = None
+    first: FirstLook | None = None
+    problems: tuple[Problem, ...] = ()
+
+
 def mark_all(book: Book, every: Sequence[tuple[Taker, Given | None]]) -> list[Marked]:
     """The marks of some students, ``KEPT`` at a time, since as many variants are kept.
 
@@ -231,8 +222,68 @@ def mark_all(book: Book, every: Sequence[tuple[Taker, Given | None]]) -> list[Ma
         part = every[start : start + KEPT]
         with Refusals().alone("together"):
             book.prepare(taker for taker, _ in part)
-        found += [marked(book, *each) for each in part]
+        looks = [look(book, *each) for each in part]
+        told, faults = explained_all(looks)
+        for i, (taker, answers) in enumerate(part):
+            seen = looks[i] if i not in faults else withheld(book, taker, faults[i])
+            found.append(marked(book, taker, answers is not None, seen, told[i]))
     return found
+
+
+def look(book: Book, taker: Taker, answers: Given | None) -> SeenSheet:
+    """A student's answers by the key; all of them wait where they cannot be marked."""
+    who, refusals = taker.student.id, Refusals()
+    with refusals.alone(who):
+        marker = book.marker_of(taker)
+        marker.standard.expectation  # noqa: B018 - whatever fails, fails here
+        return SeenSheet(marker, marker.first_look(answers or {}))
+    return withheld(book, taker, tuple(refusals.found[who]))
+
+
+def withheld(book: Book, taker: Taker, problems: tuple[Problem, ...]) -> SeenSheet:
+    """A student's sheet whose answers all wait, because of some problems."""
+    who, refusals = taker.student.id, Refusals()
+    waiting = dict.fromkeys((item.field for item in book.form), WAITING)
+    with refusals.alone(who):
+        marker = book.marker_of(taker)
+        marker.standard.expectation  # noqa: B018 - whatever fails, fails here
+        return SeenSheet(marker, marker.first_look(waiting), problems)
+    return SeenSheet(problems=tuple(dict.fromkeys((*problems, *refusals.found[who]))))
+
+
+def explained_all(
+    looks: Sequence[SeenSheet],
+) -> tuple[list[SheetCauses | None], dict[int, tuple[Problem, ...]]]:
+    """The explanations of some students, and the problems of those that cannot be explained.
+
+    Where some cannot be had together, each is explained alone.
+    """
+    known = [(i, (e.marker, e.first)) for i, e in enumerate(looks) if e.marker and e.first]
+    found: list[SheetCauses | None] = [None] * len(looks)
+    refusals = Refusals()
+    with refusals.alone("together"):
+        for (i, _), each in zip(known, explained([sheet for _, sheet in known]), strict=True):
+            found[i] = each
+    for i, sheet in known if refusals.found else ():
+        with refusals.alone(str(i)):
+            (found[i],) = explained([sheet])
+    faults = {i: tuple(refusals.found[str(i)]) for i, _ in known if str(i) in refusals.found}
+    return found, faults
+
+
+def marked(
+    book: Book, taker: Taker, present: bool, seen: SeenSheet, why: SheetCauses | None
+) -> Marked:
+    """The marks of one student; all answers wait where they cannot be marked."""
+    if seen.marker is None or seen.first is None:
+        return Marked(problems=seen.problems)
+    who, refusals = taker.student.id, Refusals()
+    with refusals.alone(who):
+        graded = seen.marker.graded(taker, seen.first, why, present)
+        return Marked(graded, seen.marker.standard.expectation, seen.problems)
+    if seen.problems:
+        return Marked(problems=(*seen.problems, *refusals.found[who]))
+    return marked(book, taker, present, withheld(book, taker, tuple(refusals.found[who])), None)
 
 
 def shared(found: Iterable[tuple[Graded, Expectation]]) -> list[Expectation]:

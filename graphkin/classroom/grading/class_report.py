@@ -1,4 +1,4 @@
-"""The report on a class for the lecturer: points, difficulty, slips and evidence in one file."""
+"""The report on a class for the lecturer: points, difficulty, causes and evidence in one file."""
 
 from __future__ import annotations
 
@@ -10,9 +10,9 @@ from statistics import mean, median
 from textwrap import wrap
 from typing import TYPE_CHECKING, Any
 
-from graphkin.classroom.grading.answer_numbers import beyond_number, shown_cell
+from graphkin.classroom.grading.answer_numbers import beyond_number, rounding, shown_cell
 from graphkin.classroom.grading.answers import Answers, Unread
-from graphkin.classroom.grading.feedback import SLIPS, points_words
+from graphkin.classroom.grading.feedback import points_words
 from graphkin.classroom.grading.feedback import unread as unread_words
 from graphkin.classroom.grading.graded import (
     SURE,
@@ -37,7 +37,7 @@ if TYPE_CHECKING:
 FILLS = {
     Status.RIGHT: ("class.right", "#2b8a5b", ""),
     Status.FOLLOWS: ("class.follows", "#9bc8ae", ""),
-    Status.SLIP: ("class.slip", "#e0b04c", "//"),
+    Status.CAUSE: ("class.cause", "#e0b04c", "//"),
     Status.WRONG: ("class.wrong", "#c8501e", ""),
     Status.UNREADABLE: ("class.unreadable", "#8a4fa3", "xx"),
     Status.BLANK: ("class.blank", "#dfe5ea", ""),
@@ -47,9 +47,9 @@ WIDTH = 7.2
 BARS = 10
 """The number of classes of points, in percent."""
 MOST = 12
-"""The most slips shown."""
+"""The most causes shown."""
 ACROSS = 92
-"""The most characters in a line of a slip's sentence above its bar."""
+"""The most characters in a line of a cause's sentence above its bar."""
 BAR, LINE, APART, INCH = 0.5, 0.55, 0.4, 0.27
 """The heights of a bar, of a line of text and of the gap below a bar; inches per unit of height."""
 
@@ -59,7 +59,7 @@ def pictures(
 ) -> dict[str, bytes]:
     """Each picture by its name, as SVG or PNG; the same marks give the same bytes.
 
-    ``own`` are the students among whom slips are counted; by default all who are present.
+    ``own`` are the students among whom causes are counted; by default all who are present.
     """
     present = [each for each in graded if each.present]
     found: dict[str, bytes] = {}
@@ -67,9 +67,9 @@ def pictures(
         if present:
             found["difficulty"] = figure_file(difficulty(present, words), kind)
             found["distribution"] = figure_file(distribution(present, words), kind)
-        slipped = present if own is None else own
-        if slip_counts(slipped):
-            found["slips"] = figure_file(frequent(slipped, words), kind)
+        among = present if own is None else own
+        if cause_counts(among):
+            found["causes"] = figure_file(frequent(among, words), kind)
     return found
 
 
@@ -80,7 +80,7 @@ def figure(height: float) -> tuple[Figure, Any]:
 
 
 def difficulty(graded: Sequence[Graded], words: Words) -> Figure:
-    """Draw the share of answers to each field that are right, followed, slips, wrong or missing."""
+    """Draw the share of answers to each field that are right, followed, caused, wrong or blank."""
     found: dict[str, list[EarnedMark]] = {}
     for each in graded:
         for mark in worth(each):
@@ -148,22 +148,23 @@ def distribution(graded: Sequence[Graded], words: Words) -> Figure:
     return drawn
 
 
-def slip_counts(graded: Sequence[Graded]) -> list[tuple[str, int, int]]:
-    """Each slip with the answers and the students it explains, the most frequent first."""
+def cause_counts(graded: Sequence[Graded]) -> list[tuple[str, int, int]]:
+    """Each cause with the answers and the students it explains, the most frequent first."""
     answers: Counter[str] = Counter()
     students: Counter[str] = Counter()
     for each in graded:
-        names = [mark.slip for mark in each.marks if mark.slip and mark.points]
-        answers.update(names)
-        students.update(set(names))
+        explained = sum(mark.status is Status.CAUSE for mark in worth(each))
+        for cause in each.causes:
+            answers[cause.name] += explained
+            students[cause.name] += 1
     order = sorted(students, key=lambda name: (-students[name], -answers[name], name))
     return [(name, answers[name], students[name]) for name in order]
 
 
 def frequent(graded: Sequence[Graded], words: Words) -> Figure:
-    """Draw how many students made each slip."""
-    counts = slip_counts(graded)[:MOST]
-    texts = [wrap(plain(words(SLIPS[name])), ACROSS) for name, _, _ in counts]
+    """Draw how many students made each mistake."""
+    counts = cause_counts(graded)[:MOST]
+    texts = [wrap(plain(words(f"cause.{name}")), ACROSS) for name, _, _ in counts]
     places, height = stacked([len(lines) for lines in texts])
     drawn, ax = figure(0.7 + INCH * height)
     ax.barh(places, [c[2] for c in counts], height=BAR, color="#e0b04c")
@@ -227,9 +228,11 @@ def class_report(
         title=title,
         summary=summary(result.graded, words),
         pictures={name: b64encode(png).decode("ascii") for name, png in pngs.items()},
-        slips=[(words(SLIPS[name]), *counts) for name, *counts in slip_counts(own)],
+        causes=[(words(f"cause.{name}"), *counts) for name, *counts in cause_counts(own)],
         wrong_variants=list(wrong_variant_lines(result, words)),
         copies=[copies_words(each, names, words) for each in result.copies],
+        others=list(another_lines(result, words)),
+        computed=list(computed_lines(result, words)),
         held=held_line(result, words),
         decisions=list(decision_lines(result, words)),
         requests=list(request_lines(result, words)),
@@ -244,7 +247,7 @@ def class_report(
 def own_work(result: Result) -> list[Graded]:
     """The students who handed in answers that fit no other student's data.
 
-    Slips are counted among these.
+    Causes are counted among these.
     """
     others = {each.students[0] for each in result.wrong_variants}
     return [g for g in result.graded if g.present and g.taker.student.id not in others]
@@ -280,6 +283,36 @@ def wrong_variant_lines(result: Result, words: Words) -> Iterator[str]:
         key = "class.ruled" if any(not own.is_open for own in each.decisions) else key
         text += f"; {words(key, earned=earned, points=points)}"
         yield f"{text}, {words('class.spared', spared=spared)}" if each.spared else text
+
+
+def another_lines(result: Result, words: Words) -> Iterator[str]:
+    """A sentence for each sheet drawn from other data than the student's own."""
+    names = names_of(result)
+    for each in result.graded:
+        for cause in each.causes:
+            if cause.whose:
+                other = some([names.get(who, who) for who in cause.whose], words)
+                cost = points_words(cause.cost, words)
+                yield words(
+                    "class.another_row", who=each.taker.student.called, other=other, cost=cost
+                )
+
+
+def computed_lines(result: Result, words: Words) -> Iterator[str]:
+    """A sentence for each student whose lengths are exact: they were computed, not drawn."""
+    for each in result.graded:
+        sizes = [m for m in each.marks if m.item.what in ("segment", "value") and m.answer.is_read]
+        exact = [m for m in sizes if m.expected and is_exact(m)]
+        if len(sizes) > 2 and len(exact) > 0.7 * len(sizes):
+            counts = {"count": len(exact), "all": len(sizes)}
+            yield words("class.computed_row", who=each.taker.student.called, **counts)
+
+
+def is_exact(mark: EarnedMark) -> bool:
+    """Whether an answer of four digits or more agrees with the key to the last digit."""
+    digits = sum(sign.isdigit() for sign in mark.answer.text.strip("0.,"))
+    rounded = rounding(mark.answer) * abs(mark.expected)
+    return digits >= 4 and abs(mark.off or 0.0) <= 1.01 * max(rounded, 1e-9)
 
 
 def held_line(result: Result, words: Words) -> str:
@@ -419,6 +452,7 @@ def result_lines(result: Result, words: Words) -> Iterator[str]:
     yield from wrong_variant_lines(result, words)
     for each in result.copies:
         yield copies_words(each, names, words)
+    yield from another_lines(result, words)
     held = held_line(result, words)
     if held:
         yield held

@@ -7,7 +7,7 @@ are made for a block of variants at once, with an axis for the variants.
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from functools import cached_property
 from typing import Any
 
@@ -15,7 +15,7 @@ from msgspec.structs import replace
 
 from graphkin.accuracy.pencil.original import original
 from graphkin.accuracy.pencil.pencil import Pencil, PencilMark
-from graphkin.classroom.grading.standard import FormLayout, Standard, layout, pencil_errors
+from graphkin.classroom.grading.standard import FormLayout, Standard, alike, layout, pencil_errors
 from graphkin.classroom.lab.lab_model import Item, Rubric
 from graphkin.classroom.lab.variant_scales import Scaling, by_arrays, scaled
 from graphkin.construction.core.program import Program, Step
@@ -70,11 +70,24 @@ def standards(
         for mechanism, scale, (_, computed) in zip(own, chosen, many, strict=True)
     ]
     pencil = Pencil(rubric.point, rubric.line)
-    for places in alike(found):
+    for places in blocks(found):
         errors = pencil_errors([found[i].readings for i in places], pencil)
         for i, each in zip(places, errors, strict=True):
             found[i] = replace(found[i], errors=each)
     return found
+
+
+def blocks(found: Sequence[Standard]) -> Iterator[list[int]]:
+    """The indices of variants that draw the same, with at most ``DRAWINGS`` drawings together.
+
+    Variants with groups of higher class are left out: these are closed for each variant alone.
+    """
+    for places in alike(found):
+        marks = found[places[0]].exact.marks.values()
+        if PencilMark.CLOSING in marks:
+            continue
+        size = max(1, DRAWINGS // (2 * sum(mark.errors for mark in marks) or 1))
+        yield from (places[i : i + size] for i in range(0, len(places), size))
 
 
 def single(
@@ -171,26 +184,3 @@ def all_scales(usual: Mechanism, own: Sequence[Mechanism]) -> list[Scales]:
 def as_sheet(mechanism: Mechanism, found: Scales) -> Scales:
     """Scale factors equal to the last digit to those of a single sheet, set by one crank."""
     return replace(found, seconds=found.of_crank / the_crank(mechanism))
-
-
-# --- the pencil -------------------------------------------------------------------------------
-
-
-def alike(found: Sequence[Standard]) -> list[list[int]]:
-    """The indices of variants that draw the same, in groups of at most ``DRAWINGS`` drawings.
-
-    Variants with groups of higher class are left out: these are closed for each variant alone.
-    """
-    groups: dict[Any, list[int]] = {}
-    for i, each in enumerate(found):
-        exact = each.exact
-        if PencilMark.CLOSING not in exact.marks.values():
-            kinds = tuple((number, type(value)) for number, value in exact.trace.values.items())
-            key = (id(each.layout), exact.triangles, kinds, tuple(exact.tails.items()))
-            groups.setdefault(key, []).append(i)
-    parts = []
-    for places in groups.values():
-        first = found[places[0]].exact
-        size = max(1, DRAWINGS // (2 * sum(mark.errors for mark in first.marks.values()) or 1))
-        parts += [places[i : i + size] for i in range(0, len(places), size)]
-    return parts

@@ -1,7 +1,7 @@
 """Evidence for the lecturer: answers that fit another student's data, or equal another's digits.
 
 Both are judged by how closely all the answers together agree with either key: as closely as one
-pencil explains, or to the last digit. A slip that runs through the whole drawing gives a further
+pencil explains, or to the last digit. A cause that runs through the whole drawing gives a further
 key of the student's own: an angle laid off clockwise may be another student's angle. The other
 students of the class matter only by their number.
 """
@@ -18,7 +18,7 @@ from typing import Any
 from msgspec import Struct
 from msgspec.structs import replace
 
-from graphkin.classroom.grading.follow_through import SPAN
+from graphkin.classroom.grading.explanations import CauseWay
 from graphkin.classroom.grading.graded import Graded, Status, Suspicion
 from graphkin.classroom.grading.keys import Keys, distinct, read_of
 from graphkin.classroom.grading.likelihood import (
@@ -29,13 +29,14 @@ from graphkin.classroom.grading.likelihood import (
     likelihood_if_drawn,
     told_odds,
 )
-from graphkin.classroom.grading.slip_diagnosis import SHARE, share
-from graphkin.classroom.grading.slips import UNITS_TAKEN, Slip
 from graphkin.classroom.grading.standard import Expectation
+from graphkin.classroom.lab.cause_names import ANOTHER
 from graphkin.numbers.arithmetic import np
 
 FEW = 3
 """The fewest values that determine a scale."""
+SHARE = 1 / 20
+"""How frequent a cause is, or a scale of one's own."""
 ODD = 1.25
 """The least factor, up or down, by which a student's scale differs from the right one."""
 
@@ -82,20 +83,14 @@ def by_own_scales(answers: Any, keys: Keys, variant: int, read: Any) -> Iterator
         yield OwnWay(sizes * times, times, log(SHARE))
 
 
-def by_slips(slips: Iterable[Slip], keys: Keys, variant: int) -> Iterator[OwnWay]:
-    """The ways of some slips.
-
-    The error of a value grows with the value that a slip makes of it.
-    """
-    right = keys.standards[variant].key
-    for slip in slips:
-        told = np.array([slip.values.get(field, right[field]) for field in keys.fields])
+def by_causes(ways: Iterable[CauseWay], keys: Keys) -> Iterator[OwnWay]:
+    """The ways of some causes; the error of a value grows with the value that a cause makes."""
+    for way in ways:
+        told = np.array([way.values[field] for field in keys.fields])
         sizes = np.where(keys.places, told, abs(told))
-        with np.errstate(divide="ignore", invalid="ignore"):
-            times = np.nan_to_num(sizes / keys.sizes[variant], nan=1.0, posinf=1.0)
-        if slip.whole and slip.name not in UNITS_TAKEN:
-            times = np.clip(times, *SPAN)
-        yield OwnWay(sizes, np.where(keys.places, 1.0, times), log(share(slip)))
+        times = np.array([way.times[field] for field in keys.fields])
+        if np.isfinite(sizes).all() and np.isfinite(times).all():
+            yield OwnWay(sizes, times, len(way.names) * log(SHARE))
 
 
 def from_own_values(graded: Graded, answers: Any, keys: Keys, variant: int) -> Iterator[OwnWay]:
@@ -114,17 +109,12 @@ def from_own_values(graded: Graded, answers: Any, keys: Keys, variant: int) -> I
 
 STRONG = 1000.0
 """The least odds at which a wrong variant is reported, after correction for all comparisons."""
-EXPLAINED = 1000.0
-"""The least odds at which a slip explains an answer.
-
-Such an answer is no evidence, unless its digits agree with the other key.
-"""
 TRIED = 3
 """The number of variants compared closely: those nearest to the answers taken singly."""
 
 
-Slips = Callable[[Graded], Sequence[Slip]]
-"""The slips with a student's data."""
+Ways = Callable[[Graded], Sequence[CauseWay]]
+"""The ways of working with a student's data and one cause, or the causes that were found."""
 
 
 Alone = Callable[[str], AbstractContextManager[None]]
@@ -136,21 +126,21 @@ def together(unit: str) -> AbstractContextManager[None]:
     return nullcontext()
 
 
-def no_slips(graded: Graded) -> Sequence[Slip]:
+def no_ways(graded: Graded) -> Sequence[CauseWay]:
     return ()
 
 
 def wrong_variants(
     graded: Sequence[Graded],
     standards: Sequence[Expectation],
-    slips: Slips = no_slips,
+    ways: Ways = no_ways,
     alone: Alone = together,
 ) -> tuple[Suspicion, ...]:
     """Students whose answers fit another student's data.
 
     Each suspicion names the student and the owners of the data, the fields and the odds.
     ``standards`` holds the expectation of each student, in the same order, including students who
-    handed in nothing. ``slips`` is called only for students who would be named without it.
+    handed in nothing. ``ways`` is called only for students who would be named without it.
     """
     if not standards or len(standards[0].tolerance) < FEW:
         return ()
@@ -168,7 +158,7 @@ def wrong_variants(
         best = None
         with alone(each.taker.student.id):
             best = best_other(each, keys, place, enough) if tells else None
-            if best is not None and (known := [slip for slip in slips(each) if slip.whole]):
+            if best is not None and (known := ways(each)):
                 best = best_other(each, keys, place, enough, known)
         if best is not None:
             ids = (each.taker.student.id, *theirs[best.other])
@@ -190,21 +180,21 @@ class Best(Struct, frozen=True):
 
 
 def best_other(
-    graded: Graded, keys: Keys, mine: int, enough: float, slips: Sequence[Slip] = ()
+    graded: Graded, keys: Keys, mine: int, enough: float, known: Sequence[CauseWay] = ()
 ) -> Best | None:
     """The other variant that a student's answers fit best; None where none fits clearly better.
 
-    The comparison is with the student's own variant, alone or with one of the slips. ``enough`` is
+    The comparison is with the student's own variant, alone or by a known way. ``enough`` is
     the least odds, as a logarithm.
     """
     answers, digits = read_of(graded, keys)
     marks = {mark.item.field: mark for mark in graded.marks}
-    explained = np.array([marks[field].odds >= EXPLAINED for field in keys.fields])
+    explained = np.array([marks[field].cause not in ("", ANOTHER) for field in keys.fields])
     found = None
     for other in nearest(answers, digits, keys, mine):
         agree = abs(answers - keys.sizes[other]) <= 1.01 * digits
-        known = keys.known(mine) & keys.known(other)
-        read = ~np.isnan(answers) & known & (~explained | agree)
+        both = keys.known(mine) & keys.known(other)
+        read = ~np.isnan(answers) & both & (~explained | agree)
         if read.sum() < FEW:
             continue
         given, rounded = answers[read], digits[read]
@@ -212,15 +202,11 @@ def best_other(
         plain = likelihood_if_drawn(given, rounded, keys.key(mine, read), theirs.fits)
         if theirs.likelihood - plain < enough:
             continue
-        ways = (
-            rightly(keys, mine),
-            *by_own_scales(answers, keys, mine, read),
-            *by_slips(slips, keys, mine),
-        )
-        own = max(
-            way.share + fit(given, rounded, way.key(keys, mine, read), theirs.fits).likelihood
-            for way in ways
-        )
+        honest = (rightly(keys, mine), *by_own_scales(answers, keys, mine, read))
+        caused = tuple(by_causes(known, keys))
+        tried = [(way, way.key(keys, mine, read)) for way in (*honest, *caused)]
+        tried += [(way, as_drawn(way, keys, int(other), read)) for way in caused]
+        own = max(way.share + fit(given, rounded, k, theirs.fits).likelihood for way, k in tried)
         odds = theirs.likelihood - own
         fitting = theirs.fits.sum() >= FEW and odds >= enough
         if fitting and (found is None or odds > found.odds):
@@ -228,6 +214,11 @@ def best_other(
             fields = tuple(keys.fields[place] for place in fits)
             found = Best(int(other), fields, int((~np.isnan(answers)).sum()), odds)
     return found
+
+
+def as_drawn(way: OwnWay, keys: Keys, other: int, read: Any) -> Key:
+    """The values of a way, with the errors of a drawing of other data, which looks the same."""
+    return replace(keys.key(other, read), sizes=way.sizes[read])
 
 
 def nearest(answers: Any, digits: Any, keys: Keys, mine: int) -> Any:
@@ -297,13 +288,13 @@ class AnswerSheet(Struct, frozen=True):
 def copies(
     graded: Sequence[Graded],
     standards: Sequence[Expectation],
-    slips: Slips = no_slips,
+    ways: Ways = no_ways,
     alone: Alone = together,
 ) -> tuple[Suspicion, ...]:
     """Students who handed in the same digits: two, or a group.
 
     In a group, any two students share the digits of all named fields; the odds are those of the
-    weakest pair. ``slips`` is called only for students who would be named without it.
+    weakest pair. ``ways`` is called only for students who would be named without it.
     """
     present = [i for i, each in enumerate(graded) if each.present]
     if len(present) < 2:
@@ -341,7 +332,7 @@ def copies(
             odds = odds_of(pair, tuple(chances))
             if odds >= log(STRONG_COPY) and not asked.issuperset(pair):
                 new = [who for who in pair if who not in asked]
-                sheets |= {who: with_slips(sheets[who], graded[who], keys, slips) for who in new}
+                sheets |= {who: with_causes(sheets[who], graded[who], keys, ways) for who in new}
                 asked.update(new)
                 odds = odds_of(pair, tuple(chances))
             fields[pair] = tuple(chances)
@@ -358,7 +349,7 @@ def copies(
 
 
 def sheet(graded: Graded, keys: Keys, variant: int) -> AnswerSheet:
-    """A student's answers as numbers, with the ways of working that need no slips."""
+    """A student's answers as numbers, with the ways of working that need no cause."""
     answers, digits = read_of(graded, keys)
     marks = {mark.item.field: mark for mark in graded.marks}
     wrong = np.array([marks[field].status is not Status.RIGHT for field in keys.fields])
@@ -372,11 +363,11 @@ def sheet(graded: Graded, keys: Keys, variant: int) -> AnswerSheet:
     return AnswerSheet(answers, digits, keys.reading(variant), wrong, variant, ways)
 
 
-def with_slips(each: AnswerSheet, graded: Graded, keys: Keys, slips: Slips) -> AnswerSheet:
-    """A student's sheet, with the ways of the slips that explain some of the answers."""
-    names = {mark.slip for mark in graded.marks if mark.slip}
-    made = [slip for slip in slips(graded) if slip.name in names] if names else ()
-    return replace(each, ways=(*each.ways, *by_slips(made, keys, each.variant)))
+def with_causes(each: AnswerSheet, graded: Graded, keys: Keys, ways: Ways) -> AnswerSheet:
+    """A student's sheet, with the ways of the causes that explain some of the answers."""
+    names = {cause.name for cause in graded.causes}
+    made = [way for way in ways(graded) if names.intersection(way.names)] if names else ()
+    return replace(each, ways=(*each.ways, *by_causes(made, keys)))
 
 
 def agreeing(sheets: Mapping[int, AnswerSheet], keys: Keys) -> dict[Pair, dict[int, float]]:

@@ -14,12 +14,12 @@ from graphkin.classroom.grading.graded import (
     THOUSANDS,
     WITHHELD,
     Decision,
+    EarnedCause,
     EarnedMark,
     Graded,
     Status,
 )
 from graphkin.classroom.lab.lab_model import Rubric
-from graphkin.classroom.lab.slip_names import NAMES
 from graphkin.classroom.printing.personal import printable_name
 from graphkin.construction.core.given_data import set_parameters
 from graphkin.construction.core.quantities import TURNING
@@ -42,7 +42,6 @@ HEADS = {
     "off": "feedback.off",
     "earned": "feedback.earned",
 }
-SLIPS = {name: f"feedback.slip_{name}" for name in NAMES}
 SENSES = {
     (True, True): "feedback.anticlockwise",
     (True, False): "feedback.clockwise",
@@ -65,7 +64,6 @@ UNREAD = {
     WITHHELD: "unread.withheld",
 }
 """The sentence for each reason why a cell cannot be read."""
-REVERSED = "sense_reversed"
 UNTOLD = "…"
 """The text in place of an expected value that is kept back."""
 NEGLIGIBLE = 0.01
@@ -79,7 +77,7 @@ POWERS = {"²": "^2"}
 
 
 class FeedbackRow(Struct, frozen=True):
-    """One field: its cells in the order of ``COLUMNS``, the reason, and the status."""
+    """One field or cause: its cells in the order of ``COLUMNS``, the reason, and the status."""
 
     cells: tuple[str, ...]
     why: str
@@ -87,12 +85,20 @@ class FeedbackRow(Struct, frozen=True):
 
 
 def rows(graded: Graded, words: Words) -> list[FeedbackRow]:
-    """A row for each field that earns points.
+    """A row for each field that earns points, and one for each cause that costs points.
 
     Where nothing was handed in, only fields with a decision have a row.
     """
     told = (mark for mark in graded.marks if graded.present or mark.decision is not None)
-    return [row_of(graded, mark, words) for mark in told if mark.points]
+    fields = [row_of(graded, mark, words) for mark in told if mark.points]
+    return [*fields, *(cause_row(each, words) for each in graded.causes if each.cost)]
+
+
+def cause_row(cause: EarnedCause, words: Words) -> FeedbackRow:
+    """The row of a cause: what it was, and what it costs."""
+    cost = f"−{points_words(cause.cost, words)}"
+    cells = (words("feedback.mistake"), "", "", "", "", cost)
+    return FeedbackRow(cells, words(f"cause.{cause.name}"), Status.CAUSE)
 
 
 def row_of(graded: Graded, mark: EarnedMark, words: Words) -> FeedbackRow:
@@ -197,6 +203,10 @@ def why(graded: Graded, mark: EarnedMark, words: Words) -> str:
         rest = escape(safe(beyond_number(mark.answer.text)))
         reason = unread(mark.answer.problem, unit_markup(mark.item.unit), words, rest)
         return reason if mark.is_ruled else words("feedback.unreadable", why=reason)
+    if mark.status is Status.CAUSE:
+        return words("feedback.caused" if mark.earned else "feedback.lost_sense")
+    if mark.alone:
+        return words("feedback.alone")
     if mark.status is Status.RIGHT and mark.source:
         return words("feedback.right_by", source=graded.mark(mark.source).item.symbol)
     if mark.is_together:
@@ -206,7 +216,9 @@ def why(graded: Graded, mark: EarnedMark, words: Words) -> str:
     if mark.torn:
         return words("feedback.torn")
     if mark.item.what == "sense":
-        parts = [words("feedback.wrong_sense"), *advice(mark, words)]
+        advice = [words("feedback.turning_advice")] if mark.item.quantity in TURNING else []
+        parts: list[str] = [words("feedback.wrong_sense")]
+        parts += advice
     elif mark.status is Status.FOLLOWS:
         parts = []
     elif is_open(graded, mark):
@@ -218,27 +230,7 @@ def why(graded: Graded, mark: EarnedMark, words: Words) -> str:
     elif mark.status is Status.FOLLOWS:
         source = graded.mark(mark.source)
         parts.append(words("feedback.follows", source=source.item.symbol, share=percent(mark)))
-        if mark.slip and mark.slip == source.slip and mark.source != f"{mark.item.field}_mm":
-            parts.append(words("feedback.guess", slip=words(SLIPS[mark.slip])))
-    elif mark.slip and mark.slip != REVERSED:
-        parts.append(words("feedback.guess", slip=words(SLIPS[mark.slip])))
-    if mark.status is Status.SLIP and mark.earned:
-        parts.append(share_words(graded, mark, words))
     return "; ".join(parts)
-
-
-def share_words(graded: Graded, mark: EarnedMark, words: Words) -> str:
-    """The share that a slip leaves: its own the first time, then the share of follow-through."""
-    if not mark.source:
-        return words("feedback.share", share=percent(mark))
-    source = graded.mark(mark.source).item.symbol
-    return words("feedback.again", source=source, share=percent(mark))
-
-
-def advice(mark: EarnedMark, words: Words) -> list[str]:
-    """How to find a sense of turning on the drawing, where it is reversed."""
-    turning = mark.slip == REVERSED and mark.item.quantity in TURNING
-    return [words("feedback.turning_advice")] if turning else []
 
 
 def unread(problem: str, unit: str, words: Words, rest: str = "") -> str:
@@ -326,6 +318,29 @@ def feedback_html(
     return f"{page}\n"
 
 
+def cause_words(graded: Graded, words: Words) -> list[str]:
+    """What explains the sheet, what it cost, where it shows, and whether all else follows."""
+    names = [cause.name for cause in graded.causes]
+    if not names or not is_shown(graded):
+        return []
+    own = (mark.points - mark.earned for mark in graded.marks if mark.status is Status.CAUSE)
+    cost = points_words(graded.cost + sum(own), words)
+    told = [words(f"cause.{name}") for name in names]
+    if len(names) == 1:
+        parts = [words("feedback.one_mistake", cost=cost, cause=told[0])]
+    else:
+        parts = [words("feedback.two_mistakes", cost=cost, cause=told[0], other=told[1])]
+    parts += [words("feedback.mistake_shows", where=words(f"shows.{name}")) for name in names]
+    open_yet = (Status.WRONG, Status.FOLLOWS)
+    left = [mark.item for mark in graded.marks if mark.points and mark.status in open_yet]
+    if not left:
+        parts.append(words("feedback.all_follows" if len(names) == 1 else "feedback.all_follow"))
+    else:
+        fields = ", ".join(dict.fromkeys(item.symbol for item in left))
+        parts.append(words("feedback.not_all", fields=fields))
+    return [" ".join(parts)]
+
+
 def is_shown(graded: Graded) -> bool:
     """Whether a student sees marks: there are some, and they are not held."""
     return graded.is_marked and not graded.held
@@ -342,8 +357,9 @@ def total(graded: Graded, words: Words) -> str:
 
 
 def notes(graded: Graded, words: Words) -> list[str]:
-    """The notes on the whole form: no answers, a decision, held marks, points that wait."""
-    told = [decision_words(graded.decision, words)] if graded.decision is not None else []
+    """The notes on the whole form: its causes, a decision, held marks, points that wait."""
+    told: list[str] = cause_words(graded, words)
+    told += [decision_words(graded.decision, words)] if graded.decision is not None else []
     if not graded.is_marked:
         return [words("feedback.absent"), *told]
     if graded.held:

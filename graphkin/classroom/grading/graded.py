@@ -66,7 +66,7 @@ class Status(Enum):
 
     RIGHT = "right"
     FOLLOWS = "follows"
-    SLIP = "slip"
+    CAUSE = "cause"
     WRONG = "wrong"
     BLANK = "blank"
     UNREADABLE = "unreadable"
@@ -93,13 +93,13 @@ class EarnedMark(Struct, frozen=True):
     ``expected`` is the value in the key, and ``tolerance`` the largest accepted error, in the
     field's unit.
 
-    ``source`` is the field that explains the mark: the answer follows from that field's own value,
-    or its slip was paid for there. A right answer has a source where it is right but not by the
-    key. ``source`` is empty where the student's drawing shows what follows.
+    ``source`` is the field that explains the mark: the answer follows from that field's own value.
+    A right answer has a source where it is right but not by the key. ``source`` is empty where
+    the student's drawing shows what follows.
 
-    ``slip`` is the name of the mistake that gives the answer, and ``odds`` how much better the slip
-    explains it than chance. ``torn`` says that a sense contradicts the sign of its own value.
-    ``decision`` is the lecturer's.
+    ``cause`` names what explains the answer: it is right for a student who made that mistake.
+    ``torn`` says that a sense contradicts the sign of its own value, ``alone`` that a right sense
+    earns nothing, since the size beside it earns nothing. ``decision`` is the lecturer's.
     """
 
     item: Item
@@ -110,9 +110,9 @@ class EarnedMark(Struct, frozen=True):
     expected: float
     tolerance: float
     source: str = ""
-    slip: str = ""
-    odds: float = 0.0
+    cause: str = ""
     torn: bool = False
+    alone: bool = False
     decision: Decision | None = None
 
     @property
@@ -138,11 +138,25 @@ class EarnedMark(Struct, frozen=True):
         return None if value is None else self.item.off(value, self.expected)
 
 
+class EarnedCause(Struct, frozen=True):
+    """A cause that explains a sheet by name, and the points that it costs, once.
+
+    ``odds`` says how much likelier the explanation is than no mistake, as a logarithm. ``whose``
+    are the ids of the students whose data were drawn.
+    """
+
+    name: str
+    cost: Fraction
+    odds: float
+    whose: tuple[str, ...] = ()
+
+
 class Graded(Struct, frozen=True):
     """A student with the mark of each field, in the order of the form.
 
     ``held`` says that the marks are kept back until the lecturer has decided whose answers these
-    are. ``decision`` is the lecturer's on the whole form.
+    are. ``decision`` is the lecturer's on the whole form. ``causes`` explain the sheet, and each is
+    paid once.
     """
 
     taker: Taker
@@ -150,6 +164,7 @@ class Graded(Struct, frozen=True):
     present: bool = True
     held: bool = False
     decision: Decision | None = None
+    causes: tuple[EarnedCause, ...] = ()
 
     @property
     def decisions(self) -> tuple[Decision, ...]:
@@ -167,7 +182,13 @@ class Graded(Struct, frozen=True):
         """The points earned: the sum, or what the lecturer decided for the whole form."""
         if self.decision is not None and self.decision.points is not None:
             return self.decision.points
-        return sum((mark.earned for mark in self.marks), Fraction())
+        whole = sum((mark.earned for mark in self.marks), Fraction())
+        return max(Fraction(), whole - self.cost)
+
+    @property
+    def cost(self) -> Fraction:
+        """The points that the causes cost."""
+        return sum((cause.cost for cause in self.causes), Fraction())
 
     @property
     def points(self) -> Fraction:
@@ -189,10 +210,10 @@ class Graded(Struct, frozen=True):
 
     @property
     def spared(self) -> Fraction:
-        """The points that wrong answers earned by following through or by a slip's share."""
-        known = (Status.FOLLOWS, Status.SLIP)
+        """The points that wrong answers earned by following through or from a cause."""
+        known = (Status.FOLLOWS, Status.CAUSE)
         found = (m.earned for m in self.marks if m.status in known and not m.is_ruled)
-        return sum(found, Fraction())
+        return max(Fraction(), sum(found, Fraction()) - self.cost)
 
     @property
     def share(self) -> Fraction | None:

@@ -15,7 +15,7 @@ from msgspec import Struct, field
 from graphkin.classroom.grading.answers import Sender, Unread, packed_feedback
 from graphkin.classroom.grading.class_report import class_report
 from graphkin.classroom.grading.feedback import feedback_html, feedback_pages
-from graphkin.classroom.grading.graded import Decision, Graded, Result, Status
+from graphkin.classroom.grading.graded import Decision, EarnedCause, Graded, Result, Status
 from graphkin.classroom.grading.standard import Expectation
 from graphkin.classroom.lab.lab_model import Lab
 from graphkin.classroom.printing.file_names import stems
@@ -27,7 +27,7 @@ from graphkin.writers.pdf import write_pdf
 
 BEFORE = (
     *("row", "number", "id", "name", "group", "points", "of", "percent", "pending", "evidence"),
-    "decision",
+    *("decision", "causes", "deducted"),
 )
 WHY = " why"
 FIRST = 5
@@ -49,7 +49,8 @@ def marks_table(result: Result) -> bytes:
     """A row for each student in the order of the class: the points of each field, and why.
 
     ``of`` and ``percent`` refer to the points that are decided; ``pending`` are those that wait.
-    ``evidence`` names whose data the answers fit better, and who has the same values. ``decision``
+    ``evidence`` names whose data the answers fit better, and who has the same values. ``causes``
+    explain the sheet, and ``deducted`` is what they cost. ``decision``
     is the lecturer's on the whole form; those on fields follow the reasons.
 
     For a held student, points and percent are empty. The points of the fields stay, so that the
@@ -85,12 +86,19 @@ def marks_row(graded: Graded, fields: Sequence[str], fits: Mapping[str, list[str
         number(graded.pending) if graded.pending else "",
         "; ".join([*fits.get(student.id, ()), *(["held"] if graded.held else [])]),
         ruling(graded.decision) if graded.decision is not None else "",
+        "; ".join(told_cause(cause) for cause in graded.causes),
+        number(graded.cost) if graded.causes else "",
         *(
             number(marks[name].earned) if name in told and not marks[name].waits else ""
             for name in fields
         ),
         *(reason(graded, name) if name in told else "" for name in fields),
     ]
+
+
+def told_cause(cause: EarnedCause) -> str:
+    """A cause as text: its name, and whose data were drawn."""
+    return f"{cause.name} ({', '.join(cause.whose)})" if cause.whose else cause.name
 
 
 def ruling(decision: Decision) -> str:
@@ -104,18 +112,14 @@ def ruling(decision: Decision) -> str:
 
 
 def reason(graded: Graded, name: str) -> str:
-    """The result of a field as text: right, right from v_BA, follows v_BA_mm, slip rpm_as_rad.
-
-    A slip paid for at another field reads ``slip rpm_as_rad paid at v_D``.
-    """
+    """The result of a field as text: right, right from v_BA, follows v_BA_mm, cause rpm_as_rad."""
     mark = graded.mark(name)
-    source, paid = mark.source, ""
+    source = mark.source
     if mark.status is Status.RIGHT and source:
         source = f"from {source}"
-    if mark.status is Status.SLIP and source:
-        source, paid = "", f"paid at {source}"
     torn = "contradicts its sign" if mark.torn else ""
-    parts = (mark.status.value, source, mark.slip, paid, torn)
+    alone = "without its value" if mark.alone else ""
+    parts = (mark.status.value, source, mark.cause, torn, alone)
     found = " ".join(part for part in parts if part)
     return found if mark.decision is None else f"{found}; {ruling(mark.decision)}"
 

@@ -14,9 +14,12 @@ from typing import Any
 from msgspec import Struct
 
 from graphkin.classroom.grading.graded import SURE
-from graphkin.classroom.grading.slip_diagnosis import ASTRAY, HALF
 from graphkin.numbers.arithmetic import np
 
+HALF = log(2.0)
+"""Half of all mistakes lie within this of the right value, in natural logarithms."""
+ASTRAY = 10.0
+"""Half of all wrong places lie within this many mm of the right one, along either axis."""
 MISTAKES = 0.1
 """The share of answers that are mistakes."""
 FAR = 5.0

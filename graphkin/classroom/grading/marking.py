@@ -1,23 +1,31 @@
-"""The marks of one student: by the key, by follow-through, and by slips with a share."""
+"""The marks of students: by the key, by the causes that explain a sheet, and by follow-through."""
 
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from fractions import Fraction
-from math import hypot, isnan
+from math import isnan
 from typing import Any
 
+from msgspec import Struct
 from msgspec.structs import replace
 
 from graphkin.accuracy.pencil.forecast import chi_square_share
+from graphkin.classroom.grading.explanations import SheetCauses, explanations
 from graphkin.classroom.grading.follow_through import followings, is_hit, rightly
 from graphkin.classroom.grading.form_relations import Following
-from graphkin.classroom.grading.graded import BLANK, THOUSANDS, Answer, EarnedMark, Graded, Status
+from graphkin.classroom.grading.graded import (
+    BLANK,
+    THOUSANDS,
+    Answer,
+    EarnedCause,
+    EarnedMark,
+    Graded,
+    Status,
+)
 from graphkin.classroom.grading.keys import Keys, coarseness
 from graphkin.classroom.grading.likelihood import Key
-from graphkin.classroom.grading.slip_diagnosis import Found, diagnosed
-from graphkin.classroom.grading.slips import Slip, constructions, of_fields
-from graphkin.classroom.grading.standard import Expectation, Standard
+from graphkin.classroom.grading.standard import Expectation, Standard, alike, sense_is_open
 from graphkin.classroom.lab.items import worth
 from graphkin.classroom.lab.lab_model import Item
 from graphkin.classroom.roster.taker import Taker
@@ -72,26 +80,41 @@ def is_one_drawing(off: Any, rounded: Any, key: Key) -> Any:
 
 
 NONE = Fraction()
+REVERSED = "sense_reversed"
+"""The cause that all senses were taken the other way."""
 NEAR = 3.0
 """The largest factor, up or down, by which an answer near the key differs from it."""
 
 
+class FirstLook(Struct, frozen=True):
+    """A student's answers by the key alone, before anything explains the wrong ones.
+
+    ``given`` has an answer for each field. ``right`` are right by the key or by the whole sheet,
+    ``computed`` follow by formula from right answers, ``wrong`` are all others that can be read.
+    ``torn`` are senses that contradict the sign of their own value.
+    """
+
+    given: Mapping[str, Answer]
+    right: tuple[str, ...]
+    computed: Mapping[str, Following]
+    wrong: tuple[str, ...]
+    torn: frozenset[str]
+
+
 class Marker:
-    """Marks answers against one variant, whose slips are worked out at the first wrong answer."""
+    """Marks answers against one variant."""
 
     def __init__(self, standard: Standard) -> None:
         self.standard = standard
-        self.known: tuple[Slip, ...] | None = None
-
-    @property
-    def slips(self) -> tuple[Slip, ...]:
-        """Every slip that changes a field."""
-        if self.known is None:
-            self.known = (*constructions(self.standard), *of_fields(self.standard))
-        return self.known
 
     def mark(self, taker: Taker, answers: Mapping[str, Answer], present: bool = True) -> Graded:
         """The mark of each field of a student's form."""
+        first = self.first_look(answers)
+        (found,) = explained([(self, first)])
+        return self.graded(taker, first, found, present)
+
+    def first_look(self, answers: Mapping[str, Answer]) -> FirstLook:
+        """The answers by the key."""
         given = asked_of_thousands(self.standard, with_senses(self.standard, answers))
         torn = {field for field in self.standard.key if is_torn(self.standard, field, given)}
         read = [f for f in self.standard.key if given[f].is_read and f not in torn]
@@ -101,21 +124,84 @@ class Marker:
             by_key = (*by_key, *of_one_drawing(self.standard.expectation, given, beyond))
         off = tuple(field for field in beyond if field not in by_key)
         computed = rightly(self.standard, given, off, by_key)
-        right = (*by_key, *computed)
         wrong = tuple(field for field in off if field not in computed)
-        followed = self.followed(given, wrong, right)
-        slipped = self.slipped(given, wrong, right, followed)
-        marks: dict[str, EarnedMark] = {}
-        paid: dict[str, str] = {}
+        return FirstLook(given, by_key, computed, wrong, frozenset(torn))
+
+    def graded(
+        self, taker: Taker, first: FirstLook, found: SheetCauses | None, present: bool = True
+    ) -> Graded:
+        """The marks with the explanation of the sheet, if there is one that costs less than none.
+
+        A cause costs what the rubric says, and never more than the same values unexplained.
+        """
+        plain = Graded(taker, self.marks(taker, first), present)
+        if found is None:
+            return plain
+        caused = self.marks(taker, first, found)
+        whole = sum((mark.earned for mark in caused), NONE)
+        most = max(NONE, whole - plain.earned)
+        costs = self.costs(plain.points, found, most)
+        return Graded(taker, caused, present, causes=costs)
+
+    def costs(
+        self, points: Fraction, found: SheetCauses, most: Fraction
+    ) -> tuple[EarnedCause, ...]:
+        """What each cause costs, together at most ``most``.
+
+        Senses that are all reversed cost their own points, and nothing beside.
+        """
+        shares = [
+            NONE if name == REVERSED else Fraction(str(self.standard.rubric.cost(name)))
+            for name in found.names
+        ]
+        full = points * sum(shares, NONE)
+        part = min(Fraction(1), most / full) if full else NONE
+        return tuple(
+            EarnedCause(name, points * share * part, found.odds)
+            for name, share in zip(found.names, shares, strict=True)
+        )
+
+    def marks(
+        self, taker: Taker, first: FirstLook, found: SheetCauses | None = None
+    ) -> tuple[EarnedMark, ...]:
+        """The mark of each field; what agrees with an explanation of the sheet is right."""
+        given, wrong = first.given, first.wrong
+        caused = {f for f in wrong if found is not None and f in found.fits}
+        lost = frozenset(f for f in caused if found is not None and self.is_lost(f, found))
+        right = (*first.right, *first.computed, *(f for f in wrong if f in caused))
+        rest = tuple(field for field in wrong if field not in caused)
+        also = rightly(self.standard, given, rest, right) if caused and rest else {}
+        right, rest = (*right, *also), tuple(field for field in rest if field not in also)
+        followed = self.followed(given, rest, right)
+        known: dict[str, EarnedMark] = {}
+        name = "+".join(found.names) if found is not None else ""
         for item in self.standard.items:
-            points = self.worth(item.field, taker.compute)
-            mark = self.first_mark(item, given[item.field], right, points)
-            if item.field in computed:
-                mark = replace(mark, source=computed[item.field].sources[0])
-            elif item.field in wrong:
-                mark = self.lesser(mark, followed.get(item.field), slipped, paid, taker.compute)
-            marks[item.field] = replace(mark, torn=item.field in torn)
-        return Graded(taker, tuple(marks.values()), present)
+            field, points = item.field, self.worth(item.field, taker.compute)
+            mark = self.first_mark(item, given[field], (*first.right, *first.computed), points)
+            if field in first.computed:
+                mark = replace(mark, source=first.computed[field].sources[0])
+            elif field in caused or field in also:
+                earned = NONE if field in lost else points
+                mark = replace(mark, status=Status.CAUSE, earned=earned, cause=name)
+            elif field in rest:
+                mark = self.following(mark, followed.get(field))
+            known[field] = replace(mark, torn=field in first.torn)
+        return tuple(self.not_by_chance(mark, known) for mark in known.values())
+
+    def is_lost(self, field: str, found: SheetCauses) -> bool:
+        """Whether a sense was taken the other way: it is worth no more than a blank."""
+        return REVERSED in found.names and self.standard.by_field[field].item.what == "sense"
+
+    def not_by_chance(self, mark: EarnedMark, known: Mapping[str, EarnedMark]) -> EarnedMark:
+        """The mark of a sense: it earns nothing where the size beside it earns nothing.
+
+        One of two senses is right by chance. Where a size cannot be read, its sense counts.
+        """
+        sized = known.get(mark.item.sized)
+        if mark.item.what != "sense" or sized is None or not (mark.earned and sized.points):
+            return mark
+        is_alone = sized.status in (Status.WRONG, Status.BLANK) and not sized.earned
+        return replace(mark, earned=NONE, alone=True) if is_alone else mark
 
     def followed(
         self, answers: Mapping[str, Answer], wrong: tuple[str, ...], right: tuple[str, ...]
@@ -138,19 +224,6 @@ class Marker:
             if field in wrong and field not in found and not is_circular(found, following):
                 found[field] = following
         return found
-
-    def slipped(
-        self,
-        answers: Mapping[str, Answer],
-        wrong: tuple[str, ...],
-        right: tuple[str, ...],
-        followed: Mapping[str, Following],
-    ) -> dict[str, Found]:
-        """For each wrong field, the slip that explains it."""
-        if not wrong:
-            return {}
-        sources = {field: each.sources for field, each in followed.items() if not each.drawn}
-        return diagnosed(self.standard, self.slips, answers, wrong, right, sources)
 
     def worth(self, field: str, computed: tuple[str, ...]) -> Fraction:
         """The points of a field.
@@ -182,47 +255,39 @@ class Marker:
             allowed.value if allowed is not None else 0.0,
         )
 
-    def lesser(
-        self,
-        mark: EarnedMark,
-        follows: Following | None,
-        slipped: Mapping[str, Found],
-        paid: dict[str, str],
-        compute: tuple[str, ...],
-    ) -> EarnedMark:
-        """The mark of a wrong answer: the share of its slip, or of follow-through, the larger.
-
-        A slip is paid for once, at the first field with points that it explains; the other fields
-        that it explains follow from it. A slip without a share in the rubric earns nothing.
-        ``paid`` maps each slip to the field where it was paid for.
-
-        An answer may follow on the drawing only from values with the same slip. Then the slip
-        counts: nobody finds such a chain on their own paper.
-        """
-        rubric, field = self.standard.rubric, mark.item.field
-        found = slipped.get(field)
-        name = found.slip.name if found is not None else ""
-        share, paid_at = rubric.slips.get(name, 0.0), paid.get(name, "")
-        if follows is not None and name and not paid_at and mark.points:
-            same = [f for f in follows.sources if f in slipped and slipped[f].slip.name == name]
-            if same and (share or not any(self.worth(f, compute) for f in same)):
-                follows = None
-        if share and paid_at:
-            share = max(share, rubric.follow)
-            drawn = follows.sources if follows is not None and follows.drawn else ()
-            if drawn and all(f in slipped and slipped[f].slip.name == name for f in drawn):
-                follows = None
+    def following(self, mark: EarnedMark, follows: Following | None) -> EarnedMark:
+        """The mark of a wrong answer: the share of follow-through where it follows."""
+        rubric = self.standard.rubric
         on_paper = mark.answer.followed and rubric.follow > 0
-        if (follows is not None or on_paper) and rubric.follow >= share:
-            earned = mark.points * Fraction(str(rubric.follow))
-            source = follows.sources[0] if follows is not None else ""
-            mark = replace(mark, status=Status.FOLLOWS, earned=earned, source=source)
-        elif found is not None:
-            if mark.points:
-                paid.setdefault(name, field)
-            earned, source = mark.points * Fraction(str(share)), paid_at if share else ""
-            mark = replace(mark, status=Status.SLIP, earned=earned, source=source)
-        return mark if found is None else replace(mark, slip=name, odds=found.odds)
+        if follows is None and not on_paper:
+            return mark
+        earned = mark.points * Fraction(str(rubric.follow))
+        source = follows.sources[0] if follows is not None else ""
+        return replace(mark, status=Status.FOLLOWS, earned=earned, source=source)
+
+
+def explained(sheets: Sequence[tuple[Marker, FirstLook]]) -> list[SheetCauses | None]:
+    """The explanation of each sheet; variants that draw alike are explained together."""
+    found: list[SheetCauses | None] = [None] * len(sheets)
+    open_yet = [i for i, (_, first) in enumerate(sheets) if first.wrong]
+    markers = list({id(sheets[i][0]): sheets[i][0] for i in open_yet}.values())
+    for group in alike([each.standard for each in markers]):
+        row = {id(markers[place]): k for k, place in enumerate(group)}
+        own = [i for i in open_yet if id(sheets[i][0]) in row]
+        told = explanations(
+            [markers[place].standard for place in group],
+            [row[id(sheets[i][0])] for i in own],
+            [unread_left_out(sheets[i][1]) for i in own],
+            [frozenset(sheets[i][1].wrong) for i in own],
+        )
+        for i, each in zip(own, told, strict=True):
+            found[i] = each
+    return found
+
+
+def unread_left_out(first: FirstLook) -> Mapping[str, Answer]:
+    """The answers that explain a sheet: those that contradict themselves say nothing."""
+    return {f: BLANK if f in first.torn else answer for f, answer in first.given.items()}
 
 
 def is_circular(found: Mapping[str, Following], following: Following) -> bool:
@@ -286,12 +351,3 @@ def is_right(standard: Standard, field: str, answers: Mapping[str, Answer]) -> b
         return value == right or sense_is_open(standard, field)
     near = abs(item.off(value, right)) <= standard.tolerance[field].value
     return near or (item.what == "place" and isnan(right))
-
-
-def sense_is_open(standard: Standard, field: str) -> bool:
-    """Whether no drawing determines a sense: the value is zero within the error of a drawing."""
-    sized = standard.by_field[field].item.sized
-    if sized not in standard.tolerance:
-        return standard.key[field] == 0
-    allowed = standard.tolerance[sized]
-    return abs(standard.key[sized]) <= max(allowed.value, hypot(allowed.pencil, allowed.ruler))

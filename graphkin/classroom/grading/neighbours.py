@@ -1,7 +1,7 @@
 """How far apart variants are: what right values of one variant earn on another's sheet.
 
 A neighbour's values are the exact key, or a careful drawing with its scatter. Only answers right by
-the key count. Follow-through and slips do not, since copied answers do not build on one another.
+the key count. Follow-through and causes do not, since copied answers do not build on one another.
 """
 
 from __future__ import annotations
@@ -11,11 +11,12 @@ from fractions import Fraction
 from typing import Any
 
 from msgspec import Struct
+from msgspec.structs import replace
 
 from graphkin.classroom.grading.class_standards import standards
 from graphkin.classroom.grading.keys import Keys
-from graphkin.classroom.grading.marking import is_one_drawing, sense_is_open
-from graphkin.classroom.grading.standard import Standard
+from graphkin.classroom.grading.marking import is_one_drawing
+from graphkin.classroom.grading.standard import Standard, sense_is_open
 from graphkin.classroom.lab.fairness import Fault
 from graphkin.classroom.lab.items import items, worth
 from graphkin.classroom.lab.lab_model import Lab
@@ -79,7 +80,8 @@ class RightValues(Struct, frozen=True):
     """The right values of some variants, a row for each, and their shares of all points.
 
     A size is right within ``allowed``, or within ``most`` where all sizes together are one drawing
-    by the ``keys``. ``senses`` are signs; those that no drawing determines are ``unclear``.
+    by the ``keys``. ``senses`` are signs; those that no drawing determines are ``unclear``. A sense
+    earns nothing without the size at its place of ``sized``, if that size has points.
     ``points`` and ``sense_points`` are shares of all points.
     """
 
@@ -90,12 +92,14 @@ class RightValues(Struct, frozen=True):
     senses: Array
     unclear: Array
     sense_points: Array
+    sized: tuple[int, ...]
 
     @classmethod
     def of(cls, found: Sequence[Standard]) -> RightValues:
         """The right values of some standards of one form."""
         keys = Keys.of([each.expectation for each in found])
-        senses = [item.field for item in found[0].items if item.what == "sense"]
+        signed = {item.field: item.sized for item in found[0].items if item.what == "sense"}
+        senses = list(signed)
         total = np.array([[sum(points_of(each, f) for f in each.key)] for each in found])
 
         def told(read: Callable[[Standard, str], Any], fields: Sequence[str]) -> Array:
@@ -109,12 +113,14 @@ class RightValues(Struct, frozen=True):
             told(lambda each, f: each.key[f], senses),
             told(sense_is_open, senses).astype(bool),
             told(points_of, senses) / total,
+            tuple(keys.fields.index(size) for size in signed.values()),
         )
 
     def rows(self, which: Sequence[int]) -> RightValues:
         """The right values of some of the variants."""
-        parts = (self.allowed, self.most, self.points, self.senses, self.unclear, self.sense_points)
-        return RightValues(self.keys.rows(which), *(part[list(which)] for part in parts))
+        parts = ("allowed", "most", "points", "senses", "unclear", "sense_points")
+        own = {name: getattr(self, name)[list(which)] for name in parts}
+        return replace(self, keys=self.keys.rows(which), **own)
 
     def by_key(self, other: RightValues) -> Array:
         """The shares that exact values of others earn, a row for each sheet."""
@@ -126,6 +132,8 @@ class RightValues(Struct, frozen=True):
             key, rounded = self.keys.key(i, read), self.keys.reading(i)[read]
             one = one[is_one_drawing(away[one][:, read], rounded, key)]
             shares[i, one] += more[one] @ points
+            senses = self.senses_right(other)[i, one] & more[one][:, self.sized]
+            shares[i, one] += senses @ self.sense_points[i]
         return shares
 
     def earned(self, other: RightValues, chance: Callable[[Array, Array, Array], Array]) -> Array:
@@ -135,14 +143,22 @@ class RightValues(Struct, frozen=True):
         right.
         """
         shares = np.zeros((len(self.keys.sizes), len(other.keys.sizes)))
+        sizes = []
         for k in range(self.keys.sizes.shape[1]):
             away = other.keys.sizes[None, :, k] - self.keys.sizes[:, None, k]
-            right = chance(away, self.allowed[:, None, k], other.keys.deviations[None, :, k])
-            shares += self.points[:, None, k] * right
-        for k in range(self.senses.shape[1]):
-            same = self.senses[:, None, k] == other.senses[None, :, k]
-            shares += self.sense_points[:, None, k] * (same | self.unclear[:, None, k])
+            sizes.append(chance(away, self.allowed[:, None, k], other.keys.deviations[None, :, k]))
+            shares += self.points[:, None, k] * sizes[k]
+        senses = self.senses_right(other)
+        for k, size in enumerate(self.sized):
+            with_size = np.where(self.points[:, None, size] > 0, sizes[size], 1.0)
+            shares += self.sense_points[:, None, k] * senses[:, :, k] * with_size
         return shares
+
+    def senses_right(self, other: RightValues) -> Array:
+        """Whether each sense of others is right on each sheet: (sheets, others, senses)."""
+        same = self.senses[:, None] == other.senses[None]
+        right: Array = same | self.unclear[:, None]
+        return right
 
 
 def neighbours(found: Sequence[Standard]) -> Neighbours:

@@ -238,6 +238,8 @@ class Expectation:
     """The covariance of the pencil's errors of the fields with a tolerance, in their order."""
     cranks: Any = field(default=None, compare=False)
     """The change of the same fields for each crank set a degree too far."""
+    paper: Paper | None = field(default=None, compare=False)
+    """The scales of the sheets."""
 
     @cached_property
     def item(self) -> Mapping[str, Item]:
@@ -341,7 +343,8 @@ class Standard(Struct, frozen=True, dict=True):
     @cached_property
     def expectation(self) -> Expectation:
         """The expected values, for reports."""
-        return Expectation(self.items, self.key, self.tolerance, self.pencil.together, self.cranks)
+        together = self.pencil.together
+        return Expectation(self.items, self.key, self.tolerance, together, self.cranks, self.paper)
 
     @property
     def cranks(self) -> Any:
@@ -435,3 +438,30 @@ def standard(
     chosen, form = scales(mechanism), layout(mechanism, items)
     exact = original(mechanism, chosen, form.targets)
     return Standard(mechanism, chosen, form, exact, rubric, tuple(computed))
+
+
+def sense_is_open(standard: Standard, field: str) -> bool:
+    """Whether no drawing determines a sense: the value is zero within the error of a drawing."""
+    sized = standard.by_field[field].item.sized
+    if sized not in standard.tolerance:
+        return standard.key[field] == 0
+    allowed = standard.tolerance[sized]
+    return abs(standard.key[sized]) <= max(allowed.value, hypot(allowed.pencil, allowed.ruler))
+
+
+# --- variants side by side -----------------------------------------------------------------------
+
+
+def alike(found: Sequence[Standard]) -> list[list[int]]:
+    """The indices of variants that draw the same, in groups.
+
+    Variants with groups of higher class stand alone: these are closed for each variant alone.
+    """
+    groups: dict[Any, list[int]] = {}
+    for i, each in enumerate(found):
+        exact = each.exact
+        kinds = tuple((number, type(value)) for number, value in exact.trace.values.items())
+        alone = i if PencilMark.CLOSING in exact.marks.values() else -1
+        key = (id(each.layout), exact.triangles, kinds, tuple(exact.tails.items()), alone)
+        groups.setdefault(key, []).append(i)
+    return list(groups.values())

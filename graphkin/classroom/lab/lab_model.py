@@ -10,6 +10,7 @@ from typing import Literal
 
 from msgspec import Struct, field
 
+from graphkin.classroom.lab.cause_names import GRADES, SHARES
 from graphkin.construction.core.plan_vector import PlanVector
 from graphkin.mechanism import Mechanism
 from graphkin.scene.quantity import Quantity
@@ -101,9 +102,12 @@ class Rubric(Struct, frozen=True):
     """The points of each field of the form, and how they are given.
 
     ``follow`` is the share for what follows correctly from the student's own earlier values.
-    ``slips`` has the share for each slip by name. ``point`` and ``line`` are the forgiven drawing
-    errors, in mm and degrees. ``ruler`` is the reading error, in mm. ``floor`` and ``cap`` are the
-    least and the largest tolerance, relative to the value.
+    ``causes`` has the share of all points that a cause costs by name, where the lab states one.
+    ``grades`` has the shares of slight, moderate and serious causes.
+
+    ``point`` and ``line`` are the forgiven drawing errors, in mm and degrees. ``ruler`` is the
+    reading error, in mm. ``floor`` and ``cap`` are the least and the largest tolerance, relative to
+    the value.
 
     ``hold`` keeps back the marks of students whose answers seem to be another's, until the lecturer
     has decided.
@@ -111,13 +115,19 @@ class Rubric(Struct, frozen=True):
 
     points: Mapping[str, Fraction] = field(default_factory=dict)
     follow: float = 0.8
-    slips: Mapping[str, float] = field(default_factory=dict)
+    causes: Mapping[str, float | str] = field(default_factory=dict)
+    grades: Mapping[str, float] = field(default_factory=lambda: dict(SHARES))
     point: float = 0.5
     line: float = 0.5
     ruler: float = 0.25
     floor: float = 0.01
     cap: float = 0.25
     hold: bool = False
+
+    def cost(self, cause: str) -> float:
+        """The share of all points that a cause costs."""
+        stated = self.causes.get(cause, GRADES.get(cause, "moderate"))
+        return self.grades[stated] if isinstance(stated, str) else stated
 
 
 class Lab(Struct, frozen=True, dict=True):

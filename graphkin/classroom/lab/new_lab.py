@@ -1,4 +1,4 @@
-"""Makes a lab to start from: a sound scene and rule, with each key, field and slip explained."""
+"""Makes a lab to start from: a sound scene and rule, with each key, field and cause explained."""
 
 from __future__ import annotations
 
@@ -9,6 +9,7 @@ from tempfile import TemporaryDirectory
 
 from msgspec import Struct
 
+from graphkin.classroom.lab.cause_names import GRADES, NAMES
 from graphkin.classroom.lab.fair_ranges import FairRanges, fair_ranges, space_of
 from graphkin.classroom.lab.items import (
     all_fields,
@@ -29,7 +30,6 @@ from graphkin.classroom.lab.proposed_ranges import (
     variants_lines,
 )
 from graphkin.classroom.lab.read_lab import LAB, SCENE, lab_of
-from graphkin.classroom.lab.slip_names import NAMES
 from graphkin.construction.core.plan_vector import PlanVector
 from graphkin.construction.core.quantities import (
     BY_TARGET,
@@ -105,10 +105,10 @@ def thing(item: Item) -> str:
     return f"{COMPONENT[vector.sign]} of {name}" if vector.sign in COMPONENT else whole
 
 
-def slips() -> Mapping[str, str]:
-    """Every slip by name, with what the student did."""
+def causes() -> Mapping[str, str]:
+    """Every cause by name, with what the student did."""
     spoken = words("en")
-    return {name: text_of(spoken(f"feedback.slip_{name}")) for name in NAMES}
+    return {name: text_of(spoken(f"cause.{name}")) for name in NAMES}
 
 
 START = Path(__file__).parent / "start"
@@ -189,7 +189,7 @@ def rules_for(mechanism: Mechanism, proposed: ProposedRanges | None = None) -> s
 
 
 def explained(text: str, mechanism: Mechanism) -> str:
-    """The text of a lab.toml with all fields of a mechanism and all slips, and their meanings."""
+    """The text of a lab.toml with all fields of a mechanism and all causes, and their meanings."""
     fields = fields_of(mechanism)
     stated = {line.partition(" =")[0] for line in text.splitlines()}
     lines = []
@@ -198,8 +198,8 @@ def explained(text: str, mechanism: Mechanism) -> str:
         if line == "# FIELDS":
             more = ((f"# {each} = 1", told) for each, told in fields.items() if each not in stated)
             lines += [beside(*pair) for pair in more]
-        elif line == "# SLIPS":
-            lines += [beside(f"# {each} = 0.5", told) for each, told in slips().items()]
+        elif line == "# CAUSES":
+            lines += [beside(f'# {n} = "{GRADES[n]}"', told) for n, told in causes().items()]
         else:
             lines.append(beside(line, fields[name]) if name in fields else line)
     return "\n".join(lines) + "\n"

@@ -12,6 +12,8 @@ from typing import cast
 
 from msgspec.structs import replace
 
+from graphkin.classroom.lab.cause_names import NAMES as CAUSES
+from graphkin.classroom.lab.cause_names import SHARES
 from graphkin.classroom.lab.items import all_fields
 from graphkin.classroom.lab.lab_model import (
     NUMBER,
@@ -22,7 +24,6 @@ from graphkin.classroom.lab.lab_model import (
     Rubric,
     ValueList,
 )
-from graphkin.classroom.lab.slip_names import NAMES as SLIPS
 from graphkin.mechanism import Mechanism
 from graphkin.scene import scene_files
 from graphkin.scene.expression import UnreadableError
@@ -372,16 +373,8 @@ def read_rubric(marks: Table, marking: Table, mechanism: Mechanism) -> Rubric:
             )
         elif read is not None:
             points[name] = plain(read)
-    slips: dict[str, float] = {}
-    inner = marking.table("slips")
-    for name in inner.raw:
-        if name in SLIPS:
-            slips[name] = number(inner, name, 0, 0, 1)
-        else:
-            hint = nearest(name, SLIPS)
-            inner.findings.add(
-                inner.at(name), message("no slip has this name"), joined(", ", SLIPS), hint
-            )
+    grades = read_grades(marking.table("grades"))
+    causes = read_causes(marking.table("causes"))
     given = {
         "follow": number(marking, "follow", USUAL.follow, 0, 1),
         "point": number(marking, "point", USUAL.point, 0, 10),
@@ -398,7 +391,37 @@ def read_rubric(marks: Table, marking: Table, mechanism: Mechanism) -> Rubric:
         )
     hold = marking.flag("hold")
     marking.finish()
-    return Rubric(points=points, slips=slips, hold=hold, **given)
+    return Rubric(points=points, causes=causes, grades=grades, hold=hold, **given)
+
+
+def read_grades(table: Table) -> dict[str, float]:
+    """The share of all points that a slight, a moderate and a serious cause costs."""
+    found = {grade: number(table, grade, share, 0, 1) for grade, share in SHARES.items()}
+    table.finish()
+    return found
+
+
+def read_causes(table: Table) -> dict[str, float | str]:
+    """What causes cost by name: a grade, or a share of all points."""
+    found: dict[str, float | str] = {}
+    for name, raw in table.raw.items():
+        if name not in CAUSES:
+            hint = nearest(name, CAUSES)
+            table.findings.add(
+                table.at(name), message("no cause has this name"), joined(", ", CAUSES), hint
+            )
+        elif isinstance(raw, str) and not isinstance(raw, FloatText):
+            if raw in SHARES:
+                found[name] = raw
+            else:
+                expected = message(
+                    "{grades} or a number from 0 to 1", grades=joined(", ", tuple(SHARES))
+                )
+                hint = nearest(raw, SHARES)
+                table.findings.add(table.at(name), shown(raw), expected, hint)
+        else:
+            found[name] = number(table, name, 0, 0, 1)
+    return found
 
 
 def number(table: Table, key: str, default: float, least: float, most: float) -> float:

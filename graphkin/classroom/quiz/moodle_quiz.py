@@ -20,10 +20,11 @@ from msgspec import Struct
 
 from graphkin.classroom.form_page import KINDS, first_pivot
 from graphkin.classroom.grading.class_marking import Book
-from graphkin.classroom.grading.feedback import SENSES, SLIPS, how
-from graphkin.classroom.grading.marking import Marker, sense_is_open
-from graphkin.classroom.grading.slip_diagnosis import slip_error
-from graphkin.classroom.grading.slips import differs
+from graphkin.classroom.grading.explanations import CauseWay, ways_of
+from graphkin.classroom.grading.feedback import SENSES, how
+from graphkin.classroom.grading.graded import BLANK
+from graphkin.classroom.grading.marking import Marker
+from graphkin.classroom.grading.standard import sense_is_open
 from graphkin.classroom.lab.lab_model import Item, Lab
 from graphkin.classroom.lab.lab_trial import students_of
 from graphkin.classroom.lab.rules import exact_text
@@ -65,17 +66,17 @@ class Gap(Struct, frozen=True):
 def gaps(marker: Marker, points: Mapping[str, Fraction], words: Words) -> tuple[Gap, ...]:
     """The gaps of a variant: its fields that earn points and have a value.
 
-    A slip earns its share at the first field that it explains. At all later fields it earns what
-    follows from the student's own value, if that is more, as in grading. A slip's value counts only
-    if it differs from the correct one.
+    The value that a cause gives earns what the cause leaves of all points, since a gap knows
+    nothing of the others.
     """
-    paid: set[str] = set()
+    blank = dict.fromkeys(marker.standard.key, BLANK)
+    ways = ways_of(marker.standard, blank, frozenset())
     found = []
     for item in marker.standard.items:
         worth = points.get(item.field)
         if worth and not isnan(marker.standard.key[item.field]):
             takes = sensed(marker, item, words) if item.what == "sense" else ()
-            takes = takes or (*keyed(marker, item, words), *slipped(marker, item, paid, words))
+            takes = takes or (*keyed(marker, item, words), *caused(marker, item, ways, words))
             found.append(Gap(item, worth, tuple(takes)))
     return tuple(found)
 
@@ -104,28 +105,21 @@ def sensed(marker: Marker, item: Item, words: Words) -> tuple[Taken, ...]:
     return tuple(found)
 
 
-def slipped(marker: Marker, item: Item, paid: set[str], words: Words) -> Iterator[Taken]:
-    """The values that slips give, those with a share first; of two equal values only the first.
-
-    ``paid`` collects the slips that have earned their share.
-    """
-    standard, field = marker.standard, item.field
-    rubric, seen = standard.rubric, list[tuple[float, float]]()
-    for slip in sorted(marker.slips, key=lambda slip: slip.name not in rubric.slips):
-        value = slip.values.get(field)
-        if value is None or not differs(standard, field, value):
+def caused(marker: Marker, item: Item, ways: Sequence[CauseWay], words: Words) -> Iterator[Taken]:
+    """The values that causes in the construction give; of two equal values only the first."""
+    standard, field, seen = marker.standard, item.field, list[tuple[float, float]]()
+    right, own = item.size(standard.key[field]), standard.tolerance[field].value
+    for way in ways:
+        size, allowed = item.size(way.values[field]), own * way.times[field]
+        if isnan(size) or abs(size - right) <= own + allowed:
             continue
-        size, allowed = item.size(value), slip_error(standard, slip, field, value)
         is_nought = item.what != "place" and size <= allowed
         if is_nought or any(abs(size - other) <= near for other, near in seen):
             continue
         seen.append((size, allowed))
-        share = rubric.slips.get(slip.name, 0.0)
-        if share and slip.name in paid:
-            share = max(share, rubric.follow)
-        told = plain(words("feedback.guess", slip=words(SLIPS[slip.name])))
-        yield Taken(size, allowed, Fraction(str(share)), told)
-    paid.update(slip.name for slip in marker.slips if field in slip.values)
+        share = 1 - Fraction(str(standard.rubric.cost(way.names[0])))
+        told = plain(words("feedback.guess", cause=words(f"cause.{way.names[0]}")))
+        yield Taken(size, allowed, share, told)
 
 
 # --- one question for each variant ----------------------------------------------------------------

@@ -19,6 +19,7 @@ from graphkin.construction.centres.centre import (
     normals_at,
 )
 from graphkin.construction.core.canvas import Canvas
+from graphkin.construction.core.component import Slip
 from graphkin.construction.core.drawn_scene import NOISE, Drawing
 from graphkin.construction.core.kind import constructions
 from graphkin.construction.core.naming import drawn_amount, drawn_in, scale_of
@@ -192,7 +193,7 @@ class PathCentre(Centre, frozen=True, kw_only=True):
 
     gives: ClassVar[tuple[str, ...]] = ("crossing", "found", "circle")
     reasons: ClassVar[Mapping[str, str]] = {"found": "why.curvature"}
-    slips: ClassVar[Mapping[str, complex]] = {"curvature_reversed": -1}
+    slips: ClassVar[Mapping[str, Slip]] = {"curvature_reversed": Slip(-1, "moderate")}
     key: ClassVar[str] = "curvature-centre"
     called: ClassVar[str] = "the centre of curvature of the path of"
     look: ClassVar[str] = "inflection"

@@ -17,6 +17,7 @@ from graphkin.construction.core.component import (
     Measured,
     OwnSizes,
     Size,
+    Slip,
     TriangleComponent,
 )
 from graphkin.construction.core.drawn_scene import Drawing
@@ -110,7 +111,10 @@ class NormalComponent(TriangleComponent, frozen=True, kw_only=True):
     lines: ClassVar[Mapping[str, str]] = {"line": "{p}{q}", "edge": "⊥ at {tip}"}
     pencil: ClassVar[Mapping[str, ByHand]] = {"tip": ByHand.LAID_OFF}
     lettered: ClassVar[tuple[str, ...]] = ("tip", "cut", "end")
-    slips: ClassVar[Mapping[str, complex]] = {"normal_missing": 0, "normal_reversed": -1}
+    slips: ClassVar[Mapping[str, Slip]] = {
+        "normal_missing": Slip(0, "serious"),
+        "normal_reversed": Slip(-1, "moderate"),
+    }
     palette: ClassVar[PaletteAction] = PaletteAction("triangle", PICKED, SCRIPT, plane=NUMBERS)
     titled: ClassVar[str] = "the right triangle of {q} about {p}"
 

@@ -96,6 +96,23 @@ class Hand:
         across = (way.conjugate() * other).imag
         return self.dot(p + way * ((q - p).conjugate() * other).imag / across)
 
+    def on_guide(self, start: complex, length: float, height: float) -> complex:
+        """The point of a level guide, to the right, at a distance from another."""
+        away = sqrt(length**2 - (height - start.imag) ** 2)
+        return complex(start.real + self.side("guide") * away, height)
+
+    def side(self, place: str) -> float:
+        """1 for the side on which loci meet that the task says, -1 for the other."""
+        return 1.0
+
+    def plate(self, shape: complex) -> complex:
+        """The shape of a plate: its third point, where the first is 0 and the second 1."""
+        return shape
+
+    def across(self, bar: complex, plan: str) -> complex:
+        """The direction of the relative vector across a bar in a plan, v or a."""
+        return 1j * bar
+
     def relative_normal(self, arrow: complex, bar: complex) -> complex:
         """The normal component v²/l of the far end of a bar, towards its near end."""
         if "normal_missing" in self.slips:
@@ -162,22 +179,18 @@ class Hand:
         return pin, velocity, self.dot(-self.turned(way) * size)
 
 
-def on_guide(start: complex, length: float, height: float) -> complex:
-    """The point of a level guide, to the right, at a distance from another."""
-    return complex(start.real + sqrt(length**2 - (height - start.imag) ** 2), height)
-
-
 def slider_crank(hand: Hand, given: Data) -> None:
     """Crank 60 mm, rod 200 mm, guide 30 mm above the crank's pivot, C on the rod 90 mm from A."""
     a, va, aa = hand.crank(given, 60)
     rod = hand.metres(200)
-    b = hand.dot(on_guide(a, rod, hand.metres(30)))
+    b = hand.dot(hand.on_guide(a, rod, hand.metres(30)))
     bar = b - a
-    vb = hand.crossing(0j, 1 + 0j, va, 1j * bar)
-    vc = hand.dot(va + 90 / 200 * (vb - va))
+    vb = hand.crossing(0j, 1 + 0j, va, hand.across(bar, "v"))
+    part = hand.plate(90 / 200)
+    vc = hand.dot(va + part * (vb - va))
     tip = hand.dot(aa + hand.relative_normal(vb - va, bar / abs(bar) * rod))
-    ab = hand.crossing(0j, 1 + 0j, tip, 1j * bar)
-    ac = hand.dot(aa + 90 / 200 * (ab - aa))
+    ab = hand.crossing(0j, 1 + 0j, tip, hand.across(bar, "a"))
+    ac = hand.dot(aa + part * (ab - aa))
     hand.velocity("v_B", vb)
     hand.velocity("v_C", vc)
     hand.acceleration("a_B", ab)
@@ -202,11 +215,11 @@ def quick_return(
     lever = a - pivot
     arm, way = hand.read(abs(lever)), lever / abs(lever)
     b = hand.dot(pivot + long * way)
-    c = hand.dot(on_guide(b, rod, hand.metres(above)))
+    c = hand.dot(hand.on_guide(b, rod, hand.metres(above)))
     bar = c - b
     v3 = hand.crossing(0j, 1j * way, va, way)
     vb = hand.dot(v3 * long / arm)
-    vc = hand.crossing(0j, 1 + 0j, vb, 1j * bar)
+    vc = hand.crossing(0j, 1 + 0j, vb, hand.across(bar, "v"))
     slip = va - v3
     turning = 1.0 if (v3 * (1j * way).conjugate()).real > 0 else -1.0
     cor = 2 * hand.read(abs(v3)) * hand.read(abs(slip)) / arm * turning * hand.square
@@ -219,7 +232,7 @@ def quick_return(
     a3 = hand.crossing(third, 1j * way, away, way)
     ab = hand.dot(a3 * long / arm)
     tip = hand.dot(ab + hand.relative_normal(vc - vb, bar / abs(bar) * rod))
-    ac = hand.crossing(0j, 1 + 0j, tip, 1j * bar)
+    ac = hand.crossing(0j, 1 + 0j, tip, hand.across(bar, "a"))
     hand.velocity("v_C", vc)
     hand.velocity("v_A3", v3)
     hand.acceleration("a_C", ac)
@@ -240,22 +253,23 @@ def pump(hand: Hand, given: Data) -> None:
     rocker, side, rod = hand.metres(300), hand.metres(400), hand.metres(200)
     axis = pivot - a
     along = (side**2 - rocker**2 + abs(axis) ** 2) / (2 * abs(axis))
-    b = hand.dot(a + complex(along, -sqrt(side**2 - along**2)) * axis / abs(axis))
+    height = -sqrt(side**2 - along**2) * hand.side("rocker")
+    b = hand.dot(a + complex(along, height) * axis / abs(axis))
     plate, arm = b - a, b - pivot
     part = (400**2 + 200**2 - 250**2) / (2 * 400**2)
-    shape = complex(part, sqrt((200 / 400) ** 2 - part**2))
+    shape = hand.plate(complex(part, sqrt((200 / 400) ** 2 - part**2)))
     c = hand.dot(a + shape * plate)
-    d = hand.dot(on_guide(c, rod, 0.0))
+    d = hand.dot(hand.on_guide(c, rod, 0.0))
     bar = d - c
     vb = hand.crossing(0j, 1j * arm, va, 1j * plate)
     vc = hand.dot(va + shape * (vb - va))
-    vd = hand.crossing(0j, 1 + 0j, vc, 1j * bar)
+    vd = hand.crossing(0j, 1 + 0j, vc, hand.across(bar, "v"))
     second = hand.dot(hand.relative_normal(vb, arm / abs(arm) * rocker))
     third = hand.dot(aa + hand.relative_normal(vb - va, plate / abs(plate) * side))
     ab = hand.crossing(second, 1j * arm, third, 1j * plate)
     ac = hand.dot(aa + shape * (ab - aa))
     tip = hand.dot(ac + hand.relative_normal(vd - vc, bar / abs(bar) * rod))
-    ad = hand.crossing(0j, 1 + 0j, tip, 1j * bar)
+    ad = hand.crossing(0j, 1 + 0j, tip, hand.across(bar, "a"))
     hand.velocity("v_D", vd)
     hand.acceleration("a_D", ad)
     hand.rate("omega_2", vb, arm, rocker)

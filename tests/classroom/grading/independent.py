@@ -17,19 +17,19 @@ from tests.classroom.grading import hand
 from tests.classroom.grading.hand import Data, Hand
 
 FOLLOW = 0.8
-SLIPS = {
-    "rpm_as_rad": 0.5,
-    "angle_clockwise": 0.5,
-    "driver_reversed": 0.5,
-    "wrong_scale": 0.5,
-    "scale_missing": 0.5,
-    "coriolis_missing": 0.5,
-    "coriolis_reversed": 0.7,
-    "normal_missing": 0.3,
-    "normal_reversed": 0.5,
-    "normal_for_tangential": 0.3,
+COSTS = {
+    "angle_clockwise": 0.1,
+    "driver_reversed": 0.1,
+    "rpm_as_rad": 0.15,
+    "wrong_scale": 0.15,
+    "scale_missing": 0.15,
+    "coriolis_missing": 0.2,
+    "coriolis_reversed": 0.15,
+    "normal_missing": 0.2,
+    "normal_reversed": 0.15,
+    "power_of_ten": 0.1,
 }
-"""The shares of the labs that come along."""
+"""The share of all points that each cause costs, once."""
 MORE = {
     "offset-slider-crank": ("v_BA_mm", "v_BA", "a_BA_nu", "a_BA_tau_mm", "a_BA_tau"),
     "slotted-lever": ("v_CB_mm", "v_CB", "v_AA3_mm", "v_AA3", "a_AA3_cor_mm", "a_AA3_cor"),
@@ -175,11 +175,12 @@ class Task:
 @dataclass
 class Set:
     """A set of answers as it is written, and the share that each field earns; what is left out
-    can be told by nobody.
+    can be told by nobody. ``cause`` is what explains it, which is paid once beside the fields.
     """
 
     texts: dict[str, str]
     earns: dict[str, float]
+    cause: str = ""
 
 
 Kind = Callable[[Task, np.random.Generator], Set | None]
@@ -243,7 +244,7 @@ def marked(
     blank: tuple[str, ...] = (),
 ) -> Set:
     """What is right is right, what is ``lost`` earns nothing, nor does what is next to nothing; all
-    else follows, but of a slip the first that is not right pays.
+    else follows. What a slip gives is right, too.
     """
     texts = written(found)
     earns = {}
@@ -255,11 +256,21 @@ def marked(
         elif name in lost or (not slip and task.is_easy(name, found)):
             earns[name] = 0.0
         elif not slip or abs(found[name]) > 0.5 * task.tolerance.get(name, 0.0):
-            earns[name] = FOLLOW
-    if slip:
-        first = [name for name, share in earns.items() if share == FOLLOW and task.points[name]]
-        earns |= dict.fromkeys(first[:1], SLIPS[slip])
-    return Set(texts, earns)
+            earns[name] = 1.0 if slip else FOLLOW
+    missed = any(not task.is_right(n, as_written(t)) for n, t in texts.items() if t)
+    return Set(texts, without_chance(task, earns), slip if missed else "")
+
+
+def without_chance(task: Task, earns: Mapping[str, float]) -> dict[str, float]:
+    """The shares, where a sense beside a size that earns nothing earns nothing."""
+    found = dict(earns)
+    for name in earns:
+        sized = name.removesuffix("_sense")
+        if name != sized and task.points[sized] and earns.get(sized) == 0.0:
+            found[name] = 0.0
+        elif name != sized and sized not in earns:
+            del found[name]
+    return found
 
 
 def vectors(task: Task) -> list[str]:
@@ -384,6 +395,7 @@ def slip_of(name: str, blank: tuple[str, ...] = ()) -> Kind:
 NUS = ("a_BA_nu", "a_CB_nu")
 for each in (
     "angle_clockwise",
+    "driver_reversed",
     "rpm_as_rad",
     "wrong_scale",
     "normal_reversed",
@@ -395,16 +407,6 @@ slip_of("coriolis_missing", blank=("a_AA3_cor",))
 
 
 @kind
-def driver_reversed(task: Task, rng: np.random.Generator) -> Set:
-    """A crank that turns the other way reverses velocities; one sense alone tells of no crank."""
-    found = marked(task, task.drawn(rng, slips={"driver_reversed"}), "driver_reversed")
-    off = [name for name in task.fields if found.earns.get(name) not in (None, 0.0, 1.0)]
-    if len(off) == 1:
-        found.earns |= {off[0]: 0.0}
-    return found
-
-
-@kind
 def scale_missing(task: Task, rng: np.random.Generator) -> Set:
     """Velocities and accelerations are the millimetres that were measured."""
     found = task.drawn(rng)
@@ -413,22 +415,27 @@ def scale_missing(task: Task, rng: np.random.Generator) -> Set:
 
 @kind
 def normal_for_tangential(task: Task, rng: np.random.Generator) -> Set | None:
-    """An angular acceleration from the normal component."""
+    """An angular acceleration from the normal component: one value, too little for a name; right
+    with the cause paid, or wrong: the same mark.
+    """
     bars = {"offset-slider-crank": ("epsilon_2", 0.2), "pump": ("epsilon_3", 0.4)}
     if task.lab not in bars:
         return None
     name, bar = bars[task.lab]
     found = task.drawn(rng)
     nu = found["a_BA_nu_mm"] * task.per_mm("a")
-    return marked(task, found | {name: nu / bar}, "normal_for_tangential")
+    made = marked(task, found | {name: nu / bar}, lost=(name,))
+    for each in (name, f"{name}_sense"):
+        made.earns.pop(each, None)
+    return made
 
 
 @kind
 def power_of_ten(task: Task, rng: np.random.Generator) -> Set:
-    """A comma in the wrong place, for which the labs have no share."""
+    """A comma in the wrong place."""
     name = str(rng.choice(vectors(task)))
     found = task.drawn(rng)
-    return marked(task, found | {name: 10 * found[name]}, lost=(name,))
+    return marked(task, found | {name: 10 * found[name]}, "power_of_ten")
 
 
 @kind

@@ -104,7 +104,7 @@ def not_right(result: Result) -> list[str]:
     """The fields of all that are not found right."""
     marks = (mark for each in result.graded for mark in each.marks if mark.points)
     return [
-        f"{mark.item.field}: {mark.status.value} {mark.slip}".strip()
+        f"{mark.item.field}: {mark.status.value} {mark.cause}".strip()
         for mark in marks
         if mark.status is not Status.RIGHT
     ]

@@ -4,13 +4,13 @@ from __future__ import annotations
 
 from fractions import Fraction
 from itertools import combinations
-from math import pi
 
 import pytest
 from msgspec.structs import replace
 
 from graphkin.classroom.grading.answer_numbers import read_answer
 from graphkin.classroom.grading.class_report import summary
+from graphkin.classroom.grading.explanations import ways_of
 from graphkin.classroom.grading.feedback import feedback_html, feedback_pages, rows
 from graphkin.classroom.grading.graded import Answer, Graded, Result, Status
 from graphkin.classroom.grading.grading_files import marks_table, read_marks
@@ -70,16 +70,10 @@ def waiting() -> Graded:
 
 
 @pytest.mark.parametrize("language", LANGUAGES)
-def test_what_follows_on_the_drawing_and_a_slip_that_is_paid_once_say_so(language):
-    """Both shares stand on the page with their reason: the slip's own, then what follows."""
+def test_what_follows_on_the_drawing_says_so(language):
+    """Its share is on the page with its reason."""
     found, spoken = graded({"v_D_mm": Answer("82.5", 82.5, followed=True)}), words(language)
     assert plain(spoken("feedback.follows_drawn", share="80")) in why(found, "v_D_mm", language)
-    found = mistaken("pump", "rpm_as_rad")
-    numbers = [m for m in found.marks if m.slip == "rpm_as_rad" and m.status is Status.SLIP]
-    first, second = (why(found, m.item.field, language) for m in numbers[:2])
-    assert plain(spoken("feedback.share", share="50")) in first
-    again = spoken("feedback.again", source=numbers[0].item.symbol, share="80")
-    assert plain(again) in second
 
 
 @pytest.mark.parametrize("language", LANGUAGES)
@@ -129,7 +123,8 @@ def test_a_form_of_which_nothing_can_be_read_has_no_share():
 def mistaken(name: str, slip: str, n: int = 7) -> Graded:
     """The marks of one slip of the construction and its reasons."""
     marker = marker_of(name, n)
-    values = next(each for each in marker.slips if each.whole and each.name == slip).values
+    ways = ways_of(marker.standard, key_answers(marker.standard), frozenset())
+    values = next(way.values for way in ways if way.names == (slip,))
     return graded(given(dict(values)), name, n)
 
 
@@ -150,21 +145,6 @@ def test_points_of_a_segment_that_is_computed_stand_in_the_row_of_its_value():
     symbols = [row.cells[0] for row in rows(found, words("en"))]
     assert "*a*_{D}, m/s^2" in symbols
     assert "*a*_{D}, mm" not in symbols
-
-
-@pytest.mark.parametrize("language", LANGUAGES)
-def test_what_follows_from_a_slip_names_it_too_but_not_a_value_beside_its_own_segment(language):
-    marker, spoken = marker_of("slotted-lever", 7), words(language)
-    key, ratio = marker.standard.key, 30 / pi
-    fast = {f: key[f] * ratio for f in ("v_C", "v_A3", "omega_3", "omega_4", "v_slide_2")}
-    slip = plain(spoken("feedback.guess", slip=spoken("feedback.slip_rpm_as_rad")))
-    follows = plain(spoken("feedback.follows", source="*v*_{A3}", share="80"))
-    told = why(graded(given(fast), "slotted-lever"), "omega_3", language)
-    assert slip in told
-    assert follows in told
-    found = mistaken("slotted-lever", "coriolis_reversed")
-    assert found.mark("a_C").slip == found.mark("a_C_mm").slip == "coriolis_reversed"
-    assert "Coriolis" not in why(found, "a_C", language)
 
 
 def letters(page: Page) -> dict[str, list[Text]]:

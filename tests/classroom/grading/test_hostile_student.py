@@ -10,6 +10,7 @@ import zipfile
 from collections.abc import Callable, Iterable, Mapping
 from functools import lru_cache
 from pathlib import Path
+from typing import Any
 
 import openpyxl
 import pytest
@@ -18,10 +19,11 @@ from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 from msgspec.structs import replace
 
+from graphkin.classroom.grading import class_marking
 from graphkin.classroom.grading.answers import Answers, read_answers
-from graphkin.classroom.grading.class_marking import Marked, graded_class, marked
+from graphkin.classroom.grading.class_marking import graded_class, mark_all
 from graphkin.classroom.grading.class_report import open_cells
-from graphkin.classroom.grading.graded import Answer, Graded, Status
+from graphkin.classroom.grading.graded import Answer, Status
 from graphkin.classroom.grading.graded import Result as Marks
 from graphkin.classroom.grading.grading_files import marks_table
 from graphkin.classroom.grading.marking import Marker
@@ -396,21 +398,39 @@ def no_traceback(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.delenv(PLAIN_TRACEBACK, raising=False)
 
 
-def raising(of: Callable[..., Graded], who: str) -> Callable[..., Graded]:
-    """Marking that fails for one student."""
+def failing(of: Callable[..., object], is_theirs: Callable[..., bool]) -> Callable[..., object]:
+    """A part of the marking that fails for one student."""
 
-    def mark(self: Marker, taken, answers: Mapping[str, Answer], present: bool = True) -> Graded:
-        if taken.student.id == who and any(each.is_read for each in answers.values()):
+    def part(*given: Any) -> object:
+        if is_theirs(*given):
             raise ZeroDivisionError("of a kind that nobody foresaw")
-        return of(self, taken, answers, present)
+        return of(*given)
 
-    return mark
+    return part
 
 
+def is_hostile(answers: Mapping[str, Answer]) -> bool:
+    """Whether the answers are the hostile student's, and have not been set to wait."""
+    return all(answers[field].text == text for field, text in GOOD[HOSTILE].items() if text)
+
+
+PARTS = {
+    "first look": (Marker, "first_look", lambda marker, answers: is_hostile(answers)),
+    "explanation": (
+        class_marking,
+        "explained",
+        lambda sheets: any(is_hostile(first.given) for _, first in sheets),
+    ),
+    "marks": (Marker, "graded", lambda marker, taker, first, *more: is_hostile(first.given)),
+}
+
+
+@pytest.mark.parametrize("part", PARTS)
 def test_a_fault_in_marking_one_student_is_told_of_that_one(
-    others, tmp_path, monkeypatch, no_traceback
+    others, tmp_path, monkeypatch, no_traceback, part
 ):
-    monkeypatch.setattr(Marker, "mark", raising(Marker.mark, HOSTILE))
+    where, name, is_theirs = PARTS[part]
+    monkeypatch.setattr(where, name, failing(getattr(where, name), is_theirs))
     path = tmp_path / "answers.csv"
     path.write_bytes(table(GOOD.items()))
     _, marks = held_to(others, path)
@@ -422,8 +442,7 @@ def test_a_fault_in_marking_one_student_is_told_of_that_one(
 
 def test_a_variant_that_cannot_be_constructed_is_told_of_its_student():
     book, wrong = book_of(LAB), taker(1, "x")
-    found = marked(book, replace(wrong, settings={"n": "-1"}), None)
-    assert isinstance(found, Marked)
+    (found,) = mark_all(book, [(replace(wrong, settings={"n": "-1"}), None)])
     assert found.graded is None and found.problems
 
 

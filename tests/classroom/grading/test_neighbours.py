@@ -57,7 +57,10 @@ def test_a_key_earns_on_another_sheet_what_its_marking_says(found):
                 continue
             written = {f: Answer(repr(v), v, signed=v < 0) for f, v in other.key.items()}
             given = with_senses(own, written)
-            earned = sum(points_of(own, f) for f in own.key if is_right(own, f, given))
+            right = {f for f in own.key if is_right(own, f, given)}
+            sized = {f: own.by_field[f].item.sized for f in right}
+            right = {f for f in right if sized[f] in right or not points_of(own, sized[f])}
+            earned = sum(points_of(own, f) for f in right)
             assert told.exact[i, j] == pytest.approx(earned / total, abs=1e-12)
 
 
@@ -69,7 +72,8 @@ def test_a_drawing_earns_in_the_mean_what_samples_of_it_earn(found):
         errors = chance.normal(size=(samples, own.keys.sizes.shape[1])) * own.keys.deviations[j]
         right = abs(own.keys.sizes[j] + np.nan_to_num(errors) - own.keys.sizes[i]) <= own.allowed[i]
         senses = (own.senses[i] == own.senses[j]) | own.unclear[i]
-        mean = (right * own.points[i]).sum(axis=1).mean() + (senses * own.sense_points[i]).sum()
+        with_size = senses & (right | (own.points[i] == 0))[:, own.sized]
+        mean = ((right @ own.points[i]) + (with_size @ own.sense_points[i])).mean()
         assert told.drawn[i, j] == pytest.approx(mean, abs=0.01)
 
 
@@ -104,7 +108,7 @@ def test_where_there_is_no_room_the_last_fair_data_stay_and_the_fault_is_told():
     lab = drawing_lab(0.0, tries=3)
     found = assigned(lab, STUDENTS)
     near = [each for each in found if not each.fair]
-    assert len(near) == len(found) - 1
+    assert len(near) > len(found) / 2 and near[0] != found[0]
     assert all(fault.limit == "apart" for each in near for fault in each.faults)
     assert "of the points, at most 0 %" in str(near[0].faults[0])
 

@@ -25,7 +25,7 @@ from graphkin.classroom.grading.copied_answers import (
     misunderstood,
     sheet,
     told,
-    with_slips,
+    with_causes,
 )
 from graphkin.classroom.grading.graded import Answer, Graded
 from graphkin.classroom.grading.keys import Keys, distinct
@@ -65,7 +65,7 @@ def marked(lab: str, numbers: Sequence[int], rows: Rows) -> list[Graded]:
     ]
     book = book_of(lab)
     book.prepare(takers)
-    return [book.mark(*each)[0] for each in zip(takers, rows, strict=True)]
+    return [book.marker_of(who).mark(who, row) for who, row in zip(takers, rows, strict=True)]
 
 
 def drawings(lab: str, kind: Kind, given: Sequence[tuple[int, str | None]], seed: int) -> Rows:
@@ -86,7 +86,7 @@ def odds(lab: str, graded: Sequence[Graded], is_pair=lambda i, j: True) -> list[
     own, mine = distinct(standards)
     keys = Keys.of(own)
     sheets = {
-        i: with_slips(sheet(each, keys, mine[id(standard)]), each, keys, book.slips)
+        i: with_causes(sheet(each, keys, mine[id(standard)]), each, keys, book.ways)
         for i, (each, standard) in enumerate(zip(graded, standards, strict=True))
     }
     found = []
@@ -155,12 +155,12 @@ def test_who_doubles_all_values_has_three_of_another_by_chance():
     same = [f for f in DOUBLED if DOUBLED[f] == RIGHT[f]]
     assert same == ["v_C", "v_A3", "a_A3"]
     book = book_of("slotted-lever")
-    assert copies(graded, [book.expectation(each.taker) for each in graded], book.slips) == ()
+    assert copies(graded, [book.expectation(each.taker) for each in graded], book.ways) == ()
     (found,) = odds("slotted-lever", graded)
     assert 0 < found < 1
     keys = Keys.of([book.expectation(each.taker) for each in graded])
     one, other = (
-        with_slips(sheet(each, keys, i), each, keys, book.slips) for i, each in enumerate(graded)
+        with_causes(sheet(each, keys, i), each, keys, book.ways) for i, each in enumerate(graded)
     )
     agree = one.answers == other.answers
     doubled, right = (

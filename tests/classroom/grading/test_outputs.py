@@ -119,7 +119,9 @@ def test_a_new_marking_lists_what_changed_and_nothing_else():
     before = files(small_class(omega_3=1.0))["marks.csv"]
     after = files(small_class(), before=before)
     found = differences(before, after["marks.csv"])
-    assert {column for _, column, *_ in found} == {"points", "percent", "omega_3", "omega_3 why"}
+    fields = {"omega_3", "omega_3_sense"}  # a sense counts only together with its value
+    whys = {f"{field} why" for field in fields}
+    assert {column for _, column, *_ in found} == {"points", "percent", *fields, *whys}
     assert "differences.csv" in after
     assert not differences(before, before)
     assert read_marks(b"nothing") == {}

@@ -11,7 +11,7 @@ import numpy as np
 from graphkin.classroom.grading.answer_numbers import read_answer
 from graphkin.classroom.grading.marking import Marker
 from tests.classroom.grading import hand
-from tests.classroom.grading.independent import MORE, Set, Task, sets
+from tests.classroom.grading.independent import COSTS, MORE, Set, Task, sets
 from tests.classroom.grading.students import marker_with, taker
 
 
@@ -62,5 +62,11 @@ def of_set(marker: Marker, task: Task, kind: str, found: Set, where: str) -> Ite
         mark = graded.mark(field)
         if task.points[field]:
             share = float(mark.earned / mark.points)
-            reason = f"{mark.status.value} {mark.source} {mark.slip}".strip()
+            reason = f"{mark.status.value} {mark.source} {mark.cause}".strip()
             yield Verdict(kind, f"{where} {field}", found.texts[field], earns, share, reason)
+    if found.cause:
+        costs = {cause.name: float(cause.cost) for cause in graded.causes}
+        most = COSTS[found.cause] * float(graded.points)
+        paid = 0 < costs.get(found.cause, 0.0) <= most + 1e-9
+        only = len(costs) == 1
+        yield Verdict(kind, where, "", 1.0, float(paid and only), f"costs {costs} of {most}")

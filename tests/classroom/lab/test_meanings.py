@@ -1,4 +1,4 @@
-"""Every field and every slip has a meaning, also in a new lab's rubric."""
+"""Every field and every cause has a meaning, also in a new lab's rubric."""
 
 from __future__ import annotations
 
@@ -6,22 +6,20 @@ import re
 
 import pytest
 
+from graphkin.classroom.lab.cause_names import NAMES
 from graphkin.classroom.lab.items import all_fields
-from graphkin.classroom.lab.new_lab import fields_of, new_lab, slips
+from graphkin.classroom.lab.new_lab import causes, fields_of, new_lab
 from graphkin.classroom.lab.read_lab import read_lab
-from graphkin.classroom.lab.slip_names import NAMES
 from graphkin.mechanism import load
 from graphkin.text import words
 from tests.classroom.lab.singles import LABS
 
 
-def test_every_slip_has_one():
-    assert tuple(slips()) == NAMES
-    assert all(told and "*" not in told for told in slips().values())
+def test_every_cause_has_one():
+    assert tuple(causes()) == NAMES
+    assert all(told and "*" not in told for told in causes().values())
     assert set(NAMES) == {
-        key.removeprefix("feedback.slip_")
-        for key in words("en").sentences
-        if key.startswith("feedback.slip_")
+        key.removeprefix("cause.") for key in words("en").sentences if key.startswith("cause.")
     }
 
 
@@ -33,17 +31,17 @@ def test_every_field_of_a_lab_is_of_a_kind_that_has_one(name):
     assert all(told.values())
 
 
-def test_the_rubric_of_a_new_lab_has_every_field_and_every_slip(tmp_path):
+def test_the_rubric_of_a_new_lab_has_every_field_and_every_cause(tmp_path):
     """With all of them taken in the rubric is read, and none is missing."""
     new_lab("mine", tmp_path)
     path = tmp_path / "mine" / "lab.toml"
     text = path.read_text(encoding="utf-8")
     before = read_lab(tmp_path / "mine")
-    path.write_text(re.sub(r"(?m)^# (\w+ = [\d.]+ )", r"\1", text), encoding="utf-8")
+    path.write_text(re.sub(r'(?m)^# (\w+ = (?:[\d.]+|"\w+") )', r"\1", text), encoding="utf-8")
     lab = read_lab(tmp_path / "mine")
     fields = fields_of(load(lab.scene))
     assert set(lab.rubric.points) == set(fields)
-    assert set(lab.rubric.slips) == set(NAMES)
-    assert before.rubric.slips == {}
-    for name, told in (fields | slips()).items():
-        assert re.search(rf"(?m)^(# )?{name} = [\d.]+ +# {re.escape(told)}$", text), name
+    assert set(lab.rubric.causes) == set(NAMES)
+    assert before.rubric.causes == {}
+    for name, told in (fields | causes()).items():
+        assert re.search(rf'(?m)^(# )?{name} = ([\d.]+|"\w+") +# {re.escape(told)}$', text), name

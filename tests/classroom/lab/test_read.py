@@ -8,6 +8,7 @@ from fractions import Fraction
 import pytest
 from click.testing import CliRunner
 
+from graphkin.classroom.lab.cause_names import SHARES
 from graphkin.classroom.lab.items import all_fields, asked_of, items
 from graphkin.classroom.lab.lab_model import Fair, LabRule, Range, Rubric
 from graphkin.classroom.lab.read_lab import find, read_lab, with_rules
@@ -60,8 +61,9 @@ def test_everything_that_is_stated_is_read(mine):
     lab = read_lab(mine(f"graphkin = 1\n{LINES}\n"))
     assert lab.rule == LabRule("M", {"n": Range(Fraction(3), Fraction(21), Fraction(2))}, 7)
     assert lab.fair == Fair(9, 3, (0.05, 4), 0.02, 0.5)
-    slips = {"rpm_as_rad": 0.5}
-    rubric = Rubric({"v_D": Fraction(1)}, 0.7, slips, 0.6, 0.4, 0.3, 0.1, 0.9, hold=True)
+    causes = {"rpm_as_rad": 0.5}
+    grades = dict(SHARES)
+    rubric = Rubric({"v_D": Fraction(1)}, 0.7, causes, grades, 0.6, 0.4, 0.3, 0.1, 0.9, hold=True)
     assert lab.rubric == rubric
 
 
@@ -106,8 +108,8 @@ WRONG = {
     RULE + "[marking]\nfloor = 0.3\n": "marking.floor: 0.3 is above cap",
     RULE + "[marking]\nhold = 1\n": "marking.hold: 1; expected true or false",
     RULE + "[marking]\ncap = 2.5\n": "marking.cap: 2.5; expected a number from 0 to 1",
-    RULE + "[marking]\nslips = { opposite = 2 }\n": "slips.opposite: 2; expected a number from 0",
-    RULE + "[marking]\nslips = { 'a b' = 1 }\n": "no slip has this name",
+    RULE + "[marking]\ncauses = { opposite = 2 }\n": "causes.opposite: 2; expected a number from 0",
+    RULE + "[marking]\ncauses = { 'a b' = 1 }\n": "no cause has this name",
     RULE + "[text]\n": "text: unknown key",
 }
 RANGES = 'graphkin = 1\n[variants]\ncourse = "c"\ndraw = { n = { min = 1, max = 30, step = 1 } }\n'
@@ -220,9 +222,9 @@ def test_mistakes_of_the_rule_name_its_file_and_no_other(mine):
     assert line.startswith("graphkin: lab.toml: variants.set.n: ")
 
 
-def test_a_slip_that_nobody_knows_earns_no_silent_nothing(mine):
-    (line,) = problems(mine(RULE + "[marking.slips]\nrpm_as_rads = 0.5\nnormal_missing = 0.3\n"))
-    assert line.startswith("lab.toml: marking.slips.rpm_as_rads: no slip has this name")
+def test_a_cause_that_nobody_knows_earns_no_silent_nothing(mine):
+    (line,) = problems(mine(RULE + "[marking.causes]\nrpm_as_rads = 0.5\nnormal_missing = 0.3\n"))
+    assert line.startswith("lab.toml: marking.causes.rpm_as_rads: no cause has this name")
     assert line.endswith("did you mean rpm_as_rad?")
 
 
@@ -237,7 +239,7 @@ fair.triangle = [0.05, 4]
 fair.apart = 0.02
 fair.pencil = 0.5
 marks.v_D = 1
-marking.slips.rpm_as_rad = 0.5
+marking.causes.rpm_as_rad = 0.5
 marking.follow = 0.7
 marking.point = 0.6
 marking.line = 0.4
@@ -251,7 +253,7 @@ BOUNDS = {
     "fair.segment": (0, 1000),
     "fair.apart": (0, 1),
     "fair.pencil": (0, 1),
-    "marking.slips.rpm_as_rad": (0, 1),
+    "marking.causes.rpm_as_rad": (0, 1),
     "marking.follow": (0, 1),
     "marking.point": (0, 10),
     "marking.line": (0, 10),

@@ -16,10 +16,8 @@ from click.testing import CliRunner
 from moodle_xml_parser.parser import parse_bytes
 from msgspec.structs import replace
 
-from graphkin.classroom.grading.graded import BLANK, Answer, Status
+from graphkin.classroom.grading.graded import Answer, Status
 from graphkin.classroom.grading.marking import Marker
-from graphkin.classroom.grading.slip_diagnosis import likelihood
-from graphkin.classroom.grading.slips import differs
 from graphkin.classroom.lab.read_lab import read_lab
 from graphkin.classroom.printing.print_work import PrintOrder
 from graphkin.classroom.quiz.moodle_quiz import (
@@ -103,40 +101,6 @@ def test_a_rate_near_nought_is_right_with_either_sign_as_in_grading():
             value = times * allowed[field].value
             status = marker.mark(taker(7), {field: Answer(repr(value), value)}).mark(field).status
             assert (back.share(repr(value))[0] == 1) == (status is Status.RIGHT), (part, times)
-
-
-@pytest.mark.parametrize("name", LABS)
-def test_slips_are_named_of_the_values_of_which_grading_names_them(name):
-    """Of a size that is nought within what it may be off none is; of a place on an axis one is."""
-    marker = marker_of(name, 7)
-    standard = marker.standard
-    for field, gap in read(name).items():
-        what = standard.by_field[field].item.what
-        own = [slip for slip in marker.slips if what != "sense" and field in slip.values]
-        own = [slip for slip in own if differs(standard, field, slip.values[field])]
-        for value in [slip.values[field] for slip in own]:
-            size = value if what == "place" else abs(value)
-            blank = dict.fromkeys(standard.key, BLANK)
-            given = blank | {field: Answer(repr(size), size)}
-            fits = any(likelihood(standard, slip, field, given) for slip in own)
-            share, told = gap.share(repr(size))
-            assert share < 1
-            assert bool(told) == fits, (field, value)
-
-
-def test_a_slip_earns_its_share_once_and_then_what_follows():
-    """Rev/min taken for rad/s: half at the first field, as much as what follows at the others."""
-    name = "slotted-lever"
-    lab, marker = lab_of(name), marker_of(name, 7)
-    (slip,) = [each for each in marker.slips if each.name == "rpm_as_rad" and each.whole]
-    told = [f for f in read(name) if f in slip.values and not f.endswith("_sense")]
-    shares = [read(name)[field].share(repr(abs(slip.values[field]))) for field in told]
-    follow = max(lab.rubric.follow, lab.rubric.slips["rpm_as_rad"])
-    assert [share for share, _ in shares] == [
-        lab.rubric.slips["rpm_as_rad"],
-        *[follow] * (len(told) - 1),
-    ]
-    assert all("rev/min are taken for rad/s" in said for _, said in shares)
 
 
 def test_moodle_itself_read_what_is_kept_here_and_this_reader_reads_the_same():

@@ -1,0 +1,409 @@
+"""Causes in the construction: what a student draws who takes one thing of the task wrongly.
+
+A cause changes a few steps; the construction is then run again from these, for all variants that
+draw alike at once. Names of causes in components come from the kinds' own records.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from functools import cached_property
+from math import pi
+from typing import Any
+
+from msgspec import Struct
+from msgspec.structs import replace
+
+from graphkin.accuracy.pencil.original import together
+from graphkin.accuracy.pencil.pencil import Paper
+from graphkin.classroom.grading.standard import FormLayout, Standard, ruler_unit
+from graphkin.construction.core.bases import crank_tip
+from graphkin.construction.core.component import component_of
+from graphkin.construction.core.crossings import Determined
+from graphkin.construction.core.kind import Construction
+from graphkin.construction.core.program import Drive, Plane, Step
+from graphkin.construction.core.vocabulary import similar_point
+from graphkin.construction.registry import SLIPPING
+from graphkin.construction.velocity.lines_through import square_to
+from graphkin.mechanism import Mechanism
+from graphkin.numbers.arithmetic import np
+from graphkin.numbers.plane import Ratio
+from graphkin.structure.groups import Crank
+
+Value = Any
+Get = Callable[[int], Value]
+Mend = Callable[[Value, Get], Value]
+"""A step's value as a student has it, from its right value and the other steps' values."""
+UNITS = {"rpm_as_rad": 30 / pi, "turns_as_rad": 1 / (2 * pi)}
+"""The factor on a crank's speed where rev/min, or rev/s, are taken for rad/s."""
+MILLIMETRE = -1
+"""In place of a step's number: what a millimetre of the velocity plan is worth."""
+RAD_AS_RPM = pi / 30
+"""The factor on a crank's speed where rad/s are taken for rev/min."""
+
+
+class Change(Struct, frozen=True):
+    """The steps that a cause changes.
+
+    ``mends`` change the values of steps, ``steps`` are drawn otherwise. ``faster`` is the factor
+    on the crank's speed by which the scales of the plans follow.
+    """
+
+    mends: Mapping[int, Mend] = {}
+    steps: Mapping[int, Step] = {}
+    faster: float = 1.0
+
+    def and_then(self, other: Change) -> Change | None:
+        """Both changes; None where they change the same step."""
+        mine, theirs = ({*each.mends, *each.steps} for each in (self, other))
+        if not mine.isdisjoint(theirs):
+            return None
+        return Change(
+            {**self.mends, **other.mends},
+            {**self.steps, **other.steps},
+            self.faster * other.faster,
+        )
+
+
+class Cause(Struct, frozen=True):
+    """One thing that a student took wrongly, by its name, and the way in which it was done.
+
+    No two causes of a form have the same name and the same way.
+    ``change`` is what it changes in the construction, ``reads`` what it changes in reading and
+    computing (:mod:`graphkin.classroom.grading.readings`). ``rare`` is the part of the cause's
+    share that the way has.
+    """
+
+    name: str
+    way: str = ""
+    change: Change | None = None
+    reads: Callable[..., Any] | None = None
+    rare: float = 1.0
+
+
+def speed_factors(mechanism: Mechanism) -> Mapping[str, float]:
+    """The factor on a crank's speed for each cause in its unit."""
+    in_turns = mechanism.scene.units.get("speed") == "rev/min"
+    return UNITS if in_turns else {"rad_as_rpm": RAD_AS_RPM}
+
+
+def constructed(mechanism: Mechanism, layout: FormLayout) -> tuple[Cause, ...]:
+    """Every cause in the construction of a mechanism, as far as the fields depend on it."""
+    needed = frozenset(layout.needed)
+    found = (
+        *of_drivers(mechanism),
+        *of_cranks(mechanism),
+        *of_sides(layout),
+        *of_plates(layout),
+        *of_perpendiculars(layout),
+        *of_components(layout),
+    )
+    return tuple(
+        each
+        for each in found
+        if each.change is not None
+        and not needed.isdisjoint({*each.change.mends, *each.change.steps})
+    )
+
+
+def times(factor: complex) -> Mend:
+    """A value taken ``factor`` times as large; a centre so many times as far from its origin."""
+
+    def taken(value: Value, get: Get) -> Value:
+        if isinstance(value, Ratio):
+            return value._replace(shift=factor * value.shift)
+        return factor * value
+
+    return taken
+
+
+# --- what the task states: drivers, cranks, sides, plates -----------------------------------------
+
+
+def of_drivers(mechanism: Mechanism) -> Iterator[Cause]:
+    """A driver's angle laid off otherwise, its speed in another unit or sense, no acceleration."""
+    every = list(zip(mechanism.scene.drivers, mechanism.program.drives, strict=True))
+    turning = [drive for driver, drive in every if driver.kind == "turn"]
+    if turning:
+        yield laid_off_otherwise("angle_clockwise", turning, lambda way: way.conjugate(), 0.0)
+        yield laid_off_otherwise("other_scale_of_protractor", turning, mirrored, pi)
+        if mechanism.scene.units.get("angle") == "deg":
+            yield Cause("degrees_as_radians", "", Change(in_degrees(turning)))
+        for name, ratio in speed_factors(mechanism).items():
+            faster = {drive.speed: times(ratio) for drive in turning}
+            yield Cause(name, "", Change(faster, faster=ratio))
+        back = {drive.speed: times(-1.0) for drive in turning}
+        yield Cause("driver_reversed", "", Change(back))
+    values = mechanism.scene.values
+    hastened = [
+        drive
+        for driver, drive in every
+        if driver.acceleration is not None and float(driver.acceleration.si(values)) != 0
+    ]
+    if hastened:
+        rest = {drive.acceleration: times(0.0) for drive in hastened}
+        yield Cause("driver_acceleration_missing", "", Change(rest))
+
+
+def mirrored(way: Value) -> Value:
+    """A direction at 180° − φ."""
+    return -way.conjugate()
+
+
+def laid_off_otherwise(
+    name: str, turning: Sequence[Drive], mend: Callable[[Value], Value], start: float
+) -> Cause:
+    """All cranks laid off in another direction, at an angle counted back from ``start``."""
+    mends: dict[int, Mend] = {drive.position: lambda way, get: mend(way) for drive in turning}
+    angles = (drive.angle for drive in turning if drive.angle is not None)
+    mends |= {number: lambda angle, get: start - angle for number in angles}
+    return Cause(name, "", Change(mends))
+
+
+def in_degrees(turning: Sequence[Drive]) -> dict[int, Mend]:
+    """The directions of cranks whose angle in degrees was taken for radians in a cosine."""
+    found: dict[int, Mend] = {}
+    for drive in turning:
+        found[drive.position] = lambda way, get: turned_by(degrees_of(way))
+        if drive.angle is not None:
+            found[drive.angle] = lambda angle, get: angle * (180 / pi)
+    return found
+
+
+def degrees_of(way: Value) -> Value:
+    """The angle of a direction in degrees, from 0 to 360."""
+    return np.degrees(np.angle(way)) % 360
+
+
+def turned_by(angle: Value) -> Value:
+    """The direction at an angle in radians."""
+    return np.exp(1j * angle)
+
+
+def of_cranks(mechanism: Mechanism) -> Iterator[Cause]:
+    """Cranks drawn twice or half as long: a diameter for a radius, or the reverse."""
+    program = mechanism.program
+    tips: dict[int, int] = {}
+    for group in mechanism.groups:
+        tip = crank_tip(mechanism.scene, group) if isinstance(group, Crank) else None
+        number = program.targets.get(("position", tip or ""))
+        if number is not None and isinstance(group, Crank):
+            tips[number] = program.targets["position", group.pivot]
+
+    def longer(pivot: int, ratio: float) -> Mend:
+        return lambda tip, get: get(pivot) + ratio * (tip - get(pivot))
+
+    for name, ratio in (("diameter_for_radius", 2.0), ("radius_for_diameter", 0.5)):
+        if tips:
+            mends = {number: longer(pivot, ratio) for number, pivot in tips.items()}
+            yield Cause(name, "", Change(mends))
+
+
+def of_sides(layout: FormLayout) -> Iterator[Cause]:
+    """A pin drawn where its loci meet on the other side: another closure."""
+    for number in layout.needed:
+        step = layout.program.steps[number]
+        if isinstance(step.of, Determined) and step.of.has_mirror and step.extra:
+            other = replace(step, extra=tuple(-sign for sign in step.extra))
+            yield Cause("other_side", str(number), Change(steps={number: other}))
+
+
+def of_plates(layout: FormLayout) -> Iterator[Cause]:
+    """A plate drawn on the other side of its base, or measured from the base's other end."""
+    steps, moving = layout.program.steps, driven(layout)
+    shapes = dict.fromkeys(
+        step.args[2]
+        for step in (steps[number] for number in layout.needed)
+        if step.action is similar_point and step.args[2] not in moving
+    )
+
+    for number in shapes:
+        for name, mend in (
+            ("plate_flipped", lambda ratio, get: ratio.conjugate()),
+            ("letters_exchanged", lambda ratio, get: 1 - ratio.conjugate()),
+        ):
+            yield Cause(name, str(number), Change({number: mend}))
+
+
+def driven(layout: FormLayout) -> frozenset[int]:
+    """The steps that depend on the driver's position."""
+    roots = (drive.position for drive in layout.program.drives)
+    return frozenset().union(*(layout.below(number) for number in roots))
+
+
+# --- what the student draws: perpendiculars and components ----------------------------------------
+
+
+def of_perpendiculars(layout: FormLayout) -> Iterator[Cause]:
+    """The parallel to a bar drawn for the perpendicular: in the plans, or in one of them."""
+    steps = layout.program.steps
+    bars: dict[tuple[int, ...], list[int]] = {}
+    for number in layout.needed:
+        if steps[number].action is square_to:
+            bars.setdefault(steps[number].args[1:], []).append(number)
+
+    def turned(line: Value, get: Get) -> Value:
+        return line._replace(along=1j * line.along)
+
+    for bar, lines in bars.items():
+        ways = {tuple(lines), *((number,) for number in lines)}
+        for way in sorted(ways, key=len, reverse=True):
+            mends = dict.fromkeys(way, turned)
+            told = f"{bar[0]}-{bar[1]} {len(way)}:{way[0]}"
+            yield Cause("parallel_for_perpendicular", told, Change(mends))
+
+
+def of_components(layout: FormLayout) -> Iterator[Cause]:
+    """Components left out or laid off wrongly, centres on the wrong side: all of a kind, or one."""
+    steps = layout.program.steps
+    for kind in reversed(SLIPPING):
+        numbers = [n for n in layout.needed if is_result(steps[n], kind)]
+        ways = [tuple(numbers), *((n,) for n in numbers if len(numbers) > 1)] if numbers else []
+        for name, slip in kind.slips.items():
+            for way in ways:
+                told = str(way[0]) if len(way) < len(numbers) else ""
+                yield Cause(name, told, Change(dict.fromkeys(way, times(slip.factor))))
+
+
+def is_result(step: Step, kind: type[Construction]) -> bool:
+    """Whether a step is the result of a kind of construction: its component, or its centre."""
+    return isinstance(step.of, kind) and step.role in ("vector", "found")
+
+
+def laid_anew(layout: FormLayout, misread: Callable[[Value, Value], Value]) -> Change:
+    """Components computed from velocities that were misread, each by a factor.
+
+    ``misread`` gives the factor of a length of the velocity plan, from its real size and from what
+    a millimetre of the plan is worth.
+    """
+    program = layout.program
+    mends: dict[int, Mend] = {}
+    for number in layout.needed:
+        component = component_of(program, number)
+        if component is None:
+            continue
+        tail, tip = program.steps[number].args[-2:]
+
+        def mend(value: Value, get: Get, tail: int = tail, tip: int = tip) -> Value:
+            return value * misread(abs(get(tip) - get(tail)), get(MILLIMETRE)) ** 2
+
+        mends[number] = mend
+    return Change(mends)
+
+
+# --- variants side by side ------------------------------------------------------------------------
+
+
+class Variants(Struct, frozen=True, dict=True):
+    """Some variants that draw alike, whose values are arrays with a row for each."""
+
+    standards: Sequence[Standard]
+
+    @cached_property
+    def layout(self) -> FormLayout:
+        """The form, which all share."""
+        return self.standards[0].layout
+
+    @cached_property
+    def fields(self) -> tuple[str, ...]:
+        """The fields of the form, senses too."""
+        return tuple(item.field for item in self.layout.items)
+
+    @cached_property
+    def values(self) -> Mapping[int, Value]:
+        """The right values of all steps that the fields need."""
+        found = dict(together([each.exact for each in self.standards]).trace.values)
+        missing = [number for number in self.layout.needed if number not in found]
+        for number in missing:
+            step = self.layout.program.steps[number]
+            if step.given is None and step.action is not None:
+                args = (found[arg] for arg in step.args)
+                found[number] = step.action.value(*args, *step.extra)
+        return found
+
+    @cached_property
+    def paper(self) -> Paper:
+        """The scale factors, in columns."""
+        papers = [each.paper for each in self.standards]
+        names = ("mechanism", "velocities", "accelerations")
+        columns: list[Any] = [np.array([[getattr(p, name)] for p in papers]) for name in names]
+        return Paper(*columns)
+
+    @cached_property
+    def units(self) -> Any:
+        """A millimetre on the ruler in the unit of each field; zero for senses."""
+        return np.array([[millimetre(each, i) for i in self.places] for each in self.standards])
+
+    @property
+    def places(self) -> range:
+        """The places of the fields."""
+        return range(len(self.fields))
+
+    @cached_property
+    def key(self) -> Any:
+        """The right value of each field, a row for each variant."""
+        return np.array([[each.key[field] for field in self.fields] for each in self.standards])
+
+    def changed(self, change: Change) -> dict[int, Value] | None:
+        """The values of the steps that a change moves; None where nothing can be drawn."""
+        steps, values = self.layout.program.steps, self.values
+        found: dict[int, Value] = {}
+
+        def get(number: int) -> Value:
+            if number == MILLIMETRE:
+                return self.paper.velocities / 1000
+            return found[number] if number in found else values[number]
+
+        try:
+            with np.errstate(all="ignore"):
+                for number in self.layout.needed:
+                    step = change.steps.get(number, steps[number])
+                    moved = number in change.steps or not found.keys().isdisjoint(step.args)
+                    if not moved and number not in change.mends:
+                        continue
+                    value = values[number]
+                    if moved and step.action is not None:
+                        value = step.action.value(*(get(arg) for arg in step.args), *step.extra)
+                    mend = change.mends.get(number)
+                    found[number] = value if mend is None else mend(value, get)
+        except (ZeroDivisionError, ValueError, OverflowError):
+            return None
+        return found
+
+    def read(self, found: Mapping[int, Value], faster: float = 1.0) -> Any:
+        """Every field as read off the construction with some values changed; rates have a sign.
+
+        The plans of a crank ``faster`` than it is keep their size where the crank sets their scale.
+        """
+        paper = self.paper
+        if faster != 1.0:
+            by_crank: Any = np.array(
+                [[float(bool(each.scales.of_crank))] for each in self.standards]
+            )
+            ratio = faster**by_crank
+            paper = Paper(paper.mechanism, paper.velocities * ratio, paper.accelerations * ratio**2)
+        every = {**self.values, **found}
+        shape = len(self.standards), len(self.fields)
+        told = np.empty(shape)
+        for place, probe in enumerate(self.layout.probes):
+            value = np.real(np.asarray(probe.read(every, paper), dtype=complex))
+            column = np.broadcast_to(value, (shape[0], 1))[:, 0]
+            told[:, place] = np.sign(column) if probe.item.what == "sense" else column
+        return told
+
+
+def millimetre(standard: Standard, place: int) -> float:
+    """A millimetre on the ruler in the unit of a field; zero for a sense."""
+    probe = standard.layout.probes[place]
+    if probe.item.what == "sense":
+        return 0.0
+    return float(ruler_unit(next(r for r in standard.readings if r.probe is probe)))
+
+
+def plan_of(layout: FormLayout, place: int) -> int:
+    """The plan by whose scale a field is computed: 1 velocities, 2 accelerations, 0 mechanism."""
+    probe = layout.probes[place]
+    if probe.item.what == "place":
+        return 0
+    plane = probe.plane
+    return 2 if plane is Plane.ACCELERATIONS else 1

@@ -1,0 +1,582 @@
+"""Explains each student's sheet as a whole: no mistake, one cause, two causes, or unexplained.
+
+Every hypothesis says what the student would have written. It is judged by all answers together,
+with the pencil's errors in the student's own construction and with a pencil of any coarseness. A
+value is compared with the student's own length, from which it was computed: so what follows from
+the cause counts for it once. An answer that no hypothesis gives is a mistake of any size.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from functools import cached_property
+from itertools import combinations
+from math import inf, log, pi
+from typing import Any
+
+from msgspec import Struct
+from msgspec.structs import replace
+
+from graphkin.accuracy.pencil.pencil import STRAIGHT
+from graphkin.classroom.grading.answer_numbers import rounding
+from graphkin.classroom.grading.causes import Cause, Change, Variants
+from graphkin.classroom.grading.graded import Answer
+from graphkin.classroom.grading.likelihood import ASTRAY, HALF
+from graphkin.classroom.grading.readings import FormFields, View
+from graphkin.classroom.grading.standard import Standard, sense_is_open
+from graphkin.numbers.arithmetic import np
+
+Array = Any
+PENCILS = (0.35, 0.7, 1.4, 2.8, 5.6, 11.0)
+"""The coarseness of pencils, relative to the one that is forgiven."""
+RARE_PENCILS = (-0.7, 0.0, 0.0, -0.7, -2.0, -4.0)
+"""How rare each of them is, as a logarithm."""
+MISTAKES = 0.03
+"""The share of answers that are mistakes of their own."""
+COMPUTED = 0.004
+"""The relative error of a value computed from a length as it was read."""
+DIRECT = 0.15
+"""How often a value is not computed from the length that was handed in."""
+SHARE = log(1 / 60)
+"""How frequent each cause is, as a logarithm."""
+LIKELY = 5.0
+"""The least odds, as a logarithm, at which a cause is named."""
+SENSES = -1.0
+"""The same where nothing but senses is wrong, all of which the cause must reverse."""
+SECOND = 6.0
+"""The least odds, as a logarithm, by which two causes must be likelier than one."""
+EXPLAINS = 0.6
+"""The least share of the wrong answers that an explanation must give."""
+SPOILS = 0.25
+"""The largest share of all answers that an explanation may leave unexplained."""
+SPAN = (0.5, 4.0)
+"""The least and largest factor by which an error scales with its value."""
+BEST = 12
+"""The number of hypotheses of a student that are compared, and of causes of which pairs are."""
+COARSE = (2,)
+"""The pencil by which all pairs are compared."""
+CLOSE = 4
+"""The number of pairs that are compared with every pencil."""
+
+
+class SheetCauses(Struct, frozen=True):
+    """The causes that explain a sheet, and what a student with these causes would have written.
+
+    ``values`` are sizes, places and senses by field. ``times`` is how many times as large each
+    error then is. ``odds`` says how much likelier this is than no mistake, as a logarithm.
+    ``fits`` are the fields whose answers agree.
+    """
+
+    causes: tuple[Cause, ...]
+    values: Mapping[str, float]
+    times: Mapping[str, float]
+    odds: float
+    fits: frozenset[str] = frozenset()
+
+    @property
+    def names(self) -> tuple[str, ...]:
+        """The names of the causes, each once."""
+        return tuple(dict.fromkeys(cause.name for cause in self.causes))
+
+
+class Hypothesis(Struct, frozen=True):
+    """Some causes, the change of the construction, and the readings after it."""
+
+    causes: tuple[Cause, ...] = ()
+
+    @property
+    def share(self) -> float:
+        """How frequent it is, as a logarithm."""
+        return sum(SHARE + log(cause.rare) for cause in self.causes)
+
+    @property
+    def made(self) -> tuple[tuple[str, str], ...]:
+        """The names and ways of its causes in the construction."""
+        return tuple((e.name, e.way) for e in self.causes if e.change is not None)
+
+    @property
+    def change(self) -> Change | None:
+        """The change of the construction by all causes; None where they do not go together."""
+        whole: Change | None = Change()
+        for cause in self.causes:
+            if cause.change is not None and whole is not None:
+                whole = whole.and_then(cause.change)
+        return whole
+
+
+class Predicted(Struct, frozen=True):
+    """What students would draw and write by a hypothesis.
+
+    ``other`` holds values that are as likely to be ``written``, field by field; NaN for none.
+    """
+
+    drawn: Array
+    written: Array
+    other: Array | None
+
+
+class AnswerSheets(Struct, frozen=True, dict=True):
+    """The answers of some students whose variants draw alike, as arrays.
+
+    ``rows`` are the places of their variants. ``missed`` marks answers that are wrong by the key.
+    """
+
+    form: FormFields
+    rows: Array
+    given: Sequence[Mapping[str, Answer]]
+    missed: Array
+
+    @property
+    def variants(self) -> Variants:
+        """The variants of the students."""
+        return self.form.variants
+
+    @cached_property
+    def answers(self) -> Array:
+        """The answers, NaN where there is none."""
+        fields = self.variants.fields
+        read = [[each[field].value for field in fields] for each in self.given]
+        values = np.array([[np.nan if v is None else v for v in row] for row in read], dtype=float)
+        sized = ~(self.form.senses | self.form.centres)
+        return np.where(sized, abs(values), values)
+
+    @cached_property
+    def rounded(self) -> Array:
+        """The relative rounding error of each answer as it is written."""
+        fields = self.variants.fields
+        return np.array([[rounding(each[field]) for field in fields] for each in self.given])
+
+    @cached_property
+    def view(self) -> View:
+        """What the students have before them."""
+        fields = self.variants.fields
+        whole = [[not {".", ","} & {*each[field].text} for field in fields] for each in self.given]
+        return View(self.form, self.rows, self.answers, np.array(whole))
+
+    @cached_property
+    def is_read(self) -> Array:
+        """The answers that can be judged."""
+        return ~np.isnan(self.answers)
+
+    @cached_property
+    def key(self) -> Array:
+        """The right values."""
+        return self.variants.key[self.rows]
+
+    @cached_property
+    def errors(self) -> tuple[Array, Array]:
+        """The deviations of the forgiven pencil and ruler in each field; zero for senses."""
+        told = [each.tolerance for each in self.variants.standards]
+        fields = self.variants.fields
+        pencil, ruler = (
+            np.array([[getattr(t[f], part) if f in t else 0.0 for f in fields] for t in told])[
+                self.rows
+            ]
+            for part in ("pencil", "ruler")
+        )
+        return np.nan_to_num(pencil, posinf=1e12) / STRAIGHT, np.nan_to_num(ruler) / STRAIGHT
+
+    @cached_property
+    def astray(self) -> Array:
+        """The density of mistakes of their own, as a logarithm."""
+        sizes = np.maximum(self.answers, 1e-12 + 1e-6 * abs(self.key))
+        with np.errstate(all="ignore"):
+            apart = np.log(sizes / np.maximum(abs(self.key), 1e-12)) / HALF
+            size = -np.log(pi * HALF * sizes * (1 + apart**2))
+            away = (self.answers - self.key) / ASTRAY
+            place = -np.log(pi * ASTRAY * (1 + away**2))
+        return log(MISTAKES) + np.where(self.form.centres, place, size)
+
+    @cached_property
+    def known(self) -> Array:
+        """The places of fields whose own segment was answered, as pairs of value and segment."""
+        values = np.flatnonzero(self.form.segments >= 0)
+        return np.array([values, self.form.segments[values]]) if len(values) else None
+
+    # --- judging hypotheses -----------------------------------------------------------------------
+
+    def shown(self, hypothesis: Hypothesis) -> Predicted | None:
+        """What the students would write by a hypothesis; None where it cannot be drawn."""
+        told = self.drawn(hypothesis)
+        if told is None:
+            return None
+        drawn, values = told
+        predicted, other = drawn, None
+        for cause in hypothesis.causes:
+            if cause.reads is not None:
+                changed, free = cause.reads(predicted, self.view, values)
+                if other is not None:
+                    again, also = cause.reads(other, self.view, values)
+                    other = again if also is None else np.where(other == predicted, also, again)
+                elif free is not None:
+                    other = free
+                predicted = changed
+        return Predicted(drawn, predicted, other)
+
+    def drawn(self, hypothesis: Hypothesis) -> tuple[Array, Mapping[int, Any]] | None:
+        """The fields as read rightly off the drawing of a hypothesis, and its values by step."""
+        key = hypothesis.made
+        if key not in self.drawings:
+            change = hypothesis.change
+            found = None if change is None else self.variants.changed(change)
+            self.drawings[key] = None
+            if found is not None and change is not None:
+                told = self.variants.read(found, change.faster)
+                self.drawings[key] = told, {**self.variants.values, **found}
+        known: tuple[Array, Mapping[int, Any]] | None = self.drawings[key]
+        return None if known is None else (known[0][self.rows], known[1])
+
+    @cached_property
+    def drawings(self) -> dict[tuple[tuple[str, str], ...], Any]:
+        """A cache of the drawings of hypotheses, of all variants."""
+        return {}
+
+    def judged(self, hypothesis: Hypothesis, pencils: Iterable[int] = range(len(PENCILS))) -> Array:
+        """How likely each student's answers are by a hypothesis, as a logarithm."""
+        told = self.shown(hypothesis)
+        if told is None:
+            return np.full(len(self.rows), -inf)
+        best = np.full(len(self.rows), -inf)
+        for pencil in pencils:
+            each = self.by_field(told.drawn, told.written, PENCILS[pencil])
+            if told.other is not None:
+                also = self.by_field(told.drawn, told.other, PENCILS[pencil])
+                with np.errstate(invalid="ignore"):
+                    each = np.logaddexp(each, also) - HALF
+            whole = np.where(self.is_read, each, 0.0).sum(axis=1) + RARE_PENCILS[pencil]
+            best = np.maximum(best, whole)
+        return best + hypothesis.share
+
+    def by_field(self, shown: Array, predicted: Array, pencil: float) -> Array:
+        """The density of each answer where some values are aimed at, as a logarithm."""
+        form, answers = self.form, self.answers
+        with np.errstate(all="ignore"):
+            sizes = np.where(form.centres, predicted, abs(predicted))
+            drawn, read = self.errors
+            times = self.times(shown, predicted)
+            spread = (pencil * drawn * times) ** 2 + (read * np.maximum(times, 1.0)) ** 2
+            spread = spread + (self.rounded * answers) ** 2 / 3 + (COMPUTED * sizes) ** 2
+            found = -0.5 * ((answers - sizes) ** 2 / spread + np.log(2 * pi * spread))
+            if self.known is not None:
+                values, own = self.known
+                found[:, values] = self.by_length(sizes, found, values, own)
+            found = np.logaddexp(log(1 - MISTAKES) + found, self.astray)
+            found = np.where(np.isnan(found), self.astray, found)
+            sense = np.where(answers == np.sign(predicted), log(1 - MISTAKES), log(MISTAKES))
+            unclear = np.isnan(predicted) | (predicted == 0)
+            sense = np.where(unclear | self.open_senses, log(0.5), sense)
+        return np.where(form.senses, sense, found)
+
+    def by_length(self, sizes: Array, direct: Array, values: Array, own: Array) -> Array:
+        """The density of values that are computed from a length of the student's own."""
+        answers = self.answers
+        apart = np.log(answers[:, values] / answers[:, own])
+        apart = apart - np.log(sizes[:, values] / sizes[:, own])
+        spread = COMPUTED + self.rounded[:, values] + self.rounded[:, own] / 2
+        found = -0.5 * (apart / spread) ** 2 - np.log(spread * answers[:, values]) - log(2 * pi) / 2
+        whole = np.logaddexp(log(1 - DIRECT) + found, log(DIRECT) + direct[:, values])
+        return np.where(np.isnan(whole), direct[:, values], whole)
+
+    def times(self, shown: Array, predicted: Array) -> Array:
+        """How many times as large an error is beside that of the key.
+
+        The errors of a drawing grow with what it shows, those of what is read as it is misread.
+        """
+        with np.errstate(all="ignore"):
+            drawn = np.clip(np.nan_to_num(abs(shown / self.key), nan=1.0), *SPAN)
+            misread = np.nan_to_num(abs(predicted / shown), nan=1.0, posinf=1.0)
+        return np.where(self.form.centres | self.form.senses, 1.0, drawn * misread)
+
+    @cached_property
+    def open_senses(self) -> Array:
+        """The senses that no drawing determines."""
+        items = self.form.items
+        told = [
+            [item.what == "sense" and sense_is_open(each, item.field) for item in items]
+            for each in self.variants.standards
+        ]
+        return np.array(told)[self.rows]
+
+    # --- comparing them ---------------------------------------------------------------------------
+
+    @property
+    def causes(self) -> tuple[Cause, ...]:
+        """All causes, those of the construction first."""
+        return self.form.causes
+
+    def explained(self) -> list[SheetCauses | None]:
+        """The explanation of each sheet, where values that cannot be drawn are NaN."""
+        with np.errstate(all="ignore"):
+            return self.compared()
+
+    def compared(self) -> list[SheetCauses | None]:
+        """The explanation of each sheet; None where nothing is wrong, or nothing explains it."""
+        found: list[SheetCauses | None] = [None] * len(self.rows)
+        wrong = np.flatnonzero(self.missed.any(axis=1)).tolist()
+        if wrong:
+            told = self.some(wrong).compared_wrong()
+            for i, each in zip(wrong, told, strict=True):
+                found[i] = each
+        return found
+
+    def compared_wrong(self) -> list[SheetCauses | None]:
+        """The explanation of each sheet, on each of which something is wrong."""
+        count = len(self.rows)
+        honest = self.judged(Hypothesis())
+        ranked = Ranked(count)
+        for cause in self.causes:
+            ranked.add(each := Hypothesis((cause,)), self.judged(each))
+        found = [self.chosen(i, ranked.of(i), honest[i]) for i in range(count)]
+        more = [i for i, each in enumerate(found) if self.left(i, each) > 1]
+        self.explain_more({i: ranked.names_of(i) for i in more}, honest, found)
+        return found
+
+    def explain_more(
+        self,
+        which: Mapping[int, Sequence[Cause]],
+        honest: Array,
+        found: list[SheetCauses | None],
+    ) -> None:
+        """Replace the explanations of some sheets by those of two causes that are likelier.
+
+        ``which`` holds the causes by sheet of which pairs are tried.
+        """
+        pairs: dict[tuple[tuple[str, str], ...], tuple[Hypothesis, list[int]]] = {}
+        for i, causes in which.items():
+            for pair in pairs_of(causes):
+                key = tuple((cause.name, cause.way) for cause in pair.causes)
+                pairs.setdefault(key, (pair, []))[1].append(i)
+        tried: dict[int, list[tuple[float, Any]]] = {i: [] for i in which}
+        plain = self.judged(Hypothesis(), COARSE)
+        for key, (pair, own) in pairs.items():
+            for i, each in zip(own, self.some(own).judged(pair, COARSE).tolist(), strict=True):
+                if each > plain[i]:
+                    tried[i].append((each, key))
+            if all(cause.change is not None for cause in pair.causes):
+                self.drawings.pop(pair.made, None)
+        close: dict[Any, list[int]] = {}
+        for i, every in tried.items():
+            for _, key in sorted(every, key=lambda told: -told[0])[:CLOSE]:
+                close.setdefault(key, []).append(i)
+        again: dict[int, list[tuple[Hypothesis, float]]] = {}
+        for key, own in close.items():
+            pair = pairs[key][0]
+            for i, each in zip(own, self.some(own).judged(pair).tolist(), strict=True):
+                again.setdefault(i, []).append((pair, each))
+        for i, told in again.items():
+            told.sort(key=lambda pair: -pair[1])
+            each, single = self.chosen(i, told, honest[i]), found[i]
+            if each is not None and (single is None or each.odds > single.odds + SECOND):
+                found[i] = each
+
+    def left(self, i: int, found: SheetCauses | None) -> int:
+        """How many answers of a sheet are not explained; of wrong ones where there is none."""
+        if found is None:
+            return int((self.missed[i] & self.is_read[i]).sum())
+        return int((self.is_read[i] & ~self.fits(i, found)).sum())
+
+    def some(self, which: Sequence[int]) -> AnswerSheets:
+        """The sheets of some of the students, with the same cache of drawings."""
+        own = list(which)
+        part = AnswerSheets(
+            self.form, self.rows[own], [self.given[i] for i in own], self.missed[own]
+        )
+        drawn, read = self.errors
+        part.__dict__.update(
+            answers=self.answers[own],
+            rounded=self.rounded[own],
+            is_read=self.is_read[own],
+            key=self.key[own],
+            errors=(drawn[own], read[own]),
+            astray=self.astray[own],
+            known=self.known,
+            open_senses=self.open_senses[own],
+            view=self.view.some(own),
+            drawings=self.drawings,
+        )
+        return part
+
+    def chosen(
+        self, i: int, tried: Sequence[tuple[Hypothesis, float]], honest: float
+    ) -> SheetCauses | None:
+        """The likeliest explanation of a sheet; None where none is likely enough."""
+        if not self.missed[i].any():
+            return None
+        numbers = self.missed[i] & ~self.form.senses
+        for hypothesis, likely in tried:
+            if likely - honest < (LIKELY if numbers.any() else SENSES):
+                break
+            found = self.judged_enough(i, self.settled(i, hypothesis, likely - honest))
+            if found is not None:
+                return found
+        return None
+
+    def judged_enough(self, i: int, found: SheetCauses) -> SheetCauses | None:
+        """An explanation with the answers that agree; None where these are too few."""
+        fits, read = self.fits(i, found), self.is_read[i]
+        missed = self.missed[i] & read
+        spoilt = (read & ~fits).sum() > SPOILS * read.sum()
+        enough = EXPLAINS if (missed & ~self.form.senses).any() else 1.0
+        if (missed & fits).sum() < enough * missed.sum() or spoilt:
+            return None
+        told = [f for f, fit in zip(self.variants.fields, fits, strict=True) if fit]
+        return replace(found, fits=frozenset(told))
+
+    def settled(self, i: int, hypothesis: Hypothesis, odds: float = 0.0) -> SheetCauses:
+        """What a student would write by a hypothesis, the likelier of two values in each field."""
+        part = self.some([i])
+        told = part.shown(hypothesis)
+        assert told is not None
+        written = told.written
+        if told.other is not None:
+            one, two = (part.by_field(told.drawn, e, 1.4) for e in (written, told.other))
+            written = np.where(two > one, told.other, written)
+        times = part.times(told.drawn, written)
+        fields = self.variants.fields
+        values, scaled = (
+            dict(zip(fields, each[0].tolist(), strict=True)) for each in (written, times)
+        )
+        return SheetCauses(hypothesis.causes, values, scaled, float(odds))
+
+    def fits(self, i: int, by: SheetCauses) -> Array:
+        """The answers of a student that an explanation gives, within 99 of 100 drawings."""
+        answers, form, rounded = self.answers[i], self.form, self.rounded[i]
+        values, times = (
+            np.array([each[field] for field in self.variants.fields])
+            for each in (by.values, by.times)
+        )
+        with np.errstate(all="ignore"):
+            drawn, read = (each[i] for each in self.errors)
+            sizes = np.where(form.centres, values, abs(values))
+            allowed = 2.6 * np.hypot(1.4 * drawn, read) * times + 2 * COMPUTED * abs(sizes)
+            near = abs(answers - sizes) <= allowed + rounded * abs(answers)
+            if self.known is not None:
+                computed, own = self.known
+                apart = np.log(answers[computed] / answers[own] * sizes[own] / sizes[computed])
+                error = 3 * COMPUTED + rounded[computed] + rounded[own]
+                near[computed] |= (abs(apart) <= error) & near[own]
+        sense = (answers == np.sign(values)) | self.open_senses[i]
+        return np.where(form.senses, sense, near) & self.is_read[i]
+
+
+class Ranked:
+    """The likeliest hypotheses of each of some students."""
+
+    def __init__(self, count: int) -> None:
+        self.every: list[Hypothesis] = []
+        self.likely: list[Array] = []
+        self.count = count
+
+    def add(self, hypothesis: Hypothesis, likely: Array) -> None:
+        """Note how likely a hypothesis is for each student."""
+        self.every.append(hypothesis)
+        self.likely.append(likely)
+
+    @cached_property
+    def table(self) -> Array:
+        """A row for each hypothesis."""
+        return np.nan_to_num(np.array(self.likely), nan=-inf, neginf=-inf)
+
+    def of(self, i: int) -> list[tuple[Hypothesis, float]]:
+        """The likeliest hypotheses of a student, in order."""
+        column = self.table[:, i]
+        order = np.argsort(-column, kind="stable")[:BEST]
+        return [(self.every[k], float(column[k])) for k in order]
+
+    def names_of(self, i: int) -> list[Cause]:
+        """The likeliest causes of a student, one of each name, in the order they were noted."""
+        best: dict[str, int] = {}
+        for k in np.argsort(-self.table[:, i], kind="stable").tolist():
+            if self.table[k, i] > -inf and len(best) < BEST:
+                best.setdefault(self.every[k].causes[0].name, k)
+        return [self.every[k].causes[0] for k in sorted(best.values())]
+
+
+def pairs_of(causes: Sequence[Cause]) -> Iterator[Hypothesis]:
+    """All pairs of different causes that go together, those in the construction first."""
+    for one, other in combinations(causes, 2):
+        if one.name == other.name and one.reads is not None:
+            continue
+        pair = Hypothesis((one, other))
+        if pair.change is not None:
+            yield pair
+
+
+def explanations(
+    standards: Sequence[Standard],
+    rows: Sequence[int],
+    given: Sequence[Mapping[str, Answer]],
+    missed: Sequence[frozenset[str]],
+) -> list[SheetCauses | None]:
+    """The explanation of each sheet of students whose variants draw alike.
+
+    ``rows`` are the places of their variants among the ``standards``. ``missed`` are the fields
+    that are wrong by the key.
+    """
+    return sheets_of(standards, rows, given, missed).explained()
+
+
+def sheets_of(
+    standards: Sequence[Standard],
+    rows: Sequence[int],
+    given: Sequence[Mapping[str, Answer]],
+    missed: Sequence[frozenset[str]],
+) -> AnswerSheets:
+    """The sheets of some students as arrays."""
+    form = FormFields(Variants(standards))
+    fields = form.variants.fields
+    wrong = np.array([[field in each for field in fields] for each in missed])
+    return AnswerSheets(form, np.array(rows, dtype=int), given, wrong)
+
+
+class CauseWay(Struct, frozen=True):
+    """What a student would write by some causes, and how many times as large the errors are.
+
+    ``share`` says how frequent it is, as a logarithm.
+    """
+
+    names: tuple[str, ...]
+    values: Mapping[str, float]
+    times: Mapping[str, float]
+    share: float
+
+
+def ways_of(
+    standard: Standard, given: Mapping[str, Answer], missed: frozenset[str]
+) -> tuple[CauseWay, ...]:
+    """Every way of working with one cause, and the one that explains a student's sheet."""
+    sheet = sheets_of([standard], [0], [given], [missed])
+    single = (Hypothesis((cause,)) for cause in sheet.causes)
+    with np.errstate(all="ignore"):
+        told = [(each, sheet.settled(0, each)) for each in single if sheet.shown(each) is not None]
+    (found,) = sheet.explained()
+    if found is not None and len(found.causes) > 1:
+        told.append((Hypothesis(found.causes), found))
+    return tuple(CauseWay(e.names, e.values, e.times, each.share) for each, e in told)
+
+
+def explained_by(
+    standard: Standard,
+    given: Mapping[str, Answer],
+    missed: frozenset[str],
+    cause: Cause,
+    others: Array,
+) -> tuple[int, SheetCauses] | None:
+    """The one of some other keys that explains a sheet, with its place; None where none does.
+
+    ``others`` has a row for each key, by the fields of the form.
+    """
+    count = len(others)
+    sheet = sheets_of([standard], [0], [given], [missed])
+    every = sheet.some([0] * count)
+    likely = np.full(count, -inf)
+    for pencil, rare in zip(PENCILS, RARE_PENCILS, strict=True):
+        each = every.by_field(others, others, pencil)
+        likely = np.maximum(likely, np.where(every.is_read, each, 0.0).sum(axis=1) + rare)
+    best = int(likely.argmax())
+    odds = float(likely[best] - sheet.judged(Hypothesis())[0] + SHARE - log(count))
+    times = every.times(others, others)[best]
+    fields = sheet.variants.fields
+    values, scaled = (dict(zip(fields, e.tolist(), strict=True)) for e in (others[best], times))
+    found = sheet.judged_enough(0, SheetCauses((cause,), values, scaled, odds))
+    return None if found is None or odds < LIKELY else (best, found)

@@ -1,0 +1,542 @@
+"""Causes in reading and computing: what comes of a right drawing by a wrong ruler, scale or unit.
+
+Each maps what a drawing shows to what a student writes, for many students at once. Arrays have a
+row for each student and a column for each field of the form.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Mapping
+from functools import cached_property
+from itertools import combinations
+from math import degrees, pi
+from typing import Any
+
+from msgspec import Struct
+from msgspec.structs import replace
+
+from graphkin.classroom.grading.causes import (
+    Cause,
+    Change,
+    Value,
+    Variants,
+    constructed,
+    laid_anew,
+    plan_of,
+    speed_factors,
+)
+from graphkin.classroom.lab.items import motion_of
+from graphkin.classroom.lab.lab_model import Item
+from graphkin.construction.core.quantities import EPSILON, OMEGA, RATES
+from graphkin.construction.velocity.turning_of_link import TurningOfLink
+from graphkin.numbers.arithmetic import np
+
+Array = Any
+FEW = 2
+"""The fewest answers that determine a factor of a student's own."""
+ODD = 1.07
+"""The least factor, up or down, by which a scale of one's own differs from the right one."""
+FREE = 0.2
+"""How rare a factor of one's own is beside a known one."""
+OTHER = {"ν": "τ", "τ": "ν"}
+"""The component mistaken for another."""
+
+
+class FormFields(Struct, frozen=True, dict=True):
+    """The fields of a form by kind, as masks, and how they depend on one another."""
+
+    variants: Variants
+
+    @cached_property
+    def causes(self) -> tuple[Cause, ...]:
+        """All causes, those in the construction first."""
+        layout, standards = self.variants.layout, self.variants.standards
+        return (*constructed(standards[0].mechanism, layout), *read_otherwise(self))
+
+    @cached_property
+    def items(self) -> tuple[Item, ...]:
+        """The fields."""
+        return self.variants.layout.items
+
+    def those(self, wanted: Callable[[Item], bool]) -> Array:
+        """The mask of some fields."""
+        return np.array([wanted(item) for item in self.items])
+
+    @cached_property
+    def senses(self) -> Array:
+        """The senses."""
+        return self.those(lambda item: item.what == "sense")
+
+    @cached_property
+    def centres(self) -> Array:
+        """The coordinates of places."""
+        return self.those(lambda item: item.what == "place")
+
+    @cached_property
+    def lengths(self) -> Array:
+        """The segments measured in a plan."""
+        return self.those(lambda item: item.what == "segment")
+
+    @cached_property
+    def rates(self) -> Array:
+        """The rates of links."""
+        return self.those(lambda item: item.what == "value" and motion_of(item) in RATES)
+
+    @cached_property
+    def computed(self) -> Array:
+        """The vectors, rates and speeds that are computed from a length."""
+        return self.those(lambda item: item.what == "value")
+
+    @cached_property
+    def plans(self) -> Array:
+        """The plan of each field: 1 velocities, 2 accelerations, 0 the mechanism."""
+        return np.array([plan_of(self.variants.layout, i) for i in self.variants.places])
+
+    @cached_property
+    def segments(self) -> Array:
+        """The place of the segment from which a value is read; -1 where there is none."""
+        at = {item.field: i for i, item in enumerate(self.items)}
+        return np.array([at.get(item.segment, -1) for item in self.items])
+
+    @cached_property
+    def formulas(self) -> Array:
+        """The values of components, which may be computed without a length of the plan."""
+        return self.those(lambda item: item.vector is not None and item.vector.sign in ("ν", "c"))
+
+
+class View(Struct, frozen=True, dict=True):
+    """What some students have before them, and what they answered.
+
+    ``answers`` are sizes, places with their sign, and senses as signs; NaN where there is none.
+    ``rows`` are their variants, ``whole`` marks numbers without a decimal point.
+    """
+
+    form: FormFields
+    rows: Array
+    answers: Array
+    whole: Array
+
+    def some(self, which: list[int]) -> View:
+        """What some of the students have before them."""
+        return View(self.form, self.rows[which], self.answers[which], self.whole[which])
+
+    @cached_property
+    def units(self) -> Array:
+        """A millimetre on the ruler in the unit of each field."""
+        return np.nan_to_num(self.form.variants.units[self.rows], posinf=0.0)
+
+    @cached_property
+    def scales(self) -> tuple[Array, Array, Array]:
+        """What a millimetre of the mechanism and of both plans is worth, in columns."""
+        paper = self.form.variants.paper
+        every: tuple[Any, ...] = (paper.mechanism, paper.velocities, paper.accelerations)
+        kL, kv, ka = (each[self.rows] / 1000 for each in every)
+        return kL, kv, ka
+
+    def own(self, scale: int) -> Array:
+        """What a millimetre of one plan is worth, where another plan's is due."""
+        return self.scales[scale]
+
+    def factor(self, predicted: Array, among: Array) -> Array:
+        """The factor by which a student's answers in some fields are too large; 1 where too few."""
+        with np.errstate(all="ignore"):
+            ratios = np.where(among, self.answers / abs(predicted), np.nan)
+            ratios = np.where(np.isfinite(ratios) & (ratios > 0), ratios, np.nan)
+            told = np.isfinite(ratios).sum(axis=1) >= FEW
+            middle = np.exp(middling(np.log(np.where(told[:, None], ratios, 1.0))))
+        found = np.where(told, middle, 1.0)
+        near = abs(np.log(found)) < np.log(ODD)
+        return np.where(near, 1.0, found)[:, None]
+
+
+def middling(logs: Array) -> Any:
+    """The median of each row, without NaN; 0 where there is none."""
+    ordered = np.sort(logs, axis=1)
+    count = np.isfinite(ordered).sum(axis=1)
+    low, high = (np.clip(each, 0, logs.shape[1] - 1) for each in ((count - 1) // 2, count // 2))
+    rows = np.arange(len(logs))
+    return np.nan_to_num((ordered[rows, low] + ordered[rows, high]) / 2)
+
+
+Told = tuple[Array, Array | None]
+"""The values written by a cause, and others that are as likely, field by field; NaN for none."""
+Reads = Callable[[Array, View, Mapping[int, Value]], Told]
+"""What is written, from what a drawing shows, the students, and the drawing's values by step."""
+
+
+def reading(
+    name: str, way: str, reads: Reads, rare: float = 1.0, change: Change | None = None
+) -> Cause:
+    """A cause in reading or computing."""
+    return Cause(name, way, change, reads, rare)
+
+
+def read_otherwise(form: FormFields) -> tuple[Cause, ...]:
+    """Every cause in reading the fields of a form."""
+    return (
+        *of_rulers(form),
+        *of_scales(form),
+        *of_units(form),
+        *of_formulas(form),
+        *of_places(form),
+        *of_table(form),
+    )
+
+
+def only(mask: Array, changed: Array, shown: Array) -> Array:
+    """Some fields changed, the others as shown."""
+    return np.where(mask, changed, shown)
+
+
+def scaled(mask: Array, factor: Callable[[View], Array], free: Array | None = None) -> Reads:
+    """Some fields a factor too large; those of ``free`` may as well be right."""
+
+    def reads(shown: Array, view: View, values: Mapping[int, Value]) -> Told:
+        changed = only(mask, shown * factor(view), shown)
+        return changed, None if free is None else only(free, shown, changed)
+
+    return reads
+
+
+# --- the ruler ------------------------------------------------------------------------------------
+
+
+def of_rulers(form: FormFields) -> Iterator[Cause]:
+    """Lengths read by the wrong edge of a scale ruler, or from its ten-millimetre mark.
+
+    Components may be computed from the lengths read, and laid off with the same ruler or not.
+    """
+    layout, read = form.variants.layout, form.lengths | form.computed | form.centres
+    for ratio in (2.0, 0.5):
+        reads = scaled(read, steady(ratio), form.formulas)
+        yield reading("ruler_scale", f"{ratio:g}", reads)
+        for power in (1, 2):
+            change = laid_anew(layout, steadily(ratio ** (power / 2)))
+            yield reading("ruler_scale", f"{ratio:g} laid {power}", reads, 0.5, change)
+    for shift in (10.0, -10.0):
+        for way, mask in (("all", read), ("plans", form.lengths | form.computed)):
+            reads = shifted(form, mask, shift)
+            yield reading("ruler_from_ten", f"{way} {shift:g}", reads)
+            change = laid_anew(layout, lengthened(shift))
+            yield reading("ruler_from_ten", f"{way} {shift:g} laid", reads, 0.5, change)
+    if form.centres.any():
+        upwards = shifted(form, read, 10.0, upwards=True)
+        yield reading("ruler_from_ten", "upwards", upwards)
+        change = laid_anew(layout, lengthened(10.0))
+        yield reading("ruler_from_ten", "upwards laid", upwards, 0.5, change)
+
+
+def steady(ratio: float) -> Callable[[View], Array]:
+    """The same factor for everybody."""
+    return lambda view: ratio
+
+
+def steadily(ratio: float) -> Callable[[Value, Value], Value]:
+    """The same factor for every length."""
+    return lambda length, mm: ratio
+
+
+def lengthened(shift: float) -> Callable[[Value, Value], Value]:
+    """The factor of a length that is too long by some millimetres."""
+    return lambda length, mm: 1 + shift * mm / length
+
+
+def shifted(form: FormFields, mask: Array, shift: float, *, upwards: bool = False) -> Reads:
+    """Lengths too long by some millimetres; with ``upwards`` coordinates too large by as many."""
+
+    def reads(shown: Array, view: View, values: Mapping[int, Value]) -> Told:
+        way = np.where(form.centres, 1.0, np.sign(shown)) if upwards else np.sign(shown)
+        changed = only(mask, shown + shift * view.units * way, shown)
+        return changed, only(form.formulas, shown, changed)
+
+    return reads
+
+
+# --- scale factors --------------------------------------------------------------------------------
+
+
+def of_scales(form: FormFields) -> Iterator[Cause]:
+    """Scale factors exchanged, forgotten or of one's own."""
+    first, second = ((form.plans == plan) & form.computed for plan in (1, 2))
+    either = first | second
+
+    def exchanged(own: int, other: int) -> Callable[[View], Array]:
+        return lambda view: view.own(other) / view.own(own)
+
+    for mask, own, other in ((first, 1, 2), (second, 2, 1), (first, 1, 0), (second, 2, 0)):
+        way = f"{other} for {own}"
+        yield reading("wrong_scale", way, scaled(mask, exchanged(own, other), form.rates))
+    both = crossed(form, first, second)
+    yield reading("wrong_scale", "exchanged", both)
+    for plan, mask in (("1", first), ("2", second), ("1 and 2", either)):
+        for free in (None, form.rates) if (mask & form.rates).any() else (None,):
+            way = f"own {plan}" if free is None else f"own {plan} or right"
+            yield reading("wrong_scale", way, by_own(form, mask, free), FREE)
+    yield reading("scale_missing", "values", forgotten(form))
+    if form.lengths.any():
+        yield reading("scale_missing", "lengths", taken_in_full(form))
+        yield reading("drawn_in_full", "", scaled(form.lengths, lambda view: 1000 * view.own(0)))
+        for number in (1, 2):
+            mask = form.lengths & (form.plans == number)
+            if mask.sum() >= FEW:
+                yield reading("own_scale", str(number), by_own(form, mask, None), FREE)
+        yield reading("own_scale", "both", by_own(form, form.lengths, None), FREE)
+        yield reading("own_scale", "plans", by_plan(form, form.lengths), FREE)
+    if form.centres.any():
+        yield reading("own_scale", "mechanism", by_own(form, form.centres, None), FREE)
+        everywhere = form.lengths | form.centres
+        yield reading("own_scale", "sheet", by_plan(form, everywhere), FREE)
+    if form.rates.any():
+        for way, power in (("once", 1.0), ("twice", -1.0)):
+            factor = powered(power)
+            yield reading("length_not_scaled", way, scaled(form.rates, factor, form.rates))
+
+
+def powered(power: float) -> Callable[[View], Array]:
+    """A power of the scale of the mechanism."""
+    return lambda view: (1000 * view.own(0)) ** power
+
+
+def crossed(form: FormFields, first: Array, second: Array) -> Reads:
+    """The scales of both plans exchanged."""
+
+    def reads(shown: Array, view: View, values: Mapping[int, Value]) -> Told:
+        _, kv, ka = view.scales
+        changed = only(first, shown * ka / kv, only(second, shown * kv / ka, shown))
+        return changed, only(form.rates, shown, changed)
+
+    return reads
+
+
+def by_own(form: FormFields, mask: Array, free: Array | None) -> Reads:
+    """Some fields off by one factor of the student's own, whatever it is."""
+
+    def reads(shown: Array, view: View, values: Mapping[int, Value]) -> Told:
+        changed = only(mask, shown * view.factor(shown, mask), shown)
+        return changed, None if free is None else only(free, shown, changed)
+
+    return reads
+
+
+def by_plan(form: FormFields, mask: Array) -> Reads:
+    """Some fields off by a factor of the student's own in each plan."""
+
+    def reads(shown: Array, view: View, values: Mapping[int, Value]) -> Told:
+        changed = shown
+        for plan in (0, 1, 2):
+            here = mask & (form.plans == plan)
+            if here.any():
+                changed = only(here, shown * view.factor(shown, here), changed)
+        return changed, None
+
+    return reads
+
+
+def forgotten(form: FormFields) -> Reads:
+    """Vectors given as the millimetres that were measured."""
+    vectors = form.computed & ~form.rates
+
+    def reads(shown: Array, view: View, values: Mapping[int, Value]) -> Told:
+        with np.errstate(all="ignore"):
+            drawn = np.where(view.units > 0, 1 / view.units, np.nan)
+        changed = only(vectors, shown * drawn, shown)
+        return changed, only(form.rates, shown * drawn_rates(view, form), changed)
+
+    return reads
+
+
+def drawn_rates(view: View, form: FormFields) -> Array:
+    """The factor of a rate computed from a length in mm over a bar in metres."""
+    scales = np.concatenate(view.scales, axis=1)
+    return 1 / scales[:, form.plans]
+
+
+def taken_in_full(form: FormFields) -> Reads:
+    """Lengths given in the units of their plan."""
+
+    def reads(shown: Array, view: View, values: Mapping[int, Value]) -> Told:
+        scales = np.concatenate(view.scales, axis=1)
+        return only(form.lengths, shown * scales[:, form.plans], shown), None
+
+    return reads
+
+
+# --- units ----------------------------------------------------------------------------------------
+
+
+def of_units(form: FormFields) -> Iterator[Cause]:
+    """A speed in another unit in the answers only, rates in degrees or turns, powers of ten."""
+    for name, ratio in speed_factors(form.variants.standards[0].mechanism).items():
+        for way, power in (("once", 1), ("squared", 2)):
+            factors = np.where(form.computed, ratio ** np.where(form.plans == 2, power, 1), 1.0)
+            yield reading(name, way, free_factors(factors, form.computed), 0.5)
+    for name, ratio in (("rate_in_degrees", degrees(1)), ("rate_in_turns", 30 / pi)):
+        if form.rates.any():
+            factors = np.where(form.rates, ratio, 1.0)
+            yield reading(name, "", free_factors(factors, form.rates))
+    yield reading("power_of_ten", "", of_ten(form))
+    yield reading("decimal_point_lost", "", of_ten(form, whole=True))
+
+
+def free_factors(factors: Array, free: Array) -> Reads:
+    """Fields off by their factors; those of ``free`` may as well be right."""
+
+    def reads(shown: Array, view: View, values: Mapping[int, Value]) -> Told:
+        changed = shown * factors
+        return changed, only(free, shown, changed)
+
+    return reads
+
+
+def of_ten(form: FormFields, *, whole: bool = False) -> Reads:
+    """Answers off by powers of ten, the same power for all answers with one unit.
+
+    With ``whole``, the answers have lost their decimal point: each by its own digits.
+    """
+    units = {item.unit for item in form.items if item.unit}
+    every = np.array([item.unit for item in form.items])
+    groups = [every == unit for unit in sorted(units)]
+    sized = ~(form.senses | form.centres)
+
+    def reads(shown: Array, view: View, values: Mapping[int, Value]) -> Told:
+        with np.errstate(all="ignore"):
+            powers = np.log10(view.answers / abs(shown))
+            near = np.round(powers)
+            fits = sized & (abs(powers - near) < 0.12) & (abs(near) >= 1) & (abs(near) <= 4)
+        if whole:
+            shift = np.where(fits & view.whole & (near > 0), near, np.nan)
+            return only(np.isfinite(shift), shown * 10.0 ** np.nan_to_num(shift), shown), None
+        changed = shown
+        for group in groups:
+            here = fits & group
+            power = middling(np.where(here, near, np.nan))
+            power = np.round(power)[:, None]
+            some = here & (near == power)
+            changed = only(some, shown * 10.0**power, changed)
+        return changed, None
+
+    return reads
+
+
+# --- formulas -------------------------------------------------------------------------------------
+
+
+def of_formulas(form: FormFields) -> Iterator[Cause]:
+    """Rates and components computed from another vector than the right one."""
+    layout = form.variants.layout
+    steps = layout.program.steps
+    turns = [
+        (place, steps[probe.step].args, probe.item.quantity)
+        for place, probe in enumerate(layout.probes)
+        if probe.item.what == "value" and isinstance(steps[probe.step].of, TurningOfLink)
+    ]
+    omegas = [(place, args) for place, args, quantity in turns if quantity == OMEGA]
+    epsilons = [(place, args) for place, args, quantity in turns if quantity == EPSILON]
+
+    def tip(p: Value, q: Value, tail: Value, end: Value) -> Value:
+        return abs(end) / abs(q - p)
+
+    def start(p: Value, q: Value, tail: Value, end: Value) -> Value:
+        return abs(tail) / abs(q - p)
+
+    def normal(p: Value, q: Value, tail: Value, end: Value) -> Value:
+        return abs(((end - tail) / (q - p)).real)
+
+    def whole(p: Value, q: Value, tail: Value, end: Value) -> Value:
+        return abs((end - tail) / (q - p))
+
+    for name, way, places, formula in (
+        ("absolute_for_relative", "tip", omegas, tip),
+        ("absolute_for_relative", "tail", omegas, start),
+        ("normal_for_tangential", "", epsilons, normal),
+        ("whole_for_tangential", "", epsilons, whole),
+    ):
+        if places:
+            yield reading(name, way, computed_from(places, formula))
+    pairs = list(components_beside(form))
+    if pairs:
+        yield reading("swapped", "", exchanged(pairs))
+
+
+def computed_from(
+    places: list[tuple[int, tuple[int, ...]]], formula: Callable[..., Value]
+) -> Reads:
+    """Rates by a wrong formula; each of them may as well be right."""
+
+    def reads(shown: Array, view: View, values: Mapping[int, Value]) -> Told:
+        changed = shown.copy()
+        with np.errstate(all="ignore"):
+            for place, args in places:
+                value = np.asarray(formula(*(values[arg] for arg in args)), dtype=float)
+                every = np.broadcast_to(value, (len(view.form.variants.standards), 1))
+                changed[:, place] = np.copysign(every[view.rows, 0], shown[:, place])
+        return changed, shown
+
+    return reads
+
+
+def components_beside(form: FormFields) -> Iterator[tuple[int, int]]:
+    """The places of fields that are the other component of one vector."""
+    items = form.items
+    for i, item in enumerate(items):
+        if item.vector is None or item.vector.sign not in OTHER:
+            continue
+        other = replace(item.vector, sign=OTHER[item.vector.sign]).symbol
+        for k, each in enumerate(items):
+            vector = each.vector
+            alike = k > i and each.what == item.what and vector is not None
+            if alike and vector is not None and vector.symbol == other:
+                yield i, k
+
+
+def exchanged(pairs: list[tuple[int, int]]) -> Reads:
+    """Fields written in each other's place."""
+
+    def reads(shown: Array, view: View, values: Mapping[int, Value]) -> Told:
+        changed = shown.copy()
+        for one, other in pairs:
+            changed[:, one], changed[:, other] = shown[:, other], shown[:, one]
+        return changed, None
+
+    return reads
+
+
+# --- places and the table -------------------------------------------------------------------------
+
+
+def of_places(form: FormFields) -> Iterator[Cause]:
+    """Coordinates of the other axis, or counted the other way."""
+    at = {item.field: i for i, item in enumerate(form.items)}
+    pairs = [
+        (i, at[item.beside("place", "y")])
+        for i, item in enumerate(form.items)
+        if item.what == "place" and item.axis == "x" and item.beside("place", "y") in at
+    ]
+    if pairs:
+        yield reading("axes_swapped", "", exchanged(pairs))
+    for axis in "xy":
+        mask = form.centres & np.array([item.axis == axis for item in form.items])
+        if mask.any():
+            yield reading("opposite", axis, free_factors(np.where(mask, -1.0, 1.0), mask))
+
+
+def of_table(form: FormFields) -> Iterator[Cause]:
+    """The answers for two points or links exchanged, and all senses taken the other way."""
+    if form.senses.any():
+        factors = np.where(form.senses, -1.0, 1.0)
+        yield reading("sense_reversed", "", free_factors(factors, form.senses & False))
+    owners: dict[str, dict[tuple[str, str, str], int]] = {}
+    for i, item in enumerate(form.items):
+        if item.vector is None:
+            owners.setdefault(item.of, {})[item.quantity, item.what, item.axis] = i
+    for one, other in combinations(owners, 2):
+        shared = [kind for kind in owners[one] if kind in owners[other]]
+        ways = {"": shared} | {
+            plan: [kind for kind in shared if kind[0] == plan] for plan, _, _ in shared
+        }
+        seen: list[list[tuple[int, int]]] = []
+        for way, kinds in ways.items():
+            pairs = [(owners[one][kind], owners[other][kind]) for kind in kinds]
+            if pairs and pairs not in seen:
+                seen.append(pairs)
+                yield reading("answers_exchanged", f"{one}-{other} {way}", exchanged(pairs))

@@ -1,0 +1,130 @@
+"""One cause, one deduction: students who share nothing with the marking, each with one mistake.
+
+``python -m tests.bench.causes`` measures all of them.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+
+import numpy as np
+import pytest
+from msgspec.structs import replace
+
+from graphkin.classroom.grading.answer_numbers import read_answer
+from graphkin.classroom.grading.causes import Variants
+from graphkin.classroom.grading.class_marking import graded_class
+from graphkin.classroom.grading.feedback import notes, points_words, rows
+from graphkin.classroom.grading.graded import Answer
+from graphkin.classroom.grading.readings import FormFields
+from graphkin.text import words
+from graphkin.text.errors import RosterError
+from tests.bench.causes import a_class, is_named
+from tests.classroom.grading.mistaken import CAUSES
+from tests.classroom.grading.students import LABS, book_of, given, key_answers, marker_of, taker
+
+SLICE = (
+    ("offset-slider-crank", "the crank's diameter for its radius"),
+    ("offset-slider-crank", "the ruler from 10 mm"),
+    ("slotted-lever", "the angle clockwise"),
+    ("slotted-lever", "no normal components"),
+    ("pump", "rev/min for rad/s"),
+    ("pump", "another number"),
+)
+FEW = 8
+
+
+@pytest.mark.parametrize(("lab", "name"), SLICE)
+def test_one_mistake_is_named_and_paid_once(lab, name):
+    found = a_class(lab, CAUSES[name], 1, count=FEW)
+    marks = [float(100 * graded.share) for graded, _ in found]
+    assert sum(is_named(*each) for each in found) >= FEW - 1
+    assert np.mean(marks) >= 75
+    for graded, _ in found:
+        assert graded.cost <= graded.points / 4
+
+
+@pytest.mark.parametrize("lab", LABS)
+def test_no_two_causes_share_a_name_and_a_way(lab):
+    """Else a pair that is tried for one student stands for another pair of a fellow student."""
+    made = FormFields(Variants([marker_of(lab, 7).standard])).causes
+    assert len({(cause.name, cause.way) for cause in made}) == len(made)
+
+
+def test_nobody_honest_has_a_mistake_named():
+    for lab in ("offset-slider-crank", "pump"):
+        assert not any(graded.causes for graded, _ in a_class(lab, [()], 2, count=20))
+
+
+def test_a_sense_without_its_value_earns_nothing():
+    """One of two senses is right by chance."""
+    marker = marker_of("pump", 7)
+    senses = {f: a for f, a in key_answers(marker.standard).items() if f.endswith("_sense")}
+    assert marker.mark(taker(), senses).earned == 0
+
+
+def test_all_senses_reversed_are_worth_no_more_than_blank_ones():
+    marker = marker_of("pump", 7)
+    key = key_answers(marker.standard)
+    senses = [f for f in key if f.endswith("_sense")]
+    blank = marker.mark(taker(), {**key, **dict.fromkeys(senses, Answer(""))}).earned
+    other = given({f: -marker.standard.key[f] for f in senses})
+    found = marker.mark(taker(), {**key, **other})
+    assert [cause.name for cause in found.causes] == ["sense_reversed"]
+    assert found.earned <= blank
+    lost = points_words(found.points - found.earned, words("en"))
+    assert notes(found, words("en"))[0].startswith(f"One mistake, −{lost} points")
+
+
+def test_a_named_cause_never_costs_more_than_the_same_values_unexplained():
+    for lab, name in SLICE:
+        for graded, _ in a_class(lab, CAUSES[name], 1, count=2):
+            lost = sum(m.points - m.earned for m in graded.marks if not m.cause)
+            assert graded.cost + lost <= graded.points
+
+
+def test_feedback_begins_with_the_mistake_in_every_language():
+    (graded, _), *_ = a_class("offset-slider-crank", [("diameter",)], 1, count=1)
+    for language, start in (("en", "One mistake"), ("ro", "O greșeală"), ("it", "Un errore")):
+        assert notes(graded, words(language))[0].startswith(start)
+    text = notes(graded, words("en"))[0]
+    assert "diameter" in text and text.endswith("Everything else follows from it.")
+
+
+def test_the_points_of_the_table_add_up_to_the_mark():
+    for lab, name in SLICE[:3]:
+        for graded, _ in a_class(lab, CAUSES[name], 1, count=2):
+            told = [row.cells[-1].split(" ")[0] for row in rows(graded, words("en"))]
+            assert sum(float(each.replace("−", "-")) for each in told) == float(graded.earned)
+
+
+def keys_of(count: int) -> tuple[list, dict[str, Mapping[str, Answer]]]:
+    """A class whose answers are the keys."""
+    book = book_of("pump")
+    takers = [taker(n, f"s{n:02d}") for n in range(1, count + 1)]
+    book.prepare(takers)
+    answers = {}
+    for each in takers:
+        found = key_answers(book.marker(each.settings).standard)
+        answers[each.student.id] = {f: replace(a, text=f"{a.value:.4g}") for f, a in found.items()}
+    return takers, answers
+
+
+def test_shifted_rows_are_told_and_nothing_is_marked():
+    takers, answers = keys_of(12)
+    ids = list(answers)
+    shifted = {who: answers[ids[(i + 1) % len(ids)]] for i, who in enumerate(ids)}
+    with pytest.raises(RosterError, match="shifted"):
+        graded_class(book_of("pump"), takers, shifted)
+    assert graded_class(book_of("pump"), takers, answers).graded[0].share == 1
+
+
+def test_a_column_without_its_decimal_points_is_told():
+    takers, answers = keys_of(12)
+    items = {item.field: item for item in book_of("pump").form}
+    lost = {}
+    for who, row in answers.items():
+        digits = f"{abs(row['v_D'].value):.3f}".replace(".", "")
+        lost[who] = {**row, "v_D": read_answer(digits, items["v_D"])}
+    with pytest.raises(RosterError, match="decimal"):
+        graded_class(book_of("pump"), takers, lost)
