@@ -65,4 +65,5 @@ def pyslvs_text(text: str) -> Imported:
             guides.append(DrawnGuide(block, own, angle=radians(number(found["angle"] or "0"))))
     few(len(held))
     bodies = {link: DrawnLink(link, tuple(owns)) for link, owns in held.items()}
-    return Imported(PROGRAM, "mm", ROUNDING, joints, bodies, tuple(guides), ())
+    notes = (message("lengths have no unit in the file; mm are written"),)
+    return Imported(PROGRAM, "mm", ROUNDING, joints, bodies, tuple(guides), (), notes)

@@ -5,6 +5,7 @@ from __future__ import annotations
 import re
 from cmath import phase, rect
 from collections.abc import Iterator
+from contextlib import contextmanager
 from math import degrees, inf
 
 from msgspec import Struct
@@ -27,11 +28,20 @@ from graphkin.scene.read_scene import read_text
 from graphkin.structure.decomposition import decompose
 from graphkin.structure.groups import Dyad, Group, Higher, Stretched
 from graphkin.structure.pairs import Pin
-from graphkin.text.errors import Message, message
+from graphkin.text.errors import (
+    GraphkinError,
+    Message,
+    Problem,
+    joined,
+    message,
+    verbatim,
+)
 
 NAME = "import"
 DIGITS = 9
 """Decimals of a number, so that lengths of a drawing close as it does."""
+MOST_NAMES = 40
+"""Names of the file in one error."""
 SEEN = 20
 """Roundings of the file by which a closed position may differ from the drawing unnoticed."""
 
@@ -46,14 +56,32 @@ class SceneText(Struct, frozen=True):
 def scene_text(found: Imported) -> SceneText:
     """The scene of an imported mechanism; it names its notes in comments at its head.
 
-    Raises SceneError or StructureError where no scene can be made of it.
+    Raises a GraphkinError where no scene can be made of it, with the file's names.
     """
     writer = SceneWriter(found)
-    branches = nearest_closures(writer)
-    mechanism = Mechanism(read_text(writer.text(branches), NAME))
+    with names_of_file(writer):
+        branches = nearest_closures(writer)
+        mechanism = Mechanism(read_text(writer.text(branches), NAME))
     notes = (*writer.notes, *moved(writer, mechanism))
     head = [f"# from {found.program}", *(f"# {named_whole(note)}" for note in notes)]
     return SceneText(writer.text(branches, head), notes)
+
+
+@contextmanager
+def names_of_file(writer: SceneWriter) -> Iterator[None]:
+    """Add to an error of the scene which links and joints of the file its names are."""
+    try:
+        yield
+    except GraphkinError as error:
+        names = [
+            message("{name} is {what}", name=name, what=verbatim(named(what)))
+            for name, what in writer.names()
+            if name != what
+        ]
+        if not names:
+            raise
+        legend = message("the names in the file: {names}", names=joined(", ", names[:MOST_NAMES]))
+        raise type(error)((*error.problems, Problem(NAME, legend))) from None
 
 
 def named_whole(note: Message) -> str:
@@ -67,6 +95,13 @@ class SceneWriter:
         self.found = found
         self.notes = list(found.notes)
         self.guided = {guide.body for guide in found.guides}
+        if len(self.guided) < len(found.guides):
+            bodies = [guide.body for guide in found.guides]
+            twice = next(own for own in bodies if bodies.count(own) > 1)
+            raise refused(
+                message("link {name} has two guides", name=named(found.bodies[twice].name)),
+                message("one guide for each link"),
+            )
         fixed = {own for own, joint in found.joints.items() if joint.fixed}
         self.bodies: dict[str, DrawnLink] = {}
         for own, body in found.bodies.items():
@@ -107,13 +142,17 @@ class SceneWriter:
         self.notes.append(
             message(
                 "nothing is driven in the file; link {name} is, at speed 1",
-                name=self.numbers_of(own),
+                name=self.numbers[own],
             )
         )
         return DrawnInput(own, 1.0, about)
 
-    def numbers_of(self, own: str) -> str:
-        return str(1 + [*self.bodies].index(own))
+    def names(self) -> Iterator[tuple[str, str]]:
+        """The name in the scene and in the file of each link, then of each joint."""
+        for own, number in self.numbers.items():
+            yield number, self.bodies[own].name
+        for own, point in self.points.items():
+            yield point, self.found.joints[own].name
 
     def guide(self, own: str) -> DrawnGuide | None:
         return next((guide for guide in self.found.guides if guide.body == own), None)

@@ -12,11 +12,15 @@ from string import ascii_lowercase, ascii_uppercase, digits
 
 import pytest
 from click.testing import CliRunner
+from msgspec.structs import replace
 
 from graphkin.cli.main import app
+from graphkin.documents.pmks_file import pmks_file
 from graphkin.importing.formats import content, imported
+from graphkin.importing.record import DrawnGuide
 from graphkin.importing.scene_text import scene_text
 from graphkin.mechanism import Mechanism
+from graphkin.scene import scene_files
 from graphkin.scene.read_scene import read_text
 from graphkin.text.errors import GraphkinError
 
@@ -32,6 +36,15 @@ PYSLVS = {
 }
 BASE = f"{digits}{ascii_uppercase}{ascii_lowercase}_-"
 CENTIMETRE = 0.01
+SENT = (
+    "crank-rocker",
+    "slider-crank",
+    "watt-2",
+    "shaper",
+    "rapid-return",
+    "crank-slot",
+    "geneva-wheel",
+)
 STEP = 1e-6
 
 
@@ -129,6 +142,85 @@ def test_an_expression_stands_at_its_coordinates(name):
     assert len(found) == len(spots)
     for number, (x, y) in enumerate(spots):
         assert abs(found[f"P{number}"] - complex(float(x), float(y))) < 1e-3, number
+
+
+@pytest.mark.parametrize("name", SENT)
+def test_what_goes_out_to_pmks_comes_back_the_same(name):
+    path = scene_files.examples()[name]
+    sent = Mechanism(read_text(path.read_text("utf-8"), name))
+    one, other = sent.solve(), opened(pmks_file(sent).decode("ascii")).solve()
+    number = 1 + [*sent.scene.links].index(sent.scene.drivers[0].link)
+    omega = float(one.links[sent.scene.drivers[0].link].omega)
+    assert float(other.links[str(number)].omega) == pytest.approx(omega, abs=1e-6)
+    fastest = max(abs(complex(point.velocity)) for point in one.points.values() if point.velocity)
+    moving = [name for name, point in one.points.items() if point.velocity and name in other.points]
+    assert len(moving) > 1
+    for point in moving:
+        there, here = one.points[point], other.points[point]
+        if there.position is not None:
+            assert abs(complex(there.position) - complex(here.position)) < 2e-5, point
+        assert abs(complex(there.velocity) - complex(here.velocity)) < 2e-3 * fastest, point
+
+
+def changed(text: str, *changes: tuple[str, str]) -> str:
+    """A text of PMKS+ with other parts, and the letter for its length."""
+    said = text[:-1]
+    for old, new in changes:
+        assert said.count(old) == 1
+        said = said.replace(old, new)
+    return said + f"{digits}{ascii_uppercase}{ascii_lowercase}"[len(said) % 62]
+
+
+@pytest.mark.parametrize(
+    ("whole", "exact", "rpm"), [(20, None, 20.0), (20, 19_600_000_001, 19.600000001), (21, 1, 21.0)]
+)
+def test_an_exact_speed_counts_only_beside_its_whole_one(whole, exact, rpm):
+    said = f".{BASE[whole]},0.1011" if exact is None else f".{BASE[whole]},0,{coded(exact)}.1011"
+    found = opened(changed(LINKS["inverted-slider-crank"], (".K,0.1011", said)))
+    assert float(found.solve().links["1"].omega) == pytest.approx(-rpm * pi / 30, abs=1e-9)
+
+
+def coded(number: int) -> str:
+    return (coded(number // 64) if number >= 64 else "") + BASE[number % 64]
+
+
+def test_links_at_a_welded_joint_are_one():
+    """The coupler of the four-bar carries a bar EX, welded to it in E."""
+    at = drawn(LINKS["watt-1"])
+    assert {"E", "F", "G"} <= at.keys()
+    welded = changed(LINKS["watt-1"], (".GE,E,", ".OE,E,"))
+    links = imported(welded).bodies
+    assert {"D", "E", "F"} in [{*link.joints} for link in links.values()]
+    assert len(links) == len(imported(LINKS["watt-1"]).bodies) - 1
+
+
+def test_a_part_of_a_welded_link_is_no_link_and_another_is_named():
+    text = LINKS["watt-1"]
+    part = ".NRDE,part,1E8,1a,bq,18q,0d125a,D,E,,.YREF,"
+    alone = imported(changed(text, (".YREF,", part)))
+    assert len(alone.bodies) == len(imported(text).bodies)
+    assert ["part" in note for note in alone.notes].count(True) == 1
+    root = ".NRde,part,1E8,1a,bq,18q,0d125a,D,E,,.YREF,"
+    held = imported(changed(text, (".YREF,", root), ("C,F,G,,.", "C,F,G,,de.")))
+    assert not any("part" in note for note in held.notes)
+
+
+def test_a_block_with_two_guides_is_refused_by_its_name():
+    text = "M[J[R, P[0, 0], L[ground, a]], J[R, P[1, 0], L[a]]]"
+    found = imported(text)
+    twice = tuple(DrawnGuide("a", "P1", angle=angle) for angle in (0.0, 1.0))
+    with pytest.raises(GraphkinError, match="link a has two guides"):
+        scene_text(replace(found, guides=twice))
+
+
+def test_an_error_of_the_scene_names_the_links_of_the_file():
+    free = "M[J[R, P[0, 0], L[ground, crank]], J[R, P[1, 0], L[crank, rod]], J[R, P[3, 0], L[rod]]]"
+    with pytest.raises(GraphkinError, match="1 is crank, 2 is rod"):
+        scene_text(imported(free))
+
+
+def test_a_length_without_a_unit_is_named():
+    assert any("unit" in note for note in scene_text(imported(PYSLVS["slider"])).notes)
 
 
 def test_a_moving_slot_of_an_expression_is_refused():
