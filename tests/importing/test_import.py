@@ -135,6 +135,69 @@ def test_a_file_of_linkage_stands_in_96ths_of_an_inch(name):
         assert abs(found[point] - at[point]) < 1e-3, point
 
 
+def linkage_of(name: str) -> tuple[Mechanism, dict[str, complex]]:
+    """A file of Linkage as a mechanism, and its connectors in metres, read from the text."""
+    text = (HERE / f"{name}.linkage2").read_text()
+    rows = re.findall(r'connector id="(\d+)" x="([^"]*)" y="([^"]*)"', text)
+    at = {f"P{own}": complex(float(x), float(y)) / 96 * 0.0254 for own, x, y in rows}
+    mechanism = opened(text)
+    for point, place in places(mechanism, 1.0).items():
+        if "@" not in point:
+            assert abs(place - at[point]) < 1e-6, point
+    return mechanism, at
+
+
+def test_gears_turn_against_one_another_and_a_chain_turns_its_wheels_alike():
+    solved = linkage_of("gears")[0].solve()
+    speeds = sorted(float(link.omega) for link in solved.links.values())
+    assert speeds == pytest.approx([-1.5 * pi, -0.5 * pi, pi])
+
+
+def test_a_fastened_gear_is_a_part_of_its_link():
+    found = imported((HERE / "gears.linkage2").read_text())
+    assert sorted(map(len, (body.joints for body in found.bodies.values()))) == [1, 1, 2]
+    assert {gear.belt for gear in found.gears} == {False, True}
+
+
+def test_a_cylinder_extends_at_its_mean_speed():
+    """15 cycles in a minute are 30 strokes, so that a stroke of half an inch takes two seconds."""
+    mechanism, at = linkage_of("cylinder")
+    solved = mechanism.solve()
+    length, arm = abs(at["P1"] - at["P0"]), abs(at["P1"] - at["P2"])
+
+    def lever(time: float) -> float:
+        reach = length + time * 0.0127 / 2
+        return phase(crossing(at["P0"], reach, at["P2"], arm, at["P1"]) - at["P2"])
+
+    assert float(solved.links["3"].omega) == pytest.approx(rate(lever), rel=1e-5)
+
+
+def test_a_rod_in_two_bushings_slides_without_turning():
+    mechanism, at = linkage_of("bushings")
+    solved = mechanism.solve()
+    moved = solved.points["P1"].velocity
+    assert abs(complex(solved.points["P0"].velocity) - complex(moved)) < 1e-12
+
+    def place(time: float) -> float:
+        pin = turned(at["P6"], at["P5"], pi / 2 * time)
+        rise, rod = pin.imag - at["P1"].imag, abs(at["P6"] - at["P1"])
+        return pin.real - sqrt(rod**2 - rise**2).real
+
+    assert complex(moved) == pytest.approx(complex(rate(place), 0), abs=1e-9)
+
+
+def test_what_linkage_bends_is_refused():
+    text = (HERE / "crank.linkage2").read_text()
+    assert 'slider="true"' in text
+    with pytest.raises(GraphkinError, match="curved"):
+        imported(text.replace('slider="true"', 'slider="true" slideradius="30"'))
+    text = (HERE / "cylinder.linkage2").read_text()
+    end = '<connector id="1"/></Link>\n<Link id="1">'
+    assert end in text
+    with pytest.raises(GraphkinError, match="link 0"):
+        imported(text.replace(end, f'<connector id="3"/>{end}'))
+
+
 @pytest.mark.parametrize("name", PYSLVS)
 def test_an_expression_stands_at_its_coordinates(name):
     found = places(opened(PYSLVS[name]), 0.001)
@@ -251,8 +314,7 @@ def test_entities_large_numbers_and_many_joints_are_refused():
     bomb = '<!DOCTYPE a [<!ENTITY b "c">]><linkage2>&b;</linkage2>'
     many = "<linkage2>" + '<connector id="1" x="1" y="1"/>' * 201 + "</linkage2>"
     far = '<linkage2><connector id="1" x="1e99" y="nan"/></linkage2>'
-    gear = '<linkage2><Link id="1" gear="true"/></linkage2>'
-    for text, words in ((bomb, "XML"), (many, "200"), (far, "1e99"), (gear, "gear")):
+    for text, words in ((bomb, "XML"), (many, "200"), (far, "1e99")):
         with pytest.raises(GraphkinError, match=words):
             imported(text)
 
