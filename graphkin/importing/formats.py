@@ -45,6 +45,10 @@ def imported(text: str) -> Imported:
             from graphkin.importing.pyslvs import pyslvs_text
 
             return pyslvs_text(text)
+        if text.startswith("{"):
+            from graphkin.importing.pylinkage import pylinkage_text
+
+            return pylinkage_text(text)
         from graphkin.importing.pmks import new_text, old_text
 
         if text.startswith("j="):
@@ -55,5 +59,8 @@ def imported(text: str) -> Imported:
         raise damaged() from None
     raise refused(
         message("the text has no format that is imported"),
-        message("a link or a file of PMKS+, a file .linkage2 of Linkage, or M[J[…], …] of Pyslvs"),
+        message(
+            "a link or a file of PMKS+, a file .linkage2 of Linkage, JSON of pylinkage,"
+            " or M[J[…], …] of Pyslvs"
+        ),
     )
