@@ -72,11 +72,7 @@ def changed(text: str, part: str, number: int, **changes: object) -> str:
 def test_a_tracker_is_a_point_of_its_link():
     """A point over the middle of the coupler, at half its length, is at 45° from its first end."""
     data = json.loads(saved(MADE["four-bar"]()))
-    coupler = (
-        next(link for link in data["links"] if link["name"] == "coupler")
-        if any(link.get("name") == "coupler" for link in data["links"])
-        else next(link for link in data["links"] if link["id"] == "coupler")
-    )
+    coupler = next(link for link in data["links"] if link["id"] == "coupler")
     one, other = coupler["joints"]
     tracker = {"id": "T", "type": "tracker", "position": [0, 0], "ref_joint1_id": one}
     tracker |= {"ref_joint2_id": other, "distance": 30 * sqrt(2), "angle": pi / 4}
