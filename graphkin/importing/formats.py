@@ -9,6 +9,7 @@ from graphkin.scene.file_limits import LARGEST, file_bytes
 from graphkin.text.errors import message
 
 LINK = re.compile(r"https?://[^?\s]*\?", re.IGNORECASE)
+MECH = re.compile(r"(^|&)mech=")
 PMKS = re.compile(r"[\w-]{2}\.[\w,-]*\.[\w,-]*\.[\w-]*\.")
 
 
@@ -49,6 +50,10 @@ def imported(text: str) -> Imported:
             from graphkin.importing.pylinkage import pylinkage_text
 
             return pylinkage_text(text)
+        if MECH.search(text):
+            from graphkin.importing.old_pmks import mech_text
+
+            return mech_text(text)
         from graphkin.importing.pmks import new_text, old_text
 
         if text.startswith("j="):

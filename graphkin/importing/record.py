@@ -35,8 +35,8 @@ class DrawnGuide(Struct, frozen=True):
     """The straight guide of a link: on another link, or on the frame where ``on`` is empty.
 
     ``first`` is the joint of the link that slides along it. The guide runs along two joints of
-    ``on``, or through ``first`` as it is drawn at an ``angle`` in radians. That of a cylinder's
-    tube, whose only joint is ``tube``, runs from there through ``first``.
+    ``on``, or through ``first``, at an ``angle`` to the drawing's x axis in radians. That of a
+    cylinder's tube, whose only joint is ``tube``, runs from there through ``first``.
     """
 
     body: str

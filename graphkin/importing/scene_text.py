@@ -104,7 +104,7 @@ class SceneWriter:
                 message("one guide for each link"),
             )
         self.geared = {own for gear in found.gears for own in (gear.one, gear.other)}
-        alone = self.guided | self.geared | {guide.on for guide in found.guides if guide.tube}
+        alone = self.guided | self.geared | {guide.on for guide in found.guides}
         fixed = {own for own, joint in found.joints.items() if joint.fixed}
         self.bodies: dict[str, DrawnLink] = {}
         for own, body in found.bodies.items():
@@ -270,8 +270,11 @@ class SceneWriter:
             yield "angle = 0"
             return
         if guide.along is None:
-            yield f"through = {pair(self.at[guide.first])}"
-            yield f"angle = {plain(degrees(guide.angle))}"
+            origin, axis = 0j, 1 + 0j
+            if guide.on in self.bodies:
+                origin, axis = self.at[self.bodies[guide.on].joints[0]], self.axis(guide.on)
+            yield f"through = {pair((self.at[guide.first] - origin) / axis)}"
+            yield f"angle = {plain(degrees(phase(self.way(guide) / axis)))}"
             return
         one, other = guide.along
         yield f'along = "{self.points[one]}-{self.points[other]}"'

@@ -286,10 +286,69 @@ def test_a_length_without_a_unit_is_named():
     assert any("unit" in note for note in scene_text(imported(PYSLVS["slider"])).notes)
 
 
-def test_a_moving_slot_of_an_expression_is_refused():
-    slot = "M[J[R, P[0, 0], L[ground, a]], J[RP, A[0.0], P[1, 0], L[a, b]]]"
-    with pytest.raises(GraphkinError, match="P1"):
-        imported(slot)
+def test_a_lever_with_a_slot_of_an_expression_turns_as_the_line_to_its_pin():
+    """The slot passes beside the lever's pivot, so that the lever keeps a distance from the pin."""
+    text = (
+        "M[J[R, P[0, 0], L[ground, crank]], J[RP, A[100], P[30, 40], L[lever, crank]],"
+        " J[R, P[20, -60], L[ground, lever]]]"
+    )
+    pivot, pin, slot = 20 - 60j, 30 + 40j, rect(1, 100 * pi / 180)
+    off = ((pin - pivot) / slot).imag
+
+    def turns(time: float) -> float:
+        way = turned(pin, 0, pi / 30 * time) - pivot
+        return phase(way / (sqrt(abs(way) ** 2 - off**2) + 1j * off))
+
+    solved = opened(text).solve()
+    assert float(solved.links["2"].omega) == pytest.approx(rate(turns), rel=1e-6)
+
+
+@pytest.mark.parametrize("links", ["ground, yoke", "yoke, ground"])
+def test_the_yoke_of_an_expression_moves_as_its_pin_does_along_the_guide(links):
+    text = (
+        "M[J[R, P[0, 0], L[ground, crank]], J[RP, A[90], P[30, 40], L[yoke, crank]],"
+        f" J[P, A[0], P[100, 0], L[{links}]]]"
+    )
+    solved = opened(text).solve()
+    assert complex(solved.points["P2"].velocity) == pytest.approx(-pi / 30 * 0.040)
+    assert complex(solved.points["P1"].velocity) == pytest.approx(pi / 30 * 1j * (0.03 + 0.04j))
+
+
+def test_a_joint_of_another_kind_is_refused_by_its_name():
+    for kind, links in (("X", "ground, a"), ("P", "ground, a, b"), ("RP", "")):
+        text = f"M[J[R, P[0, 0], L[ground, a]], J[{kind}, A[0.0], P[1, 0], L[{links}]]]"
+        with pytest.raises(GraphkinError, match=f"P1 is of kind {kind}"):
+            imported(text)
+
+
+@pytest.mark.parametrize("between", [",", " "])
+def test_a_link_of_the_old_pmks_turns_as_its_circles_cross(between):
+    at = {"A": 0j, "B": 3 + 26j, "C": 95 + 62j, "D": 110 - 5j}
+    joints = (
+        "ground,in,R,0,0,0,tfft|in,rod,R,3,26,ffff|rod,out,R,95,62,0,ffff|out,ground,R,110,-5,ffff|"
+    )
+    solved = opened(f"set=s-2|e0.1&mech={joints.replace(',', between)}").solve()
+
+    def rocker(time: float) -> float:
+        pin, (_, b, c, d) = turned(at["B"], 0, -2 * time), at.values()
+        return phase(crossing(pin, abs(c - b), d, abs(c - d), c) - d)
+
+    assert float(solved.links["3"].omega) == pytest.approx(rate(rocker), rel=1e-5)
+    for point, place in at.items():
+        assert complex(solved.points[point].position) == pytest.approx(place / 1000)
+
+
+def test_a_block_of_the_old_pmks_slides_on_its_guide():
+    text = "mech=ground,a,R,0,0,tfft|a,b,R,30,40,ffff|b,c,R,150,-10,ffff|c,ground,P,150,-10,0,ffff"
+    solved = opened(text).solve()
+
+    def slider(time: float) -> float:
+        pin = turned(30 + 40j, 0, time)
+        return (pin.real + sqrt(abs(120 - 50j) ** 2 - (pin.imag + 10) ** 2)).real / 1000
+
+    assert complex(solved.points["C"].velocity) == pytest.approx(rate(slider), abs=1e-9)
+    with pytest.raises(GraphkinError, match="D is of kind RP"):
+        imported(text.replace("ground,P", "ground,RP"))
 
 
 def test_what_has_no_counterpart_is_named_in_the_scene():
