@@ -174,8 +174,14 @@ def gathered(
             else:
                 guides.append(DrawnGuide(own, start, angle=drawn.angle))
             if drawn.driven:
-                told.append(message("a speed along a guide is not in the file; 1 per second"))
-                inputs.append(DrawnInput(own, 1.0))
+                told.append(
+                    message(
+                        "the speed {speed} is taken as {unit} per second along the guide",
+                        speed=f"{speed:g}",
+                        unit=unit,
+                    )
+                )
+                inputs.append(DrawnInput(own, speed))
     for guide in guides:
         if guide.along and not {*guide.along} <= {*held[guide.on].joints}:
             raise damaged()

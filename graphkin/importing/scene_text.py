@@ -118,6 +118,11 @@ class SceneWriter:
                 )
         if not self.bodies:
             raise refused(message("nothing in it moves"))
+        for own in sorted(self.geared - self.bodies.keys()):
+            raise refused(
+                message("gear {name} does not move", name=named(found.bodies[own].name)),
+                message("gears that turn"),
+            )
         moving = {joint for body in self.bodies.values() for joint in body.joints}
         led = {j for g in found.guides if g.on not in self.bodies and g.along for j in g.along}
         self.fixed = [own for own in found.joints if own in fixed and own in moving | led]

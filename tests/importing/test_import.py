@@ -247,6 +247,15 @@ def coded(number: int) -> str:
     return (coded(number // 64) if number >= 64 else "") + BASE[number % 64]
 
 
+def test_a_driven_slider_has_the_speed_of_the_setting_along_its_guide():
+    """PMKS+ takes the number as a length per second, by its kinematic-solver.ts."""
+    text = changed(LINKS["teaching-lab-slider-crank"], (".MA,A,", ".KA,A,"), (".LD,D,", ".ND,D,"))
+    found = scene_text(imported(text))
+    assert any("-20 is taken as cm per second" in note for note in found.notes)
+    mechanism = Mechanism(read_text(found.text, "imported"))
+    assert complex(mechanism.solve().points["C"].velocity) == pytest.approx(-0.2)
+
+
 def test_links_at_a_welded_joint_are_one():
     """The coupler of the four-bar carries a bar EX, welded to it in E."""
     at = drawn(LINKS["watt-1"])
@@ -367,6 +376,20 @@ def test_a_text_that_breaks_off_is_refused_in_words():
                     scene_text(imported(said))
                 except GraphkinError as error:
                     assert str(error)
+
+
+def test_a_file_of_linkage_without_a_line_is_refused_in_words_or_read():
+    text = (HERE / "gears.linkage2").read_text()
+    lines = text.splitlines(keepends=True)
+    for place in range(len(lines)):
+        try:
+            scene_text(imported("".join(lines[:place] + lines[place + 1 :])))
+        except GraphkinError as error:
+            assert str(error)
+    fixed = text.replace('id="3" x', 'id="3" anchor="true" x')
+    assert fixed != text
+    with pytest.raises(GraphkinError, match="gear link 3 does not move"):
+        scene_text(imported(fixed))
 
 
 def test_entities_large_numbers_and_many_joints_are_refused():
