@@ -50,7 +50,7 @@ if TYPE_CHECKING:
     "Kinds of file to write; calculations are PDF only. html: one page for a browser, which"
     " draws itself step by step (key and steps alike), or holds the task. dxf: the drawings at"
     " true scale for a CAD program, a layer for each class of line; needs the extra [cad]. pmks:"
-    " the mechanism for PMKS+, if it has only pins, blocks on fixed guides and one crank.",
+    " the mechanism for PMKS+, if it has only pins, blocks with one pin and one crank.",
 )
 @force_option
 def sheet(

@@ -22,11 +22,11 @@ from graphkin.cli.options import complain, force_option, tell
 def import_scene(given: str, output: Path | None, force: bool) -> None:
     """Write a mechanism of another program as a scene.
 
-    FILE is a .pmks file of PMKS+, a .linkage2 file of Linkage, or
-    a text with an expression M[J[…], …] of Pyslvs. LINK is an address with which
-    PMKS+ shares a mechanism, in quotes; it is read, never opened. The scene has the closure that
-    is nearest to the drawing. What a scene cannot hold is named on standard error, and in comments
-    at the head of the scene.
+    FILE is a .pmks file of PMKS+, a .linkage2 file of Linkage, a .json file of pylinkage, or a
+    text with an expression M[J[…], …] of Pyslvs. LINK is an address with which PMKS+ or the
+    older PMKS shares a mechanism, in quotes; it is read, never opened. The scene has the
+    closure that is nearest to the drawing. What a scene cannot hold is named on standard error,
+    and in comments at the head of the scene.
 
     \b
     Examples:

@@ -2,8 +2,11 @@
 
 The file has the content of the address with which PMKS+ shares a mechanism (class StringTranscoder
 of github.com/PMKS-Web/PMKSWeb): thousandths as numbers in base 64, flags as bits, and the length of
-the text at the end. PMKS+ knows pins, bars and plates, blocks pinned on fixed guides, and one
-crank. Anything else is refused, never left out.
+the text at the end. PMKS+ knows pins, bars and plates, one crank, and blocks with one pin: on fixed
+guides, or on the line of two joints of a link. Anything else is refused, never left out.
+
+PMKS+ reads whole revolutions per minute, then a time step, and no further number. The third number
+is the exact speed, for a reader that wants it.
 """
 
 from __future__ import annotations
@@ -15,8 +18,8 @@ from string import ascii_lowercase, ascii_uppercase, digits
 
 from graphkin.construction.core.drawn_scene import METRES
 from graphkin.mechanism import Mechanism
-from graphkin.scene.model import FRAME, Link, Scene
-from graphkin.structure.link_axes import guide_line
+from graphkin.scene.model import FRAME, Link, Scene, Slide
+from graphkin.structure.link_axes import body, guide_line, metres
 from graphkin.text.errors import PageError, Problem, message
 
 ALPHABET = f"{digits}{ascii_uppercase}{ascii_lowercase}_-"
@@ -24,6 +27,10 @@ LETTERS = f"{ascii_uppercase}{ascii_lowercase}"
 """Names of joints: PMKS+ joins them to form names of links, and splits those again."""
 LETTER_OF_LENGTH = f"{digits}{LETTERS}"
 MASS, THOUSANDTH = 1.0, 1000
+EXACT = 10**9
+"""Parts of one revolution per minute in the exact speed."""
+LEAST = 1e-9
+"""The distance (m) under which a joint is on a guide."""
 CENTIMETRES, INCHES = "1", "0"
 DEGREES, NEWTONS = "0", "1"
 GRIDS = 0b11000
@@ -58,16 +65,12 @@ def unknown(scene: Scene) -> Iterator[Problem]:
                 message("pins and guides"),
                 hint,
             )
-        if any(slide.on != FRAME for slide in link.slides) or len(link.slides) > 1:
-            yield Problem(
-                place,
-                message("PMKS+ has no moving guides"),
-                message("a block on a fixed guide"),
-                hint,
-            )
-        elif link.slides and len(link.points) > 1:
-            found = message("PMKS+ has no block with more than one point")
-            yield Problem(place, found, message("a block on a fixed guide"), hint)
+        if link.slides and (len(link.points) > 1 or len(link.slides) > 1):
+            found = message("PMKS+ has no block with more than one point or guide")
+            yield Problem(place, found, message("a block with one pin on one guide"), hint)
+        elif any(slide.on != FRAME and len(along(scene, slide)) < 2 for slide in link.slides):
+            found = message("PMKS+ moves a guide only along two joints of its link")
+            yield Problem(place, found, message("a guide along two points, without offset"), hint)
     cranks = [driver for driver in scene.drivers if driver.kind == "turn"]
     cranks = [driver for driver in cranks if driver.against == FRAME]
     pivoted = [d for d in cranks if {*scene.link(d.link).points} & {*scene.frame.points}]
@@ -103,7 +106,7 @@ class PmksText:
         self.guides = dict(zip(self.blocks(), LETTERS[len(self.ids) :], strict=False))
 
     def blocks(self) -> Iterable[str]:
-        """The blocks on fixed guides."""
+        """The blocks on guides."""
         return (name for name, link in self.scene.links.items() if link.slides)
 
     def text(self) -> str:
@@ -113,11 +116,12 @@ class PmksText:
         xs, ys = ([getattr(z, part) for z in self.at.values()] for part in ("real", "imag"))
         extent = max(max(xs) - min(xs), max(ys) - min(ys))
         shown = whole(GRIDS | (omega < 0)).rjust(2, "0")
-        speed = round(abs(omega) * 30 / pi)
+        rpm = abs(omega) * 30 / pi
+        speeds = f"{whole(round(rpm))},0,{whole(round(EXACT * rpm))}"
         units = f"{INCHES if self.inches else CENTIMETRES}{DEGREES}{NEWTONS}"
         joints = "".join(f"{joint}." for joint in self.joints())
         links = "".join(f"{link}." for link in self.links())
-        said = f"{shown}.{decimal(SIZE * extent)}.{whole(speed)},0.{units}.{joints}.{links}..N_"
+        said = f"{shown}.{decimal(SIZE * extent)}.{speeds}.{units}.{joints}.{links}..N_"
         return said + LETTER_OF_LENGTH[len(said) % len(LETTER_OF_LENGTH)]
 
     def joints(self) -> Iterator[str]:
@@ -129,8 +133,15 @@ class PmksText:
             yield self.joint(flags, self.ids[point], point, place, 0.0)
         for name, own in self.guides.items():
             link = self.scene.links[name]
-            angle = direction(guide_line(self.scene, link.slides[0]).along)
-            yield self.joint(CURVE | GROUND | PRISMATIC, own, own, self.at[link.points[0]], angle)
+            slide, place = link.slides[0], self.at[link.points[0]]
+            if slide.on == FRAME:
+                angle = direction(guide_line(self.scene, slide).along)
+                yield self.joint(CURVE | GROUND | PRISMATIC, own, own, place, angle)
+            else:
+                on = self.held(self.scene.links[slide.on])
+                ends = ",".join(self.ids[point] for point in along(self.scene, slide))
+                joint = self.joint(CURVE | PRISMATIC, own, own, place, 0.0)
+                yield f"{joint},{''.join(on)},{ends}"
 
     def joint(self, flags: int, own: str, name: str, at: complex, angle: float) -> str:
         place = f"{decimal(at.real)},{decimal(at.imag)},{decimal(angle)}"
@@ -139,13 +150,17 @@ class PmksText:
     def links(self) -> Iterator[str]:
         """Every bar and plate, and the piston of every block."""
         for number, link in enumerate(self.scene.links.values()):
+            held = self.held(link)
             if link.slides:
-                held = [self.ids[link.points[0]], self.guides[link.name]]
                 yield self.link("P", link, held, 0j, "")
             else:
-                held = [self.ids[point] for point in link.points]
                 middle = sum(self.at[point] for point in link.points) / len(held)
                 yield self.link("R", link, held, middle, COLOURS[number % len(COLOURS)])
+
+    def held(self, link: Link) -> list[str]:
+        """The joints of a link; those of a block are its pin and its guide."""
+        own = [self.guides[link.name]] if link.slides else []
+        return [*(self.ids[point] for point in link.points), *own]
 
     def link(self, kind: str, link: Link, held: Sequence[str], middle: complex, ink: str) -> str:
         """One link, without links welded to it."""
@@ -154,6 +169,17 @@ class PmksText:
         joints = "".join(f"{each}," for each in held)
         own = "".join(held)
         return f"Y{kind}{own},{link.name},{decimal(MASS)},{inertia},{centre},{ink},{joints},"
+
+
+def along(scene: Scene, slide: Slide) -> tuple[str, ...]:
+    """The two points of a link between which a guide runs; none where there are fewer."""
+    if metres(scene, slide.offset):
+        return ()
+    if slide.along:
+        return slide.along
+    line, points = guide_line(scene, slide), body(scene, slide.on)
+    on = [p for p, z in points.items() if abs(((z - line.point) / line.along).imag) < LEAST]
+    return (on[0], on[-1]) if len(on) > 1 and points[on[0]] != points[on[-1]] else ()
 
 
 def direction(way: complex) -> float:

@@ -9,6 +9,7 @@ from graphkin.scene.file_limits import LARGEST, file_bytes
 from graphkin.text.errors import message
 
 LINK = re.compile(r"https?://[^?\s]*\?", re.IGNORECASE)
+MECH = re.compile(r"(^|&)mech=")
 PMKS = re.compile(r"[\w-]{2}\.[\w,-]*\.[\w,-]*\.[\w-]*\.")
 
 
@@ -45,6 +46,14 @@ def imported(text: str) -> Imported:
             from graphkin.importing.pyslvs import pyslvs_text
 
             return pyslvs_text(text)
+        if text.startswith("{"):
+            from graphkin.importing.pylinkage import pylinkage_text
+
+            return pylinkage_text(text)
+        if MECH.search(text):
+            from graphkin.importing.old_pmks import mech_text
+
+            return mech_text(text)
         from graphkin.importing.pmks import new_text, old_text
 
         if text.startswith("j="):
@@ -55,5 +64,8 @@ def imported(text: str) -> Imported:
         raise damaged() from None
     raise refused(
         message("the text has no format that is imported"),
-        message("a link or a file of PMKS+, a file .linkage2 of Linkage, or M[J[…], …] of Pyslvs"),
+        message(
+            "a link or a file of PMKS+, a file .linkage2 of Linkage, JSON of pylinkage,"
+            " or M[J[…], …] of Pyslvs"
+        ),
     )

@@ -1,14 +1,20 @@
-"""Linkage: connectors and links of a ``.linkage2`` file, in 96ths of an inch."""
+"""Linkage: connectors and links of a ``.linkage2`` file, in 96ths of an inch.
+
+Layer 1 is for drawing only. An actuator is a tube about its first connector, and a rod to its
+second. A link in whose slot two connectors of one body slide is a rod in bushings.
+"""
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
+from itertools import pairwise
 from xml.etree.ElementTree import Element, ParseError
 
 from defusedxml import DefusedXmlException
 from defusedxml.ElementTree import fromstring
 
 from graphkin.importing.record import (
+    DrawnGear,
     DrawnGuide,
     DrawnInput,
     DrawnJoint,
@@ -26,45 +32,81 @@ PROGRAM = "Linkage"
 PER_INCH = 96
 UNITS = {"Millimeters": ("mm", 25.4 / PER_INCH), "Inches": ("in", 1 / PER_INCH)}
 ROUNDING = 1e-5
-OTHER_KINDS = ("gear", "actuator")
+DRAWING = 1
+STROKES = 2 / 60
+"""Strokes per second at one cycle per minute."""
 
 
 def linkage_text(text: str) -> Imported:
-    """The mechanism of a file. Raises SceneError for gears and actuators too."""
+    """The mechanism of a file. Raises SceneError for curved slots and actuators that bend too."""
     try:
         root = fromstring(text, forbid_dtd=True)
     except (ParseError, DefusedXmlException, ValueError):
         raise refused(message("the text is no XML that is safe to read")) from None
     program = root.find("program")
     unit, factor, notes = units(program)
-    connectors, links = root.findall("connector"), root.findall("Link")
-    few(len(connectors))
-    few(len(links))
-    refuse_others(links)
+    few(len(root.findall("connector")))
+    few(len(root.findall("Link")) + len(root.findall("element")))
+    connectors = [each for each in root.findall("connector") if works(each)]
+    links = [each for each in (*root.findall("Link"), *root.findall("element")) if works(each)]
     joints = {}
     for each in connectors:
         place = complex(number(each.get("x", ""), factor), number(each.get("y", ""), factor))
         joints[each.attrib["id"]] = DrawnJoint(
             f"P{each.attrib['id']}", place, is_set(each, "anchor")
         )
-    bodies = {}
-    for link in links:
+    bodies: dict[str, DrawnLink] = {}
+    guides: list[DrawnGuide] = []
+    strokes: list[DrawnInput] = []
+    sliders = [each for each in connectors if is_set(each, "slider")]
+    sliding = {each.attrib["id"] for each in sliders}
+    for place, link in enumerate(links):
         held = tuple(each.attrib["id"] for each in link.findall("connector"))
         if not all(joint in joints for joint in held):
             raise damaged()
-        own = f"link {link.attrib['id']}"
-        bodies[own] = DrawnLink(link.get("name") or own, held)
-    guides: list[DrawnGuide] = []
-    for each in connectors:
-        if is_set(each, "slider"):
-            add_block(each, joints, bodies, guides)
-    inputs = tuple(driven(each, joints, bodies) for each in connectors if is_set(each, "input"))
+        own = body_name(link, place)
+        name = (link.get("name") or "").strip() or f"link {link.attrib['id']}"
+        if is_set(link, "actuator"):
+            strokes.append(add_cylinder(own, name, held, link, factor, bodies, guides))
+        elif not {*held} <= sliding or len(held) > 1:
+            bodies[own] = DrawnLink(name, held)
+    for rod, first, second in rods(sliders, joints, bodies):
+        sliders = [each for each in sliders if each not in (first, second)]
+        add_rod(rod, first, second, joints, bodies, guides)
+    for each in sliders:
+        add_block(each, joints, bodies, guides)
+    fastened = fasten(links, bodies)
+    gears = tuple(geared(root, links, fastened))
+    if any(gear.belt for gear in gears):
+        notes = (*notes, message("the wheels of a chain are drawn in its ratio, not in its size"))
+    wheels = {own for gear in gears for own in (gear.one, gear.other)}
+    inputs = tuple(
+        driven(each, joints, bodies, wheels) for each in connectors if is_set(each, "input")
+    )
+    if strokes:
+        notes = (
+            *notes,
+            message("a cylinder extends at its mean speed: strokes in and out per minute"),
+        )
     if inputs:
         notes = (
             *notes,
             message("a positive speed is taken as counter-clockwise, y as upwards: compare"),
         )
-    return Imported(PROGRAM, unit, ROUNDING, joints, bodies, tuple(guides), inputs, notes)
+    return Imported(
+        PROGRAM, unit, ROUNDING, joints, bodies, tuple(guides), (*inputs, *strokes), notes, gears
+    )
+
+
+def works(element: Element) -> bool:
+    """Whether an element belongs to the mechanism, and is not only drawn or measured."""
+    layer = int(element.get("layer") or 0)
+    return layer != DRAWING and not is_set(element, "measurementelement")
+
+
+def body_name(link: Element, place: int) -> str:
+    """The name of a body: files give several links one id."""
+    return f"link {link.attrib['id']} at {place}"
 
 
 def units(program: Element | None) -> tuple[str, float, tuple[Message, ...]]:
@@ -80,17 +122,114 @@ def units(program: Element | None) -> tuple[str, float, tuple[Message, ...]]:
     return unit, factor, tuple(notes)
 
 
-def refuse_others(links: list[Element]) -> None:
-    """Raise SceneError for links that move in other ways than by pins and slots."""
+def add_cylinder(
+    own: str,
+    name: str,
+    held: tuple[str, ...],
+    link: Element,
+    factor: float,
+    bodies: dict[str, DrawnLink],
+    guides: list[DrawnGuide],
+) -> DrawnInput:
+    """Add the tube and the rod of an actuator; return how it is driven."""
+    if len(held) != 2:
+        raise refused(
+            message("actuator {name} has other connectors than its ends", name=named(name)),
+            message("an actuator with two connectors"),
+        )
+    tube, rod = f"{own}, tube", f"{own}, rod"
+    bodies[tube] = DrawnLink(name, held[:1])
+    bodies[rod] = DrawnLink(name, held[1:])
+    guides.append(DrawnGuide(rod, held[1], tube, tube=held[0]))
+    speed = STROKES * number(link.get("throw", "0"), factor) * number(link.get("cpm", "0"))
+    return DrawnInput(rod, speed)
+
+
+def ends_of(slider: Element) -> tuple[str, str]:
+    """The two connectors between which another slides. Raises SceneError for a curved slot."""
+    if number(slider.get("slideradius") or "0"):
+        raise refused(
+            message("the slot of connector {name} is curved", name=named(slider.attrib["id"])),
+            message("straight slots"),
+        )
+    one, other = (limit.attrib["id"] for limit in slider.findall("slidelimit"))
+    return one, other
+
+
+def rods(
+    sliders: list[Element], joints: Mapping[str, DrawnJoint], bodies: Mapping[str, DrawnLink]
+) -> Iterator[tuple[str, Element, Element]]:
+    """The moving links in whose slot two connectors of one body slide, with these connectors."""
+    for rod, body in bodies.items():
+        on = [each for each in sliders if {*ends_of(each)} <= {*body.joints}]
+        if all(joints[joint].fixed for joint in body.joints):
+            continue
+        for one, other in pairwise(on):
+            same = {*ends_of(one)} == {*ends_of(other)}
+            if same and carrier(one, other, joints, bodies) is not None:
+                yield rod, one, other
+                break
+
+
+def carrier(
+    one: Element,
+    other: Element,
+    joints: Mapping[str, DrawnJoint],
+    bodies: Mapping[str, DrawnLink],
+) -> str | None:
+    """The body that has two connectors, empty for the frame; None where there is none."""
+    both = {one.attrib["id"], other.attrib["id"]}
+    if all(joints[own].fixed for own in both):
+        return ""
+    return next((own for own, body in bodies.items() if both <= {*body.joints}), None)
+
+
+def add_rod(
+    rod: str,
+    one: Element,
+    other: Element,
+    joints: Mapping[str, DrawnJoint],
+    bodies: Mapping[str, DrawnLink],
+    guides: list[DrawnGuide],
+) -> None:
+    """Add the guide of a rod in two bushings."""
+    on = carrier(one, other, joints, bodies)
+    assert on is not None
+    bushings = (one.attrib["id"], other.attrib["id"])
+    guides.append(DrawnGuide(rod, ends_of(one)[0], on, bushings))
+
+
+def fasten(links: list[Element], bodies: dict[str, DrawnLink]) -> dict[str, str]:
+    """The body of each link by its id; a link that is fastened to another becomes a part of it."""
+    names = {link.attrib["id"]: body_name(link, place) for place, link in enumerate(links)}
     for link in links:
-        if any(is_set(link, kind) for kind in OTHER_KINDS):
-            name = link.get("name") or link.attrib["id"]
-            raise refused(
-                message(
-                    "link {name} is a gear or an actuator, which is not imported", name=named(name)
-                ),
-                message("pins and slots"),
-            )
+        own, other = link.attrib["id"], link.get("fastenlink")
+        if other is None or names.get(other, "") not in bodies or names[own] not in bodies:
+            continue
+        part, whole = names[own], names[other]
+        if part != whole:
+            joints = dict.fromkeys((*bodies[whole].joints, *bodies.pop(part).joints))
+            bodies[whole] = DrawnLink(bodies[whole].name, tuple(joints))
+            names |= {each: whole for each, body in names.items() if body == part}
+    return names
+
+
+def geared(root: Element, links: list[Element], names: Mapping[str, str]) -> Iterator[DrawnGear]:
+    """The pairs of wheels; the first connector of a gear is its centre."""
+    centres = {link.attrib["id"]: link.find("connector") for link in links}
+    for ratio in root.iterfind("ratios/ratio"):
+        one, other = (each.attrib["id"] for each in ratio.findall("link"))
+        p, q = (number(each.get("size", "")) for each in ratio.findall("link"))
+        first, second = centres[one], centres[other]
+        if p <= 0 or q <= 0 or first is None or second is None:
+            raise damaged()
+        yield DrawnGear(
+            names[one],
+            names[other],
+            (first.attrib["id"], second.attrib["id"]),
+            (p, q),
+            ratio.get("type") != "gears",
+        )
 
 
 def add_block(
@@ -101,7 +240,7 @@ def add_block(
 ) -> None:
     """Add the block of a sliding connector, in the slot between two others."""
     own = slider.attrib["id"]
-    one, other = (limit.attrib["id"] for limit in slider.findall("slidelimit"))
+    one, other = ends_of(slider)
     if joints[one].fixed and joints[other].fixed:
         on = ""
     else:
@@ -118,12 +257,19 @@ def add_block(
 
 
 def driven(
-    each: Element, joints: Mapping[str, DrawnJoint], bodies: Mapping[str, DrawnLink]
+    each: Element,
+    joints: Mapping[str, DrawnJoint],
+    bodies: Mapping[str, DrawnLink],
+    wheels: set[str],
 ) -> DrawnInput:
     """The link that an input connector turns."""
     own = each.attrib["id"]
     at = [name for name, body in bodies.items() if own in body.joints]
-    moving = [name for name in at if not all(joints[j].fixed for j in bodies[name].joints)]
+    moving = [
+        name
+        for name in at
+        if name in wheels or not all(joints[j].fixed for j in bodies[name].joints)
+    ]
     if not moving or (not joints[own].fixed and len(moving) < 2):
         raise damaged()
     against = "" if joints[own].fixed else moving[1]

@@ -14,6 +14,7 @@ from msgspec import Struct
 
 from graphkin.documents.pmks_file import (
     ALPHABET,
+    EXACT,
     GROUND,
     INPUT,
     LETTER_OF_LENGTH,
@@ -38,6 +39,7 @@ PROGRAM = "PMKS+"
 UNITS = {"0": "in", "1": "cm", "2": "m"}
 OLD_UNITS = {"cm": "cm", "m": "m", "in": "in", "inch": "in"}
 CLOCKWISE = 1
+WELDED = 8
 DIGITS = 12
 """The most digits of a number."""
 NUMBER_OF_OLD_FIELDS = 8
@@ -51,6 +53,7 @@ class PmksJoint(Struct, frozen=True):
     prismatic: bool
     angle: float
     slot: tuple[str, ...] = ()
+    welded: bool = False
 
 
 def new_text(text: str) -> Imported:
@@ -66,16 +69,46 @@ def new_text(text: str) -> Imported:
     lines, links, forces = (list(takewhile(bool, parts)) for _ in range(3))
     few(len(lines))
     found = dict(map(new_joint, lines))
-    bodies = {}
+    bodies: dict[str, DrawnLink] = {}
+    parts_of_links: dict[str, DrawnLink] = {}
+    welded: set[str] = set()
     for line in links:
         own, name, *others = line[2:].split(",")
-        if line[0] == "Y":
-            held = others[5:]
-            bodies[own] = DrawnLink(name, tuple(held[: held.index("")]))
+        held = others[5:]
+        end = held.index("")
+        (bodies if line[0] == "Y" else parts_of_links)[own] = DrawnLink(name, tuple(held[:end]))
+        welded |= {*held[end + 1 :]} if line[0] == "Y" else set()
     notes = [left_out(force.split(",")[2]) for force in forces]
+    notes += [
+        message("link {name} is a part of no other and is left out", name=named(part.name))
+        for own, part in parts_of_links.items()
+        if own not in welded
+    ]
     sense = -1 if ALPHABET.index(flags[-1]) & CLOCKWISE else 1
-    speed = sense * whole(speeds.split(",")[0])
-    return gathered(found, bodies, UNITS.get(units[:1], "cm"), speed, notes)
+    return gathered(
+        found, one_at_welds(found, bodies), UNITS.get(units[:1], "cm"), sense * rpm(speeds), notes
+    )
+
+
+def rpm(speeds: str) -> float:
+    """The speed: whole, or exact where a third number says so and agrees with it."""
+    rounded, *others = map(whole, speeds.split(","))
+    exact = others[1] / EXACT if len(others) > 1 else rounded
+    return exact if round(exact) == rounded else rounded
+
+
+def one_at_welds(
+    found: Mapping[str, PmksJoint], bodies: Mapping[str, DrawnLink]
+) -> dict[str, DrawnLink]:
+    """The links, those that meet at a welded joint as one."""
+    joined = dict(bodies)
+    for own, drawn in found.items():
+        at = [name for name, body in joined.items() if drawn.welded and own in body.joints]
+        for other in at[1:]:
+            one, gone = joined[at[0]], joined.pop(other)
+            joints = dict.fromkeys((*one.joints, *gone.joints))
+            joined[at[0]] = DrawnLink(f"{one.name}+{gone.name}", tuple(joints))
+    return joined
 
 
 def new_joint(line: str) -> tuple[str, PmksJoint]:
@@ -84,7 +117,12 @@ def new_joint(line: str) -> tuple[str, PmksJoint]:
     place = complex(decimal(x), decimal(y))
     joint = DrawnJoint(name, place, bool(flags & GROUND))
     return own, PmksJoint(
-        joint, bool(flags & INPUT), bool(flags & PRISMATIC), decimal(angle), tuple(slot)
+        joint,
+        bool(flags & INPUT),
+        bool(flags & PRISMATIC),
+        decimal(angle),
+        tuple(slot),
+        bool(flags & WELDED),
     )
 
 
@@ -136,8 +174,14 @@ def gathered(
             else:
                 guides.append(DrawnGuide(own, start, angle=drawn.angle))
             if drawn.driven:
-                told.append(message("a speed along a guide is not in the file; 1 per second"))
-                inputs.append(DrawnInput(own, 1.0))
+                told.append(
+                    message(
+                        "the speed {speed} is taken as {unit} per second along the guide",
+                        speed=f"{speed:g}",
+                        unit=unit,
+                    )
+                )
+                inputs.append(DrawnInput(own, speed))
     for guide in guides:
         if guide.along and not {*guide.along} <= {*held[guide.on].joints}:
             raise damaged()

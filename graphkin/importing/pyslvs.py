@@ -1,5 +1,8 @@
-"""Pyslvs: an expression ``M[J[R, P[x, y], L[ground, link_1]], …]`` of pins, and pins in slots of
-the frame. Each joint names the links that meet there; of a slot, the first link has it.
+"""Pyslvs: an expression ``M[J[R, P[x, y], L[ground, link_1]], …]`` of pins (R), pins in slots (RP)
+and blocks that do not turn in their slots (P).
+
+Each joint names the links that meet there; of a slot, the first link has it. The angle of a slot is
+that of the drawing.
 """
 
 from __future__ import annotations
@@ -22,6 +25,7 @@ from graphkin.text.errors import message
 
 PROGRAM = "Pyslvs"
 FRAME_NAME = "ground"
+KINDS = ("R", "RP", "P")
 ROUNDING = 1e-4
 JOINT = re.compile(
     r"\s*J\[(?P<kind>\w+)(?:, *A\[(?P<angle>[^]]*)\])?(?:, *color\[[^]]*\])?"
@@ -31,7 +35,7 @@ JOINT = re.compile(
 
 
 def pyslvs_text(text: str) -> Imported:
-    """The mechanism of an expression. Raises SceneError for slots that move, too."""
+    """The mechanism of an expression. Raises SceneError for joints of other kinds, too."""
     joints: dict[str, DrawnJoint] = {}
     held: dict[str, list[str]] = {}
     guides = []
@@ -43,26 +47,33 @@ def pyslvs_text(text: str) -> Imported:
         place = found.end()
         own = f"P{len(joints)}"
         links = [link.strip() for link in found["links"].split(",") if link.strip()]
-        slotted = found["kind"] == "RP"
-        if found["kind"] not in ("R", "RP") or (slotted and links[:1] != [FRAME_NAME]):
+        kind = found["kind"]
+        if kind not in KINDS or (kind == "P" and len(links) != 2) or (kind != "R" and not links):
             raise refused(
                 message(
-                    "joint {name} of kind {kind} moves a slot or has no pin",
+                    "joint {name} is of kind {kind} between {count} links",
                     name=own,
-                    kind=named(found["kind"]),
+                    kind=named(kind),
+                    count=len(links),
                 ),
-                message("pins, and pins in slots of the frame"),
+                message("pins, pins in slots, and blocks between two links"),
             )
+        slotted, *on_pin = links if kind != "R" else ["", *links]
+        if kind == "P" and on_pin == [FRAME_NAME]:
+            slotted, on_pin = FRAME_NAME, [slotted]
         at = complex(number(found["x"]), number(found["y"]))
-        joints[own] = DrawnJoint(own, at, FRAME_NAME in links and not slotted)
+        joints[own] = DrawnJoint(own, at, FRAME_NAME in on_pin)
         few(len(joints) + len(links))
-        for link in links:
+        for link in on_pin:
             if link != FRAME_NAME:
                 held.setdefault(link, []).append(own)
         if slotted:
-            block = f"block {own}"
-            held[block] = [own]
-            guides.append(DrawnGuide(block, own, angle=radians(number(found["angle"] or "0"))))
+            block = f"block {own}" if kind == "RP" else on_pin[0]
+            on = "" if slotted == FRAME_NAME else slotted
+            if kind == "RP":
+                held[block] = [own]
+            guides.append(DrawnGuide(block, own, on, angle=radians(number(found["angle"] or "0"))))
     few(len(held))
     bodies = {link: DrawnLink(link, tuple(owns)) for link, owns in held.items()}
-    return Imported(PROGRAM, "mm", ROUNDING, joints, bodies, tuple(guides), ())
+    notes = (message("lengths have no unit in the file; mm are written"),)
+    return Imported(PROGRAM, "mm", ROUNDING, joints, bodies, tuple(guides), (), notes)

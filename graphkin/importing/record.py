@@ -35,7 +35,8 @@ class DrawnGuide(Struct, frozen=True):
     """The straight guide of a link: on another link, or on the frame where ``on`` is empty.
 
     ``first`` is the joint of the link that slides along it. The guide runs along two joints of
-    ``on``, or through ``first`` as it is drawn at an ``angle`` in radians.
+    ``on``, or through ``first``, at an ``angle`` to the drawing's x axis in radians. That of a
+    cylinder's tube, whose only joint is ``tube``, runs from there through ``first``.
     """
 
     body: str
@@ -43,6 +44,19 @@ class DrawnGuide(Struct, frozen=True):
     on: str = ""
     along: tuple[str, str] | None = None
     angle: float = 0.0
+    tube: str = ""
+
+
+class DrawnGear(Struct, frozen=True):
+    """Two wheels about joints of two links, which mesh or carry a belt; only the ratio of their
+    sizes counts.
+    """
+
+    one: str
+    other: str
+    centres: tuple[str, str]
+    sizes: tuple[float, float]
+    belt: bool = False
 
 
 class DrawnInput(Struct, frozen=True):
@@ -72,6 +86,7 @@ class Imported(Struct, frozen=True):
     guides: tuple[DrawnGuide, ...]
     inputs: tuple[DrawnInput, ...]
     notes: tuple[Message, ...] = ()
+    gears: tuple[DrawnGear, ...] = ()
 
 
 def refused(found: Message, expected: Message = NO_WORDS) -> SceneError:

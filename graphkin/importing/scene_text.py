@@ -5,6 +5,7 @@ from __future__ import annotations
 import re
 from cmath import phase, rect
 from collections.abc import Iterator
+from contextlib import contextmanager
 from math import degrees, inf
 
 from msgspec import Struct
@@ -14,6 +15,7 @@ from graphkin.construction.core.drawn_scene import METRES
 from graphkin.diagnosis.closures import Choice, GroupClosure, choices
 from graphkin.importing.record import (
     FARTHEST,
+    DrawnGear,
     DrawnGuide,
     DrawnInput,
     DrawnLink,
@@ -27,11 +29,20 @@ from graphkin.scene.read_scene import read_text
 from graphkin.structure.decomposition import decompose
 from graphkin.structure.groups import Dyad, Group, Higher, Stretched
 from graphkin.structure.pairs import Pin
-from graphkin.text.errors import Message, message
+from graphkin.text.errors import (
+    GraphkinError,
+    Message,
+    Problem,
+    joined,
+    message,
+    verbatim,
+)
 
 NAME = "import"
 DIGITS = 9
 """Decimals of a number, so that lengths of a drawing close as it does."""
+MOST_NAMES = 40
+"""Names of the file in one error."""
 SEEN = 20
 """Roundings of the file by which a closed position may differ from the drawing unnoticed."""
 
@@ -46,14 +57,32 @@ class SceneText(Struct, frozen=True):
 def scene_text(found: Imported) -> SceneText:
     """The scene of an imported mechanism; it names its notes in comments at its head.
 
-    Raises SceneError or StructureError where no scene can be made of it.
+    Raises a GraphkinError where no scene can be made of it, with the file's names.
     """
     writer = SceneWriter(found)
-    branches = nearest_closures(writer)
-    mechanism = Mechanism(read_text(writer.text(branches), NAME))
+    with names_of_file(writer):
+        branches = nearest_closures(writer)
+        mechanism = Mechanism(read_text(writer.text(branches), NAME))
     notes = (*writer.notes, *moved(writer, mechanism))
     head = [f"# from {found.program}", *(f"# {named_whole(note)}" for note in notes)]
     return SceneText(writer.text(branches, head), notes)
+
+
+@contextmanager
+def names_of_file(writer: SceneWriter) -> Iterator[None]:
+    """Add to an error of the scene which links and joints of the file its names are."""
+    try:
+        yield
+    except GraphkinError as error:
+        names = [
+            message("{name} is {what}", name=name, what=verbatim(named(what)))
+            for name, what in writer.names()
+            if name != what
+        ]
+        if not names:
+            raise
+        legend = message("the names in the file: {names}", names=joined(", ", names[:MOST_NAMES]))
+        raise type(error)((*error.problems, Problem(NAME, legend))) from None
 
 
 def named_whole(note: Message) -> str:
@@ -67,12 +96,21 @@ class SceneWriter:
         self.found = found
         self.notes = list(found.notes)
         self.guided = {guide.body for guide in found.guides}
+        if len(self.guided) < len(found.guides):
+            bodies = [guide.body for guide in found.guides]
+            twice = next(own for own in bodies if bodies.count(own) > 1)
+            raise refused(
+                message("link {name} has two guides", name=named(found.bodies[twice].name)),
+                message("one guide for each link"),
+            )
+        self.geared = {own for gear in found.gears for own in (gear.one, gear.other)}
+        alone = self.guided | self.geared | {guide.on for guide in found.guides}
         fixed = {own for own, joint in found.joints.items() if joint.fixed}
         self.bodies: dict[str, DrawnLink] = {}
         for own, body in found.bodies.items():
             if len(fixed & {*body.joints}) > 1 and own not in self.guided:
                 fixed |= {*body.joints}
-            elif len(body.joints) > 1 or own in self.guided:
+            elif len(body.joints) > 1 or own in alone:
                 self.bodies[own] = self.ordered(own, body, fixed)
             else:
                 self.notes.append(
@@ -80,6 +118,11 @@ class SceneWriter:
                 )
         if not self.bodies:
             raise refused(message("nothing in it moves"))
+        for own in sorted(self.geared - self.bodies.keys()):
+            raise refused(
+                message("gear {name} does not move", name=named(found.bodies[own].name)),
+                message("gears that turn"),
+            )
         moving = {joint for body in self.bodies.values() for joint in body.joints}
         led = {j for g in found.guides if g.on not in self.bodies and g.along for j in g.along}
         self.fixed = [own for own in found.joints if own in fixed and own in moving | led]
@@ -107,19 +150,25 @@ class SceneWriter:
         self.notes.append(
             message(
                 "nothing is driven in the file; link {name} is, at speed 1",
-                name=self.numbers_of(own),
+                name=self.numbers[own],
             )
         )
         return DrawnInput(own, 1.0, about)
 
-    def numbers_of(self, own: str) -> str:
-        return str(1 + [*self.bodies].index(own))
+    def names(self) -> Iterator[tuple[str, str]]:
+        """The name in the scene and in the file of each link, then of each joint."""
+        for own, number in self.numbers.items():
+            yield number, self.bodies[own].name
+        for own, point in self.points.items():
+            yield point, self.found.joints[own].name
 
     def guide(self, own: str) -> DrawnGuide | None:
         return next((guide for guide in self.found.guides if guide.body == own), None)
 
     def way(self, guide: DrawnGuide) -> complex:
         """The direction of a guide as drawn, of length 1."""
+        if guide.tube:
+            return direction(self.at[guide.first] - self.at[guide.tube])
         if guide.along is None:
             return rect(1.0, guide.angle)
         one, other = guide.along
@@ -129,7 +178,11 @@ class SceneWriter:
         """The direction of a link's x axis as drawn, of length 1."""
         if guide := self.guide(own):
             return self.way(guide)
-        first, second, *_ = self.bodies[own].joints
+        rod = (guide for guide in self.found.guides if guide.tube and guide.on == own)
+        first, *others = self.bodies[own].joints
+        if not others:
+            return next(map(self.way, rod), 1 + 0j)
+        second, *_ = others
         return direction(self.at[second] - self.at[first])
 
     def text(self, branches: dict[str, str], head: list[str] | None = None) -> str:
@@ -158,20 +211,75 @@ class SceneWriter:
             one, other = joints
             length = plain(abs(self.at[other] - self.at[one]))
             yield f"{self.points[one]}-{self.points[other]} = {length}"
+            yield from self.wheels(own)
             return
         axis = self.axis(own)
         for joint in joints:
             place = (self.at[joint] - self.at[joints[0]]) / axis
             yield f"{self.points[joint]} = {pair(place)}"
+        yield from self.wheels(own)
         if guide is not None:
             yield f"slides = {{ {', '.join(self.slide(guide))} }}"
+
+    def wheels(self, own: str) -> Iterator[str]:
+        """The wheels of a link, and what they roll on."""
+        gears = [gear for gear in self.found.gears if own in (gear.one, gear.other)]
+        if sizes := self.sizes(own):
+            centres = [f'{{ centre = "{self.points[c]}", radius = {plain(r)} }}' for c, r in sizes]
+            yield f"wheels = [{', '.join(centres)}]"
+        for kind, belt in (("rolls", False), ("belt", True)):
+            if said := [
+                self.contact(gear) for gear in gears if gear.belt is belt and own == gear.other
+            ]:
+                yield f"{kind} = [{', '.join(said)}]"
+
+    def sizes(self, own: str) -> list[tuple[str, float]]:
+        """The wheels of a link, each once, by their centres and radii."""
+        gears = (gear for gear in self.found.gears if own in (gear.one, gear.other))
+        return [*dict.fromkeys(self.wheel(gear, own) for gear in gears)]
+
+    def wheel(self, gear: DrawnGear, own: str) -> tuple[str, float]:
+        """The centre and the radius of one of two wheels.
+
+        Gears touch between their centres. A belt leaves half of their distance between the larger
+        wheel and a wheel of its size.
+        """
+        one, other = gear.sizes
+        apart = abs(self.at[gear.centres[1]] - self.at[gear.centres[0]])
+        unit = apart / (4 * max(one, other) if gear.belt else one + other)
+        which = 0 if own == gear.one else 1
+        return gear.centres[which], round(unit * gear.sizes[which], DIGITS)
+
+    def contact(self, gear: DrawnGear) -> str:
+        """The words of a wheel on another, as they are drawn."""
+        starts = (
+            f"{self.numbers[own]} = {plain(degrees(phase(self.axis(own))))}"
+            for own in dict.fromkeys((gear.one, gear.other, *self.arm(gear)))
+        )
+        said = f"on = {self.numbers[gear.one]}, start = {{ {', '.join(starts)} }}"
+        if gear.belt:
+            owns = (gear.other, gear.one)
+            which = [1 + self.sizes(own).index(self.wheel(gear, own)) for own in owns]
+            said += f", wheels = {which}"
+        return f"{{ {said} }}"
+
+    def arm(self, gear: DrawnGear) -> list[str]:
+        """The moving link that has both centres."""
+        return [own for own, body in self.bodies.items() if {*gear.centres} <= {*body.joints}][:1]
 
     def slide(self, guide: DrawnGuide) -> Iterator[str]:
         """The words of a guide."""
         yield f"on = {self.numbers.get(guide.on, FRAME)}"
+        if guide.tube:
+            yield f'through = "{self.points[guide.tube]}"'
+            yield "angle = 0"
+            return
         if guide.along is None:
-            yield f"through = {pair(self.at[guide.first])}"
-            yield f"angle = {plain(degrees(guide.angle))}"
+            origin, axis = 0j, 1 + 0j
+            if guide.on in self.bodies:
+                origin, axis = self.at[self.bodies[guide.on].joints[0]], self.axis(guide.on)
+            yield f"through = {pair((self.at[guide.first] - origin) / axis)}"
+            yield f"angle = {plain(degrees(phase(self.way(guide) / axis)))}"
             return
         one, other = guide.along
         yield f'along = "{self.points[one]}-{self.points[other]}"'
@@ -197,7 +305,7 @@ class SceneWriter:
         else:
             guide = self.guide(driver.body)
             assert guide is not None
-            start = self.at[guide.along[0] if guide.along else guide.first]
+            start = self.at[guide.tube or (guide.along[0] if guide.along else guide.first)]
             yield f"slide = {number}"
             yield f"position = {plain(((self.at[guide.first] - start) / self.way(guide)).real)}"
         yield f"speed = {plain(driver.speed)}"
@@ -231,7 +339,8 @@ def first_words(writer: SceneWriter, group: Group) -> str:
         return "closure 1"
     if isinstance(group, Dyad) and group.type == "RRR" and isinstance(group.inner, Pin):
         places = {writer.points[own]: writer.at[own] for own in writer.points}
-        outer = [pair.point for pair in (group.left, group.right) if isinstance(pair, Pin)]
+        pins = [pair.point for pair in (group.left, group.right) if isinstance(pair, Pin)]
+        outer = [point.partition("@")[0] for point in pins]  # P@2 of a cylinder's tube: at P
         if len(outer) == 2 and places[outer[0]] != places[outer[1]]:
             one, other = outer
             turn = (places[group.inner.point] - places[one]) / (places[other] - places[one])

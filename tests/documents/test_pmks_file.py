@@ -136,7 +136,8 @@ def test_what_is_read_from_the_file_moves_as_the_scene_does(name):
 @pytest.mark.parametrize(
     ("name", "words"),
     [
-        ("slotted-lever", "no moving guides"),
+        ("cam-tangent", "only along two joints"),
+        ("oldham", "more than one point or guide"),
         ("gears-ring", "no wheels"),
         ("cam-roller", "no wheels, cams"),
         ("five-bar", "one crank"),

@@ -12,11 +12,15 @@ from string import ascii_lowercase, ascii_uppercase, digits
 
 import pytest
 from click.testing import CliRunner
+from msgspec.structs import replace
 
 from graphkin.cli.main import app
+from graphkin.documents.pmks_file import pmks_file
 from graphkin.importing.formats import content, imported
+from graphkin.importing.record import DrawnGuide
 from graphkin.importing.scene_text import scene_text
 from graphkin.mechanism import Mechanism
+from graphkin.scene import scene_files
 from graphkin.scene.read_scene import read_text
 from graphkin.text.errors import GraphkinError
 
@@ -32,6 +36,15 @@ PYSLVS = {
 }
 BASE = f"{digits}{ascii_uppercase}{ascii_lowercase}_-"
 CENTIMETRE = 0.01
+SENT = (
+    "crank-rocker",
+    "slider-crank",
+    "watt-2",
+    "shaper",
+    "rapid-return",
+    "crank-slot",
+    "geneva-wheel",
+)
 STEP = 1e-6
 
 
@@ -122,6 +135,69 @@ def test_a_file_of_linkage_stands_in_96ths_of_an_inch(name):
         assert abs(found[point] - at[point]) < 1e-3, point
 
 
+def linkage_of(name: str) -> tuple[Mechanism, dict[str, complex]]:
+    """A file of Linkage as a mechanism, and its connectors in metres, read from the text."""
+    text = (HERE / f"{name}.linkage2").read_text()
+    rows = re.findall(r'connector id="(\d+)" x="([^"]*)" y="([^"]*)"', text)
+    at = {f"P{own}": complex(float(x), float(y)) / 96 * 0.0254 for own, x, y in rows}
+    mechanism = opened(text)
+    for point, place in places(mechanism, 1.0).items():
+        if "@" not in point:
+            assert abs(place - at[point]) < 1e-6, point
+    return mechanism, at
+
+
+def test_gears_turn_against_one_another_and_a_chain_turns_its_wheels_alike():
+    solved = linkage_of("gears")[0].solve()
+    speeds = sorted(float(link.omega) for link in solved.links.values())
+    assert speeds == pytest.approx([-1.5 * pi, -0.5 * pi, pi])
+
+
+def test_a_fastened_gear_is_a_part_of_its_link():
+    found = imported((HERE / "gears.linkage2").read_text())
+    assert sorted(map(len, (body.joints for body in found.bodies.values()))) == [1, 1, 2]
+    assert {gear.belt for gear in found.gears} == {False, True}
+
+
+def test_a_cylinder_extends_at_its_mean_speed():
+    """15 cycles in a minute are 30 strokes, so that a stroke of half an inch takes two seconds."""
+    mechanism, at = linkage_of("cylinder")
+    solved = mechanism.solve()
+    length, arm = abs(at["P1"] - at["P0"]), abs(at["P1"] - at["P2"])
+
+    def lever(time: float) -> float:
+        reach = length + time * 0.0127 / 2
+        return phase(crossing(at["P0"], reach, at["P2"], arm, at["P1"]) - at["P2"])
+
+    assert float(solved.links["3"].omega) == pytest.approx(rate(lever), rel=1e-5)
+
+
+def test_a_rod_in_two_bushings_slides_without_turning():
+    mechanism, at = linkage_of("bushings")
+    solved = mechanism.solve()
+    moved = solved.points["P1"].velocity
+    assert abs(complex(solved.points["P0"].velocity) - complex(moved)) < 1e-12
+
+    def place(time: float) -> float:
+        pin = turned(at["P6"], at["P5"], pi / 2 * time)
+        rise, rod = pin.imag - at["P1"].imag, abs(at["P6"] - at["P1"])
+        return pin.real - sqrt(rod**2 - rise**2).real
+
+    assert complex(moved) == pytest.approx(complex(rate(place), 0), abs=1e-9)
+
+
+def test_what_linkage_bends_is_refused():
+    text = (HERE / "crank.linkage2").read_text()
+    assert 'slider="true"' in text
+    with pytest.raises(GraphkinError, match="curved"):
+        imported(text.replace('slider="true"', 'slider="true" slideradius="30"'))
+    text = (HERE / "cylinder.linkage2").read_text()
+    end = '<connector id="1"/></Link>\n<Link id="1">'
+    assert end in text
+    with pytest.raises(GraphkinError, match="link 0"):
+        imported(text.replace(end, f'<connector id="3"/>{end}'))
+
+
 @pytest.mark.parametrize("name", PYSLVS)
 def test_an_expression_stands_at_its_coordinates(name):
     found = places(opened(PYSLVS[name]), 0.001)
@@ -131,10 +207,157 @@ def test_an_expression_stands_at_its_coordinates(name):
         assert abs(found[f"P{number}"] - complex(float(x), float(y))) < 1e-3, number
 
 
-def test_a_moving_slot_of_an_expression_is_refused():
-    slot = "M[J[R, P[0, 0], L[ground, a]], J[RP, A[0.0], P[1, 0], L[a, b]]]"
-    with pytest.raises(GraphkinError, match="P1"):
-        imported(slot)
+@pytest.mark.parametrize("name", SENT)
+def test_what_goes_out_to_pmks_comes_back_the_same(name):
+    path = scene_files.examples()[name]
+    sent = Mechanism(read_text(path.read_text("utf-8"), name))
+    one, other = sent.solve(), opened(pmks_file(sent).decode("ascii")).solve()
+    number = 1 + [*sent.scene.links].index(sent.scene.drivers[0].link)
+    omega = float(one.links[sent.scene.drivers[0].link].omega)
+    assert float(other.links[str(number)].omega) == pytest.approx(omega, abs=1e-6)
+    fastest = max(abs(complex(point.velocity)) for point in one.points.values() if point.velocity)
+    moving = [name for name, point in one.points.items() if point.velocity and name in other.points]
+    assert len(moving) > 1
+    for point in moving:
+        there, here = one.points[point], other.points[point]
+        if there.position is not None:
+            assert abs(complex(there.position) - complex(here.position)) < 2e-5, point
+        assert abs(complex(there.velocity) - complex(here.velocity)) < 2e-3 * fastest, point
+
+
+def changed(text: str, *changes: tuple[str, str]) -> str:
+    """A text of PMKS+ with other parts, and the letter for its length."""
+    said = text[:-1]
+    for old, new in changes:
+        assert said.count(old) == 1
+        said = said.replace(old, new)
+    return said + f"{digits}{ascii_uppercase}{ascii_lowercase}"[len(said) % 62]
+
+
+@pytest.mark.parametrize(
+    ("whole", "exact", "rpm"), [(20, None, 20.0), (20, 19_600_000_001, 19.600000001), (21, 1, 21.0)]
+)
+def test_an_exact_speed_counts_only_beside_its_whole_one(whole, exact, rpm):
+    said = f".{BASE[whole]},0.1011" if exact is None else f".{BASE[whole]},0,{coded(exact)}.1011"
+    found = opened(changed(LINKS["inverted-slider-crank"], (".K,0.1011", said)))
+    assert float(found.solve().links["1"].omega) == pytest.approx(-rpm * pi / 30, abs=1e-9)
+
+
+def coded(number: int) -> str:
+    return (coded(number // 64) if number >= 64 else "") + BASE[number % 64]
+
+
+def test_a_driven_slider_has_the_speed_of_the_setting_along_its_guide():
+    """PMKS+ takes the number as a length per second, by its kinematic-solver.ts."""
+    text = changed(LINKS["teaching-lab-slider-crank"], (".MA,A,", ".KA,A,"), (".LD,D,", ".ND,D,"))
+    found = scene_text(imported(text))
+    assert any("-20 is taken as cm per second" in note for note in found.notes)
+    mechanism = Mechanism(read_text(found.text, "imported"))
+    assert complex(mechanism.solve().points["C"].velocity) == pytest.approx(-0.2)
+
+
+def test_links_at_a_welded_joint_are_one():
+    """The coupler of the four-bar carries a bar EX, welded to it in E."""
+    at = drawn(LINKS["watt-1"])
+    assert {"E", "F", "G"} <= at.keys()
+    welded = changed(LINKS["watt-1"], (".GE,E,", ".OE,E,"))
+    links = imported(welded).bodies
+    assert {"D", "E", "F"} in [{*link.joints} for link in links.values()]
+    assert len(links) == len(imported(LINKS["watt-1"]).bodies) - 1
+
+
+def test_a_part_of_a_welded_link_is_no_link_and_another_is_named():
+    text = LINKS["watt-1"]
+    part = ".NRDE,part,1E8,1a,bq,18q,0d125a,D,E,,.YREF,"
+    alone = imported(changed(text, (".YREF,", part)))
+    assert len(alone.bodies) == len(imported(text).bodies)
+    assert ["part" in note for note in alone.notes].count(True) == 1
+    root = ".NRde,part,1E8,1a,bq,18q,0d125a,D,E,,.YREF,"
+    held = imported(changed(text, (".YREF,", root), ("C,F,G,,.", "C,F,G,,de.")))
+    assert not any("part" in note for note in held.notes)
+
+
+def test_a_block_with_two_guides_is_refused_by_its_name():
+    text = "M[J[R, P[0, 0], L[ground, a]], J[R, P[1, 0], L[a]]]"
+    found = imported(text)
+    twice = tuple(DrawnGuide("a", "P1", angle=angle) for angle in (0.0, 1.0))
+    with pytest.raises(GraphkinError, match="link a has two guides"):
+        scene_text(replace(found, guides=twice))
+
+
+def test_an_error_of_the_scene_names_the_links_of_the_file():
+    free = "M[J[R, P[0, 0], L[ground, crank]], J[R, P[1, 0], L[crank, rod]], J[R, P[3, 0], L[rod]]]"
+    with pytest.raises(GraphkinError, match="1 is crank, 2 is rod"):
+        scene_text(imported(free))
+
+
+def test_a_length_without_a_unit_is_named():
+    assert any("unit" in note for note in scene_text(imported(PYSLVS["slider"])).notes)
+
+
+def test_a_lever_with_a_slot_of_an_expression_turns_as_the_line_to_its_pin():
+    """The slot passes beside the lever's pivot, so that the lever keeps a distance from the pin."""
+    text = (
+        "M[J[R, P[0, 0], L[ground, crank]], J[RP, A[100], P[30, 40], L[lever, crank]],"
+        " J[R, P[20, -60], L[ground, lever]]]"
+    )
+    pivot, pin, slot = 20 - 60j, 30 + 40j, rect(1, 100 * pi / 180)
+    off = ((pin - pivot) / slot).imag
+
+    def turns(time: float) -> float:
+        way = turned(pin, 0, pi / 30 * time) - pivot
+        return phase(way / (sqrt(abs(way) ** 2 - off**2) + 1j * off))
+
+    solved = opened(text).solve()
+    assert float(solved.links["2"].omega) == pytest.approx(rate(turns), rel=1e-6)
+
+
+@pytest.mark.parametrize("links", ["ground, yoke", "yoke, ground"])
+def test_the_yoke_of_an_expression_moves_as_its_pin_does_along_the_guide(links):
+    text = (
+        "M[J[R, P[0, 0], L[ground, crank]], J[RP, A[90], P[30, 40], L[yoke, crank]],"
+        f" J[P, A[0], P[100, 0], L[{links}]]]"
+    )
+    solved = opened(text).solve()
+    assert complex(solved.points["P2"].velocity) == pytest.approx(-pi / 30 * 0.040)
+    assert complex(solved.points["P1"].velocity) == pytest.approx(pi / 30 * 1j * (0.03 + 0.04j))
+
+
+def test_a_joint_of_another_kind_is_refused_by_its_name():
+    for kind, links in (("X", "ground, a"), ("P", "ground, a, b"), ("RP", "")):
+        text = f"M[J[R, P[0, 0], L[ground, a]], J[{kind}, A[0.0], P[1, 0], L[{links}]]]"
+        with pytest.raises(GraphkinError, match=f"P1 is of kind {kind}"):
+            imported(text)
+
+
+@pytest.mark.parametrize("between", [",", " "])
+def test_a_link_of_the_old_pmks_turns_as_its_circles_cross(between):
+    at = {"A": 0j, "B": 3 + 26j, "C": 95 + 62j, "D": 110 - 5j}
+    joints = (
+        "ground,in,R,0,0,0,tfft|in,rod,R,3,26,ffff|rod,out,R,95,62,0,ffff|out,ground,R,110,-5,ffff|"
+    )
+    solved = opened(f"set=s-2|e0.1&mech={joints.replace(',', between)}").solve()
+
+    def rocker(time: float) -> float:
+        pin, (_, b, c, d) = turned(at["B"], 0, -2 * time), at.values()
+        return phase(crossing(pin, abs(c - b), d, abs(c - d), c) - d)
+
+    assert float(solved.links["3"].omega) == pytest.approx(rate(rocker), rel=1e-5)
+    for point, place in at.items():
+        assert complex(solved.points[point].position) == pytest.approx(place / 1000)
+
+
+def test_a_block_of_the_old_pmks_slides_on_its_guide():
+    text = "mech=ground,a,R,0,0,tfft|a,b,R,30,40,ffff|b,c,R,150,-10,ffff|c,ground,P,150,-10,0,ffff"
+    solved = opened(text).solve()
+
+    def slider(time: float) -> float:
+        pin = turned(30 + 40j, 0, time)
+        return (pin.real + sqrt(abs(120 - 50j) ** 2 - (pin.imag + 10) ** 2)).real / 1000
+
+    assert complex(solved.points["C"].velocity) == pytest.approx(rate(slider), abs=1e-9)
+    with pytest.raises(GraphkinError, match="D is of kind RP"):
+        imported(text.replace("ground,P", "ground,RP"))
 
 
 def test_what_has_no_counterpart_is_named_in_the_scene():
@@ -155,12 +378,25 @@ def test_a_text_that_breaks_off_is_refused_in_words():
                     assert str(error)
 
 
+def test_a_file_of_linkage_without_a_line_is_refused_in_words_or_read():
+    text = (HERE / "gears.linkage2").read_text()
+    lines = text.splitlines(keepends=True)
+    for place in range(len(lines)):
+        try:
+            scene_text(imported("".join(lines[:place] + lines[place + 1 :])))
+        except GraphkinError as error:
+            assert str(error)
+    fixed = text.replace('id="3" x', 'id="3" anchor="true" x')
+    assert fixed != text
+    with pytest.raises(GraphkinError, match="gear link 3 does not move"):
+        scene_text(imported(fixed))
+
+
 def test_entities_large_numbers_and_many_joints_are_refused():
     bomb = '<!DOCTYPE a [<!ENTITY b "c">]><linkage2>&b;</linkage2>'
     many = "<linkage2>" + '<connector id="1" x="1" y="1"/>' * 201 + "</linkage2>"
     far = '<linkage2><connector id="1" x="1e99" y="nan"/></linkage2>'
-    gear = '<linkage2><Link id="1" gear="true"/></linkage2>'
-    for text, words in ((bomb, "XML"), (many, "200"), (far, "1e99"), (gear, "gear")):
+    for text, words in ((bomb, "XML"), (many, "200"), (far, "1e99")):
         with pytest.raises(GraphkinError, match=words):
             imported(text)
 
