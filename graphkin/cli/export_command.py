@@ -45,10 +45,10 @@ def export(
       graphkin export pump --to c -o pump.c
     """
     from graphkin.web.formula import LANGUAGES, formula_of
-    from graphkin.writers.files import write_all
+    from graphkin.writers.files import write_apart
 
     source = LANGUAGES[language](formula_of(mechanism_of(name, settings)))
     if file is None:
         say(source.rstrip())
     else:
-        tell(str(path) for path in write_all(file.parent, {file.name: source.encode()}, force))
+        tell([str(write_apart(file, source.encode(), name, force))])

@@ -35,13 +35,12 @@ def import_scene(given: str, output: Path | None, force: bool) -> None:
     """
     from graphkin.importing.formats import content, imported
     from graphkin.importing.scene_text import scene_text
-    from graphkin.writers.files import write_all
+    from graphkin.writers.files import write_apart
 
     found = scene_text(imported(content(given)))
     if output is None:
         tell(found.text.splitlines())
     else:
-        write_all(output.parent, {output.name: found.text.encode()}, force)
-        tell([str(output)])
+        tell([str(write_apart(output, found.text.encode(), given, force))])
     for note in found.notes:
         complain(note)

@@ -234,7 +234,13 @@ def solve(
     lines: tuple[str, ...] = ()
     given = mechanism.scene.forces
     by_forces = mechanism.forces() if given is not None and given.asked else None
+    if given is not None and by_forces is None:
+        complain("masses and loads are left aside: [ask] has neither reactions nor balance")
     if given is not None and by_forces is not None:
+        if digits is not None:
+            complain(
+                "reactions and the balance are computed in doubles: their digits are not proved"
+            )
         from graphkin.cli.report.force_report import force_lines, force_record
 
         held = force_record(given, *by_forces)

@@ -5,6 +5,7 @@ from __future__ import annotations
 import os
 import re
 from collections.abc import Collection, Iterable, Mapping, Sequence
+from contextlib import suppress
 from pathlib import Path
 from zlib import crc32
 
@@ -101,13 +102,34 @@ def refuse_existing(folder: Path, targets: list[Path], force: bool) -> None:
         hint = message("name another folder with -o")
         raise FileError(Problem(str(folder), message("is a file"), message("a folder"), hint))
     folders = [target for target in targets if target.is_dir()]
-    there = [t for t in targets if not force and os.path.lexists(t) and t not in folders]
+    devices = [t for t in targets if t.exists() and not t.is_file() and t not in folders]
+    others = (*folders, *devices)
+    there = [t for t in targets if not force and os.path.lexists(t) and t not in others]
     problems = [in_the_way(there)] if there else []
+    problems += [
+        Problem(str(t), message("is no ordinary file"), message("a place for a file"))
+        for t in devices
+    ]
     problems += [
         Problem(str(t), message("is a folder"), message("a place for a file")) for t in folders
     ]
     if problems:
         raise FileError(problems)
+
+
+def write_apart(target: Path, data: bytes, source: str | Path, force: bool = False) -> Path:
+    """Write one file that was made from another, never over its source, and return it.
+
+    Raises FileError for a target that is the source, and as ``write_all`` does.
+    """
+    same = False
+    with suppress(OSError, ValueError):  # the source is a link, or does not exist
+        same = target.samefile(source)
+    if same:
+        hint = message("name another file with -o")
+        found = message("is the file that is read")
+        raise FileError(Problem(str(target), found, message("another file"), hint))
+    return write_all(target.parent, {target.name: data}, force)[0]
 
 
 def refuse_folder(folder: Path, names: Iterable[str] = (), *, force: bool = False) -> None:

@@ -42,3 +42,13 @@ def test_text_and_check_tell_how_far_the_other_routes_are(
         assert result.exit_code == 0, result.stderr
         assert said in result.stdout
     assert "balance  moment on link 1: " in run("solve", file).stdout
+
+
+def test_forces_that_nobody_asks_for_are_told(run: Run, four_bar: Callable[..., Path]) -> None:
+    said = run("solve", four_bar(ask=LOADED.format(""))).stderr
+    assert "[ask]" in said and "balance" in said
+
+
+def test_their_digits_are_not_called_proved(run: Run, four_bar: Callable[..., Path]) -> None:
+    file = four_bar(ask=LOADED.format("balance = true\n"))
+    assert "not proved" in run("solve", file, "--digits", "20").stderr

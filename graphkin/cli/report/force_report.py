@@ -9,7 +9,7 @@ from graphkin.construction.reactions import ForceSolution, PairReaction, by_name
 from graphkin.loops.equilibrium import ForceVerdict
 from graphkin.scene.forces import Forces
 from graphkin.scene.model import FRAME
-from graphkin.text.plain_table import Cell, cleaned, table
+from graphkin.text.tables import Cell, cleaned, table
 
 
 def force_record(forces: Forces, found: ForceSolution, verdict: ForceVerdict) -> Record:
@@ -57,7 +57,9 @@ def force_lines(found: Record) -> list[str]:
         for link, each in on.items():
             x, y = (cleaned(part, biggest) for part in each["force"])
             size = abs(complex(x, y))
-            rows.append([name, "frame" if link == FRAME else link, x, y, size, each.get("moment")])
+            rows.append(
+                [name, "frame" if link == FRAME else link, x, y, size, moment_of(each, biggest)]
+            )
     if rows:
         heads = ["reaction", "on link", "Fx, N", "Fy, N", "F, N", "moment, N·m"]
         lines += ["", *table(heads, rows)]
@@ -68,6 +70,12 @@ def force_lines(found: Record) -> list[str]:
             x, y = each["force"]
             lines += ["", f"balance  force on link {link}: ({x:.6g}, {y:.6g}) N"]
     return [*lines, "", f"forces   {force_verdict_words(found['force_witness'])}"]
+
+
+def moment_of(each: dict[str, Any], biggest: float) -> float | None:
+    """The moment of a guide's reaction; zero where it is noise of the largest force."""
+    moment = each.get("moment")
+    return None if moment is None else cleaned(moment, biggest)
 
 
 def force_verdict_words(witness: Record) -> str:
