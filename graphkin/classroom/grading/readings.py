@@ -268,9 +268,9 @@ def of_scales(form: FormFields) -> Iterator[Cause]:
         yield reading("wrong_scale", way, scaled(mask, exchanged(own, other), form.rates))
     both = crossed(form, first, second)
     yield reading("wrong_scale", "exchanged", both)
-    for plan, mask in (("1", first), ("2", second), ("1 and 2", either)):
+    for plans, mask in (("1", first), ("2", second), ("1 and 2", either)):
         for free in (None, form.rates) if (mask & form.rates).any() else (None,):
-            way = f"own {plan}" if free is None else f"own {plan} or right"
+            way = f"own {plans}" if free is None else f"own {plans} or right"
             yield reading("wrong_scale", way, by_own(form, mask, free), FREE)
     yield reading("scale_missing", "values", forgotten(form))
     if form.lengths.any():
