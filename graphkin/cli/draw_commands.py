@@ -138,7 +138,8 @@ def cycle(
     """Move the driver through a whole turn, or as far as it can go.
 
     Prints the driver's range, the dead points and change points by name, how far the followers go,
-    and what the lengths of a single loop mean. Writes a table (CSV, SI units) and curves of all
+    the least and largest values of all that the scene asks for, and what the lengths of a single
+    loop mean. Writes tables of the motion and of the extremes (CSV, SI units), curves of all
     motions, paths of points and centrodes. Also draws the path of the driven pin with the region
     that the other links can reach.
 
@@ -152,10 +153,17 @@ def cycle(
       graphkin cycle pump --set n=7 -o cycles --format gif,html
     """
     kinds = option_words("--format", formats, ("svg", "png", "gif", "html"))
-    from graphkin.cli.report.cycle_report import agrees, cycle_lines, cycle_table, jump_words
+    from graphkin.cli.report.cycle_report import (
+        agrees,
+        cycle_lines,
+        cycle_table,
+        extremes_table,
+        jump_words,
+    )
     from graphkin.motion.curves.curve_files import FORMATS as CURVES
     from graphkin.motion.curves.curve_files import picture_files
     from graphkin.motion.cycle import cycle as moved
+    from graphkin.motion.extremes import all_extremes
     from graphkin.motion.jumps import jumps
     from graphkin.motion.sweep import bounds_in_si
     from graphkin.web.animation import animation_files
@@ -170,13 +178,17 @@ def cycle(
     found = moved(mechanism, driver=driver, steps=steps, low=first, high=last)
     say("checking every row")
     leaps = jumps(found)
-    lines = [*cycle_lines(found, leaps)]
+    say("looking for extremes")
+    reached = () if leaps else all_extremes(found)
+    lines = [*cycle_lines(found, leaps, reached)]
     say("")
     tell(lines)
     if leaps:
         complain(f"{jump_words(found, leaps[0])}: this is no motion, nothing is written")
         leave(FAILED)
     files = {f"{stem}-cycle.csv": cycle_table(found).encode()}
+    if any(reached):
+        files[f"{stem}-extremes.csv"] = extremes_table(found, reached).encode()
     curves = [kind for kind in kinds if kind in CURVES]
     files |= picture_files(found, stem, curves) if curves else {}
     files |= animation_files(found, stem, kinds, lang)

@@ -6,6 +6,7 @@ import csv
 import io
 from collections.abc import Iterable, Iterator, Sequence
 from itertools import groupby
+from math import isfinite
 from typing import TYPE_CHECKING, Any
 
 from graphkin.cli.report.solution_record import heading
@@ -26,6 +27,7 @@ if TYPE_CHECKING:
     from graphkin.motion.cycle import Cycle
     from graphkin.motion.ends import Event
     from graphkin.motion.events import Singular
+    from graphkin.motion.extremes import Extreme, Extremes, Reached
     from graphkin.motion.follower_limits import Dwell, Follower, Limit
     from graphkin.motion.jumps import Jump
     from graphkin.motion.pieces import Path, Piece
@@ -52,11 +54,9 @@ def cycle_table(cycle: Cycle) -> str:
 
 def cell(value: Any) -> str:
     """A number in its shortest exact form, never minus zero; empty if there is none."""
-    import math
-
     if getattr(value, "dtype", None) == "int64":
         return str(value)
-    return repr(float(value) + 0.0) if math.isfinite(value) else ""
+    return repr(float(value) + 0.0) if isfinite(value) else ""
 
 
 def columns_of(cycle: Cycle) -> Iterator[Column]:
@@ -217,8 +217,15 @@ SHOWN = 6
 """The most places left out that are listed."""
 
 
-def cycle_lines(cycle: Cycle, found_jumps: Sequence[Jump] = ()) -> Iterator[str]:
-    """The whole report of a cycle, line by line, with the jumps found in it."""
+def cycle_lines(
+    cycle: Cycle,
+    found_jumps: Sequence[Jump] = (),
+    found_extremes: Sequence[Sequence[Extremes]] = (),
+) -> Iterator[str]:
+    """The whole report of a cycle, line by line.
+
+    It names the jumps found in the cycle, and the extremes found in each range.
+    """
     from graphkin.motion.follower_limits import followers
     from graphkin.motion.single_loop import loop_of
 
@@ -236,6 +243,8 @@ def cycle_lines(cycle: Cycle, found_jumps: Sequence[Jump] = ()) -> Iterator[str]
             line for each in followers(cycle, i) for line in follower_words(cycle, each, steady)
         ]
         yield from labelled(f"in range {i + 1}" if several else "followers", found)
+        reached = [extremes_words(cycle, each) for e in found_extremes[i : i + 1] for each in e]
+        yield from labelled(f"extremes {i + 1}" if several else "extremes", reached)
     loop = loop_of(cycle)
     yield from labelled("loop", loop_words(cycle, loop) if loop is not None else [])
     yield from labelled("rows", [rows_words(cycle)])
@@ -394,6 +403,64 @@ def limit_words(cycle: Cycle, found: Follower, limit: Limit) -> str:
 def value_words(cycle: Cycle, found: Follower, value: float) -> str:
     """An angle or a coordinate of a follower."""
     return length_words(cycle.sweep, value) if found.line is None else f"{value:.3f}°"
+
+
+def extremes_words(cycle: Cycle, found: Extremes) -> str:
+    """The least and the largest value of one quantity, with the driver's places."""
+    measure = found.measure
+    if found.is_constant:
+        return f"{measure.label} stays at {short(found.least.value)} {measure.unit}"
+    both = ((found.least, "least"), (found.largest, "largest"))
+    words = "; ".join(f"{name} {extreme_words(cycle, e, measure.unit)}" for e, name in both)
+    return f"{measure.label}: {words}"
+
+
+def extreme_words(cycle: Cycle, found: Extreme, unit: str) -> str:
+    """A least or largest value and its places."""
+    letter = cycle.sweep.coordinate.letter
+    where = listed([place_words(cycle, each) for each in found.places], SHOWN)
+    if not isfinite(found.value):
+        sign = "+" if found.value > 0 else "-"
+        points = "points" if len(found.places) > 1 else "point"
+        return f"{sign}∞ at the dead {points} {letter} = {where}"
+    return f"{short(found.value)} {unit} at {letter} = {where}"
+
+
+def place_words(cycle: Cycle, found: Reached) -> str:
+    """Where an extreme is, without the letter of the coordinate."""
+    where = at_words(cycle.sweep, found.at, name=False)
+    if found.until > found.at:
+        return f"{where} to {at_words(cycle.sweep, found.until, name=False)}"
+    return f"{where} (edge of the window)" if found.end == "window" else where
+
+
+def extremes_table(cycle: Cycle, found_extremes: Sequence[Sequence[Extremes]]) -> str:
+    """The extremes of all ranges as CSV, a row for each place, in SI units and full precision.
+
+    ``inf`` is a value that grows without bound towards the dead point of its row. ``to`` ends a
+    stretch on which the value stays the same.
+    """
+    sweep = cycle.sweep
+    out = io.StringIO()
+    writer = csv.writer(out, lineterminator="\n")
+    at = f"{sweep.symbol} [{sweep.unit}]"
+    writer.writerow(
+        ["range", "quantity", "of", "unit", "extreme", "value", at, f"{at} to", "where"]
+    )
+    for number, every in enumerate(found_extremes, 1):
+        for found in every:
+            measure = found.measure
+            head = [number, measure.name, measure.of, measure.unit.replace("²", "^2")]
+            for name, extreme in (("least", found.least), ("largest", found.largest)):
+                for place in extreme.places:
+                    where = [repr(u + 0.0) for u in (place.at, place.until)]
+                    end = ENDS[place.end]
+                    writer.writerow([*head, name, repr(extreme.value + 0.0), *where, end])
+    return out.getvalue()
+
+
+ENDS = {None: "inside", "dead": "dead point", "window": "edge"}
+"""Where an extreme is in its range, in the table."""
 
 
 def loop_words(cycle: Cycle, loop: Loop) -> list[str]:
