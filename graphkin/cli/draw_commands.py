@@ -138,10 +138,10 @@ def cycle(
     """Move the driver through a whole turn, or as far as it can go.
 
     Prints the driver's range, the dead points and change points by name, how far the followers go,
-    the least and largest values of all that the scene asks for, and what the lengths of a single
-    loop mean. Writes tables of the motion and of the extremes (CSV, SI units), curves of all
-    motions, paths of points and centrodes. Also draws the path of the driven pin with the region
-    that the other links can reach.
+    the least and largest values of all that the scene asks for and of the transmission and pressure
+    angles, and what the lengths of a single loop mean. Writes tables of the motion and of the
+    extremes (CSV, SI units), curves of all motions, paths of points and centrodes. Also draws the
+    path of the driven pin with the region that the other links can reach.
 
     Several drivers, and laws of time, are moved by the time: for one turn of the first driver, for
     one cycle to and fro if its law never makes a turn, or from --from to --to seconds.
@@ -163,9 +163,9 @@ def cycle(
     from graphkin.motion.curves.curve_files import FORMATS as CURVES
     from graphkin.motion.curves.curve_files import picture_files
     from graphkin.motion.cycle import cycle as moved
-    from graphkin.motion.extremes import all_extremes
     from graphkin.motion.jumps import jumps
     from graphkin.motion.sweep import bounds_in_si
+    from graphkin.motion.transmission import all_extremes
     from graphkin.web.animation import animation_files
     from graphkin.writers.files import file_stem, refuse_folder, write_all
 

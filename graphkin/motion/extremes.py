@@ -72,9 +72,10 @@ class Measure(Struct, frozen=True):
     """A number that a motion takes through its values: its name, owner, label and unit.
 
     ``value`` gives it (N,) from the columns of ``targets``. ``slope`` gives the sign of its
-    derivative from the columns of ``rates`` for a driver at speed 1; None takes differences. They
-    are taken of the square where the value is a ``size``, which has a corner at zero. What is
-    small against the ``usual`` size may be rounding.
+    derivative from the columns of ``rates`` for a driver at speed 1; None takes differences.
+    ``smooth`` is a rising function that rounds off the corners of a size or an acute angle. What
+    is small against the ``usual`` size may be rounding. ``least_allowed`` and ``most_allowed`` are
+    customary limits.
     """
 
     name: str
@@ -85,8 +86,10 @@ class Measure(Struct, frozen=True):
     value: Callable[[Columns], Reals]
     rates: tuple[Target, ...] = ()
     slope: Callable[[Columns], Reals] | None = None
-    size: bool = False
+    smooth: Callable[[Reals], Reals] | None = None
     usual: float = 0.0
+    least_allowed: float | None = None
+    most_allowed: float | None = None
 
 
 class Reached(Struct, frozen=True):
@@ -113,6 +116,21 @@ class Extremes(Struct, frozen=True):
     measure: Measure
     least: Extreme
     largest: Extreme
+
+    @property
+    def limit(self) -> float | None:
+        """The customary limit of the value."""
+        least = self.measure.least_allowed
+        return self.measure.most_allowed if least is None else least
+
+    @property
+    def keeps_limit(self) -> bool:
+        """Whether the value keeps its customary limits everywhere."""
+        least, most = self.measure.least_allowed, self.measure.most_allowed
+        slack = SAME * TURN
+        return (least is None or self.least.value >= least - slack) and (
+            most is None or self.largest.value <= most + slack
+        )
 
     @property
     def is_constant(self) -> bool:
@@ -168,7 +186,7 @@ def measure_of(
         value,
         (target, rate) if exact else (),
         slope if exact else None,
-        size,
+        np.square if size else None,
         usual,
     )
 
@@ -182,12 +200,6 @@ def extremes(cycle: Cycle, measures: Sequence[Measure], number: int = 0) -> tupl
         return ()
     search = Search(cycle, tuple(measures), number)
     return tuple(found for found in search.all() if found is not None)
-
-
-def all_extremes(cycle: Cycle) -> tuple[tuple[Extremes, ...], ...]:
-    """The extremes of what the scene asks for, range by range."""
-    measures = tuple(asked_measures(cycle))
-    return tuple(extremes(cycle, measures, i) for i in range(len(cycle.path.ranges)))
 
 
 class TopBracket(Struct):
@@ -367,7 +379,7 @@ class Search:
         """The sign of the driver's speed, for measures that it turns round; 1 for sizes."""
         if not self.cycle.sweep.runs_backwards:
             return np.ones(len(owner))
-        return np.array([1.0 if self.measures[n].size else -1.0 for n in owner])
+        return np.array([-1.0 if self.measures[n].smooth is None else 1.0 for n in owner])
 
     def differences(self, at: Reals, owner: Any) -> Reals:
         """Central differences of fourth order of measure ``owner[i]`` at u[i]."""
@@ -378,8 +390,9 @@ class Search:
         shifts = np.array([-2.0, -1.0, 1.0, 2.0])
         places = (at[:, None] + room[:, None] * shifts).ravel()
         found = self.own(places, np.repeat(owner, 4)).reshape(-1, 4)
-        sizes = np.array([self.measures[n].size for n in owner])
-        found = np.where(sizes[:, None], found**2, found)
+        for n in set(owner.tolist()):
+            if (smooth := self.measures[n].smooth) is not None:
+                found[owner == n] = smooth(found[owner == n])
         return np.asarray(found @ np.array([1.0, -8.0, 8.0, -1.0]))
 
     def by_value(self, owner: Any, sign: Any, low: Reals, middle: Reals, high: Reals) -> Reals:

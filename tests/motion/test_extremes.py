@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from cmath import exp, phase
 from collections.abc import Callable
-from math import acos, atan2, cos, degrees, inf, pi, radians, sin, sqrt
+from math import acos, asin, atan, atan2, cos, degrees, inf, pi, radians, sin, sqrt
 from pathlib import Path
 
 import numpy as np
@@ -13,6 +13,7 @@ import pytest
 from graphkin.mechanism import Mechanism, load
 from graphkin.motion.cycle import cycle
 from graphkin.motion.extremes import Extremes, asked_measures, extremes
+from graphkin.motion.transmission import all_extremes
 from graphkin.scene.read_scene import read_text
 
 SCENES = Path(__file__).resolve().parents[2] / "examples" / "scenes"
@@ -151,3 +152,54 @@ def test_a_driver_that_runs_backwards_changes_signs_not_places():
     for one, other in ((ahead["ω_2"].least, back["ω_2"].largest),):
         assert one.value == pytest.approx(-other.value, rel=1e-9)
         assert one.places[0].at == pytest.approx(other.places[0].at, abs=1e-6)
+
+
+def angles_in(mechanism: Mechanism) -> dict[str, Extremes]:
+    """The transmission and pressure angles of the first range, by their owners."""
+    found = all_extremes(cycle(mechanism, steps=12))[0]
+    return {each.measure.of: each for each in found if each.limit is not None}
+
+
+def test_a_four_bar_passes_on_least_where_its_crank_lies_along_the_frame():
+    """Law of cosines: cos μ = (b² + c² - (d ± a)²)/2bc, the smaller at d - a here."""
+    a, b, c, d = 50, 120, 90, 130
+    found = angles_in(load(f"{SCENES}/four-bar-crank-rocker.toml"))["C"]
+    one, other = (degrees(acos((b * b + c * c - span**2) / (2 * b * c))) for span in (d - a, d + a))
+    assert found.least.value == pytest.approx(min(one, 180 - other), abs=1e-9)
+    assert [each.at for each in found.least.places] == pytest.approx([0], abs=1e-6)
+    assert found.largest.value == pytest.approx(90, abs=1e-6)
+    assert found.keeps_limit  # 41.8° against 40°
+
+
+def test_a_transmission_angle_is_zero_at_a_dead_point():
+    found = angles_in(load(f"{SCENES}/four-bar-double-rocker.toml"))["C"]
+    assert found.least.value == pytest.approx(0, abs=1e-5)
+    assert found.least.places[0].end == "dead"
+    assert not found.keeps_limit
+
+
+def test_the_rod_of_a_slider_crank_presses_most_with_its_crank_square_to_the_guide():
+    """The sine of the pressure angle is (r sin φ - e)/l: 100/200 below, 40/200 above."""
+    found = angles_in(load(f"{SCENES}/slider-crank.toml"))["3"]
+    assert found.largest.value == pytest.approx(30, abs=1e-9)
+    assert [each.at for each in found.largest.places] == pytest.approx([270], abs=1e-6)
+    assert found.least.value == pytest.approx(0, abs=1e-6)
+    zero = degrees(asin(30 / 70))
+    assert [each.at for each in found.least.places] == pytest.approx([zero, 180 - zero], abs=1e-6)
+
+
+def test_a_cam_presses_most_where_its_formula_says():
+    """Falling by 3-4-5: tan α = (s' - e)/(s + √(50² - e²)), e = 10; the prime circle is of 50."""
+
+    def pressure(at: float) -> float:
+        x, beta = (at - 180) / 120, radians(120)
+        if not 0 <= x <= 1:
+            return 0.0
+        fall = 20 * (1 - 10 * x**3 + 15 * x**4 - 6 * x**5)
+        slope = -20 * (30 * x**2 - 60 * x**3 + 30 * x**4) / beta
+        return abs(degrees(atan((slope - 10) / (fall + sqrt(50**2 - 10**2)))))
+
+    at, most = golden(pressure, 1)
+    found = angles_in(load(f"{SCENES}/cam-roller.toml"))["2"]
+    assert found.largest.value == pytest.approx(most, abs=1e-9)
+    assert found.largest.places[0].at == pytest.approx(at, abs=1e-4)

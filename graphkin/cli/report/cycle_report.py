@@ -243,8 +243,8 @@ def cycle_lines(
             line for each in followers(cycle, i) for line in follower_words(cycle, each, steady)
         ]
         yield from labelled(f"in range {i + 1}" if several else "followers", found)
-        reached = [extremes_words(cycle, each) for e in found_extremes[i : i + 1] for each in e]
-        yield from labelled(f"extremes {i + 1}" if several else "extremes", reached)
+        for label, reached in extremes_blocks(cycle, found_extremes[i : i + 1]):
+            yield from labelled(f"{label} {i + 1}" if several else label, reached)
     loop = loop_of(cycle)
     yield from labelled("loop", loop_words(cycle, loop) if loop is not None else [])
     yield from labelled("rows", [rows_words(cycle)])
@@ -405,11 +405,29 @@ def value_words(cycle: Cycle, found: Follower, value: float) -> str:
     return length_words(cycle.sweep, value) if found.line is None else f"{value:.3f}°"
 
 
+def extremes_blocks(
+    cycle: Cycle, every: Sequence[Sequence[Extremes]]
+) -> Iterator[tuple[str, list[str]]]:
+    """The labels and lines of extremes: of what is asked for, and of angles with limits."""
+    asked = [each for found in every for each in found if each.limit is None]
+    angles = [each for found in every for each in found if each.limit is not None]
+    yield "extremes", [extremes_words(cycle, each) for each in asked]
+    yield "angles", [f"{extremes_words(cycle, each)}; {limit_verdict(each)}" for each in angles]
+
+
+def limit_verdict(found: Extremes) -> str:
+    """Whether an angle keeps its customary limit."""
+    least = found.measure.least_allowed is not None
+    if found.keeps_limit:
+        return f"never {'below' if least else 'above'} the customary {short(found.limit or 0)}°"
+    return f"goes {'below' if least else 'above'} the customary {short(found.limit or 0)}°"
+
+
 def extremes_words(cycle: Cycle, found: Extremes) -> str:
     """The least and the largest value of one quantity, with the driver's places."""
     measure = found.measure
     if found.is_constant:
-        return f"{measure.label} stays at {short(found.least.value)} {measure.unit}"
+        return f"{measure.label} stays at {in_unit(found.least.value, measure.unit)}"
     both = ((found.least, "least"), (found.largest, "largest"))
     words = "; ".join(f"{name} {extreme_words(cycle, e, measure.unit)}" for e, name in both)
     return f"{measure.label}: {words}"
@@ -423,7 +441,12 @@ def extreme_words(cycle: Cycle, found: Extreme, unit: str) -> str:
         sign = "+" if found.value > 0 else "-"
         points = "points" if len(found.places) > 1 else "point"
         return f"{sign}∞ at the dead {points} {letter} = {where}"
-    return f"{short(found.value)} {unit} at {letter} = {where}"
+    return f"{in_unit(found.value, unit)} at {letter} = {where}"
+
+
+def in_unit(value: float, unit: str) -> str:
+    """A value with its unit."""
+    return f"{value:.3f}°" if unit == "°" else f"{short(value)} {unit}"
 
 
 def place_words(cycle: Cycle, found: Reached) -> str:
@@ -438,27 +461,30 @@ def extremes_table(cycle: Cycle, found_extremes: Sequence[Sequence[Extremes]]) -
     """The extremes of all ranges as CSV, a row for each place, in SI units and full precision.
 
     ``inf`` is a value that grows without bound towards the dead point of its row. ``to`` ends a
-    stretch on which the value stays the same.
+    stretch on which the value stays the same. ``limit`` is the customary limit of an angle.
     """
     sweep = cycle.sweep
     out = io.StringIO()
     writer = csv.writer(out, lineterminator="\n")
     at = f"{sweep.symbol} [{sweep.unit}]"
     writer.writerow(
-        ["range", "quantity", "of", "unit", "extreme", "value", at, f"{at} to", "where"]
+        ["range", "quantity", "of", "unit", "extreme", "value", at, f"{at} to", "where", "limit"]
     )
     for number, every in enumerate(found_extremes, 1):
         for found in every:
             measure = found.measure
-            head = [number, measure.name, measure.of, measure.unit.replace("²", "^2")]
+            limit = "" if found.limit is None else repr(found.limit)
+            head = [number, measure.name, measure.of, measure.unit.translate(PLAIN_UNITS)]
             for name, extreme in (("least", found.least), ("largest", found.largest)):
                 for place in extreme.places:
                     where = [repr(u + 0.0) for u in (place.at, place.until)]
                     end = ENDS[place.end]
-                    writer.writerow([*head, name, repr(extreme.value + 0.0), *where, end])
+                    writer.writerow([*head, name, repr(extreme.value + 0.0), *where, end, limit])
     return out.getvalue()
 
 
+PLAIN_UNITS = str.maketrans({"²": "^2", "°": "deg"})
+"""How units are written in a table."""
 ENDS = {None: "inside", "dead": "dead point", "window": "edge"}
 """Where an extreme is in its range, in the table."""
 
