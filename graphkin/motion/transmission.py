@@ -126,4 +126,4 @@ def rounded(angle: Reals) -> Reals:
 
 def acute(ratio: Reals) -> Reals:
     """The acute angles (degrees) between lines whose directions have a complex ratio."""
-    return np.degrees(np.arctan2(np.abs(ratio.imag), np.abs(ratio.real)))
+    return np.asarray(np.degrees(np.arctan2(np.abs(ratio.imag), np.abs(ratio.real))))
