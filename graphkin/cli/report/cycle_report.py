@@ -457,6 +457,18 @@ def place_words(cycle: Cycle, found: Reached) -> str:
     return f"{where} (edge of the window)" if found.end == "window" else where
 
 
+def positions_lines(few: Cycle) -> list[str]:
+    """The count, the start and the step of equal positions."""
+    if not len(few.at):
+        return labelled("positions", ["none lies inside the range"])
+    from graphkin.motion.equal_positions import step_of
+
+    first, step = step_of(few)
+    words = f"{len(few.at)} from {at_words(few.sweep, first)}"
+    words += f", each {at_words(few.sweep, step, name=False)} on" if step else ""
+    return labelled("positions", [words])
+
+
 def extremes_table(cycle: Cycle, found_extremes: Sequence[Sequence[Extremes]]) -> str:
     """The extremes of all ranges as CSV, a row for each place, in SI units and full precision.
 
