@@ -47,15 +47,17 @@ GROWS = 3.0
 AMBIGUOUS = 5e-4
 """Distance from change points, as a share of a full sweep, within which accelerations are lost."""
 STEP = 1e-3
-"""Step of central differences: radians, or a share of the range of a slide or of the time."""
+"""Step of central differences: radians, the range of a slide or of the time taken as a turn."""
 SAME = 1e-9
 """Share of the largest size within which two extremes are equal."""
 ROUNDED = 1e-7
 """The same beside change points, where fewer digits are sure."""
 LEVEL = 1e-12
 """Share of the largest size within which a value stays the same."""
-STILL = 1e-15
+STILL = 4e-15
 """Share of the largest size by which it may leave a level at the ends of that level."""
+PLACED = 1e-8
+"""Share of the range within which a place is zero."""
 MOST = 100.0
 """The largest size, in median sizes; beyond, a value is about to grow without bound."""
 RATE_OF: Mapping[str, str] = {
@@ -226,7 +228,7 @@ class Search:
         self.span = self.high.at - self.low.at
         self.closed = cycle.path.whole and cycle.path.returns and number == 0
         turns = cycle.sweep.what == "turn"
-        self.step = STEP / cycle.sweep.per_unit if turns else STEP * self.span
+        self.step = STEP * (1 / cycle.sweep.per_unit if turns else self.span / (2 * np.pi))
         self.at = np.unique(np.concatenate([self.samples(piece) for piece in pieces]))
 
     def samples(self, piece: Any) -> Reals:
@@ -419,10 +421,11 @@ class Search:
         if infinite := self.unbounded(row, sign):
             return Extreme(sign * inf, tuple(Reached(u, u, "dead") for u in infinite))
         known = np.isfinite(row)
-        at, top, scale = self.at[known], sign * row[known], size_of(row)
+        at, top, size = self.at[known], sign * row[known], size_of(row)
+        scale = max(size, self.measures[n].usual)
         best = max([float(top.max()), *(sign * value for _, value in tops)])
         equal = best - self.same * scale
-        found = self.levels(n, sign, at, np.where(top >= best - LEVEL * scale, top, -inf), scale)
+        found = self.levels(n, sign, at, np.where(top >= best - LEVEL * size, top, -inf), size)
         for u, value in tops:
             if sign * value >= equal and not any(self.covers(each, u) for each in found):
                 found.append(Reached(u, u))
@@ -434,7 +437,7 @@ class Search:
         if not found:
             u = float(at[top.argmax()])
             found.append(Reached(u, u))
-        value = 0.0 if abs(best) <= LEVEL * scale else sign * best
+        value = 0.0 if abs(best) <= SAME * scale else sign * best
         return Extreme(value, self.once(found))
 
     def covers(self, found: Reached, at: float) -> bool:
@@ -452,14 +455,16 @@ class Search:
         for first, after in zip(edges[::2], edges[1::2], strict=True):
             if after - first < 3:
                 continue
-            least = float(top[first:after].min()) - STILL * scale
+            least = float(np.median(top[first:after])) - STILL * scale
+            inside = first + np.flatnonzero(top[first:after] >= least)
+            begin, end = int(inside[0]), int(inside[-1])
 
             def stays(u: Reals, least: float = least) -> Flags:
                 return np.asarray(sign * self.values(u)[n] >= least)
 
-            low, high = float(at[first]), float(at[after - 1])
-            low = last_closing(stays, low, float(at[first - 1])) if first else low
-            high = last_closing(stays, high, float(at[after])) if after < len(at) else high
+            low, high = float(at[begin]), float(at[end])
+            low = last_closing(stays, low, float(at[begin - 1])) if begin else low
+            high = last_closing(stays, high, float(at[end + 1])) if end + 1 < len(at) else high
             found.append(Reached(low, high))
         if self.closed and len(found) > 1 and found[0].at == at[0] and found[-1].until == at[-1]:
             period = self.cycle.path.period
@@ -471,6 +476,7 @@ class Search:
         kept: dict[float, Reached] = {}
         for each in found:
             at = once_round(self.cycle.path, each.at)
+            at = 0.0 if abs(at) <= PLACED * self.span else at
             kept.setdefault(round(at, 6), Reached(at, each.until + at - each.at, each.end))
         return tuple(kept[key] for key in sorted(kept))
 

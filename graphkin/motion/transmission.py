@@ -17,7 +17,7 @@ from graphkin.construction.core.cam_profiles import CamProfile
 from graphkin.construction.core.program import Target
 from graphkin.motion.course import Reals
 from graphkin.motion.cycle import Cycle
-from graphkin.motion.extremes import Columns, Extremes, Measure, asked_measures, extremes
+from graphkin.motion.extremes import SAME, Columns, Extremes, Measure, asked_measures, extremes
 from graphkin.scene.model import FRAME, Scene
 from graphkin.structure.groups import Dyad
 from graphkin.structure.link_axes import guide_line
@@ -27,6 +27,10 @@ LEAST_TRANSMISSION = 40.0
 """The customary least transmission angle, in degrees."""
 MOST_PRESSURE = {"block": 90 - LEAST_TRANSMISSION, "follower": 30.0, "lever": 35.0}
 """The customary largest pressure angle (degrees) of a block, and of a cam's follower or lever."""
+
+USUAL = 1e-5 / SAME
+"""The size against which an angle is rounding at 1e-5 degrees: at dead points it is a square root
+of rounding."""
 
 
 def angle_measures(cycle: Cycle) -> Iterator[Measure]:
@@ -76,7 +80,9 @@ def transmission(first: str, pin: str, second: str, links: tuple[str, str]) -> M
     words = f"transmission angle at {pin} of links {' and '.join(links)}"
     name = "transmission angle"
     least = LEAST_TRANSMISSION
-    return Measure(name, pin, words, "°", targets, value, smooth=rounded, least_allowed=least)
+    return Measure(
+        name, pin, words, "°", targets, value, smooth=rounded, usual=USUAL, least_allowed=least
+    )
 
 
 def block_pressure(scene: Scene, outer: str, pin: str, guide: Sliding) -> Measure:
@@ -96,7 +102,9 @@ def pressure(
 ) -> Measure:
     """The measure of a pressure angle with its customary limit."""
     words, name = f"pressure angle of {words}", "pressure angle"
-    return Measure(name, of, words, "°", targets, value, smooth=rounded, most_allowed=most)
+    return Measure(
+        name, of, words, "°", targets, value, smooth=rounded, usual=USUAL, most_allowed=most
+    )
 
 
 def of_cam(scene: Scene, follower: str, known: Mapping[Target, int]) -> Iterator[Measure]:
