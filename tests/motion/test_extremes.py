@@ -203,3 +203,15 @@ def test_a_cam_presses_most_where_its_formula_says():
     found = angles_in(load(f"{SCENES}/cam-roller.toml"))["2"]
     assert found.largest.value == pytest.approx(most, abs=1e-9)
     assert found.largest.places[0].at == pytest.approx(at, abs=1e-4)
+
+
+@pytest.mark.parametrize("label", ["|v_B|", "ω_3", "ε_4", "a of block 2"])
+def test_a_place_has_more_digits_than_its_value_can_show(label):
+    """A lever is fastest with its crank in line; values alone leave half of the digits there.
+
+    The samples start at the scene's position, so that none is at 270 degrees.
+    """
+    text = (SCENES / "shaper.toml").read_text().replace('angle = "angle"', "angle = 50.1234")
+    found = found_in(Mechanism(read_text(text, "shaper")))[label]
+    every = [each.at for each in (*found.least.places, *found.largest.places)]
+    assert min(abs(at - 270) for at in every) < 1e-9
