@@ -29,6 +29,7 @@ if TYPE_CHECKING:
     from graphkin.drawing.scale import Scales
     from graphkin.drawing.style import Ink
     from graphkin.mechanism import Mechanism
+    from graphkin.motion.equal_positions import Start
 
 
 @click.command()
@@ -115,12 +116,28 @@ def sheet(
     help="Start here instead of at the start of the range.",
 )
 @click.option("--to", "high", metavar="NUMBER", type=float, help="End here (degrees, lengths, s).")
+@click.option(
+    "--positions",
+    metavar="N",
+    type=click.IntRange(1, 10_000),
+    help="Also write a table of the motion in this many equal steps of the driver.",
+)
+@click.option(
+    "--positions-from",
+    "begin",
+    type=click.Choice(["scene", "dead"]),
+    default="scene",
+    show_default=True,
+    help="Count these positions from the scene's own one, or from a dead point: of the driver, or"
+    " of the last link or block that reverses.",
+)
 @language_option
 @formats_option(
-    "svg,png,gif,html",
+    "csv,xlsx,svg,png,gif,html",
     "svg,png",
-    "Kinds of picture to write; the table is CSV. gif, html: mechanism and plans in motion, as"
-    " a picture and as a page.",
+    "Kinds of file to write; the tables are always written as CSV. xlsx: the tables as one"
+    " workbook; needs the extra [class]. gif, html: mechanism and plans in motion, as a picture and"
+    " as a page.",
 )
 @force_option
 def cycle(
@@ -131,6 +148,8 @@ def cycle(
     steps: int,
     low: float | None,
     high: float | None,
+    positions: int | None,
+    begin: Start,
     lang: str | None,
     formats: str,
     force: bool,
@@ -138,9 +157,10 @@ def cycle(
     """Move the driver through a whole turn, or as far as it can go.
 
     Prints the driver's range, the dead points and change points by name, how far the followers go,
-    and what the lengths of a single loop mean. Writes a table (CSV, SI units) and curves of all
-    motions, paths of points and centrodes. Also draws the path of the driven pin with the region
-    that the other links can reach.
+    the least and largest values of all that the scene asks for and of the transmission and pressure
+    angles, and what the lengths of a single loop mean. Writes tables of the motion and of the
+    extremes (CSV, SI units), curves of all motions, paths of points and centrodes. Also draws the
+    path of the driven pin with the region that the other links can reach.
 
     Several drivers, and laws of time, are moved by the time: for one turn of the first driver, for
     one cycle to and fro if its law never makes a turn, or from --from to --to seconds.
@@ -150,16 +170,27 @@ def cycle(
       graphkin cycle pump --set n=7 -o cycles
       graphkin cycle mine.toml -o cycles --steps 720 --format png
       graphkin cycle pump --set n=7 -o cycles --format gif,html
+      graphkin cycle offset-slider-crank -o cycles --positions 12 --positions-from dead --format csv
     """
-    kinds = option_words("--format", formats, ("svg", "png", "gif", "html"))
-    from graphkin.cli.report.cycle_report import agrees, cycle_lines, cycle_table, jump_words
+    kinds = option_words("--format", formats, ("csv", "xlsx", "svg", "png", "gif", "html"))
+    from graphkin.cli.report.cycle_report import (
+        agrees,
+        cycle_lines,
+        cycle_table,
+        extremes_table,
+        jump_words,
+        positions_lines,
+    )
     from graphkin.motion.curves.curve_files import FORMATS as CURVES
     from graphkin.motion.curves.curve_files import picture_files
     from graphkin.motion.cycle import cycle as moved
+    from graphkin.motion.equal_positions import equal_positions
     from graphkin.motion.jumps import jumps
     from graphkin.motion.sweep import bounds_in_si
+    from graphkin.motion.transmission import all_extremes
     from graphkin.web.animation import animation_files
     from graphkin.writers.files import file_stem, refuse_folder, write_all
+    from graphkin.writers.workbook import workbook
 
     mechanism = mechanism_of(name, settings)
     stem = file_stem(mechanism.scene.name, pairs_of(settings))
@@ -170,13 +201,21 @@ def cycle(
     found = moved(mechanism, driver=driver, steps=steps, low=first, high=last)
     say("checking every row")
     leaps = jumps(found)
-    lines = [*cycle_lines(found, leaps)]
+    say("looking for extremes")
+    reached = () if leaps else all_extremes(found)
+    few = equal_positions(found, positions, begin) if positions else None
+    lines = [*cycle_lines(found, leaps, reached)]
     say("")
     tell(lines)
+    tell(positions_lines(few) if few is not None else ())
     if leaps:
         complain(f"{jump_words(found, leaps[0])}: this is no motion, nothing is written")
         leave(FAILED)
-    files = {f"{stem}-cycle.csv": cycle_table(found).encode()}
+    tables = {"cycle": cycle_table(found)}
+    tables |= {"extremes": extremes_table(found, reached)} if any(reached) else {}
+    tables |= {"positions": cycle_table(few)} if few is not None else {}
+    files = {f"{stem}-{kind}.csv": table.encode() for kind, table in tables.items()}
+    files |= {f"{stem}-cycle.xlsx": workbook(tables)} if "xlsx" in kinds else {}
     curves = [kind for kind in kinds if kind in CURVES]
     files |= picture_files(found, stem, curves) if curves else {}
     files |= animation_files(found, stem, kinds, lang)

@@ -73,10 +73,16 @@ def test_the_command_writes_everything_and_tells_what_it_found(run: Run, tmp_pat
     wanted = {*PICTURES, "centrodes-3", "centrodes-4"}
     assert {f"pump-n7-{name}.svg" for name in wanted} <= names
     assert not any(name.endswith((".png", ".part")) for name in names)
+    heads, *rows = csv.reader(io.StringIO((tmp_path / "pump-n7-extremes.csv").read_text()))
+    told = [dict(zip(heads, row, strict=True)) for row in rows]
+    least = next(row for row in told if (row["of"], row["extreme"]) == ("D", "least"))
+    assert (least["quantity"], least["value"], least["where"]) == ("velocity", "0.0", "inside")
+    assert float(least["phi [deg]"]) == pytest.approx(27.809, abs=1e-3)  # as the block turns round
     for words in (
         "φ from -32.618° to 186.944°",
         "C-D square to the guide of 5 at φ = 186.944°: limit position of the driver",
         "block 5 goes 52.9547 cm",
+        "|v_D|: least 0 m/s at φ = 27.809°; largest +∞ at the dead points φ = -32.618° and",
         "triple rocker",
         "agrees in every row",
     ):

@@ -439,8 +439,9 @@ def test_the_command_writes_both(run: Run, tmp_path: Path):
     result = run(*args)
     assert result.exit_code == 0, result.output
     names = {path.name for path in tmp_path.iterdir()}
-    stem = next(name for name in names if name.endswith(".csv")).removesuffix("-cycle.csv")
-    assert names == {f"{stem}-cycle.csv", f"{stem}-motion.gif", f"{stem}-motion.html"}
+    stem = next(name for name in names if name.endswith("-cycle.csv")).removesuffix("-cycle.csv")
+    tables = {f"{stem}-cycle.csv", f"{stem}-extremes.csv"}
+    assert names == {*tables, f"{stem}-motion.gif", f"{stem}-motion.html"}
     again = run(*args)
     assert again.exit_code == 2
     assert "--force" in again.stderr

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from itertools import groupby
+from math import isfinite
 from typing import TYPE_CHECKING, Any
 
 from graphkin.cli.report.solution_record import heading
@@ -26,6 +27,7 @@ if TYPE_CHECKING:
     from graphkin.motion.cycle import Cycle
     from graphkin.motion.ends import Event
     from graphkin.motion.events import Singular
+    from graphkin.motion.extremes import Extreme, Extremes, Reached
     from graphkin.motion.follower_limits import Dwell, Follower, Limit
     from graphkin.motion.jumps import Jump
     from graphkin.motion.pieces import Path, Piece
@@ -48,11 +50,9 @@ def cycle_table(cycle: Cycle) -> str:
 
 def cell(value: Any) -> str:
     """A number in its shortest exact form, never minus zero; empty if there is none."""
-    import math
-
     if getattr(value, "dtype", None) == "int64":
         return str(value)
-    return repr(float(value) + 0.0) if math.isfinite(value) else ""
+    return repr(float(value) + 0.0) if isfinite(value) else ""
 
 
 def columns_of(cycle: Cycle) -> Iterator[Column]:
@@ -232,8 +232,15 @@ SHOWN = 6
 """The most places left out that are listed."""
 
 
-def cycle_lines(cycle: Cycle, found_jumps: Sequence[Jump] = ()) -> Iterator[str]:
-    """The whole report of a cycle, line by line, with the jumps found in it."""
+def cycle_lines(
+    cycle: Cycle,
+    found_jumps: Sequence[Jump] = (),
+    found_extremes: Sequence[Sequence[Extremes]] = (),
+) -> Iterator[str]:
+    """The whole report of a cycle, line by line.
+
+    It names the jumps found in the cycle, and the extremes found in each range.
+    """
     from graphkin.motion.follower_limits import followers
     from graphkin.motion.single_loop import loop_of
 
@@ -251,6 +258,8 @@ def cycle_lines(cycle: Cycle, found_jumps: Sequence[Jump] = ()) -> Iterator[str]
             line for each in followers(cycle, i) for line in follower_words(cycle, each, steady)
         ]
         yield from labelled(f"in range {i + 1}" if several else "followers", found)
+        for label, reached in extremes_blocks(cycle, found_extremes[i : i + 1]):
+            yield from labelled(f"{label} {i + 1}" if several else label, reached)
     loop = loop_of(cycle)
     yield from labelled("loop", loop_words(cycle, loop) if loop is not None else [])
     yield from labelled("rows", [rows_words(cycle)])
@@ -409,6 +418,102 @@ def limit_words(cycle: Cycle, found: Follower, limit: Limit) -> str:
 def value_words(cycle: Cycle, found: Follower, value: float) -> str:
     """An angle or a coordinate of a follower."""
     return length_words(cycle.sweep, value) if found.line is None else f"{value:.3f}°"
+
+
+def extremes_blocks(
+    cycle: Cycle, every: Sequence[Sequence[Extremes]]
+) -> Iterator[tuple[str, list[str]]]:
+    """The labels and lines of extremes: of what is asked for, and of angles with limits."""
+    asked = [each for found in every for each in found if each.limit is None]
+    angles = [each for found in every for each in found if each.limit is not None]
+    yield "extremes", [extremes_words(cycle, each) for each in asked]
+    yield "angles", [f"{extremes_words(cycle, each)}; {limit_verdict(each)}" for each in angles]
+
+
+def limit_verdict(found: Extremes) -> str:
+    """Whether an angle keeps its customary limit."""
+    least = found.measure.least_allowed is not None
+    if found.keeps_limit:
+        return f"never {'below' if least else 'above'} the customary {short(found.limit or 0)}°"
+    return f"goes {'below' if least else 'above'} the customary {short(found.limit or 0)}°"
+
+
+def extremes_words(cycle: Cycle, found: Extremes) -> str:
+    """The least and the largest value of one quantity, with the driver's places."""
+    measure = found.measure
+    if found.is_constant:
+        return f"{measure.label} stays at {in_unit(found.least.value, measure.unit)}"
+    both = ((found.least, "least"), (found.largest, "largest"))
+    words = "; ".join(f"{name} {extreme_words(cycle, e, measure.unit)}" for e, name in both)
+    return f"{measure.label}: {words}"
+
+
+def extreme_words(cycle: Cycle, found: Extreme, unit: str) -> str:
+    """A least or largest value and its places."""
+    letter = cycle.sweep.coordinate.letter
+    where = listed([place_words(cycle, each) for each in found.places], SHOWN)
+    if not isfinite(found.value):
+        sign = "+" if found.value > 0 else "-"
+        points = "points" if len(found.places) > 1 else "point"
+        return f"{sign}∞ at the dead {points} {letter} = {where}"
+    return f"{in_unit(found.value, unit)} at {letter} = {where}"
+
+
+def in_unit(value: float, unit: str) -> str:
+    """A value with its unit."""
+    return f"{value:.3f}°" if unit == "°" else f"{short(value)} {unit}"
+
+
+def place_words(cycle: Cycle, found: Reached) -> str:
+    """Where an extreme is, without the letter of the coordinate."""
+    where = at_words(cycle.sweep, found.at, name=False)
+    if found.until > found.at:
+        return f"{where} to {at_words(cycle.sweep, found.until, name=False)}"
+    return f"{where} (edge of the window)" if found.end == "window" else where
+
+
+def positions_lines(few: Cycle) -> list[str]:
+    """The count, the start and the step of equal positions."""
+    if not len(few.at):
+        return labelled("positions", ["none lies inside the range"])
+    from graphkin.motion.equal_positions import step_of
+
+    first, step = step_of(few)
+    words = f"{len(few.at)} from {at_words(few.sweep, first)}"
+    words += f", each {at_words(few.sweep, step, name=False)} on" if step else ""
+    return labelled("positions", [words])
+
+
+def extremes_table(cycle: Cycle, found_extremes: Sequence[Sequence[Extremes]]) -> str:
+    """The extremes of all ranges as CSV, a row for each place, in SI units and full precision.
+
+    ``inf`` is a value that grows without bound towards the dead point of its row. ``to`` ends a
+    stretch on which the value stays the same. ``limit`` is the customary limit of an angle.
+    """
+    sweep = cycle.sweep
+    out = io.StringIO()
+    writer = csv.writer(out, lineterminator="\n")
+    at = f"{sweep.symbol} [{sweep.unit}]"
+    writer.writerow(
+        ["range", "quantity", "of", "unit", "extreme", "value", at, f"{at} to", "where", "limit"]
+    )
+    for number, every in enumerate(found_extremes, 1):
+        for found in every:
+            measure = found.measure
+            limit = "" if found.limit is None else repr(found.limit)
+            head = [number, measure.name, measure.of, measure.unit.translate(PLAIN_UNITS)]
+            for name, extreme in (("least", found.least), ("largest", found.largest)):
+                for place in extreme.places:
+                    where = [repr(u + 0.0) for u in (place.at, place.until)]
+                    end = ENDS[place.end]
+                    writer.writerow([*head, name, repr(extreme.value + 0.0), *where, end, limit])
+    return out.getvalue()
+
+
+PLAIN_UNITS = str.maketrans({"²": "^2", "°": "deg"})
+"""How units are written in a table."""
+ENDS = {None: "inside", "dead": "dead point", "window": "edge"}
+"""Where an extreme is in its range, in the table."""
 
 
 def loop_words(cycle: Cycle, loop: Loop) -> list[str]:

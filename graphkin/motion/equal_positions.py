@@ -1,0 +1,61 @@
+"""Positions of a drawing: a few equal steps of the driver, from the scene or from a dead point."""
+
+from __future__ import annotations
+
+from typing import Literal, get_args
+
+import numpy as np
+
+from graphkin.motion.course import Reals
+from graphkin.motion.cycle import Cycle
+from graphkin.motion.follower_limits import followers
+from graphkin.motion.pieces import ALIKE
+from graphkin.text.errors import Problem, SceneError, message
+
+Start = Literal["scene", "dead"]
+"""Where positions are counted from: the scene's own position, or a dead point."""
+STARTS: tuple[Start, ...] = get_args(Start)
+
+
+def equal_positions(cycle: Cycle, count: int, start: Start = "scene") -> Cycle:
+    """The cycle at ``count`` equal steps of the driver in the range of the scene.
+
+    A driver that turns fully takes ``count`` positions. In a range, only positions inside it have a
+    row. ``dead`` starts at the dead point that begins the range, or where the last follower that
+    reverses has its low limit. Raises SceneError if there is neither.
+    """
+    low, high = cycle.ranges[0]
+    whole = cycle.path.whole and cycle.path.returns
+    step = (cycle.path.period if whole else high - low) / count
+    first = cycle.sweep.stands if start == "scene" else dead_point(cycle)
+    if whole:
+        at = first + step * np.arange(count)
+    else:
+        first = cycle.path.found_at(first, low, high)
+        numbers = np.arange(-count, count + 1)
+        at = first + step * numbers
+        at = at[(at >= low - ALIKE * step) & (at <= high + ALIKE * step)]
+    return cycle.along(np.asarray(at, float))
+
+
+def dead_point(cycle: Cycle) -> float:
+    """The dead point that begins the range, or a dead point of the last follower that reverses."""
+    low = cycle.path.ranges[0][0].low
+    if low.kind == "dead":
+        return low.at
+    found = [each.low.at for each in followers(cycle) if each.limits and not each.low.edge]
+    if not found:
+        raise SceneError(
+            Problem(
+                "--positions-from",
+                message("neither the driver nor a follower has a dead point"),
+                message("the position of the scene"),
+            )
+        )
+    return found[-1]
+
+
+def step_of(found: Cycle) -> tuple[float, float]:
+    """The first position of some equal ones, and the step between them."""
+    at: Reals = found.at
+    return float(at[0]), float(at[1] - at[0]) if len(at) > 1 else 0.0

@@ -1,0 +1,73 @@
+"""Tables as the sheets of an XLSX workbook; the same tables give the same bytes."""
+
+from __future__ import annotations
+
+import csv
+import io
+import re
+from collections.abc import Mapping
+from zipfile import ZIP_DEFLATED, ZipFile, ZipInfo
+
+from graphkin.text.errors import PageError, Problem, message
+
+MADE = b"2000-01-01T00:00:00Z"
+"""The time that a workbook states, so that it does not depend on the clock."""
+TIMES = re.compile(rb"(<dcterms:(?:created|modified)[^>]*>)[^<]*")
+WIDEST = 24
+"""The widest column, in characters."""
+
+
+def workbook(tables: Mapping[str, str]) -> bytes:
+    """A workbook with a sheet for each CSV table, by its name; numbers keep 16 digits.
+
+    Raises PageError if openpyxl is not installed.
+    """
+    try:
+        from openpyxl import Workbook
+        from openpyxl.styles import Font
+        from openpyxl.utils import get_column_letter
+    except ImportError:
+        hint = message("install it: pip install 'graphkin[class]'")
+        raise PageError(Problem("xlsx", message("needs openpyxl"), hint=hint)) from None
+    book = Workbook()
+    book.remove(book.active)
+    for name, text in tables.items():
+        sheet = book.create_sheet(name)
+        heads, *rows = csv.reader(io.StringIO(text))
+        sheet.append(heads)
+        for row in rows:
+            sheet.append([number_or_text(cell) for cell in row])
+        for column, head in enumerate(heads, 1):
+            sheet.cell(1, column).font = Font(bold=True)
+            sheet.column_dimensions[get_column_letter(column)].width = min(len(head) + 4, WIDEST)
+        sheet.freeze_panes = "B2"
+    out = io.BytesIO()
+    book.save(out)
+    return without_clock(out.getvalue())
+
+
+def number_or_text(cell: str) -> float | int | str | None:
+    """A cell of a CSV table as a number if it is a finite one; None if it is empty."""
+    if not cell:
+        return None
+    try:
+        found = float(cell)
+    except ValueError:
+        return cell
+    if not abs(found) < float("inf"):
+        return cell
+    return int(cell) if cell.lstrip("-").isdigit() else found
+
+
+def without_clock(data: bytes) -> bytes:
+    """The archive of a workbook without times that depend on when it was written."""
+    out = io.BytesIO()
+    with ZipFile(io.BytesIO(data)) as old, ZipFile(out, "w", ZIP_DEFLATED) as new:
+        for name in old.namelist():
+            content = old.read(name)
+            if name == "docProps/core.xml":
+                content = TIMES.sub(rb"\g<1>" + MADE, content)
+            info = ZipInfo(name)
+            info.compress_type = ZIP_DEFLATED
+            new.writestr(info, content)
+    return out.getvalue()
