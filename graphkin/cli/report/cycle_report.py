@@ -491,12 +491,10 @@ def extremes_table(cycle: Cycle, found_extremes: Sequence[Sequence[Extremes]]) -
     stretch on which the value stays the same. ``limit`` is the customary limit of an angle.
     """
     sweep = cycle.sweep
-    out = io.StringIO()
-    writer = csv.writer(out, lineterminator="\n")
     at = f"{sweep.symbol} [{sweep.unit}]"
-    writer.writerow(
+    rows: list[list[object]] = [
         ["range", "quantity", "of", "unit", "extreme", "value", at, f"{at} to", "where", "limit"]
-    )
+    ]
     for number, every in enumerate(found_extremes, 1):
         for found in every:
             measure = found.measure
@@ -506,8 +504,8 @@ def extremes_table(cycle: Cycle, found_extremes: Sequence[Sequence[Extremes]]) -
                 for place in extreme.places:
                     where = [repr(u + 0.0) for u in (place.at, place.until)]
                     end = ENDS[place.end]
-                    writer.writerow([*head, name, repr(extreme.value + 0.0), *where, end, limit])
-    return out.getvalue()
+                    rows.append([*head, name, repr(extreme.value + 0.0), *where, end, limit])
+    return csv_text(rows, "\n")
 
 
 PLAIN_UNITS = str.maketrans({"²": "^2", "°": "deg"})
