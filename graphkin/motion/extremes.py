@@ -152,7 +152,7 @@ def asked_measures(cycle: Cycle) -> Iterator[Measure]:
         pace = abs(float(driver.speed.si(cycle.scene.values)))
         pace = pace if driver.kind == "turn" else pace / reach
     for quantity in QUANTITIES:
-        if quantity.kind in SHEETS and quantity.sort != "place":
+        if quantity.kind in SHEETS and not quantity.is_place:
             for name in dict.fromkeys(names_asked(cycle.scene.ask, quantity)):
                 if (quantity.target, name) in known:
                     usual = pace ** KINDS.index(quantity.kind)
