@@ -66,8 +66,8 @@ WHOLE = 0.9
 """The drawn share of a point's lines that is needed for it to count without a question."""
 SHORTEST = 1e-3
 """Places closer than this, in mm, coincide."""
-FLAT = 0.04
-"""The most sine of the angle between a vector and a line that is drawn along it."""
+FLAT = 0.2
+"""The most sine of the angle between a vector and a line whose ink may cover the vector's end."""
 LEVER = 15.0
 """Two points must be this many mm apart to give the direction of the line through them."""
 

@@ -21,10 +21,16 @@ BARE = np.arange(4.0, 5.6, 0.2)
 """Distances in mm behind a tip at which only the shaft is drawn."""
 ASIDE = 0.55
 """How far beside the bare shaft nothing is drawn, in mm."""
-HEADED, CLEARLY = 0.6, 0.3
+HEADED, CLEARLY = 0.8, 0.25
 """The least share of an arrowhead that is drawn; how much clearer one head is than another."""
-NEAR = 1.4
-"""An end this close to a point, in mm, is at the point."""
+PALE = 0.35
+"""The darkness from which a head counts as drawn, relative to its own shaft."""
+NEAR, CLEAR, AT = 1.4, 3.2, 0.6
+"""A head this close to a point, in mm, is at the point; beyond CLEAR it is clearly elsewhere.
+
+Between them, a ring about the point looks like the sides of a head. AT is the same as NEAR at a
+vector's tail.
+"""
 SHORTEST = 9.0
 """Vectors shorter than this, in mm, have heads too small to be read."""
 NEAREST, FARTHEST = 0.3, 1.9
@@ -33,11 +39,14 @@ REACHED = 0.8
 """The drawn share of a vector's line up to a head that belongs to the vector."""
 FREE = 4.0
 """Heads this close to another point, in mm, may belong to that point."""
-RING, PIECE, HELD = 0.9, 2.1, 0.55
-"""A stroke stops at a point, or reaches it, by the PIECE beyond RING; both mm.
-
-HELD is the share of that piece that is drawn or empty.
-"""
+LEANING = 0.2
+"""The most slope of a line from a vector's end to another point that may hide what runs on."""
+RING = 2.0
+"""The first millimetres of a vector, which the mark of its tail may hide."""
+BEYOND, RUNS_ON = (2.4, 6.0), 0.9
+"""The piece beyond a point, in mm, that is drawn to this share where a vector runs on."""
+BEFORE, STOPS = (0.9, 3.0), 0.6
+"""The piece before a point, in mm, that is drawn to a lesser share where a vector stops short."""
 
 
 class VectorEnd(Struct, frozen=True):
@@ -98,38 +107,45 @@ def vector_end(
     if not long >= SHORTEST:
         return VectorEnd()
     way = (tip - tail) / long
+    shaft, known = ink.at(tail + way * np.arange(RING, long - SIDES[-1], PITCH))
+    dark = float(np.median(shaft[known > 0])) if known.any() else 1.0
+    pale = float(np.clip(PALE * dark, COVERED * PALE, COVERED))
     along = np.arange(max(NEAREST * long, 5.0), FARTHEST * long + PITCH, PITCH)
-    places = tail + along * way
-    share = heads(ink, places, way)
-    at_tip = abs(along - long) <= NEAR
-    here = float(share[at_tip].max())
-    free = ~at_tip
+    share = heads(ink, tail + along * way, way, pale)
+    here = float(share[abs(along - long) <= NEAR].max())
+    others = [(each - tail) / way for each in others]
+    free = abs(along - long) > CLEAR
     for other in others:
-        free &= abs(places - other) > FREE
+        free &= abs(along - other) > FREE
     there, head = np.where(free, share, -1.0), None
     best = int(there.argmax())
     if there[best] >= HEADED and there[best] > here + CLEARLY:
-        place = complex(places[best])
+        place = tail + float(along[best]) * way
         if ink.cover(tail, place, 0.4, hidden=1.0) >= REACHED:
-            head = place
-    ways = np.arange(-NEAR, NEAR, PITCH)
-    back = float(heads(ink, tail + ways * way, -way).max())
-    turned = back >= HEADED and back > here + CLEARLY and all(abs(o - tail) > FREE for o in others)
-    runs_on = short = False
-    if not along_line:
-        ahead = [((o - tail) / way) for o in others]
-        shared = any(z.real > long + NEAR and abs(z.imag) < 0.04 * z.real for z in ahead)
-        runs_on = not shared and drawn(ink, tip, way) >= HELD
-        short = drawn(ink, tip, -way) < 1 - HELD
-    return VectorEnd(head, turned, runs_on, short)
+            head = complex(place)
+    at_tail = np.arange(-AT, AT + PITCH / 2, PITCH)
+    back = float(heads(ink, tail + at_tail * way, -way, pale).max())
+    turned = back >= HEADED and back > here + CLEARLY and all(abs(o) > FREE for o in others)
+    if along_line:
+        return VectorEnd(head, turned)
+    shared = any(
+        o.real > long + NEAR and abs(o.imag) < NEAR + LEANING * (o.real - long) for o in others
+    )
+    runs_on = not shared and drawn(ink, tip, way, BEYOND, pale) >= RUNS_ON
+    return VectorEnd(head, turned, runs_on, drawn(ink, tip, -way, BEFORE, pale) < STOPS)
 
 
-def drawn(ink: DrawnInk, tip: complex, way: complex) -> float:
-    """The drawn share of a short piece from beside a point along a direction."""
-    along = np.arange(RING, RING + PIECE, PITCH)
+def drawn(
+    ink: DrawnInk, tip: complex, way: complex, piece: tuple[float, float], pale: float
+) -> float:
+    """The drawn share of a short piece beside a point; ``STOPS`` where print hides most of it.
+
+    ``piece`` is where it begins and ends along a direction, in mm.
+    """
+    along = np.arange(*piece, PITCH)
     across = np.arange(-0.3, 0.31, 0.15)
     dark, known = ink.at(tip + way * (along[:, None] + 1j * across))
     here = known[:, len(across) // 2] > 0
     if here.mean() < 0.5:
-        return 0.5
-    return float((dark.max(axis=1) > COVERED)[here].mean())
+        return STOPS
+    return float((dark.max(axis=1) > pale)[here].mean())
