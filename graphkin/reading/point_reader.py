@@ -127,7 +127,7 @@ class PointReader(PointSearch):
         return tuple(self.readings[number] for number in self.sheet.points)
 
     def ended(self, number: int, reading: PointReading) -> PointReading:
-        """A reading that holds where its vectors end: else a person is asked.
+        """A reading, asked where a vector does not end at its point.
 
         *Wrong* is proposed, at the arrowhead, where a head is clearly elsewhere.
         """

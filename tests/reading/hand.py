@@ -28,6 +28,7 @@ from graphkin.construction.higher_class.trial_rates import trial_rates
 from graphkin.documents.sheet import Writing, sheet
 from graphkin.drawing.field import Field
 from graphkin.drawing.marks import Arc, CircleMark, LineMark, Page, Polyline, Text
+from graphkin.drawing.symbols import arrow
 from graphkin.numbers.arithmetic import FLOAT, turn_by
 from graphkin.numbers.plane import Circle, Line, Ratio
 from graphkin.text.errors import GraphkinError
@@ -40,6 +41,8 @@ SHIFT = 4
 NORMAL_95, RADIAL_95 = 1.96, 2.4477
 CLEAR = 3.0
 """Millimetres by which a mistake moves its point at least."""
+LONG, OFF, NEAR = 12.0, 2.0, 0.05
+"""The shortest vector that ends elsewhere, by how much at least, and the same place; mm."""
 
 
 class TruePoint(Struct, frozen=True):
@@ -268,8 +271,6 @@ def misdrawn(
 
     Its head, its letter and its ring go with its end; all other lines stay at the right place.
     """
-    from graphkin.drawing.symbols import arrow
-
     steps, layout = drawing.trace.program.steps, lay_out(drawing)
     ends = {each.at: each for each in points if steps[each.step].plane is drawing.plane}
     shafts = [
@@ -310,10 +311,6 @@ def misdrawn(
     told = replace(point, at=(moved.real, moved.imag), verdict="wrong")
     told_points = tuple(told if each is point else each for each in points)
     return replace(page, marks=type(page.marks)(marks)), told_points
-
-
-LONG, OFF, NEAR = 12.0, 2.0, 0.05
-"""The shortest vector that ends elsewhere, by how much at least, and the same place; mm."""
 
 
 def near(mark: Any, tip: complex) -> bool:
