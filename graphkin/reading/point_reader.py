@@ -170,7 +170,12 @@ class PointReader(PointSearch):
                     else place
                 )
         others = [each for each in others if np.isfinite(each) and abs(each - end) > SAME]
-        return vector_end(self.ink, begin, end, others, along_line=along_line)
+        arriving = [
+            begin - self.far_place(Leading(start), values)
+            for start, at in self.sheet.vectors
+            if at == tail and self.is_known(Leading(start))
+        ]
+        return vector_end(self.ink, begin, end, others, arriving, along_line=along_line)
 
     def places(self, number: int, cloud: Any, own: ExpectedPlace, best: LinesCrossing) -> Any:
         """Where a point that was read may be: the cloud for the steps that follow from it."""

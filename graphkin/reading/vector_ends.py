@@ -6,6 +6,7 @@ student put it.
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from typing import Any
 
 import numpy as np
@@ -23,6 +24,8 @@ ASIDE = 0.55
 """How far beside the bare shaft nothing is drawn, in mm."""
 HEADED, CLEARLY = 0.8, 0.25
 """The least share of an arrowhead that is drawn; how much clearer one head is than another."""
+CERTAIN = 0.9
+"""The least drawn share, in three places in a row, of a head besides that at the point."""
 PALE = 0.35
 """The darkness from which a head counts as drawn, relative to its own shaft."""
 NEAR, CLEAR, AT = 1.4, 3.2, 0.6
@@ -39,12 +42,16 @@ REACHED = 0.8
 """The drawn share of a vector's line up to a head that belongs to the vector."""
 FREE = 4.0
 """Heads this close to another point, in mm, may belong to that point."""
+CROWDED = np.radians(12.0)
+"""The head of a vector that ends at another's tail at a lesser angle may look like the other's."""
 LEANING = 0.2
 """The most slope of a line from a vector's end to another point that may hide what runs on."""
 RING = 2.0
 """The first millimetres of a vector, which the mark of its tail may hide."""
 BEYOND, RUNS_ON = (2.4, 6.0), 0.9
 """The piece beyond a point, in mm, that is drawn to this share where a vector runs on."""
+EMPTY = 0.2
+"""A piece beyond a point that is drawn to no more than this shows that the stroke ends there."""
 BEFORE, STOPS = (0.9, 3.0), 0.6
 """The piece before a point, in mm, that is drawn to a lesser share where a vector stops short."""
 
@@ -54,11 +61,13 @@ class VectorEnd(Struct, frozen=True):
 
     - ``head``: where its arrowhead is, if that is clearly elsewhere.
     - ``reversed``: its head is at its tail.
+    - ``doubled``: it seems to have a head at its point and another one elsewhere.
     - ``runs_on``, ``stops_short``: its stroke goes on beyond the point, or ends before it.
     """
 
     head: complex | None = None
     reversed: bool = False
+    doubled: bool = False
     runs_on: bool = False
     stops_short: bool = False
 
@@ -96,12 +105,19 @@ def heads(ink: DrawnInk, places: Any, way: complex, pale: float = COVERED) -> An
 
 
 def vector_end(
-    ink: DrawnInk, tail: complex, tip: complex, others: list[complex], *, along_line: bool
+    ink: DrawnInk,
+    tail: complex,
+    tip: complex,
+    others: list[complex],
+    arriving: Sequence[complex] = (),
+    *,
+    along_line: bool,
 ) -> VectorEnd:
     """What the end of a vector from a tail says of the point at its tip.
 
-    ``others`` are the places of the other points. With ``along_line``, a construction line is drawn
-    along the vector, so that only the head shows where the vector ends.
+    ``others`` are the places of the other points, ``arriving`` the directions in which vectors end
+    at the tail. With ``along_line``, a construction line is drawn along the vector, so that only
+    the head shows where the vector ends.
     """
     long = abs(tip - tail)
     if not long >= SHORTEST:
@@ -117,22 +133,40 @@ def vector_end(
     free = abs(along - long) > CLEAR
     for other in others:
         free &= abs(along - other) > FREE
-    there, head = np.where(free, share, -1.0), None
-    best = int(there.argmax())
-    if there[best] >= HEADED and there[best] > here + CLEARLY:
-        place = tail + float(along[best]) * way
-        if ink.cover(tail, place, 0.4, hidden=1.0) >= REACHED:
-            head = complex(place)
-    at_tail = np.arange(-AT, AT + PITCH / 2, PITCH)
-    back = float(heads(ink, tail + at_tail * way, -way, pale).max())
-    turned = back >= HEADED and back > here + CLEARLY and all(abs(o) > FREE for o in others)
+    there = np.where(free, share, -1.0)
+    clearer = there.max() >= HEADED and there.max() > here + CLEARLY
+    rival = there if clearer else steady(there)
+    place = tail + float(along[int(rival.argmax())]) * way
+    elsewhere = (clearer or rival.max() >= CERTAIN) and (
+        ink.cover(tail, place, 0.4, hidden=1.0) >= REACHED
+    )
+    close = np.arange(-AT, AT + PITCH / 2, PITCH)
+    back = float(steady(heads(ink, tail + close * way, -way, pale)).max())
+    crowded = any(abs(o) <= FREE for o in others) or any(
+        abs(np.angle(-each / way)) < CROWDED for each in arriving
+    )
+    at_tail = back >= HEADED and not crowded
+    turned = at_tail and back > here + CLEARLY
+    head = complex(place) if clearer and elsewhere else None
+    doubled = (at_tail and not turned) or (along_line and elsewhere and not clearer)
     if along_line:
-        return VectorEnd(head, turned)
+        return VectorEnd(head, turned, doubled)
     shared = any(
         o.real > long + NEAR and abs(o.imag) < NEAR + LEANING * (o.real - long) for o in others
     )
-    runs_on = not shared and drawn(ink, tip, way, BEYOND, pale) >= RUNS_ON
-    return VectorEnd(head, turned, runs_on, drawn(ink, tip, -way, BEFORE, pale) < STOPS)
+    beyond = drawn(ink, tip, way, BEYOND, pale)
+    before = drawn(ink, tip, -way, BEFORE, pale)
+    if not shared and beyond <= EMPTY and before >= RUNS_ON:
+        head = None
+    return VectorEnd(head, turned, doubled, not shared and beyond >= RUNS_ON, before < STOPS)
+
+
+def steady(share: Any) -> Any:
+    """The least of three shares in a row: chance ink looks like a head at a single place."""
+    before, after = np.roll(share, 1), np.roll(share, -1)
+    least = np.minimum(np.minimum(before, share), after)
+    least[[0, -1]] = -1.0
+    return least
 
 
 def drawn(

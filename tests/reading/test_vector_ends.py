@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import numpy as np
 import pytest
 
 from graphkin.drawing.symbols import head
@@ -27,9 +28,22 @@ def vector(tail: complex, tip: complex, *, headed: complex | None = None) -> Str
     return [(tail, tip), (corners[0], corners[1]), (corners[0], corners[2])]
 
 
-def read(strokes: Strokes, others: tuple[complex, ...] = (), *, along: bool = False) -> VectorEnd:
+def read(
+    strokes: Strokes,
+    others: tuple[complex, ...] = (),
+    arriving: tuple[complex, ...] = (),
+    *,
+    along: bool = False,
+) -> VectorEnd:
     """What is read of the vector to TIP, at which another line crosses."""
-    return vector_end(ink_of(*strokes, ACROSS), TAIL, TIP, list(others), along_line=along)
+    ink = ink_of(*strokes, ACROSS)
+    return vector_end(ink, TAIL, TIP, list(others), arriving, along_line=along)
+
+
+FAN = [(TIP, TIP - 40 * WAY * np.exp(1j * np.radians(each))) for each in (-17, 17)]
+"""Lines that leave a point on both sides of the vector to it."""
+OWN = vector(TAIL, TIP)[1:]
+"""Only the head of the vector."""
 
 
 def test_a_vector_that_ends_at_its_point_has_nothing_against_it() -> None:
@@ -63,3 +77,33 @@ def test_a_head_at_the_tail_is_a_vector_turned_round() -> None:
 def test_the_head_of_another_point_on_the_same_line_is_not_the_vectors() -> None:
     other = TAIL + 1.5 * (TIP - TAIL)
     assert read(vector(TAIL, TIP) + vector(TAIL, other), (other,)).is_there
+
+
+@pytest.mark.parametrize("along", [False, True])
+def test_lines_beside_the_vector_do_not_excuse_a_head_at_its_tail(*, along: bool) -> None:
+    """Lines leave the point where the sides of a head would be."""
+    assert not read(vector(TAIL, TIP, headed=TAIL) + FAN, along=along).is_there
+
+
+@pytest.mark.parametrize("share", [0.0, 0.6, 1.4])
+def test_a_second_head_is_asked_about(share: float) -> None:
+    """The head at the point may belong to another vector there, that elsewhere to this one."""
+    moved = TAIL + share * (TIP - TAIL)
+    second = vector(TAIL, TIP, headed=TAIL) if share == 0 else vector(TAIL, moved)
+    end = read([*second, *OWN, (TAIL, TIP + 50 * WAY)], along=True)
+    assert end.doubled
+    assert not end.is_wrong
+
+
+def test_the_head_of_a_vector_that_ends_at_the_tail_is_its_own() -> None:
+    start = TAIL + 30 * WAY
+    strokes = vector(TAIL, TIP) + vector(start, TAIL)
+    assert read(strokes, along=True).doubled
+    assert read(strokes, arriving=(TAIL - start,), along=True).is_there
+
+
+def test_a_stroke_that_ends_at_its_point_needs_no_head() -> None:
+    """What looks like a head farther back on it is not its own."""
+    back = vector(TAIL, TAIL + 0.5 * (TIP - TAIL))[1:]
+    assert read([(TAIL, TIP), *back]).is_there
+    assert read([(TAIL, TIP), *back, (TAIL, TIP + 50 * WAY)], along=True).head is not None
