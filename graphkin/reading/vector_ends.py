@@ -22,8 +22,12 @@ BARE = np.arange(4.0, 5.6, 0.2)
 """Distances in mm behind a tip at which only the shaft is drawn."""
 ASIDE = 0.55
 """How far beside the bare shaft nothing is drawn, in mm."""
+PAST, GOES_ON = np.arange(4.4, 6.0, 0.2), 0.75
+"""Distances in mm behind a tip at which a line drawn to this share is no side of a head."""
 HEADED, CLEARLY = 0.8, 0.25
 """The least share of an arrowhead that is drawn; how much clearer one head is than another."""
+SEEN = 0.4
+"""The share of a head below which none is drawn."""
 CERTAIN = 0.9
 """The least drawn share, in three places in a row, of a head besides that at the point."""
 PALE = 0.35
@@ -62,12 +66,14 @@ class VectorEnd(Struct, frozen=True):
     - ``head``: where its arrowhead is, if that is clearly elsewhere.
     - ``reversed``: its head is at its tail.
     - ``doubled``: it seems to have a head at its point and another one elsewhere.
+    - ``unseen``: neither a head nor the end of its stroke is seen at its point.
     - ``runs_on``, ``stops_short``: its stroke goes on beyond the point, or ends before it.
     """
 
     head: complex | None = None
     reversed: bool = False
     doubled: bool = False
+    unseen: bool = False
     runs_on: bool = False
     stops_short: bool = False
 
@@ -85,8 +91,8 @@ class VectorEnd(Struct, frozen=True):
 def heads(ink: DrawnInk, places: Any, way: complex, pale: float = COVERED) -> Any:
     """The drawn share of an arrowhead with its tip at each place, pointing along ``way``.
 
-    The weaker of both sides counts, less what is drawn beside the shaft behind the head. Ink darker
-    than ``pale`` counts as drawn.
+    The weaker of both sides counts, less what is drawn beside the shaft behind the head. A side
+    that goes on behind the head is another line. Ink darker than ``pale`` counts as drawn.
     """
     best = np.zeros(len(places))
     for barb in BARBS:
@@ -95,6 +101,8 @@ def heads(ink: DrawnInk, places: Any, way: complex, pale: float = COVERED) -> An
             dark, known = ink.at(places[:, None] - way * SIDES * turn)
             seen = np.maximum(known.sum(axis=1), 1)
             enough = known.mean(axis=1) > 0.5
+            past = (ink.at(places[:, None] - way * PAST * turn)[0] > pale).mean(axis=1)
+            enough &= past < GOES_ON
             sides.append(((dark > pale) * known).sum(axis=1) / seen * enough)
         best = np.maximum(best, np.minimum(*sides))
     bare = [
@@ -149,16 +157,18 @@ def vector_end(
     turned = at_tail and back > here + CLEARLY
     head = complex(place) if clearer and elsewhere else None
     doubled = (at_tail and not turned) or (along_line and elsewhere and not clearer)
+    unseen = here < SEEN and ink.at(tip - way * SIDES)[1].mean() > 0.5
     if along_line:
-        return VectorEnd(head, turned, doubled)
+        return VectorEnd(head, turned, doubled, unseen)
     shared = any(
         o.real > long + NEAR and abs(o.imag) < NEAR + LEANING * (o.real - long) for o in others
     )
     beyond = drawn(ink, tip, way, BEYOND, pale)
     before = drawn(ink, tip, -way, BEFORE, pale)
     if not shared and beyond <= EMPTY and before >= RUNS_ON:
-        head = None
-    return VectorEnd(head, turned, doubled, not shared and beyond >= RUNS_ON, before < STOPS)
+        head, unseen = None, False
+    runs_on = not shared and beyond >= RUNS_ON
+    return VectorEnd(head, turned, doubled, unseen, runs_on, before < STOPS)
 
 
 def steady(share: Any) -> Any:
