@@ -149,14 +149,14 @@ def vector_end(
         ink.cover(tail, place, 0.4, hidden=1.0) >= REACHED
     )
     close = np.arange(-AT, AT + PITCH / 2, PITCH)
-    back = float(steady(heads(ink, tail + close * way, -way, pale)).max())
+    back = heads(ink, tail + close * way, -way, pale)
     crowded = any(abs(o) <= FREE for o in others) or any(
         abs(np.angle(-each / way)) < CROWDED for each in arriving
     )
-    at_tail = back >= HEADED and not crowded
-    turned = at_tail and back > here + CLEARLY
+    turned = bool(back.max() >= HEADED and back.max() > here + CLEARLY and not crowded)
+    at_tail = steady(back).max() >= HEADED and not crowded
     head = complex(place) if clearer and elsewhere else None
-    doubled = (at_tail and not turned) or (along_line and elsewhere and not clearer)
+    doubled = bool(at_tail and not turned) or (along_line and elsewhere and not clearer)
     unseen = here < SEEN and ink.at(tip - way * SIDES)[1].mean() > 0.5
     if along_line:
         return VectorEnd(head, turned, doubled, unseen)
