@@ -26,8 +26,6 @@ PAST, GOES_ON = np.arange(4.4, 6.0, 0.2), 0.75
 """Distances in mm behind a tip at which a line drawn to this share is no side of a head."""
 HEADED, CLEARLY = 0.8, 0.25
 """The least share of an arrowhead that is drawn; how much clearer one head is than another."""
-SEEN = 0.4
-"""The share of a head below which none is drawn."""
 CERTAIN = 0.9
 """The least drawn share, in three places in a row, of a head besides that at the point."""
 PALE = 0.35
@@ -66,14 +64,12 @@ class VectorEnd(Struct, frozen=True):
     - ``head``: where its arrowhead is, if that is clearly elsewhere.
     - ``reversed``: its head is at its tail.
     - ``doubled``: it seems to have a head at its point and another one elsewhere.
-    - ``unseen``: neither a head nor the end of its stroke is seen at its point.
     - ``runs_on``, ``stops_short``: its stroke goes on beyond the point, or ends before it.
     """
 
     head: complex | None = None
     reversed: bool = False
     doubled: bool = False
-    unseen: bool = False
     runs_on: bool = False
     stops_short: bool = False
 
@@ -157,18 +153,17 @@ def vector_end(
     at_tail = steady(back).max() >= HEADED and not crowded
     head = complex(place) if clearer and elsewhere else None
     doubled = bool(at_tail and not turned) or (along_line and elsewhere and not clearer)
-    unseen = here < SEEN and ink.at(tip - way * SIDES)[1].mean() > 0.5
     if along_line:
-        return VectorEnd(head, turned, doubled, unseen)
+        return VectorEnd(head, turned, doubled)
     shared = any(
         o.real > long + NEAR and abs(o.imag) < NEAR + LEANING * (o.real - long) for o in others
     )
     beyond = drawn(ink, tip, way, BEYOND, pale)
     before = drawn(ink, tip, -way, BEFORE, pale)
     if not shared and beyond <= EMPTY and before >= RUNS_ON:
-        head, unseen = None, False
+        head = None
     runs_on = not shared and beyond >= RUNS_ON
-    return VectorEnd(head, turned, doubled, unseen, runs_on, before < STOPS)
+    return VectorEnd(head, turned, doubled, runs_on, before < STOPS)
 
 
 def steady(share: Any) -> Any:

@@ -107,7 +107,3 @@ def test_a_stroke_that_ends_at_its_point_needs_no_head() -> None:
     back = vector(TAIL, TAIL + 0.5 * (TIP - TAIL))[1:]
     assert read([(TAIL, TIP), *back]).is_there
     assert read([(TAIL, TIP), *back, (TAIL, TIP + 50 * WAY)], along=True).head is not None
-
-
-def test_a_line_without_a_head_does_not_show_where_its_vector_ends() -> None:
-    assert read([(TAIL, TIP + 50 * WAY)], along=True).unseen
