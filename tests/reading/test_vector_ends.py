@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from graphkin.drawing.symbols import head
-from graphkin.reading.vector_ends import VectorEnd, vector_end
+from graphkin.reading.vector_ends import HEADED, VectorEnd, heads, vector_end
 from tests.reading.test_reading import ink_of
 
 TAIL, TIP = 120 + 150j, 180 + 110j
@@ -107,3 +107,8 @@ def test_a_stroke_that_ends_at_its_point_needs_no_head() -> None:
     back = vector(TAIL, TAIL + 0.5 * (TIP - TAIL))[1:]
     assert read([(TAIL, TIP), *back]).is_there
     assert read([(TAIL, TIP), *back, (TAIL, TIP + 50 * WAY)], along=True).head is not None
+
+
+def test_long_lines_on_both_sides_are_no_head() -> None:
+    lines = [(TIP, TIP - 40 * WAY * np.exp(1j * np.radians(each))) for each in (-28, 28)]
+    assert heads(ink_of((TAIL, TIP), *lines), np.array([TIP]), WAY)[0] < HEADED
