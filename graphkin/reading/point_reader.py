@@ -17,7 +17,7 @@ from graphkin.accuracy.pencil.pencil import Pencil
 from graphkin.construction.core.program import Plane
 from graphkin.numbers.plane import Line
 from graphkin.reading.drawn_ink import DrawnInk
-from graphkin.reading.lettered_points import SHORT, LetteredSheet
+from graphkin.reading.lettered_points import SHORT, Leading, LetteredSheet
 from graphkin.reading.point_reading import PointReading, ReadVerdict, pair
 from graphkin.reading.point_search import (
     AGREED,
@@ -34,7 +34,9 @@ from graphkin.reading.point_search import (
     PointSearch,
     are_crossing,
     expected,
+    sine,
 )
+from graphkin.reading.vector_ends import VectorEnd, vector_end
 
 OUTSIDE, APART = 6.5, 3.0
 """Squared distance from the key, in deviations, beyond which the pencil does not explain a place.
@@ -64,6 +66,8 @@ WHOLE = 0.9
 """The drawn share of a point's lines that is needed for it to count without a question."""
 SHORTEST = 1e-3
 """Places closer than this, in mm, coincide."""
+FLAT = 0.2
+"""The most sine of the angle between a vector and a line whose ink may cover the vector's end."""
 LEVER = 15.0
 """Two points must be this many mm apart to give the direction of the line through them."""
 
@@ -118,7 +122,60 @@ class PointReader(PointSearch):
         for number in self.sheet.found_by.values():
             if number in self.own and not self.is_joined(number):
                 self.readings[number] = replace(self.readings[number], ask=True)
+        for number in self.sheet.points:
+            self.readings[number] = self.ended(number, self.readings[number])
         return tuple(self.readings[number] for number in self.sheet.points)
+
+    def ended(self, number: int, reading: PointReading) -> PointReading:
+        """A reading, asked where a vector does not end at its point.
+
+        *Wrong* is proposed, at the arrowhead, where a head is clearly elsewhere.
+        """
+        if number not in self.own or reading.verdict not in ("right", "follows"):
+            return reading
+        for tail, tip in self.sheet.vectors:
+            if tip != number or not self.is_known(Leading(tail)):
+                continue
+            end = self.end_of(tail, number)
+            if end.is_wrong:
+                at = reading.at if end.head is None else pair(end.head)
+                off = reading.off
+                if end.head is not None:
+                    off = round(abs(end.head - complex(*reading.own)), 3)
+                return replace(reading, at=at, off=off, verdict="wrong", ask=True)
+            if not end.is_there:
+                reading = replace(reading, ask=True)
+        return reading
+
+    def end_of(self, tail: int, tip: int) -> VectorEnd:
+        """What the end of the vector between two points that were read says."""
+        begin, end = self.far_place(Leading(tail), self.next), self.own[tip]
+        steps, values = self.sheet.exact.program.steps, self.next
+        plane = steps[tip].plane
+        others, along_line = list[complex](), False
+        for number in self.sheet.exact.trace.values:
+            if steps[number].plane is not plane or number in (tail, tip):
+                continue
+            value = values[number]
+            if isinstance(value, Line):
+                start = complex(np.ravel(self.sheet.place(number, value))[0])
+                way = complex(np.ravel(value.along)[0]).conjugate()
+                on_it = abs(((end - start) * way.conjugate()).imag) / abs(way) < BESIDE
+                along_line |= on_it and abs(sine(way, end - begin)) < FLAT
+            elif isinstance(self.sheet.exact.trace.values[number], complex):
+                place = self.own.get(number)
+                others.append(
+                    complex(np.ravel(self.sheet.place(number, value))[0])
+                    if place is None
+                    else place
+                )
+        others = [each for each in others if np.isfinite(each) and abs(each - end) > SAME]
+        arriving = [
+            begin - self.far_place(Leading(start), values)
+            for start, at in self.sheet.vectors
+            if at == tail and self.is_known(Leading(start))
+        ]
+        return vector_end(self.ink, begin, end, others, arriving, along_line=along_line)
 
     def places(self, number: int, cloud: Any, own: ExpectedPlace, best: LinesCrossing) -> Any:
         """Where a point that was read may be: the cloud for the steps that follow from it."""

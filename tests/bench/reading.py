@@ -1,14 +1,15 @@
 """How well drawings are read: pictures of simulated students of four labs, against their truth.
 
-    python -m tests.bench.reading 120 [LAB | SCENE.toml …] [--seed 23] [-o FOLDER] [-j 2]
+    python -m tests.bench.reading 120 [LAB | SCENE.toml …] [--seed 23] [-o FOLDER] [-j 2] [--ends]
 
 Without labs, of those below. A scene becomes a lab whose students have its first parameter.
 
 A third of the sheets have a mistake, a twelfth lacks a point; every fourth picture is hard, every
 eighth a flatbed scan. Prints how far the map is off, where points are placed, how much is decided,
 and how much of it wrongly, twice: by definition, where *right* is what lies within the student's
-pencil of the key, and with what comes after a mistake counted as wrong wherever it lies. A folder
-keeps the pictures with their truth: they are read again.
+pencil of the key, and with what comes after a mistake counted as wrong wherever it lies. With
+``--ends``, one vector of each sheet is too long, too short or has its head at its tail, and nothing
+else is wrong. A folder keeps the pictures with their truth: they are read again.
 """
 
 from __future__ import annotations
@@ -20,13 +21,14 @@ from concurrent.futures import ProcessPoolExecutor
 from functools import partial
 from pathlib import Path
 from tempfile import TemporaryDirectory
-from time import perf_counter
+from time import process_time
 from typing import Any
 
 import msgspec
 import numpy as np
 from click.testing import CliRunner
 from msgspec import Struct
+from msgspec.structs import replace
 
 from graphkin.accuracy.pencil.pencil import Pencil
 from graphkin.classroom.printing.edition import read_edition
@@ -99,8 +101,20 @@ def lab_of(scene: Path, where: Path) -> Path:
     return folder
 
 
-def habits_of(i: int, rng: Any) -> Habits:
-    """How the i-th student draws."""
+ENDS = "long", "short", "turned"
+"""How a vector ends on the sheets of a run with ``--ends``."""
+
+
+def habits_of(i: int, rng: Any, ends: bool) -> Habits:
+    """How the i-th student draws; with ``ends``, only one vector's end is wrong."""
+    drawn = usual_habits(i, rng)
+    if not ends:
+        return drawn
+    return replace(drawn, end=ENDS[i % len(ENDS)], mistake=False, missing=False, headless=0.0)
+
+
+def usual_habits(i: int, rng: Any) -> Habits:
+    """How the i-th student draws, with a mistake in a third and a point missing in a twelfth."""
     return Habits(
         point=rng.uniform(0.25, 0.5),
         line=rng.uniform(0.25, 0.5),
@@ -135,7 +149,7 @@ def shot_of(i: int, rng: Any) -> Shot:
     )
 
 
-def take(classes: dict[str, Path], where: Path, seed: int, i: int) -> None:
+def take(classes: dict[str, Path], where: Path, seed: int, ends: bool, i: int) -> None:
     """Draw the i-th sheet and take its picture, unless it is there."""
     path, truth = where / f"p{i:03}.jpg", where / f"p{i:03}.truth.json"
     if truth.exists():
@@ -146,7 +160,7 @@ def take(classes: dict[str, Path], where: Path, seed: int, i: int) -> None:
     code = variants[(i // len(classes)) % len(variants)]
     kinds = [each.kind for each in sheets_of(classes[lab], code).drawings]
     kind = kinds[int(rng.integers(len(kinds)))]
-    habits = habits_of(i, rng)
+    habits = habits_of(i, rng, ends)
     try:
         drawing = drawn_sheet(classes[lab], code, kind, habits, 1000 * seed + i)
     except AssertionError:
@@ -179,9 +193,9 @@ def read_again(classes: dict[str, Path], where: Path, i: int) -> Again | None:
         return None
     taken = msgspec.json.decode(path.with_suffix(".truth.json").read_bytes(), type=Taken)
     order = read_order(read_edition(classes[taken.lab]), Grid(XS, YS))
-    start = perf_counter()
+    start = process_time()
     record = read_one(order, Photograph(path.stem, path), "").record
-    spent = perf_counter() - start
+    spent = process_time() - start
     return path.stem, taken, record, tolerances(order, record), spent
 
 
@@ -282,6 +296,12 @@ class Tally:
         print(
             f"         {both} where a mistake before it makes a point wrong", *self.after, sep="\n"
         )
+        wrong = sum(n for (_, true, *_), n in self.count.items() if true == "wrong")
+        passed = sum(n for (_, *said), n in self.count.items() if said == ["wrong", "right", False])
+        proposed = sum(
+            n for (_, *said), n in self.count.items() if said == ["wrong", "wrong", True]
+        )
+        print(f"mistakes {wrong}: {passed} decided right, {proposed} asked with wrong proposed")
         print(f"seconds  median {np.median(self.spent):.2f}, most {np.max(self.spent):.2f}")
         for name, times in sorted(self.count.items()):
             print(*name[:3], "asked" if name[3] else "decided", times)
@@ -296,14 +316,14 @@ def is_right(true: TruePoint, read: PointReading, within: dict[int, float]) -> b
     return float(np.hypot(true.at[0] - read.key[0], true.at[1] - read.key[1])) <= within[true.step]
 
 
-def main(count: int, labs: list[str], seed: int, keep: Path | None, jobs: int) -> None:
+def main(count: int, labs: list[str], seed: int, keep: Path | None, jobs: int, ends: bool) -> None:
     """Draw, photograph, read and compare so many sheets."""
     tally = Tally()
     with TemporaryDirectory() as folder, ProcessPoolExecutor(jobs) as executor:
         where = keep or Path(folder)
         where.mkdir(parents=True, exist_ok=True)
         classes = {lab: folder_of(lab, where, seed) for lab in labs}
-        list(executor.map(partial(take, classes, where, seed), range(count)))
+        list(executor.map(partial(take, classes, where, seed, ends), range(count)))
         for found in executor.map(partial(read_again, classes, where), range(count)):
             if found is not None:
                 tally.add(*found)
@@ -317,5 +337,6 @@ if __name__ == "__main__":
     parser.add_argument("--seed", type=int, default=23)
     parser.add_argument("-o", type=Path)
     parser.add_argument("-j", type=int, default=1)
+    parser.add_argument("--ends", action="store_true")
     said = parser.parse_args()
-    main(said.count, said.labs, said.seed, said.o, said.j)
+    main(said.count, said.labs, said.seed, said.o, said.j, said.ends)

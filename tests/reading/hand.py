@@ -28,6 +28,7 @@ from graphkin.construction.higher_class.trial_rates import trial_rates
 from graphkin.documents.sheet import Writing, sheet
 from graphkin.drawing.field import Field
 from graphkin.drawing.marks import Arc, CircleMark, LineMark, Page, Polyline, Text
+from graphkin.drawing.symbols import arrow
 from graphkin.numbers.arithmetic import FLOAT, turn_by
 from graphkin.numbers.plane import Circle, Line, Ratio
 from graphkin.text.errors import GraphkinError
@@ -40,6 +41,8 @@ SHIFT = 4
 NORMAL_95, RADIAL_95 = 1.96, 2.4477
 CLEAR = 3.0
 """Millimetres by which a mistake moves its point at least."""
+LONG, OFF, NEAR = 12.0, 2.0, 0.05
+"""The shortest vector that ends elsewhere, by how much at least, and the same place; mm."""
 
 
 class TruePoint(Struct, frozen=True):
@@ -65,6 +68,8 @@ class Habits(Struct, frozen=True):
     stray: int = 0
     erased: bool = False
     letters: bool = True
+    end: str = ""
+    """How a vector of the plan ends: too ``long``, too ``short``, or with its head ``turned``."""
 
 
 class DrawnSheet(Struct, frozen=True):
@@ -111,6 +116,8 @@ def drawn_sheet(folder: Path, code: str, kind: str, habits: Habits, seed: int) -
         try:
             own, points, hidden = drawn_points(sheets, drawing, habits, rng)
             page = own_page(drawing, own)
+            if habits.end:
+                page, points = misdrawn(page, drawing, points, habits.end, rng)
         except (GraphkinError, StepFailed, ZeroDivisionError):
             continue
         break
@@ -255,6 +262,68 @@ def inside(at: tuple[float, float], field: Field) -> bool:
     """Whether a place lies well in its field."""
     left, top, right, bottom = field.rect
     return left + 4 < at[0] < right - 4 and top + 4 < at[1] < bottom - 6
+
+
+def misdrawn(
+    page: Page, drawing: Drawing, points: tuple[TruePoint, ...], end: str, rng: Any
+) -> tuple[Page, tuple[TruePoint, ...]]:
+    """A page on which one vector ends 5 to 60 % off its point, or has its head at its tail.
+
+    Its head, its letter and its ring go with its end; all other lines stay at the right place.
+    """
+    steps, layout = drawing.trace.program.steps, lay_out(drawing)
+    ends = {each.at: each for each in points if steps[each.step].plane is drawing.plane}
+    shafts = [
+        (mark, each)
+        for mark in page.marks
+        if isinstance(mark, LineMark) and mark.step is not None and steps[mark.step].arrow
+        for at, each in ends.items()
+        if at is not None and np.hypot(mark.x2 - at[0], mark.y2 - at[1]) < NEAR
+        if np.hypot(mark.x2 - mark.x1, mark.y2 - mark.y1) > LONG
+    ]
+    if not shafts:
+        raise StepFailed(0, steps[0], ())
+    shaft, point = shafts[int(rng.integers(len(shafts)))]
+    tail, tip = complex(shaft.x1, shaft.y1), complex(shaft.x2, shaft.y2)
+    low, high = {"long": (1.05, 1.6), "short": (0.4, 0.95), "turned": (1.0, 1.0)}[end]
+    moved = tail + (tip - tail) * float(rng.uniform(low, high))
+    if end != "turned" and (
+        abs(moved - tip) < OFF or not inside((moved.real, moved.imag), layout.plan)
+    ):
+        raise StepFailed(point.step, steps[point.step], ())
+    one, other = (moved, tail) if end == "turned" else (tail, moved)
+    drawn = list(
+        arrow((one.real, one.imag), (other.real, other.imag), shaft.cls, shaft.name, shaft.step)
+    )
+    shift = moved - tip
+    marks: list[Any] = []
+    for mark in page.marks:
+        if mark is shaft:
+            marks += drawn
+        elif "arrowhead" in mark.cls and mark.step == shaft.step and near(mark, tip):
+            continue
+        elif isinstance(mark, Text) and mark.step == point_mark(page, tip):
+            marks.append(replace(mark, x=mark.x + shift.real, y=mark.y + shift.imag))
+        elif isinstance(mark, CircleMark) and abs(complex(mark.cx, mark.cy) - tip) < NEAR:
+            marks.append(replace(mark, cx=moved.real, cy=moved.imag))
+        else:
+            marks.append(mark)
+    told = replace(point, at=(moved.real, moved.imag), verdict="wrong")
+    told_points = tuple(told if each is point else each for each in points)
+    return replace(page, marks=type(page.marks)(marks)), told_points
+
+
+def near(mark: Any, tip: complex) -> bool:
+    """Whether a head's tip is at a place."""
+    return abs(complex(*mark.points[0]) - tip) < NEAR
+
+
+def point_mark(page: Page, tip: complex) -> int | None:
+    """The step whose ring is at a place, and whose letter stands there."""
+    for mark in page.marks:
+        if isinstance(mark, CircleMark) and abs(complex(mark.cx, mark.cy) - tip) < NEAR:
+            return mark.step
+    return None
 
 
 def own_page(drawing: Drawing, own: Any) -> Page:

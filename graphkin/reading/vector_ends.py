@@ -1,0 +1,190 @@
+"""Where the vectors of a plan end: their arrowheads and the last of their strokes.
+
+Lines that cross at a point say where it should be. Only the end of its vector says where the
+student put it.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Any
+
+import numpy as np
+from msgspec import Struct
+
+from graphkin.reading.drawn_ink import COVERED, PITCH, DrawnInk
+
+BARBS = np.radians([13.0, 17.0, 22.0, 28.0])
+"""Angles between an arrowhead's sides and its shaft."""
+SIDES = np.arange(1.5, 3.0, 0.15)
+"""Distances in mm from an arrowhead's tip at which both its sides are examined."""
+BARE = np.arange(4.0, 5.6, 0.2)
+"""Distances in mm behind a tip at which only the shaft is drawn."""
+ASIDE = 0.55
+"""How far beside the bare shaft nothing is drawn, in mm."""
+PAST, GOES_ON = np.arange(4.4, 6.0, 0.2), 0.75
+"""Distances in mm behind a tip at which a line drawn to this share is no side of a head."""
+HEADED, CLEARLY = 0.8, 0.25
+"""The least share of an arrowhead that is drawn; how much clearer one head is than another."""
+CERTAIN = 0.9
+"""The least drawn share, in three places in a row, of a head besides that at the point."""
+PALE = 0.35
+"""The darkness from which a head counts as drawn, relative to its own shaft."""
+NEAR, CLEAR, AT = 1.4, 3.2, 0.6
+"""A head this close to a point, in mm, is at the point; beyond CLEAR it is clearly elsewhere.
+
+Between them, a ring about the point looks like the sides of a head. AT is the same as NEAR at a
+vector's tail.
+"""
+SHORTEST = 9.0
+"""Vectors shorter than this, in mm, have heads too small to be read."""
+NEAREST, FARTHEST = 0.3, 1.9
+"""The shares of a vector's length between which its head is searched for."""
+REACHED = 0.8
+"""The drawn share of a vector's line up to a head that belongs to the vector."""
+FREE = 4.0
+"""Heads this close to another point, in mm, may belong to that point."""
+CROWDED = np.radians(12.0)
+"""The head of a vector that ends at another's tail at a lesser angle may look like the other's."""
+LEANING = 0.2
+"""The most slope of a line from a vector's end to another point that may hide what runs on."""
+RING = 2.0
+"""The first millimetres of a vector, which the mark of its tail may hide."""
+BEYOND, RUNS_ON = (2.4, 6.0), 0.9
+"""The piece beyond a point, in mm, that is drawn to this share where a vector runs on."""
+EMPTY = 0.2
+"""A piece beyond a point that is drawn to no more than this shows that the stroke ends there."""
+BEFORE, STOPS = (0.9, 3.0), 0.6
+"""The piece before a point, in mm, that is drawn to a lesser share where a vector stops short."""
+
+
+class VectorEnd(Struct, frozen=True):
+    """What the end of a vector says of the point there.
+
+    - ``head``: where its arrowhead is, if that is clearly elsewhere.
+    - ``reversed``: its head is at its tail.
+    - ``doubled``: it seems to have a head at its point and another one elsewhere.
+    - ``runs_on``, ``stops_short``: its stroke goes on beyond the point, or ends before it.
+    """
+
+    head: complex | None = None
+    reversed: bool = False
+    doubled: bool = False
+    runs_on: bool = False
+    stops_short: bool = False
+
+    @property
+    def is_there(self) -> bool:
+        """Whether nothing speaks against an end at the point."""
+        return self == VectorEnd()
+
+    @property
+    def is_wrong(self) -> bool:
+        """Whether the end says that the vector is wrong."""
+        return self.head is not None or self.reversed
+
+
+def heads(ink: DrawnInk, places: Any, way: complex, pale: float = COVERED) -> Any:
+    """The drawn share of an arrowhead with its tip at each place, pointing along ``way``.
+
+    The weaker of both sides counts, less what is drawn beside the shaft behind the head. A side
+    that goes on behind the head is another line. Ink darker than ``pale`` counts as drawn.
+    """
+    best = np.zeros(len(places))
+    for barb in BARBS:
+        sides = []
+        for turn in (np.exp(1j * barb), np.exp(-1j * barb)):
+            dark, known = ink.at(places[:, None] - way * SIDES * turn)
+            seen = np.maximum(known.sum(axis=1), 1)
+            enough = known.mean(axis=1) > 0.5
+            past = (ink.at(places[:, None] - way * PAST * turn)[0] > pale).mean(axis=1)
+            enough &= past < GOES_ON
+            sides.append(((dark > pale) * known).sum(axis=1) / seen * enough)
+        best = np.maximum(best, np.minimum(*sides))
+    bare = [
+        (ink.at(places[:, None] - way * (BARE + side * ASIDE))[0] > pale).mean(axis=1)
+        for side in (1j, -1j)
+    ]
+    return best - np.minimum(*bare)
+
+
+def vector_end(
+    ink: DrawnInk,
+    tail: complex,
+    tip: complex,
+    others: list[complex],
+    arriving: Sequence[complex] = (),
+    *,
+    along_line: bool,
+) -> VectorEnd:
+    """What the end of a vector from a tail says of the point at its tip.
+
+    ``others`` are the places of the other points, ``arriving`` the directions in which vectors end
+    at the tail. With ``along_line``, a construction line is drawn along the vector, so that only
+    the head shows where the vector ends.
+    """
+    long = abs(tip - tail)
+    if not long >= SHORTEST:
+        return VectorEnd()
+    way = (tip - tail) / long
+    shaft, known = ink.at(tail + way * np.arange(RING, long - SIDES[-1], PITCH))
+    dark = float(np.median(shaft[known > 0])) if known.any() else 1.0
+    pale = float(np.clip(PALE * dark, COVERED * PALE, COVERED))
+    along = np.arange(max(NEAREST * long, 5.0), FARTHEST * long + PITCH, PITCH)
+    share = heads(ink, tail + along * way, way, pale)
+    here = float(share[abs(along - long) <= NEAR].max())
+    others = [(each - tail) / way for each in others]
+    free = abs(along - long) > CLEAR
+    for other in others:
+        free &= abs(along - other) > FREE
+    there = np.where(free, share, -1.0)
+    clearer = there.max() >= HEADED and there.max() > here + CLEARLY
+    rival = there if clearer else steady(there)
+    place = tail + float(along[int(rival.argmax())]) * way
+    elsewhere = (clearer or rival.max() >= CERTAIN) and (
+        ink.cover(tail, place, 0.4, hidden=1.0) >= REACHED
+    )
+    close = np.arange(-AT, AT + PITCH / 2, PITCH)
+    back = heads(ink, tail + close * way, -way, pale)
+    crowded = any(abs(o) <= FREE for o in others) or any(
+        abs(np.angle(-each / way)) < CROWDED for each in arriving
+    )
+    turned = bool(back.max() >= HEADED and back.max() > here + CLEARLY and not crowded)
+    at_tail = steady(back).max() >= HEADED and not crowded
+    head = complex(place) if clearer and elsewhere else None
+    doubled = bool(at_tail and not turned) or (along_line and elsewhere and not clearer)
+    if along_line:
+        return VectorEnd(head, turned, doubled)
+    shared = any(
+        o.real > long + NEAR and abs(o.imag) < NEAR + LEANING * (o.real - long) for o in others
+    )
+    beyond = drawn(ink, tip, way, BEYOND, pale)
+    before = drawn(ink, tip, -way, BEFORE, pale)
+    if not shared and beyond <= EMPTY and before >= RUNS_ON:
+        head = None
+    runs_on = not shared and beyond >= RUNS_ON
+    return VectorEnd(head, turned, doubled, runs_on, before < STOPS)
+
+
+def steady(share: Any) -> Any:
+    """The least of three shares in a row: chance ink looks like a head at a single place."""
+    before, after = np.roll(share, 1), np.roll(share, -1)
+    least = np.minimum(np.minimum(before, share), after)
+    least[[0, -1]] = -1.0
+    return least
+
+
+def drawn(
+    ink: DrawnInk, tip: complex, way: complex, piece: tuple[float, float], pale: float
+) -> float:
+    """The drawn share of a short piece beside a point; ``STOPS`` where print hides most of it.
+
+    ``piece`` is where it begins and ends along a direction, in mm.
+    """
+    along = np.arange(*piece, PITCH)
+    across = np.arange(-0.3, 0.31, 0.15)
+    dark, known = ink.at(tip + way * (along[:, None] + 1j * across))
+    here = known[:, len(across) // 2] > 0
+    if here.mean() < 0.5:
+        return STOPS
+    return float((dark.max(axis=1) > pale)[here].mean())

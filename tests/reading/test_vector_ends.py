@@ -1,0 +1,114 @@
+"""A vector ends where its arrowhead and the last of its stroke are, not where lines cross."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from graphkin.drawing.symbols import head
+from graphkin.reading.vector_ends import HEADED, VectorEnd, heads, vector_end
+from tests.reading.test_reading import ink_of
+
+TAIL, TIP = 120 + 150j, 180 + 110j
+WAY = (TIP - TAIL) / abs(TIP - TAIL)
+ACROSS = (TIP - 15j * WAY, TIP + 15j * WAY)
+AT = 1.0
+"""How far from the drawn head, in mm, a head is read."""
+
+Strokes = list[tuple[complex, complex]]
+
+
+def vector(tail: complex, tip: complex, *, headed: complex | None = None) -> Strokes:
+    """The strokes of a vector, with its head at the tip, or at the end that is given."""
+    end = tip if headed is None else headed
+    other = tail if abs(end - tip) < AT else tip
+    corners = [
+        complex(*p) for p in head((other.real, other.imag), (end.real, end.imag), "v").points
+    ]
+    return [(tail, tip), (corners[0], corners[1]), (corners[0], corners[2])]
+
+
+def read(
+    strokes: Strokes,
+    others: tuple[complex, ...] = (),
+    arriving: tuple[complex, ...] = (),
+    *,
+    along: bool = False,
+) -> VectorEnd:
+    """What is read of the vector to TIP, at which another line crosses."""
+    ink = ink_of(*strokes, ACROSS)
+    return vector_end(ink, TAIL, TIP, list(others), arriving, along_line=along)
+
+
+FAN = [(TIP, TIP - 40 * WAY * np.exp(1j * np.radians(each))) for each in (-17, 17)]
+"""Lines that leave a point on both sides of the vector to it."""
+OWN = vector(TAIL, TIP)[1:]
+"""Only the head of the vector."""
+
+
+def test_a_vector_that_ends_at_its_point_has_nothing_against_it() -> None:
+    assert read(vector(TAIL, TIP)).is_there
+
+
+@pytest.mark.parametrize("share", [1.12, 1.3, 1.6, 0.9, 0.7, 0.5])
+@pytest.mark.parametrize("along", [False, True])
+def test_a_vector_too_long_or_too_short_ends_at_its_head(share: float, *, along: bool) -> None:
+    """Also where a construction line along the vector hides the end of its stroke."""
+    moved = TAIL + share * (TIP - TAIL)
+    line = [(TAIL, TIP + 50 * WAY)] if along else []
+    end = read(vector(TAIL, moved) + line, along=along)
+    assert end.is_wrong
+    assert end.head is not None
+    assert abs(end.head - moved) < AT
+
+
+@pytest.mark.parametrize("share", [1.12, 1.6, 0.95, 0.5])
+def test_a_stroke_without_a_head_ends_where_its_ink_does(share: float) -> None:
+    end = read([(TAIL, TAIL + share * (TIP - TAIL))])
+    assert (end.runs_on, end.stops_short) == (share > 1, share < 1)
+
+
+def test_a_head_at_the_tail_is_a_vector_turned_round() -> None:
+    end = read(vector(TAIL, TIP, headed=TAIL))
+    assert end.reversed
+    assert end.head is None
+
+
+def test_the_head_of_another_point_on_the_same_line_is_not_the_vectors() -> None:
+    other = TAIL + 1.5 * (TIP - TAIL)
+    assert read(vector(TAIL, TIP) + vector(TAIL, other), (other,)).is_there
+
+
+@pytest.mark.parametrize("along", [False, True])
+def test_lines_beside_the_vector_do_not_excuse_a_head_at_its_tail(*, along: bool) -> None:
+    """Lines leave the point where the sides of a head would be."""
+    assert not read(vector(TAIL, TIP, headed=TAIL) + FAN, along=along).is_there
+
+
+@pytest.mark.parametrize("share", [0.0, 0.6, 1.4])
+def test_a_second_head_is_asked_about(share: float) -> None:
+    """The head at the point may belong to another vector there, that elsewhere to this one."""
+    moved = TAIL + share * (TIP - TAIL)
+    second = vector(TAIL, TIP, headed=TAIL) if share == 0 else vector(TAIL, moved)
+    end = read([*second, *OWN, (TAIL, TIP + 50 * WAY)], along=True)
+    assert end.doubled
+    assert not end.is_wrong
+
+
+def test_the_head_of_a_vector_that_ends_at_the_tail_is_its_own() -> None:
+    start = TAIL + 30 * WAY
+    strokes = vector(TAIL, TIP) + vector(start, TAIL)
+    assert read(strokes, along=True).doubled
+    assert read(strokes, arriving=(TAIL - start,), along=True).is_there
+
+
+def test_a_stroke_that_ends_at_its_point_needs_no_head() -> None:
+    """What looks like a head farther back on it is not its own."""
+    back = vector(TAIL, TAIL + 0.5 * (TIP - TAIL))[1:]
+    assert read([(TAIL, TIP), *back]).is_there
+    assert read([(TAIL, TIP), *back, (TAIL, TIP + 50 * WAY)], along=True).head is not None
+
+
+def test_long_lines_on_both_sides_are_no_head() -> None:
+    lines = [(TIP, TIP - 40 * WAY * np.exp(1j * np.radians(each))) for each in (-28, 28)]
+    assert heads(ink_of((TAIL, TIP), *lines), np.array([TIP]), WAY)[0] < HEADED
