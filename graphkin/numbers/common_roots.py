@@ -217,28 +217,47 @@ def closed_in(
 
 
 def roots_beside(missed: Misses, start: Array) -> Array:
-    """The limits of Newton's method from starts (K, n); NaN where it does not converge."""
+    """The limits of Newton's method from starts (K, n); NaN where it does not converge.
+
+    Where the slopes on one side mislead it, because the misfits are almost dependent and bend, it
+    begins again with slopes from both sides.
+    """
     share, left = start.copy(), np.arange(len(start))
-    for _ in range(ROUNDS):
-        way = steps_from(missed, left, share[left])
-        share[left] += way
-        left = left[~(abs(way) < STILL).all(axis=1) & np.isfinite(way).all(axis=1)]
-        if not left.size:
-            break
+    for steps in (steps_from, steps_about):
+        share[left] = start[left]
+        for _ in range(ROUNDS):
+            way = steps(missed, left, share[left])
+            share[left] += way
+            left = left[~(abs(way) < STILL).all(axis=1) & np.isfinite(way).all(axis=1)]
+            if not left.size:
+                return share
     share[left] = np.nan
     return share
 
 
 def steps_from(missed: Misses, row: Array, share: Array) -> Array:
     """The steps of ``steps_of``, with the misfits and all slopes evaluated together."""
-    count, size = share.shape
-    away = np.concatenate([np.zeros((1, size)), STEP * np.eye(size)])[:, None]
-    places = (share + away).reshape(-1, size)
-    value = missed(np.tile(row, size + 1), places).reshape(size + 1, count, size)
+    size = share.shape[1]
+    value = missed_beside(missed, row, share, STEP * np.vstack([np.zeros(size), np.eye(size)]))
     if np.isnan(value[1:]).any():
         return steps_of(missed, row, share, value[0])
     slope = np.moveaxis(value[1:] - value[0], 0, -1) / STEP
     return solutions(slope, -value[0])
+
+
+def steps_about(missed: Misses, row: Array, share: Array) -> Array:
+    """The steps of Newton's method with slopes from both sides, which the misfits do not bend."""
+    size = share.shape[1]
+    away = STEP * np.vstack([np.zeros(size), np.eye(size), -np.eye(size)])
+    value = missed_beside(missed, row, share, away)
+    slope = np.moveaxis(value[1 : size + 1] - value[size + 1 :], 0, -1) / (2 * STEP)
+    return solutions(slope, -value[0])
+
+
+def missed_beside(missed: Misses, row: Array, share: Array, away: Array) -> Array:
+    """The misfits (A, K, n) at each of the offsets ``away`` (A, n) from shares (K, n)."""
+    places = (share + away[:, None]).reshape(-1, share.shape[1])
+    return missed(np.tile(row, len(away)), places).reshape(len(away), *share.shape)
 
 
 def apart(row: Array, share: Array, which: Array, way: Array) -> tuple[Array, Array]:

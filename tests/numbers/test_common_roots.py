@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 
 from graphkin.numbers.common_roots import (
+    STEP,
     Cells,
     by_newton,
     by_newton_arrays,
@@ -66,6 +67,17 @@ def test_from_a_start_beside_it_a_crossing_is_reached_and_none_where_there_is_no
     right = [[(square / 2) ** 0.5] * 2 for square in squares[:2]]
     assert found[:2] == pytest.approx(np.array(right), abs=1e-12)
     assert np.isnan(found[2]).all()
+
+
+def test_a_root_is_reached_where_the_misfits_bend_within_a_difference_for_slopes():
+    """x - 1.6·x² + 0.65·x³ = y = 0, x in the difference: 1.6² < 4·0.65, so x = 0 alone."""
+
+    def missed(row, share):
+        x, y = share.T / STEP
+        return np.stack([x - 1.6 * x**2 + 0.65 * x**3 - y, y], axis=1)
+
+    found = roots_beside(missed, STEP * np.array([[0.1, 0.2], [-0.1, 0.1]]))
+    assert found == pytest.approx(np.zeros((2, 2)), abs=1e-9)
 
 
 @pytest.mark.parametrize("far", [1e-4, 1e-8])
