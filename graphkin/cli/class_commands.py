@@ -60,7 +60,7 @@ def new_lab(name: str, folder: Path, scene: str | None, force: bool) -> None:
 
     With --from, the scene is a copy of SCENE, a path or the name of a shipped lab. At least one of
     its parameters needs min and max. The rule draws from the ranges in which every variant is fair
-    and lists every field and every slip of this scene.
+    and lists every field and every known mistake of this scene.
 
     \b
     Example:
@@ -82,6 +82,7 @@ def new_lab(name: str, folder: Path, scene: str | None, force: bool) -> None:
     tell(map(str, lab.files))
     if lab.proposed is None:
         complain(f"{NO_RANGES}: graphkin ranges {folder / name} lists the limits that are broken")
+        leave(FAILED)
     else:
         tell(["", *notes_of(lab.proposed)])
 

@@ -12,6 +12,7 @@ from collections.abc import Mapping
 from decimal import Decimal, InvalidOperation
 from fractions import Fraction
 from itertools import pairwise
+from keyword import kwlist
 from math import isqrt
 from threading import Lock
 from typing import Any, NoReturn
@@ -26,7 +27,7 @@ FUNCTIONS = ("sqrt", "sin", "cos", "tan")
 """Functions of one number; sine, cosine and tangent take degrees."""
 CONSTANT = "pi"
 TIME = "t"
-RESERVED = frozenset((*FUNCTIONS, CONSTANT, TIME))
+RESERVED = frozenset((*FUNCTIONS, CONSTANT, TIME, *kwlist))
 """Names that no parameter may have."""
 
 ONE_AT_A_TIME = Lock()

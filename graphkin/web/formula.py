@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import math
 import re
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from typing import Any
 
 from msgspec import Struct
@@ -73,13 +73,17 @@ class Argument(Struct, frozen=True):
 
 
 class Formula(Struct, frozen=True):
-    """A graph as a function: its name and title, arguments, and results by name."""
+    """A graph as a function: its name and title, arguments, and results by name.
+
+    ``others`` are the owners of results whose names are no identifiers, by the identifier.
+    """
 
     name: str
     title: str
     graph: Graph
     arguments: Sequence[Argument]
     results: Mapping[str, int]
+    others: Mapping[str, str] = {}
 
     @property
     def notes(self) -> list[str]:
@@ -90,6 +94,7 @@ class Formula(Struct, frozen=True):
             "x_A, y_A: position of point A in m; vx_A, vy_A: velocity in m/s;",
             "ax_A, ay_A: acceleration in m/s2; omega_2, epsilon_2: angular velocity in rad/s",
             "and angular acceleration in rad/s2 of link 2, counter-clockwise positive.",
+            *(f"{made} in a result stands for {owner}." for made, owner in self.others.items()),
             "Results are NaN or infinite where the mechanism cannot be assembled or is singular.",
         ]
 
@@ -162,8 +167,11 @@ def formula_of(mechanism: Mechanism) -> Formula:
     except UntraceableError as error:
         raise refusal(message("the course of a step depends on a value")) from error
     name = f"motion_of_{identifier(scene.name)}"
-    results = results_of(graph, gathered(trace, scene.links))
-    return Formula(name, scene.title, graph, arguments, results)
+    solution = gathered(trace, scene.links)
+    points, links = identifiers(solution.points), identifiers(solution.links)
+    results = results_of(graph, solution, points, links)
+    others = {made: owner for owner, made in [*points.items(), *links.items()] if made != owner}
+    return Formula(name, scene.title, graph, arguments, results, others)
 
 
 def refusal(why: Message) -> SceneError:
@@ -218,27 +226,34 @@ def parameters(scene: Scene) -> list[Argument]:
     ]
 
 
-def results_of(graph: Graph, solution: Solution) -> dict[str, int]:
+def results_of(
+    graph: Graph, solution: Solution, points: Mapping[str, str], links: Mapping[str, str]
+) -> dict[str, int]:
     """The node of each part of the points' and links' motion, by a valid identifier."""
     found: dict[str, int] = {}
-
-    def add(name: str, node: int) -> None:
-        while name in found:
-            name += "_"
-        found[name] = node
-
     for point, motion in solution.points.items():
         for quantity in OF_POINTS:
             value = motion_value(motion, quantity)
             if value is not None:
                 part, letter = entered(graph, value), LETTERS[quantity.target]
-                add(f"{letter}x_{identifier(point)}", part.node)
-                add(f"{letter}y_{identifier(point)}", part.below())
+                found[f"{letter}x_{points[point]}"] = part.node
+                found[f"{letter}y_{points[point]}"] = part.below()
     for link, turning in solution.links.items():
         for quantity in RATES:
             value = motion_value(turning, quantity)
             if value is not None:
-                add(f"{quantity.target}_{identifier(link)}", entered(graph, value).node)
+                found[f"{quantity.target}_{links[link]}"] = entered(graph, value).node
+    return found
+
+
+def identifiers(names: Iterable[str]) -> dict[str, str]:
+    """An identifier for each name: its own if it is one, such as A_3, else as near as is free."""
+    found: dict[str, str] = {}
+    for name in sorted(names, key=lambda each: identifier(each) != each):
+        made = identifier(name)
+        while made in found.values():
+            made += "_"
+        found[name] = made
     return found
 
 

@@ -68,3 +68,10 @@ def test_wheels_that_roll_on_what_is_named_and_not_written_are_told_with_their_p
         read_text(tomlkit.dumps(tables), "own", None, {})
     places = {problem.place for problem in caught.value.problems}
     assert places == {"links.3.rolls.start.1", "drivers[0].turn"}
+
+
+@pytest.mark.parametrize("name", ["sin", "pi", "t", "lambda", "class", "in"])
+def test_a_parameter_has_no_name_that_an_expression_cannot_hold(name):
+    text = f"{SCENE}\n[parameters]\n{name} = 2\n"
+    with pytest.raises(SceneError, match=rf"parameters\.{name}: {name} has a meaning of its own"):
+        scene(text)

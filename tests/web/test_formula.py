@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import math
+import re
 import shutil
 import subprocess
 from collections.abc import Callable, Sequence
@@ -180,6 +181,21 @@ def test_no_number_where_the_mechanism_cannot_be_assembled(tmp_path: Path) -> No
     finite = [all(map(math.isfinite, each.values())) for each in found]
     assert any(finite)
     assert not all(finite)
+
+
+def test_a_point_keeps_its_own_name_beside_one_that_only_resembles_it(tmp_path: Path) -> None:
+    """C@2 and a point written C_2 would have one identifier; the written point has it."""
+    text = (SCENES / "crank-slot.toml").read_text(encoding="utf-8")
+    path = tmp_path / "alike.toml"
+    path.write_text(re.sub(r"\bE\b", "C_2", text), encoding="utf-8")
+    formula = formula_of(load(path))
+    case = [each.value for each in formula.arguments]
+    (found,) = by_python(formula, [case], tmp_path)
+    solution = load(path).solve()
+    for name, own in (("C_2", "C_2"), ("C_2_", "C@2")):
+        place = solution.points[own].position
+        assert complex(found[f"x_{name}"], found[f"y_{name}"]) == pytest.approx(place)
+    assert "C_2_ in a result stands for C@2." in formula.notes
 
 
 @pytest.mark.parametrize("name", ["platform-3rpr", "gears-sun-and-planet"])
