@@ -6,7 +6,7 @@ from pathlib import Path
 
 import click
 
-from graphkin.cli.options import complain, force_option, tell
+from graphkin.cli.options import READING, complain, current, force_option, tell
 
 
 @click.command("import")
@@ -33,11 +33,13 @@ def import_scene(given: str, output: Path | None, force: bool) -> None:
       graphkin import crank.linkage2 -o crank.toml
       graphkin import shared.pmks
     """
-    from graphkin.importing.formats import content, imported
+    from graphkin.importing.formats import LINK, content, imported
     from graphkin.importing.scene_text import scene_text
     from graphkin.writers.files import write_apart
 
-    found = scene_text(imported(content(given)))
+    text = content(given)
+    current().meta[READING] = given if LINK.match(given) is None else "the link"
+    found = scene_text(imported(text))
     if output is None:
         tell(found.text.splitlines())
     else:

@@ -26,7 +26,7 @@ from graphkin.importing.record import (
     number,
     refused,
 )
-from graphkin.text.errors import Message, message
+from graphkin.text.errors import Message, message, verbatim
 
 PROGRAM = "Linkage"
 PER_INCH = 96
@@ -41,7 +41,13 @@ def linkage_text(text: str) -> Imported:
     """The mechanism of a file. Raises SceneError for curved slots and actuators that bend too."""
     try:
         root = fromstring(text, forbid_dtd=True)
-    except (ParseError, DefusedXmlException, ValueError):
+    except ParseError as error:
+        why = verbatim(named(str(error)))
+        raise refused(
+            message("the XML breaks off or is wrong: {why}", why=why),
+            message("the whole file, as Linkage saves it"),
+        ) from None
+    except (DefusedXmlException, ValueError):
         raise refused(message("the text is no XML that is safe to read")) from None
     program = root.find("program")
     unit, factor, notes = units(program)
@@ -51,10 +57,12 @@ def linkage_text(text: str) -> Imported:
     links = [each for each in (*root.findall("Link"), *root.findall("element")) if works(each)]
     joints = {}
     for each in connectors:
-        place = complex(number(each.get("x", ""), factor), number(each.get("y", ""), factor))
-        joints[each.attrib["id"]] = DrawnJoint(
-            f"P{each.attrib['id']}", place, is_set(each, "anchor")
-        )
+        own = each.attrib["id"]
+        if own in joints:
+            raise refused(message("two connectors have the id {name}", name=named(own)))
+        joints[own] = DrawnJoint(f"P{own}", place_of(each, factor), is_set(each, "anchor"))
+    if not any(joint.fixed for joint in joints.values()):
+        raise refused(message("no connector is an anchor"), message("at least one anchor"))
     bodies: dict[str, DrawnLink] = {}
     guides: list[DrawnGuide] = []
     strokes: list[DrawnInput] = []
@@ -62,10 +70,16 @@ def linkage_text(text: str) -> Imported:
     sliding = {each.attrib["id"] for each in sliders}
     for place, link in enumerate(links):
         held = tuple(each.attrib["id"] for each in link.findall("connector"))
-        if not all(joint in joints for joint in held):
-            raise damaged()
         own = body_name(link, place)
         name = (link.get("name") or "").strip() or f"link {link.attrib['id']}"
+        if missing := [joint for joint in held if joint not in joints]:
+            raise refused(
+                message(
+                    "{link} has connector {name}, which the file does not have",
+                    link=named(name),
+                    name=named(missing[0]),
+                )
+            )
         if is_set(link, "actuator"):
             strokes.append(add_cylinder(own, name, held, link, factor, bodies, guides))
         elif not {*held} <= sliding or len(held) > 1:
@@ -96,6 +110,17 @@ def linkage_text(text: str) -> Imported:
     return Imported(
         PROGRAM, unit, ROUNDING, joints, bodies, tuple(guides), (*inputs, *strokes), notes, gears
     )
+
+
+def place_of(connector: Element, factor: float) -> complex:
+    """The place of a connector. Raises SceneError with its name where it has none."""
+    both = connector.get("x", ""), connector.get("y", "")
+    if not all(part.strip() for part in both):
+        raise refused(
+            message("connector {name} has no place", name=named(connector.attrib["id"])),
+            message("its x and y"),
+        )
+    return complex(*(number(part, factor) for part in both))
 
 
 def works(element: Element) -> bool:
@@ -152,8 +177,13 @@ def ends_of(slider: Element) -> tuple[str, str]:
             message("the slot of connector {name} is curved", name=named(slider.attrib["id"])),
             message("straight slots"),
         )
-    one, other = (limit.attrib["id"] for limit in slider.findall("slidelimit"))
-    return one, other
+    ends = [limit.attrib["id"] for limit in slider.findall("slidelimit")]
+    if len(ends) != 2:
+        raise refused(
+            message("connector {name} slides in no slot", name=named(slider.attrib["id"])),
+            message("two slidelimit, the ends of its slot"),
+        )
+    return ends[0], ends[1]
 
 
 def rods(

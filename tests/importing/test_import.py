@@ -410,3 +410,34 @@ def test_the_command_writes_a_scene_that_solves(tmp_path):
     done = CliRunner().invoke(app, ["import", str(HERE / "crank.linkage2"), "-o", str(scene)])
     assert done.exit_code == 0, done.output
     assert CliRunner().invoke(app, ["solve", str(scene)]).exit_code == 0
+
+
+FOUR_BAR = """<linkage2><program units="Millimeters"/>
+<connector id="0" x="0" y="0" anchor="true" input="true" rpm="15"/>
+<connector id="1" x="96" y="0" anchor="true"/>
+<connector id="2" x="0" y="40"/><connector id="3" x="100" y="80"/>
+<Link id="1"><connector id="0"/><connector id="2"/></Link>
+<Link id="2"><connector id="2"/><connector id="3"/></Link>
+<Link id="3"><connector id="3"/><connector id="1"/></Link></linkage2>"""
+
+
+@pytest.mark.parametrize(
+    ("part", "other", "found"),
+    [
+        (' anchor="true"', "", "no connector is an anchor"),
+        ('<connector id="3"/><connector id="1"/>', '<connector id="9"/>', "link 3 has connector 9"),
+        ('id="3" x=', 'id="2" x=', "two connectors have the id 2"),
+        ('x="100"', 'x=""', "connector 3 has no place"),
+        ('id="3" x=', 'id="3" slider="true" x=', "connector 3 slides in no slot"),
+        ("</linkage2>", "", "XML breaks off"),
+    ],
+)
+def test_a_fault_in_a_file_of_linkage_is_told_with_its_part(part, other, found, tmp_path):
+    assert opened(FOUR_BAR).solve().links
+    assert part in FOUR_BAR
+    path = tmp_path / "own.linkage2"
+    path.write_text(FOUR_BAR.replace(part, other), encoding="utf-8")
+    result = CliRunner().invoke(app, ["import", str(path)])
+    assert result.exit_code == 2
+    assert found in result.stderr
+    assert str(path) in result.stderr
