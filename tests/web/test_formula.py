@@ -15,7 +15,7 @@ from pathlib import Path
 import pytest
 from click.testing import CliRunner
 
-from graphkin.cli.export_command import export
+from graphkin.cli.main import app
 from graphkin.mechanism import Mechanism, load
 from graphkin.motion.driving import stated_motion
 from graphkin.motion.sweep import law_of_time
@@ -219,9 +219,9 @@ def test_a_title_cannot_leave_its_comment(tmp_path: Path) -> None:
 
 def test_the_command_writes_what_the_formula_is(tmp_path: Path) -> None:
     source = LANGUAGES["c"](formula_of(load("pump", n=9)))
-    printed = CliRunner().invoke(export, ["pump", "--set", "n=9", "--to", "c"])
+    printed = CliRunner().invoke(app, ["export", "pump", "--set", "n=9", "--to", "c"])
     assert printed.output == source
     file = tmp_path / "new" / "pump.c"
-    arguments = ["pump", "--set", "n=9", "--to", "c", "-o", str(file)]
-    assert CliRunner().invoke(export, arguments).exit_code == 0
+    arguments = ["export", "pump", "--set", "n=9", "--to", "c", "-o", str(file)]
+    assert CliRunner().invoke(app, arguments).exit_code == 0
     assert file.read_text(encoding="utf-8") == source
