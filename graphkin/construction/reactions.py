@@ -55,8 +55,9 @@ def force_at(place: complex, force: complex, couple: float = 0.0) -> Wrench:
 class PairReaction(Struct, frozen=True):
     """The force on a link in a pin or guide, and its moment about the pin or the block's point.
 
-    ``name`` is the pin's point, or the block with the link on which it slides, such as 5-0. ``at``
-    is a point on the line of the force; None where a guide carries a couple alone.
+    ``name`` is the pin's point, or the block with the link on which it slides, such as 5-0.
+    ``block`` is that block, None for a pin. ``at`` is a point on the line of the force; None where
+    a guide carries a couple alone.
     """
 
     name: str
@@ -64,6 +65,7 @@ class PairReaction(Struct, frozen=True):
     force: complex
     moment: float
     at: complex | None
+    block: str | None = None
 
 
 class Balance(Struct, frozen=True):
@@ -118,8 +120,8 @@ class Standing(Struct):
     acting: dict[str, Wrench]
     carried: dict[tuple[str, str], Wrench]
     """The reaction in each pair on each of its links."""
-    spots: dict[str, tuple[complex, complex | None]]
-    """The place of each pair, with the direction of a guide."""
+    pairs: dict[str, Pin | Sliding]
+    """Each pair by the name of its reaction."""
 
     def pin(self, point: str) -> complex:
         """The place of a pin."""
@@ -134,12 +136,11 @@ class Standing(Struct):
 
     def settle(self, joint: Joint, link: str, on: Wrench) -> None:
         """Enter a reaction on a link of a pair, and the opposite one on the other link."""
+        assert isinstance(joint, Pin | Sliding)
         first, second = joint.links
         other = second if link == first else first
         name = joint.place if isinstance(joint, Pin) else "-".join(joint.links)
-        self.spots[name] = (
-            (self.pin(joint.place), None) if isinstance(joint, Pin) else self.guide(joint)  # type: ignore[arg-type]
-        )
+        self.pairs[name] = joint
         for each, wrench in ((link, on), (other, -on)):
             before = self.carried.get((name, each), NOTHING)
             self.carried[name, each] = before.plus(wrench)
@@ -186,13 +187,14 @@ def construct(
 def listed_reactions(standing: Standing) -> Iterator[PairReaction]:
     """The reactions by pair and link, with the place of those of guides."""
     for (name, link), wrench in standing.carried.items():
-        place, along = standing.spots[name]
-        moment = 0.0 if along is None else wrench.about(place)
-        at: complex | None = place
-        if along is not None:
-            normal = dot(wrench.force, 1j * along)
-            at = place + moment / normal * along if normal else None
-        yield PairReaction(name, link, wrench.force, moment, at)
+        pair = standing.pairs[name]
+        if isinstance(pair, Pin):
+            yield PairReaction(name, link, wrench.force, 0.0, standing.pin(pair.place))
+            continue
+        place, along = standing.guide(pair)
+        moment, normal = wrench.about(place), dot(wrench.force, 1j * along)
+        at = place + moment / normal * along if normal else None
+        yield PairReaction(name, link, wrench.force, moment, at, pair.block)
 
 
 def outer_of(group: Dyad, link: str) -> Joint:
@@ -330,6 +332,6 @@ def by_name(found: ForceSolution, name: str) -> Mapping[str, tuple[PairReaction,
     """The reactions that a name asks for: a pin, or all guides of a block."""
     some: dict[str, tuple[PairReaction, ...]] = {}
     for each in found.reactions:
-        if each.name == name or each.name.partition("-")[0] == name:
+        if name == (each.block or each.name):
             some[each.name] = (*some.get(each.name, ()), each)
     return some

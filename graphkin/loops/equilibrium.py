@@ -18,7 +18,7 @@ from graphkin.construction.reactions import ForceSolution
 from graphkin.loops.loop_motion import Motion
 from graphkin.loops.rigid_bodies import Reals
 from graphkin.scene.forces import Forces
-from graphkin.scene.model import FRAME, Scene
+from graphkin.scene.model import FRAME, Driver, Scene
 from graphkin.text.errors import Problem, StructureError, joined, message
 
 RANK = 1e-10
@@ -103,6 +103,7 @@ class Column(Struct, frozen=True):
     place: complex
     force: complex
     couple: float
+    drives: bool = False
 
 
 def columns_of(scene: Scene, motion: Motion) -> Iterator[Column]:
@@ -115,19 +116,31 @@ def columns_of(scene: Scene, motion: Motion) -> Iterator[Column]:
         for one, other in pairwise(links):
             for way in (1, 1j):
                 yield Column(point, (other, one), pin_of(motion, point), way, 0.0)
-    for guide in motion.loops.guides:
-        along = complex(motion.heading[0, motion.index[guide.on]] * np.ravel(guide.along)[0])
+    for number, guide in enumerate(motion.loops.guides):
         ends, name = (guide.block, guide.on), f"{guide.block}-{guide.on}"
-        yield Column(name, ends, pin_of(motion, guide.point), 1j * along, 0.0)
+        way = 1j * along_guide(motion, number)
+        yield Column(name, ends, pin_of(motion, guide.point), way, 0.0)
         yield Column(name, ends, 0j, 0j, 1.0)
     for driver in scene.drivers:
         name, ends = f"driver {driver.link}", (driver.link, driver.against)
         if driver.kind == "turn":
-            yield Column(name, ends, 0j, 0j, 1.0)
+            yield Column(name, ends, 0j, 0j, 1.0, drives=True)
             continue
-        guide = next(g for g in motion.loops.guides if (g.block, g.on) == ends)
-        along = complex(motion.heading[0, motion.index[guide.on]] * np.ravel(guide.along)[0])
-        yield Column(name, ends, pin_of(motion, guide.point), along, 0.0)
+        number = guide_of(motion, driver)
+        place = pin_of(motion, motion.loops.guides[number].point)
+        yield Column(name, ends, place, along_guide(motion, number), 0.0, drives=True)
+
+
+def guide_of(motion: Motion, driver: Driver) -> int:
+    """The number of the guide along which a driver moves its block."""
+    ends = [(guide.block, guide.on) for guide in motion.loops.guides]
+    return ends.index((driver.link, driver.against))
+
+
+def along_guide(motion: Motion, number: int) -> complex:
+    """The unit vector along a guide."""
+    guide = motion.loops.guides[number]
+    return complex(motion.heading[0, motion.index[guide.on]] * np.ravel(guide.along)[0])
 
 
 def moment(place: complex, force: complex) -> float:
@@ -188,7 +201,7 @@ def gathered(columns: list[Column], values: list[float], size: float) -> Equilib
     drivers: dict[str, complex] = {}
     for column, value in zip(columns, values, strict=True):
         couple = float(value) * column.couple * size
-        if column.name.startswith("driver "):
+        if column.drives:
             is_force = column.force != 0
             drivers[column.links[0]] = complex(value * column.force) if is_force else couple + 0j
             continue
@@ -212,11 +225,8 @@ def power(
             one, other = (motion.omega[0, motion.index[e]] for e in (driver.link, driver.against))
             terms.append(complex(given).real * float(one - other))
             continue
-        ends = (driver.link, driver.against)
-        j = next(k for k, g in enumerate(motion.loops.guides) if (g.block, g.on) == ends)
-        guide = motion.loops.guides[j]
-        along = motion.heading[0, motion.index[guide.on]] * np.ravel(guide.along)[0]
-        rate = complex(motion.slides[1, 0, j] * along)
+        number = guide_of(motion, driver)
+        rate = complex(motion.slides[1, 0, number]) * along_guide(motion, number)
         terms.append((complex(given).conjugate() * rate).real)
     whole = sum(map(abs, terms))
     return sum(terms) / whole if whole else 0.0

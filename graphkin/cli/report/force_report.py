@@ -42,7 +42,7 @@ def witness_of_forces(verdict: ForceVerdict) -> Record:
 def reaction_record(each: PairReaction) -> dict[str, Any]:
     """The force on one link, with the place and moment of a guide's reaction."""
     found: dict[str, Any] = {"force": pair(each.force)}
-    if "-" in each.name:
+    if each.block is not None:
         found |= {"moment": real(each.moment), "at": pair(each.at)}
     return found
 
