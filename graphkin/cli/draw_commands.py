@@ -176,8 +176,8 @@ def cycle(
     from graphkin.cli.report.cycle_report import (
         agrees,
         cycle_lines,
-        cycle_table,
-        extremes_table,
+        cycle_rows,
+        extremes_rows,
         jump_words,
         positions_lines,
     )
@@ -188,6 +188,7 @@ def cycle(
     from graphkin.motion.jumps import jumps
     from graphkin.motion.sweep import bounds_in_si
     from graphkin.motion.transmission import all_extremes
+    from graphkin.text.tables import csv_text
     from graphkin.web.animation import animation_files
     from graphkin.writers.files import file_stem, refuse_folder, write_all
     from graphkin.writers.workbook import workbook
@@ -211,10 +212,10 @@ def cycle(
     if leaps:
         complain(f"{jump_words(found, leaps[0])}: this is no motion, nothing is written")
         leave(FAILED)
-    tables = {"cycle": cycle_table(found)}
-    tables |= {"extremes": extremes_table(found, reached)} if any(reached) else {}
-    tables |= {"positions": cycle_table(few)} if few is not None else {}
-    files = {f"{stem}-{kind}.csv": table.encode() for kind, table in tables.items()}
+    tables = {"cycle": cycle_rows(found)}
+    tables |= {"extremes": extremes_rows(found, reached)} if any(reached) else {}
+    tables |= {"positions": cycle_rows(few)} if few is not None else {}
+    files = {f"{stem}-{kind}.csv": csv_text(rows, "\n").encode() for kind, rows in tables.items()}
     files |= {f"{stem}-cycle.xlsx": workbook(tables)} if "xlsx" in kinds else {}
     curves = [kind for kind in kinds if kind in CURVES]
     files |= picture_files(found, stem, curves) if curves else {}

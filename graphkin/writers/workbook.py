@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
-import csv
 import io
 import re
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
+from math import isinf
 from zipfile import ZIP_DEFLATED, ZipFile, ZipInfo
 
 from graphkin.text.errors import PageError, Problem, message
+from graphkin.text.tables import Cell
 
 MADE = b"2000-01-01T00:00:00Z"
 """The time that a workbook states, so that it does not depend on the clock."""
@@ -17,8 +18,10 @@ WIDEST = 24
 """The widest column, in characters."""
 
 
-def workbook(tables: Mapping[str, str]) -> bytes:
-    """A workbook with a sheet for each CSV table, by its name; numbers keep 16 digits.
+def workbook(tables: Mapping[str, Sequence[Sequence[Cell]]]) -> bytes:
+    """A workbook with a sheet for each table, by its name; the first row is the head.
+
+    Numbers keep 16 digits.
 
     Raises PageError if openpyxl is not installed.
     """
@@ -31,32 +34,23 @@ def workbook(tables: Mapping[str, str]) -> bytes:
         raise PageError(Problem("xlsx", message("needs openpyxl"), hint=hint)) from None
     book = Workbook()
     book.remove(book.active)
-    for name, text in tables.items():
+    for name, rows in tables.items():
         sheet = book.create_sheet(name)
-        heads, *rows = csv.reader(io.StringIO(text))
-        sheet.append(heads)
         for row in rows:
-            sheet.append([number_or_text(cell) for cell in row])
-        for column, head in enumerate(heads, 1):
+            sheet.append([held(cell) for cell in row])
+        for column, head in enumerate(rows[0], 1):
             sheet.cell(1, column).font = Font(bold=True)
-            sheet.column_dimensions[get_column_letter(column)].width = min(len(head) + 4, WIDEST)
+            wide = min(len(str(head)) + 4, WIDEST)
+            sheet.column_dimensions[get_column_letter(column)].width = wide
         sheet.freeze_panes = "B2"
     out = io.BytesIO()
     book.save(out)
     return without_clock(out.getvalue())
 
 
-def number_or_text(cell: str) -> float | int | str | None:
-    """A cell of a CSV table as a number if it is a finite one; None if it is empty."""
-    if not cell:
-        return None
-    try:
-        found = float(cell)
-    except ValueError:
-        return cell
-    if not abs(found) < float("inf"):
-        return cell
-    return int(cell) if cell.lstrip("-").isdigit() else found
+def held(cell: Cell) -> Cell:
+    """A cell as a workbook holds it: infinity is a text."""
+    return str(cell) if isinstance(cell, float) and isinf(cell) else cell
 
 
 def without_clock(data: bytes) -> bytes:

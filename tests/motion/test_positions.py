@@ -15,7 +15,6 @@ from graphkin.mechanism import load
 from graphkin.motion.cycle import cycle
 from graphkin.motion.equal_positions import equal_positions
 from graphkin.text.errors import SceneError
-from graphkin.writers.workbook import workbook
 from tests.motion.linkages import four_bar, slider_crank
 from tests.running import Run
 
@@ -71,4 +70,14 @@ def test_a_workbook_holds_the_tables_and_depends_on_no_clock(run: Run, tmp_path:
                 else:
                     assert (cell or "") == text
     assert set(tables) == {"cycle", "extremes", "positions"}
-    assert workbook(tables) == path.read_bytes()
+    again = run("cycle", "offset-slider-crank", "-o", tmp_path / "again", *options)
+    assert again.exit_code == 0, again.stderr
+    assert (tmp_path / "again" / path.name).read_bytes() == path.read_bytes()
+
+
+def test_a_table_says_minus_infinity_as_a_number(run: Run, tmp_path: Path):
+    """At its dead points the coupler of the pump turns without bound, one way and the other."""
+    assert run("cycle", "pump", "-o", tmp_path, "--format", "csv").exit_code == 0
+    rows = csv.DictReader((tmp_path / "pump-extremes.csv").read_text().splitlines())
+    ends = {row["value"] for row in rows if row["of"] == "4" and row["unit"] == "rad/s"}
+    assert ends == {"-inf", "inf"}

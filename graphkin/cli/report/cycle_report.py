@@ -21,7 +21,7 @@ from graphkin.numbers.arithmetic import np
 from graphkin.numbers.plane import Ratio
 from graphkin.scene.model import Closure
 from graphkin.scene.quantity import SI
-from graphkin.text.tables import csv_text, labelled, listed
+from graphkin.text.tables import Cell, csv_text, labelled, listed
 
 if TYPE_CHECKING:
     from graphkin.motion.cycle import Cycle
@@ -38,21 +38,26 @@ Column = tuple[str, Any]
 
 
 def cycle_table(cycle: Cycle) -> str:
-    """The whole table as CSV: heads with units, '.' decimals, full precision.
+    """The whole table as CSV: heads with units, '.' decimals, full precision."""
+    return csv_text(cycle_rows(cycle), "\n")
 
-    A cell is empty where there is no value, where an instantaneous centre is at infinity, and where
+
+def cycle_rows(cycle: Cycle) -> list[Sequence[Cell]]:
+    """The head of the whole table, and its rows.
+
+    A cell is None where there is no value, where an instantaneous centre is at infinity, and where
     no digit of the value is sure.
     """
     columns = list(columns_of(cycle))
     rows = ([cell(values[row]) for _, values in columns] for row in range(len(cycle.at)))
-    return csv_text([[head for head, _ in columns], *rows], "\n")
+    return [[head for head, _ in columns], *rows]
 
 
-def cell(value: Any) -> str:
-    """A number in its shortest exact form, never minus zero; empty if there is none."""
+def cell(value: Any) -> float | None:
+    """A number, never minus zero; None if there is none."""
     if getattr(value, "dtype", None) == "int64":
-        return str(value)
-    return repr(float(value) + 0.0) if isfinite(value) else ""
+        return int(value)
+    return float(value) + 0.0 if isfinite(value) else None
 
 
 def columns_of(cycle: Cycle) -> Iterator[Column]:
@@ -484,28 +489,34 @@ def positions_lines(few: Cycle) -> list[str]:
     return labelled("positions", [words])
 
 
-def extremes_table(cycle: Cycle, found_extremes: Sequence[Sequence[Extremes]]) -> str:
-    """The extremes of all ranges as CSV, a row for each place, in SI units and full precision.
+def extremes_rows(
+    cycle: Cycle, found_extremes: Sequence[Sequence[Extremes]]
+) -> list[Sequence[Cell]]:
+    """The extremes of all ranges under their heads, a row for each place, in SI units.
 
     ``inf`` is a value that grows without bound towards the dead point of its row. ``to`` ends a
     stretch on which the value stays the same. ``limit`` is the customary limit of an angle.
     """
     sweep = cycle.sweep
     at = f"{sweep.symbol} [{sweep.unit}]"
-    rows: list[list[object]] = [
+    rows: list[Sequence[Cell]] = [
         ["range", "quantity", "of", "unit", "extreme", "value", at, f"{at} to", "where", "limit"]
     ]
     for number, every in enumerate(found_extremes, 1):
         for found in every:
             measure = found.measure
-            limit = "" if found.limit is None else repr(found.limit)
-            head = [number, measure.name, measure.of, measure.unit.translate(PLAIN_UNITS)]
+            head: list[Cell] = [
+                number,
+                measure.name,
+                measure.of,
+                measure.unit.translate(PLAIN_UNITS),
+            ]
             for name, extreme in (("least", found.least), ("largest", found.largest)):
                 for place in extreme.places:
-                    where = [repr(u + 0.0) for u in (place.at, place.until)]
+                    where = [u + 0.0 for u in (place.at, place.until)]
                     end = ENDS[place.end]
-                    rows.append([*head, name, repr(extreme.value + 0.0), *where, end, limit])
-    return csv_text(rows, "\n")
+                    rows.append([*head, name, extreme.value + 0.0, *where, end, found.limit])
+    return rows
 
 
 PLAIN_UNITS = str.maketrans({"²": "^2", "°": "deg"})
