@@ -25,6 +25,7 @@ from graphkin.importing.record import (
     named,
     number,
     refused,
+    unknown_unit,
 )
 from graphkin.text.errors import Message, message, verbatim
 
@@ -140,7 +141,7 @@ def units(program: Element | None) -> tuple[str, float, tuple[Message, ...]]:
     notes: list[Message] = []
     name = said.get("units", "Millimeters")
     if name not in UNITS:
-        notes.append(message("unit {name} is unknown; mm are written", name=named(name)))
+        notes.append(unknown_unit(name, "mm"))
     if number(said.get("scalefactor", "1")) != 1.0:
         notes.append(message("the scale factor is left out: lengths are as on the screen"))
     unit, factor = UNITS.get(name, UNITS["Millimeters"])

@@ -32,12 +32,14 @@ from graphkin.importing.record import (
     named,
     number,
     refused,
+    unknown_unit,
 )
 from graphkin.text.errors import Message, message
 
 PROGRAM = "PMKS+"
 UNITS = {"0": "in", "1": "cm", "2": "m"}
 OLD_UNITS = {"cm": "cm", "m": "m", "in": "in", "inch": "in"}
+USUAL = "cm"
 CLOCKWISE = 1
 WELDED = 8
 DIGITS = 12
@@ -85,9 +87,15 @@ def new_text(text: str) -> Imported:
         if own not in welded
     ]
     sense = -1 if ALPHABET.index(flags[-1]) & CLOCKWISE else 1
-    return gathered(
-        found, one_at_welds(found, bodies), UNITS.get(units[:1], "cm"), sense * rpm(speeds), notes
-    )
+    unit = unit_of(units[:1], UNITS, notes)
+    return gathered(found, one_at_welds(found, bodies), unit, sense * rpm(speeds), notes)
+
+
+def unit_of(name: str, known: Mapping[str, str], notes: list[Message]) -> str:
+    """The unit of length of a text; where it is unknown that of PMKS+ itself, with a note."""
+    if name not in known:
+        notes.append(unknown_unit(name, USUAL))
+    return known.get(name, USUAL)
 
 
 def rpm(speeds: str) -> float:
@@ -144,7 +152,7 @@ def old_text(text: str) -> Imported:
     notes = [left_out(force.split(",")[0]) for force in filter(None, forces)]
     speed, clockwise, _, unit = fields["s"][0].strip().split(",")[:4]
     signed = number(speed, -1.0 if clockwise == "true" else 1.0)
-    return gathered(found, bodies, OLD_UNITS.get(unit, "cm"), signed, notes)
+    return gathered(found, bodies, unit_of(unit, OLD_UNITS, notes), signed, notes)
 
 
 def gathered(

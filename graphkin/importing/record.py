@@ -111,6 +111,13 @@ def named(text: str) -> str:
     return shown[:LONGEST_NAME]
 
 
+def unknown_unit(name: str, unit: str) -> Message:
+    """The note on a unit of length that a file has and nobody knows."""
+    return message(
+        "unit {name} is unknown; lengths are taken in {unit}", name=named(name), unit=unit
+    )
+
+
 def few(count: int) -> None:
     """Raise SceneError for more joints or links than are read."""
     if count > MOST:

@@ -441,3 +441,10 @@ def test_a_fault_in_a_file_of_linkage_is_told_with_its_part(part, other, found, 
     assert result.exit_code == 2
     assert found in result.stderr
     assert str(path) in result.stderr
+
+
+def test_a_unit_that_is_none_is_told():
+    found = imported(changed(LINKS["inverted-slider-crank"], (".K,0.1011", ".K,0.7011")))
+    assert found.unit == "cm"
+    assert "unit 7 is unknown; lengths are taken in cm" in found.notes
+    assert not imported(LINKS["inverted-slider-crank"]).notes
