@@ -15,6 +15,7 @@ from pathlib import Path
 import pytest
 from click.testing import CliRunner
 
+from graphkin.cli.export_command import export
 from graphkin.cli.main import app
 from graphkin.mechanism import Mechanism, load
 from graphkin.motion.driving import stated_motion
@@ -136,6 +137,11 @@ def by_c(formula: Formula, cases: Sequence[Case], tmp: Path) -> list[dict[str, f
 
 
 RUNS = {"python": by_python, "javascript": by_javascript, "c": by_c}
+
+
+def test_the_command_offers_every_language() -> None:
+    (choice,) = (each.type for each in export.params if each.name == "language")
+    assert list(choice.choices) == list(LANGUAGES)
 
 
 def test_every_language_is_run() -> None:
