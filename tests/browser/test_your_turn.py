@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import random
 from pathlib import Path
 from typing import Any
@@ -461,6 +462,30 @@ def test_nothing_scrolls_sideways_on_a_phone(opened: Opened, tmp_path: Path, lan
         page.evaluate("document.querySelector('[data-action=cut]').click()")
         assert page.evaluate(WIDER) == []
         page.locator("#turn-end").click()
+
+
+NO_ROOM = """new Promise(done => {
+  for (const svg of document.querySelectorAll(".sheet svg"))
+    for (const side of ["width", "height", "min-width", "min-height"])
+      svg.style.setProperty(side, "0", "important");
+  dispatchEvent(new Event("resize"));
+  requestAnimationFrame(() => requestAnimationFrame(done));
+})"""
+BOXES = """[...document.querySelectorAll(".sheet svg")].map(
+  svg => [svg.clientWidth, svg.clientHeight, svg.getAttribute("viewBox")])"""
+
+
+def test_a_field_without_any_room_has_a_box_all_the_same(opened: Opened, tmp_path: Path):
+    """While a window is resized a field may have no size for a moment."""
+    path = tmp_path / "pump.html"
+    path.write_text(step_page(load("pump"), "en"), encoding="utf-8")
+    page = opened(path, "#step=42", **DESKTOP)
+    page.evaluate(NO_ROOM)
+    fields = page.evaluate(BOXES)
+    assert fields
+    for width, height, box in fields:
+        assert (width, height) == (0, 0)
+        assert all(math.isfinite(float(part)) for part in box.split())
 
 
 def test_a_plan_that_the_page_draws_is_said_to_be_given(opened: Opened, tmp_path: Path):

@@ -202,9 +202,9 @@ function about(found, base, air = AIR) {
   return [...starts, ...sizes];
 }
 
-/** The part of a field around a box, in the shape of its picture and within the field. */
+/** The part of a field around a box, in the shape of its picture and within the field; all of it without a box or a picture. */
 function closer([across, high], whole, found) {
-  if (!found) return whole;
+  if (!found || !across || !high) return whole;
   const shape = across / high;
   const needed = Math.max(found[2] + 2 * EDGE, LEAST, (found[3] + 2 * EDGE) * shape);
   const width = Math.min(needed, Math.max(whole[2], whole[3] * shape));
