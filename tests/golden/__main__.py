@@ -7,8 +7,8 @@ from concurrent.futures import ProcessPoolExecutor
 from functools import partial
 from pathlib import Path
 
-from tests.golden.kept import differences, kept, read, write
-from tests.golden.works import Files, outputs, works
+from tests.golden.kept import Items, differences, kept, stored_of, write
+from tests.golden.works import outputs, works
 
 
 def main() -> int:
@@ -25,8 +25,11 @@ def main() -> int:
     chosen = options.only or list(works())
     with ProcessPoolExecutor(options.n) as pool:
         for subject, fresh in zip(chosen, pool.map(partial(made, options.o), chosen), strict=True):
-            for line in differences(read(subject), fresh):
-                print(f"{subject}: {line}", flush=True)
+            before = Items()
+            for work in works()[subject]:
+                before |= stored_of(subject, work)
+            for line in differences(before, fresh):
+                print(line, flush=True)
                 count += 1
             if not options.check:
                 write(subject, fresh)
@@ -34,16 +37,17 @@ def main() -> int:
     return int(options.check and count > 0)
 
 
-def made(folder: Path | None, subject: str) -> dict[str, str]:
+def made(folder: Path | None, subject: str) -> Items:
     """What is kept of a subject; its outputs go into a folder of its own."""
-    files: Files = {}
+    found = Items()
     for work in works()[subject]:
-        files |= outputs(subject, work)
-    for name, data in files.items() if folder else ():
-        path = folder / subject / name
-        path.parent.mkdir(parents=True, exist_ok=True)
-        path.write_bytes(data)
-    return kept(files)
+        files = outputs(subject, work)
+        for name, data in files.items() if folder else ():
+            path = folder / subject / work / name
+            path.parent.mkdir(parents=True, exist_ok=True)
+            path.write_bytes(data)
+        found |= kept(subject, work, files)
+    return found
 
 
 if __name__ == "__main__":

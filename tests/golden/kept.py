@@ -1,26 +1,35 @@
-"""What is kept of an output, and whether another is still the same.
+"""What is kept of an output, and whether another output is still the same.
 
-Of what is drawn a hash. Machines of one kind may differ in the last bit of a sine, so doubles are
-rounded first, and what measures rounding itself (the witness's largest difference) is left out. Of
-a PDF it is what its pages draw, in the letters that its codes stand for: how it is compressed and
-its faces are numbered is up to zlib and reportlab. Words and tables are kept as they are, doubles
-to ten digits, and compared number by number, so that no edge of rounding can turn one over.
+All that a work draws has one hash, a line of ``kept/drawn.txt``. Machines of one kind may differ in
+the last bit of a sine: doubles are rounded before hashing, and the witness's largest difference,
+which measures rounding, is left out. A PDF is hashed by what its pages draw, in the letters that
+its codes stand for: zlib and reportlab decide how it is compressed and how its faces are numbered.
+
+Words and tables are kept as printed, with doubles to ten digits, in a file for each command. They
+are compared number by number, so that no edge of rounding matters.
 """
 
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator
+from functools import cache
 from hashlib import sha256
 from io import BytesIO
-from itertools import zip_longest
+from itertools import groupby, zip_longest
 from pathlib import Path
 
 from pypdf import PageObject, PdfReader
 
-from tests.golden.works import Files
+from tests.golden.works import SCENES, Files, works
 
 STORE = Path(__file__).with_name("kept")
+HEAD = "──── "
+"""The line above what a work prints."""
+DRAWN = (".pdf", ".svg", ".html", "manifest.json", "tolerances.csv")
+"""What is kept as a hash."""
+Items = dict[tuple[str, str], str]
+"""What is kept, by the name of its file and by the work that gives it."""
 OWN = (
     (r"largest difference [^\s,]+( at [^\s,]+)?", "largest difference …"),
     (r'"largest_difference": \S+\s+"quantity": ".*"', '"largest_difference": …'),
@@ -41,24 +50,33 @@ FAR = 1e12
 """What is farther is at infinity."""
 
 
-def kept(files: Files) -> dict[str, str]:
-    """What is kept of outputs, by name: one line, a hash; or words, all their lines ended."""
-    found = {}
+def kept(subject: str, work: str, files: Files) -> Items:
+    """What is kept of a work: one hash of what it draws, and the lines of what it prints."""
+    item, found, drawn = f"{subject}: {work}", Items(), []
     for name, data in sorted(files.items()):
-        if name.endswith(".pdf"):
-            found[name] = hashed(pdf_text(data))
-        elif name.endswith((".svg", "manifest.json")):
-            found[name] = hashed(data.decode())
-        elif name.endswith(".html"):
-            found[name] = hashed(rounded(data.decode(), 8, NEAR))
-        elif name.endswith("tolerances.csv"):  # too long to be kept: a hash for each student
-            for who in sorted(set(re.findall(r"^s\d+,", text := data.decode(), re.MULTILINE))):
-                rows = [row for row in text.splitlines() if row.startswith(who)]
-                found[f"{name} {who[:-1]}"] = hashed("\n".join(rows))
+        if name.endswith(DRAWN):
+            drawn.append(f"{name}  {hashed(text_of(name, data))}")
         else:
             text = without_own(data.decode("utf-8-sig").replace("\r\n", "\n"))
-            found[name] = rounded(text, 10, NOUGHT).rstrip("\n") + "\n"
+            lines = rounded(text, 10, NOUGHT).rstrip("\n") + "\n"
+            found[home(subject, work), item if name == "said" else f"{item} / {name}"] = lines
+    if drawn:
+        found["drawn", item] = hashed("\n".join(drawn))
     return found
+
+
+def home(subject: str, work: str) -> str:
+    """The name of the file that keeps what a work prints."""
+    if subject in SCENES:
+        return "-".join(re.findall(r"\w+", work)[:2])
+    return "mistakes" if subject == "mistakes" else subject.partition("-")[0]
+
+
+def text_of(name: str, data: bytes) -> str:
+    """The text of a drawn file that is hashed."""
+    if name.endswith(".pdf"):
+        return pdf_text(data)
+    return rounded(data.decode(), 8, NEAR) if name.endswith(".html") else data.decode()
 
 
 def hashed(text: str) -> str:
@@ -110,13 +128,13 @@ def drawn(page: PageObject) -> str:
     return LETTERS.sub(lettered, page["/Contents"].get_data().decode("latin-1"))
 
 
-def differences(stored: Mapping[str, str], fresh: Mapping[str, str]) -> Iterator[str]:
+def differences(stored: Items, fresh: Items) -> Iterator[str]:
     """A line for each item that is not as it is stored."""
-    for name in sorted({*stored, *fresh}):
-        if name not in fresh or name not in stored:
-            yield f"{name}: {'is no longer made' if name in stored else 'is new'}"
-        elif change := changed(stored[name], fresh[name]):
-            yield f"{name}: {change}"
+    for key in sorted({*stored, *fresh}):
+        if key not in fresh or key not in stored:
+            yield f"{key[1]}: {'is no longer made' if key in stored else 'is new'}"
+        elif change := changed(stored[key], fresh[key]):
+            yield f"{key[1]}: {change}"
 
 
 def changed(stored: str, fresh: str) -> str:
@@ -143,24 +161,43 @@ def near(a: str, b: str) -> bool:
     return min(abs(x), abs(y)) > FAR or abs(x - y) <= NEAR * abs(x) + NOUGHT
 
 
-def read(subject: str) -> dict[str, str]:
-    """What is stored of a subject, by item."""
-    path = STORE / f"{subject}.txt"
-    lines, *words = (path.read_text(encoding="utf-8") if path.exists() else "").split("\f\n")
-    hashes = {
-        name: code for name, _, code in (line.rpartition("  ") for line in lines.splitlines())
-    }
-    return hashes | {name: text for name, _, text in (part.partition("\n") for part in words)}
+@cache
+def stored() -> Items:
+    """Everything that is stored."""
+    found = Items()
+    for path in sorted(STORE.glob("*.txt")):
+        text = path.read_text(encoding="utf-8")
+        if path.stem == "drawn":
+            lines = (line.rpartition("  ") for line in text.splitlines())
+            found |= {("drawn", item): code for item, _, code in lines}
+        else:
+            _, *parts = re.split(f"^{HEAD}(.*)\n", text, flags=re.MULTILINE)
+            found |= {
+                (path.stem, item): lines
+                for item, lines in zip(parts[::2], parts[1::2], strict=True)
+            }
+    return found
 
 
-def write(subject: str, fresh: Mapping[str, str]) -> None:
+def stored_of(subject: str, work: str) -> Items:
+    """What is stored of a work."""
+    item = f"{subject}: {work}"
+    return {key: text for key, text in stored().items() if key[1].partition(" / ")[0] == item}
+
+
+def write(subject: str, fresh: Items) -> None:
     """Store what is kept of a subject; what is still the same stays as it was written."""
-    before = read(subject)
-    items = {
-        name: text if changed(before.get(name, ""), text) else before[name]
-        for name, text in sorted(fresh.items())
-    }
-    text = "".join(f"{name}  {text}\n" for name, text in items.items() if "\n" not in text)
-    text += "".join(f"\f\n{name}\n{text}" for name, text in items.items() if "\n" in text)
+    before, known = stored(), works().keys() - {subject}
+    items = {key: text for key, text in before.items() if key[1].partition(": ")[0] in known}
+    for key, text in fresh.items():
+        items[key] = text if changed(before.get(key, ""), text) else before[key]
     STORE.mkdir(exist_ok=True)
-    (STORE / f"{subject}.txt").write_text(text, encoding="utf-8")
+    for path in STORE.glob("*.txt"):
+        path.unlink()
+    for name, group in groupby(sorted(items.items()), lambda each: each[0][0]):
+        text = "".join(
+            f"{item}  {text}\n" if name == "drawn" else f"{HEAD}{item}\n{text}"
+            for (_, item), text in group
+        )
+        (STORE / f"{name}.txt").write_text(text, encoding="utf-8")
+    stored.cache_clear()

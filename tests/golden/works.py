@@ -81,7 +81,7 @@ def small(stem: str) -> str:
 
 
 def outputs(subject: str, work: str) -> Files:
-    """Everything that comes of a work, by the work's name and the file's."""
+    """The files that a work writes, by name; what it prints has the name "said"."""
     with TemporaryDirectory() as name:
         if subject in SCENES:
             said, files = ran(SCENES[subject], work, Path(name))
@@ -92,9 +92,8 @@ def outputs(subject: str, work: str) -> Files:
             said, files = ran(str(scene), command, Path(name) / "sheets")
         else:
             said, files = (graded if work == "grade" else printed)(subject, Path(name))
-    return {f"{work} {name}": data for name, data in files.items()} | (
-        {work: said.replace(f"{name}/", "").replace(f"{ROOT}/", "").encode()} if said else {}
-    )
+    said = said.replace(f"{name}/", "").replace(f"{ROOT}/", "")
+    return files | ({"said": said.encode()} if said else {})
 
 
 def small_text(subject: str, stem: str) -> str:
