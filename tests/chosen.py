@@ -6,7 +6,11 @@
 from __future__ import annotations
 
 import os
+from collections.abc import Iterable
 from pathlib import Path
+from zlib import crc32
+
+from graphkin.text import LANGUAGES
 
 FOLDER = Path(__file__).resolve().parents[1] / "examples" / "scenes"
 SCENES = tuple(sorted(path.stem for path in FOLDER.glob("*.toml")))
@@ -42,9 +46,26 @@ CHOSEN = (
     )
 )
 """Those of them that have every action, driver and question that any has."""
-HALVES = (CHOSEN, CHOSEN) if EVERY else (CHOSEN[::2], CHOSEN[1::2])
-"""Every other one, and the rest: what takes long looks at one half, another test at the other."""
 SPOKEN = ("ro", "en", "it") if EVERY else ("ro",)
 """The languages in which a page is looked at that differs in its words alone."""
 STUDENTS = range(1, 31) if EVERY else (7, 29)
 """The variants of a lab."""
+
+
+def number_of(name: str) -> int:
+    """A number of a name alone, so that a new scene moves no other into a share or out of it."""
+    return crc32(name.encode())
+
+
+def shared(names: Iterable[str], parts: int, part: int = 0) -> tuple[str, ...]:
+    """One of some parts of the names, by their own numbers; all with ``EVERY=1``."""
+    return tuple(name for name in names if EVERY or number_of(name) % parts == part)
+
+
+def spoken_by(name: str) -> tuple[str, ...]:
+    """The language in which a scene is looked at, by its number; all with ``EVERY=1``."""
+    return LANGUAGES if EVERY else (LANGUAGES[number_of(name) % len(LANGUAGES)],)
+
+
+HALVES = shared(CHOSEN, 2, 0), shared(CHOSEN, 2, 1)
+"""Two halves: what takes long looks at one of them, another test at the other."""

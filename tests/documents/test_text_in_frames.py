@@ -1,4 +1,4 @@
-"""In every language and view no text leaves its frame, its cell or its page, as a PDF shows it.
+"""In every view no text leaves its frame, its cell or its page, as a PDF shows it.
 
 The boxes of the letters are those that another program reads from the file, not the widths by which
 the pages were laid out.
@@ -20,10 +20,10 @@ from graphkin.documents.calculation import calculation
 from graphkin.documents.sheet_documents import CALCULATED, drawn_sheets
 from graphkin.drawing.field import A3_AREA, A4_FRAME, A4_SIZE
 from graphkin.drawing.marks import LineMark, Mark, Page, Polyline, Text
-from graphkin.text import LANGUAGES, words
+from graphkin.text import words
 from graphkin.writers.pdf import write_pdf
-from tests.chosen import CHOSEN, EVERY
-from tests.documents.sheet_tools import drawings, kind_of, named, texts
+from tests.chosen import CHOSEN, EVERY, spoken_by
+from tests.documents.sheet_tools import drawings, kind_of, texts
 from tests.mechanisms import SHIPPED
 
 LABS = SHIPPED if EVERY else ("pump",)
@@ -118,8 +118,10 @@ def faults(pages: Sequence[Page]) -> Iterator[str]:
             yield f"{page.title}: “{words_}” ({place})"
 
 
-@pytest.mark.parametrize("language", LANGUAGES)
-@pytest.mark.parametrize("which", WHICH, ids=named)
-def test_no_text_leaves_its_frame_its_cell_or_its_page(which, language):
-    found = [*faults([*pages_of(*which, language)])]
+@pytest.mark.parametrize(
+    ("name", "n", "language"),
+    [(name, n, language) for name, n in WHICH for language in spoken_by(name)],
+)
+def test_no_text_leaves_its_frame_its_cell_or_its_page(name, n, language):
+    found = [*faults([*pages_of(name, n, language)])]
     assert not found, "\n".join(found)

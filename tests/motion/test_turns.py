@@ -40,6 +40,12 @@ def scene(name: str) -> Mechanism:
     return load(ROLLING[name])
 
 
+@cache
+def swept(name: str) -> Cycle:
+    """A few places of the motion, which every law here looks at."""
+    return cycle(scene(name), steps=FEW)
+
+
 def planet(turns: float = 0.0, start: float = 0.0) -> Mechanism:
     """The planet on the drag link, its arm counted from a start and gone round so often more."""
     rolls = f"rolls = {{ on = 0, start = {{ 3 = {start} }}, turns = {{ 3 = {turns} }} }}"
@@ -82,7 +88,7 @@ def steps_of(found: Cycle):
 
 @pytest.mark.parametrize("name", [name for name in ROLLING if EVERY or name in {*OWN, *CHOSEN}])
 def test_no_point_moves_farther_than_its_speed_allows(name):
-    few = cycle(scene(name), steps=FEW)
+    few = swept(name)
     many = few.along(np.unique([*few.at, *(few.at[1:] + few.at[:-1]) / 2]))
     found = steps_of(few), steps_of(many)
     assert max(over / largest for largest, over in found) < 1e-3
@@ -92,7 +98,7 @@ def test_no_point_moves_farther_than_its_speed_allows(name):
 
 @pytest.mark.parametrize("name", [name for name in OWN if not name.startswith("gear-drives")])
 def test_the_witness_agrees_in_every_row(name):
-    assert cycle(scene(name), steps=90).witnessed.agrees.all()
+    assert swept(name).witnessed.agrees.all()
 
 
 def test_a_planet_on_a_drag_link_stands_as_willis_says_through_three_turns():
@@ -157,7 +163,7 @@ def test_the_arm_beyond_half_a_turn_is_followed_by_range_and_moving_page():
     ],
 )
 def test_a_mechanism_comes_back_after_as_many_turns_as_its_wheels_need(name, links, turns):
-    path = cycle(scene(name), steps=4).path
+    path = swept(name).path
     assert path.whole
     assert path.returns
     assert strangers(path) == links
