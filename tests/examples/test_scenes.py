@@ -7,7 +7,7 @@ from msgspec.structs import asdict
 
 from graphkin.construction.core.solution import FAIR
 from graphkin.scene.model import FRAME
-from tests.chosen import CHOSEN
+from tests.chosen import CHOSEN, shared
 from tests.examples.scenes import FILES, mechanism, motion
 
 
@@ -23,7 +23,7 @@ def test_a_scene_is_solved_and_the_witness_agrees(name: str) -> None:
     assert motion(name).margin > 0.05  # no crossing that a ruler would miss
 
 
-@pytest.mark.parametrize("name", FILES)
+@pytest.mark.parametrize("name", shared(FILES, 3))
 def test_a_scene_closes_at_the_ends_of_its_parameters(name: str) -> None:
     for setting in ends(name):
         assert motion(name, **setting).margin > FAIR, setting

@@ -7,6 +7,7 @@ from msgspec.structs import replace
 
 from graphkin.mechanism import Mechanism
 from graphkin.scene.model import Closure
+from tests.chosen import shared
 from tests.examples.scenes import FILES, mechanism
 
 KINDS = ("position", "velocity", "acceleration")
@@ -33,7 +34,7 @@ def values(solution, kind):
     return [{key: getattr(each, what) for key, each in some.items()} for some, what in every]
 
 
-@pytest.mark.parametrize("name", FILES)
+@pytest.mark.parametrize("name", shared(FILES, 2))
 def test_links_and_drivers_in_another_order_move_alike(name):
     scene = mechanism(name).scene
     expected, found = (Mechanism(each).solve() for each in (scene, shuffled(scene, len(name))))

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from functools import cache
 from itertools import pairwise
 
 import numpy as np
@@ -101,6 +102,12 @@ def scene_of(name: str) -> str:
     return f"tests/motion/scenes/{name}.toml"
 
 
+@cache
+def turned(name: str):
+    """A whole turn of a scene."""
+    return cycle(load(scene_of(name)), steps=90)
+
+
 def leaps(found, per_unit: float) -> float:
     """The largest way from row to row that no mean of the two velocities explains, in parts of the
     largest way."""
@@ -124,10 +131,10 @@ def alike(both, alone, points: str, rows=slice(None)) -> None:
 
 
 def test_two_groups_on_one_crank_move_as_each_does_alone():
-    both = cycle(load(scene_of("two-triads-one-crank")), steps=90)
+    both = turned("two-triads-one-crank")
     assert both.path.whole and both.path.returns
     for name, points in (("two-triads-first", "A"), ("two-triads-second", "B")):
-        alike(both, cycle(load(scene_of(name)), steps=90), points)
+        alike(both, turned(name), points)
 
 
 def test_two_groups_on_two_cranks_move_as_each_does_alone():
@@ -141,7 +148,7 @@ def test_two_groups_on_two_cranks_move_as_each_does_alone():
 
 @pytest.mark.parametrize("name", ["two-triads-one-crank", "triad-moves-triad"])
 def test_no_group_leaps_from_row_to_row(name):
-    found = cycle(load(scene_of(name)), steps=360)
+    found = turned(name)
     assert found.path.whole and found.path.returns
     assert leaps(found, np.radians(1) / 2.0) < 0.01
 

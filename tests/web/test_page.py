@@ -37,7 +37,7 @@ from graphkin.web.protocol import (
 from graphkin.web.screen_sheets import ScreenSheet, screen_sheets
 from graphkin.web.step_page import step_page, task_page
 from graphkin.writers.svg import number
-from tests.chosen import CHOSEN, SCENES
+from tests.chosen import CHOSEN, SCENES, shared
 from tests.documents.sheet_tools import mechanism_named
 
 LABS = ("pump", "offset-slider-crank", "slotted-lever")
@@ -147,7 +147,7 @@ def test_the_run_tells_every_step_of_every_sentence_of_every_sheet_once(name):
     assert told.bounds(len(sheets_of(name)) - 1)[1] == len(told.said)
 
 
-@pytest.mark.parametrize("name", [*LABS, "pump-collinear", *CHOSEN])
+@pytest.mark.parametrize("name", [*LABS, "pump-collinear", *shared(CHOSEN, 3)])
 def test_a_step_draws_three_strokes_at_most(name):
     for sheet in sheets_of(name):
         own, _, timed = in_parts(sheet)
