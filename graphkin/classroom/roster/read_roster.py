@@ -214,9 +214,9 @@ class RosterReading(Struct, frozen=True):
         other = self.first.setdefault(own.casefold(), one)
         if own and other is not one:
             found = message(
-                "{id} stands in row {row} already"
+                "{id} is in row {row} already"
                 if other.id == own
-                else "{id}, written {other}, stands in row {row} already",
+                else "{id}, written {other}, is in row {row} already",
                 id=shown(own),
                 other=shown(other.id),
                 row=other.row,
