@@ -54,7 +54,8 @@ def linkage_text(text: str) -> Imported:
         own = each.attrib["id"]
         if own in joints:
             raise refused(message("two connectors have the id {name}", name=named(own)))
-        joints[own] = DrawnJoint(f"P{own}", place_of(each, factor), is_set(each, "anchor"))
+        name = each.get("name") or f"P{own}"
+        joints[own] = DrawnJoint(name, place_of(each, factor), is_set(each, "anchor"))
     if not any(joint.fixed for joint in joints.values()):
         raise refused(message("no connector is an anchor"), message("at least one anchor"))
     bodies: dict[str, DrawnLink] = {}

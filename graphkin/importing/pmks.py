@@ -21,6 +21,7 @@ from graphkin.documents.pmks_file import (
     INPUT,
     LETTER_OF_LENGTH,
     PRISMATIC,
+    PROGRAM,
     THOUSANDTH,
 )
 from graphkin.importing.record import (
@@ -38,7 +39,6 @@ from graphkin.importing.record import (
 )
 from graphkin.text.errors import Message, message
 
-PROGRAM = "PMKS+"
 UNITS = {"0": "in", "1": "cm", "2": "m"}
 OLD_UNITS = {"cm": "cm", "m": "m", "in": "in", "inch": "in"}
 USUAL = "cm"
