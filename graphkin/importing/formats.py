@@ -51,6 +51,11 @@ def text_of(data: bytes) -> str:
     return text
 
 
+def is_drawing(text: str) -> bool:
+    """Whether a text is a drawing of GeoGebra or DXF, which does not say what is fixed."""
+    return bool(DXF.match(text)) or (text.lstrip().startswith("<") and "<geogebra" in text)
+
+
 def imported(text: str, tracing: Tracing = UNTRACED) -> Imported:
     """The mechanism in a text of any format. Raises SceneError with what is wrong.
 
