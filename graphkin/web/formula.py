@@ -171,6 +171,8 @@ def formula_of(mechanism: Mechanism) -> Formula:
     points, links = identifiers(solution.points), identifiers(solution.links)
     results = results_of(graph, solution, points, links)
     others = {made: owner for owner, made in [*points.items(), *links.items()] if made != owner}
+    used = {graph.nodes[number].name for number in graph.needed(results.values())}
+    arguments = [each for each in arguments if each.input in used]
     return Formula(name, scene.title, graph, arguments, results, others)
 
 

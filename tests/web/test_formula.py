@@ -17,6 +17,7 @@ from click.testing import CliRunner
 
 from graphkin.cli.export_command import export
 from graphkin.cli.main import app
+from graphkin.documents.program_files import PROGRAMS
 from graphkin.mechanism import Mechanism, load
 from graphkin.motion.driving import stated_motion
 from graphkin.motion.sweep import law_of_time
@@ -93,11 +94,13 @@ def places(mechanism: Mechanism) -> Case:
 def compared(name: str) -> tuple[Formula, list[Case], list[dict[str, float]]]:
     """The formula of a scene as written, arguments of other variants, and what ``solve`` gives."""
     variants = at_other_values(name)
-    cases = [
-        [*places(each), *(float(each.scene.values[name]) for name in each.scene.parameters)]
-        for each in variants
-    ]
-    return formula_of(variants[0]), cases, [motion_of(each) for each in variants]
+    formula = formula_of(variants[0])
+    taken = {each.name for each in formula.arguments}
+    cases = []
+    for each in variants:
+        given = [name for name in each.scene.parameters if f"p_{name}" in taken]
+        cases.append([*places(each), *(float(each.scene.values[name]) for name in given)])
+    return formula, cases, [motion_of(each) for each in variants]
 
 
 def by_python(formula: Formula, cases: Sequence[Case], _: Path) -> list[dict[str, float]]:
@@ -141,11 +144,21 @@ RUNS = {"python": by_python, "javascript": by_javascript, "c": by_c}
 
 def test_the_command_offers_every_language() -> None:
     (choice,) = (each.type for each in export.params if each.name == "language")
-    assert list(choice.choices) == list(LANGUAGES)
+    assert list(choice.choices) == [*LANGUAGES, *PROGRAMS]
 
 
 def test_every_language_is_run() -> None:
     assert set(RUNS) == set(LANGUAGES)
+
+
+@pytest.mark.parametrize("name", KINDS)
+def test_each_argument_changes_a_result(name: str, tmp_path: Path) -> None:
+    formula, (case, *_), _ = compared(name)
+    (before,) = by_python(formula, [case], tmp_path)
+    for place, value in enumerate(case):
+        other = [*case[:place], value * 1.0001 + 1e-4, *case[place + 1 :]]
+        (after,) = by_python(formula, [other], tmp_path)
+        assert after != before, formula.arguments[place].name
 
 
 @pytest.mark.parametrize("language", RUNS)
