@@ -14,6 +14,7 @@ from urllib.parse import urlencode
 from msgspec import Struct
 
 from graphkin import __version__
+from graphkin.scene import scene_files
 from graphkin.studio.guard import FRAMED, Guard, new_token
 from graphkin.studio.local_pages import JSON, KINDS, answer, answering, new_application
 from graphkin.studio.look import spoken_in
@@ -129,7 +130,13 @@ def manual_files() -> Mapping[str, bytes]:
     """The files of the manual by their names."""
     from graphkin.manual.site import site
 
-    return dict(site())
+    return dict(site(opening))
+
+
+def opening(name: str) -> str:
+    """The address that opens a shipped scene, as seen from the gallery of the manual."""
+    kind = "lab" if name in scene_files.names() else "example"
+    return f"../?{urlencode({kind: name})}"
 
 
 def manual_page(name: str) -> Any:
