@@ -60,12 +60,12 @@ def import_scene(
       graphkin import shared.pmks
       graphkin import engine.ggb --fixed O --drive O-A --slide B=0
     """
-    from graphkin.importing.figure import Tracing
+    from graphkin.importing.figure import Completion
     from graphkin.importing.formats import LINK, content, imported
     from graphkin.importing.scene_text import scene_text
     from graphkin.writers.files import write_apart
 
-    tracing = Tracing(words(fixed, ","), words(drive, "-"), guides(slides), unit or "")
+    tracing = Completion(words(fixed, ","), words(drive, "-"), guides(slides), unit or "")
     text = content(given)
     current().meta[READING] = given if LINK.match(given) is None else "the link"
     found = scene_text(imported(text, tracing))

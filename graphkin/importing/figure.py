@@ -34,7 +34,7 @@ NEAR = 1e-6
 """The distance between two points that are one, in parts of the drawing."""
 
 
-class Tracing(Struct, frozen=True):
+class Completion(Struct, frozen=True):
     """What a drawing does not say: names of fixed points, and of two points of the driven bar.
 
     ``slides`` gives each sliding point the direction of its fixed guide, in degrees. ``unit`` is
@@ -47,7 +47,7 @@ class Tracing(Struct, frozen=True):
     unit: str = ""
 
 
-class Figure(Struct, frozen=True):
+class BarFigure(Struct, frozen=True):
     """Points by name, and bars or plates by the names of their points. ``unit`` may be empty."""
 
     program: str
@@ -57,7 +57,7 @@ class Figure(Struct, frozen=True):
     notes: tuple[Message, ...] = ()
 
 
-def traced(figure: Figure, tracing: Tracing) -> Imported:
+def traced(figure: BarFigure, tracing: Completion) -> Imported:
     """The mechanism of a drawing. Raises SceneError for nothing fixed or unknown names."""
     bars = [*reached(with_points_between(figure), tracing.fixed)]
     used = [point for point in figure.points if any(point in bar for bar in bars)]
@@ -101,7 +101,7 @@ def traced(figure: Figure, tracing: Tracing) -> Imported:
     )
 
 
-def placed(figure: Figure, points: Iterable[str]) -> Message:
+def placed(figure: BarFigure, points: Iterable[str]) -> Message:
     """The names of points with their places."""
     each = (
         message(
@@ -115,7 +115,7 @@ def placed(figure: Figure, points: Iterable[str]) -> Message:
     return joined(", ", [*islice(each, MOST_NAMED)])
 
 
-def driven(links: Iterable[tuple[str, ...]], tracing: Tracing) -> Iterator[DrawnInput]:
+def driven(links: Iterable[tuple[str, ...]], tracing: Completion) -> Iterator[DrawnInput]:
     """The input of the bar with the two named points, about its fixed one."""
     if not tracing.drive:
         return
@@ -142,7 +142,7 @@ def reached(bars: Iterable[frozenset[str]], fixed: tuple[str, ...]) -> list[froz
     return found
 
 
-def with_points_between(figure: Figure) -> Iterator[frozenset[str]]:
+def with_points_between(figure: BarFigure) -> Iterator[frozenset[str]]:
     """The points of each bar, with those drawn on it between its ends."""
     extent = max((abs(place) for place in figure.points.values()), default=1.0)
     for bar in figure.bars:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import re
 
-from graphkin.importing.figure import Tracing
+from graphkin.importing.figure import Completion
 from graphkin.importing.record import Imported, damaged, refused
 from graphkin.scene.file_limits import LARGEST, file_bytes
 from graphkin.text.errors import message
@@ -15,7 +15,7 @@ DXF = re.compile(r"\s*(0\s*\n\s*SECTION|999\s*\n)|AutoCAD Binary DXF")
 ARCHIVE = b"PK\x03\x04"
 LARGEST_DRAWING = 2 << 20
 """The most bytes of a GeoGebra or DXF file."""
-UNTRACED = Tracing()
+UNTRACED = Completion()
 PMKS = re.compile(r"[\w-]{2}\.[\w,-]*\.[\w,-]*\.[\w-]*\.")
 
 
@@ -56,7 +56,7 @@ def is_drawing(text: str) -> bool:
     return bool(DXF.match(text)) or (text.lstrip().startswith("<") and "<geogebra" in text)
 
 
-def imported(text: str, tracing: Tracing = UNTRACED) -> Imported:
+def imported(text: str, tracing: Completion = UNTRACED) -> Imported:
     """The mechanism in a text of any format. Raises SceneError with what is wrong.
 
     ``tracing`` says of a drawing which points are fixed; other formats say it themselves.
@@ -69,7 +69,7 @@ def imported(text: str, tracing: Tracing = UNTRACED) -> Imported:
 
             return traced(geogebra_figure(text), tracing)
         if DXF.match(text):
-            from graphkin.importing.dxf import dxf_figure
+            from graphkin.importing.dxf_drawing import dxf_figure
             from graphkin.importing.figure import traced
 
             return traced(dxf_figure(text), tracing)

@@ -11,7 +11,7 @@ from collections.abc import Iterator
 from xml.etree.ElementTree import Element
 from zipfile import BadZipFile, ZipFile
 
-from graphkin.importing.figure import Figure
+from graphkin.importing.figure import BarFigure
 from graphkin.importing.record import few, named, number, refused, safe_xml
 from graphkin.text.errors import Message, joined, message
 
@@ -38,7 +38,7 @@ def unpacked(data: bytes) -> str:
     return found.decode("utf-8", "replace")
 
 
-def geogebra_figure(text: str) -> Figure:
+def geogebra_figure(text: str) -> BarFigure:
     """The drawing in the XML of a file."""
     root = safe_xml(text, message("the whole file, as GeoGebra saves it"))
     construction = root.find("construction")
@@ -73,7 +73,7 @@ def geogebra_figure(text: str) -> Figure:
     if others:
         each = [message("{count} {kind}", count=n, kind=named(k)) for k, n in others.items()]
         notes.append(message("no links, and left out: {kinds}", kinds=joined(", ", each)))
-    return Figure(PROGRAM, points, tuple(bars), notes=tuple(notes))
+    return BarFigure(PROGRAM, points, tuple(bars), notes=tuple(notes))
 
 
 def places(elements: dict[str, Element]) -> Iterator[tuple[str, complex]]:

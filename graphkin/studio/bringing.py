@@ -10,7 +10,7 @@ from typing import Any
 
 from msgspec import Struct
 
-from graphkin.importing.figure import Tracing
+from graphkin.importing.figure import Completion
 from graphkin.importing.formats import content, imported, is_drawing, text_of
 from graphkin.importing.scene_text import scene_text
 from graphkin.scene.file_limits import LARGEST
@@ -29,7 +29,7 @@ class Brought(Struct, frozen=True):
     file: str
     name: str
     pasted: str
-    tracing: Tracing
+    tracing: Completion
 
     def text(self) -> str:
         """The text that is imported. Raises SceneError where there is none."""
@@ -61,10 +61,10 @@ def asks_more(order: Brought) -> bool:
         return False
 
 
-def tracing_of(fields: Mapping[str, str]) -> Tracing:
+def tracing_of(fields: Mapping[str, str]) -> Completion:
     """What the page says of a drawing: fixed points, the driven bar, and sliding points."""
     slides = (word.partition("=") for word in fields["slides"].replace(",", " ").split())
-    return Tracing(
+    return Completion(
         tuple(fields["fixed"].replace(",", " ").split()),
         tuple(part.strip() for part in fields["drive"].split("-") if part.strip()),
         {name: angle or "0" for name, _, angle in slides},

@@ -13,7 +13,7 @@ import pytest
 from click.testing import CliRunner
 
 from graphkin.cli.main import app
-from graphkin.importing.figure import Tracing
+from graphkin.importing.figure import Completion
 from graphkin.importing.formats import imported, text_of
 from graphkin.importing.scene_text import scene_text
 from graphkin.mechanism import Mechanism
@@ -23,7 +23,7 @@ from graphkin.text.errors import GraphkinError
 AT = {"A": 0j, "B": 20 + 30j, "C": 90 + 60j, "D": 100 + 0j, "P": 40 + 80j}
 OMEGA = 2 * pi
 STEP = 1e-6
-FOUR_BAR = Tracing(fixed=("A", "D"), drive=("A", "B"))
+FOUR_BAR = Completion(fixed=("A", "D"), drive=("A", "B"))
 
 
 def point(name: str, place: complex, **show: str) -> str:
@@ -78,7 +78,7 @@ def dxf(*lines: tuple[complex, complex], names: bool = True, unit: int = 4) -> s
 LINES = tuple((AT[one], AT[other]) for one, other in ("AB", "BC", "CP", "PB", "CD"))
 
 
-def opened(data: bytes | str, tracing: Tracing) -> Mechanism:
+def opened(data: bytes | str, tracing: Completion) -> Mechanism:
     data = data.encode() if isinstance(data, str) else data
     return Mechanism(read_text(scene_text(imported(text_of(data), tracing)).text, "imported"))
 
@@ -112,7 +112,7 @@ def test_a_drawn_slider_crank_has_its_guide_from_the_words():
     at = {"O": 0j, "A": 30 + 40j, "B": 150 - 10j}
     parts = [point(name, place) for name, place in at.items()]
     parts += [command("Segment", name.lower(), *name) for name in ("OA", "AB", "OB")]
-    tracing = Tracing(("O",), ("O", "A"), {"B": "0"}, "cm")
+    tracing = Completion(("O",), ("O", "A"), {"B": "0"}, "cm")
     solved = opened(geogebra(*parts), tracing).solve()
 
     def slider(time: float) -> float:
@@ -161,10 +161,10 @@ def test_what_is_hidden_is_no_bar_and_what_is_none_is_named():
 @pytest.mark.parametrize(
     ("tracing", "words"),
     [
-        (Tracing(), "does not say which points are fixed.*A .0, 0., B .20, 30."),
-        (Tracing(("A", "Z")), "no bar has a point Z"),
-        (Tracing(("A", "D"), ("B", "C")), "B-C is no bar with a fixed end"),
-        (Tracing(("A", "D"), slides={"A": "0"}), "both be fixed and slide"),
+        (Completion(), "does not say which points are fixed.*A .0, 0., B .20, 30."),
+        (Completion(("A", "Z")), "no bar has a point Z"),
+        (Completion(("A", "D"), ("B", "C")), "B-C is no bar with a fixed end"),
+        (Completion(("A", "D"), slides={"A": "0"}), "both be fixed and slide"),
     ],
 )
 def test_what_a_drawing_lacks_is_asked_for(tracing, words):
@@ -193,7 +193,7 @@ def test_archives_that_are_none_or_too_large_are_refused():
         *(command("Segment", f"s{n}", f"P{n}", f"P{n + 1}") for n in range(201)),
     )
     with pytest.raises(GraphkinError, match="200"):
-        imported(text_of(many), Tracing(("P0",)))
+        imported(text_of(many), Completion(("P0",)))
 
 
 @pytest.mark.parametrize("cut", range(60, len(dxf(*LINES)), 97))

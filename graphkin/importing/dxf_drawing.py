@@ -11,7 +11,7 @@ from collections.abc import Iterator
 from itertools import islice, pairwise
 from typing import Any
 
-from graphkin.importing.figure import NEAR, Figure
+from graphkin.importing.figure import NEAR, BarFigure
 from graphkin.importing.record import named, number, refused
 from graphkin.text.errors import Message, Problem, SceneError, joined, message
 
@@ -25,7 +25,7 @@ FARTHEST_NAME = 4.0
 BINARY = "AutoCAD Binary DXF"
 
 
-def dxf_figure(text: str) -> Figure:
+def dxf_figure(text: str) -> BarFigure:
     """The drawing of a text file. Raises SceneError where ezdxf is missing or cannot read it."""
     if text.startswith(BINARY):
         raise refused(message("the file is a binary DXF"), message("a DXF file saved as text"))
@@ -59,7 +59,7 @@ class DrawingReader:
         self.near = NEAR * max(map(abs, every), default=1.0)
         self.places: list[complex] = []
 
-    def figure(self, unit: str) -> Figure:
+    def figure(self, unit: str) -> BarFigure:
         """The drawing with names of points."""
         bars = list[tuple[int, ...]]()
         for closed, way in self.ways:
@@ -75,7 +75,7 @@ class DrawingReader:
                 message("{count} {kind}", count=n, kind=named(k)) for k, n in self.others.items()
             ]
             notes.append(message("no links, and left out: {kinds}", kinds=joined(", ", each)))
-        return Figure(
+        return BarFigure(
             PROGRAM,
             {names[own]: place for own, place in enumerate(self.places)},
             tuple(tuple(names[own] for own in bar) for bar in bars if len({*bar}) > 1),
