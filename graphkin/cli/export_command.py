@@ -14,7 +14,7 @@ from graphkin.cli.options import force_option, mechanism_of, say, scene_argument
 @click.option(
     "--to",
     "language",
-    type=click.Choice(["python", "javascript", "c", "linkage", "pylinkage"]),
+    type=click.Choice(["python", "javascript", "c", "matlab", "excel", "linkage", "pylinkage"]),
     required=True,
     help="The language of the function, or the program that reads the file.",
 )
@@ -32,10 +32,11 @@ def export(
 ) -> None:
     """Write the motion as a function, or the mechanism for another program.
 
-    python, javascript, c: one function of the driver's coordinate and the parameters. It needs only
-    the standard library of its language. It gives positions, velocities and accelerations of all
-    points, and angular velocities and accelerations of all links, in SI units. With several drivers
-    it has the coordinate of each, and with a law of time it has the time.
+    python, javascript, c, matlab: one function of the driver's coordinate and the parameters. It
+    needs only the standard library of its language. It gives positions, velocities and
+    accelerations of all points, and angular velocities and accelerations of all links, in SI units.
+    With several drivers it has the coordinate of each, and with a law of time it has the time.
+    excel: the same as a workbook, which computes again when a value is changed.
 
     Mechanisms with groups of class III or higher, and those whose wheels are turned by pins alone,
     cannot be written as such a function.
@@ -48,14 +49,22 @@ def export(
     Examples:
       graphkin export pump --to python -o pump.py
       graphkin export crank.toml --to linkage -o crank.linkage2
-      graphkin export pump --to c -o pump.c
+      graphkin export pump --to excel -o pump.xlsx
     """
     from graphkin.documents.program_files import PROGRAMS
     from graphkin.writers.files import write_apart
 
+    if language == "excel" and file is None:
+        context = click.get_current_context()
+        raise click.UsageError("--to excel: a workbook is no text; write it with -o FILE", context)
     mechanism = mechanism_of(name, settings)
     if language in PROGRAMS:
         data = PROGRAMS[language](mechanism)
+    elif language == "excel":
+        from graphkin.web.formula import formula_of
+        from graphkin.web.formula_workbook import formula_workbook
+
+        data = formula_workbook(formula_of(mechanism))
     else:
         from graphkin.web.formula import LANGUAGES, formula_of
 
