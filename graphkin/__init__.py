@@ -10,7 +10,7 @@ if TYPE_CHECKING:
     from graphkin.mechanism import Mechanism, load
 
 __all__ = ["Mechanism", "load"]
-__version__ = "0.1.0"
+__version__ = "1.0.0"
 
 register(
     does_not_close="graphkin.diagnosis.assembly_failure:does_not_close",

@@ -11,6 +11,7 @@ from graphkin.cli.options import (
     FAILED,
     READING,
     FolderType,
+    class_argument,
     complain,
     current,
     folder_option,
@@ -35,11 +36,12 @@ if TYPE_CHECKING:
 @click.group(invoke_without_command=True)
 @click.pass_context
 def new(context: click.Context) -> None:
-    """Make a lab to start from.
+    """Make a lab to start from, or an empty table of answers.
 
     \b
-    Example:
+    Examples:
       graphkin new lab crank-lab
+      graphkin new answers crank-2026 -o answers.csv
     """
     if context.invoked_subcommand is None:
         click.echo(context.get_help())
@@ -85,6 +87,45 @@ def new_lab(name: str, folder: Path, scene: str | None, force: bool) -> None:
         leave(FAILED)
     else:
         tell(["", *notes_of(lab.proposed)])
+
+
+@new.command("answers")
+@class_argument
+@click.option(
+    "-o",
+    "--output",
+    metavar="FILE",
+    type=click.Path(path_type=Path),
+    help="The CSV file to write; without it, the table is printed.",
+)
+@force_option
+def new_answers(folder: Path, output: Path | None, force: bool) -> None:
+    """Make an empty table of a class's answers, to be filled in and marked.
+
+    DIR is the folder that graphkin variants wrote. The table has a row for each student and a
+    column for each field of the form. graphkin grade reads it.
+
+    \b
+    Example:
+      graphkin new answers crank-2026 -o answers.csv
+    """
+    from graphkin.classroom.grading.grading_files import csv_bytes
+    from graphkin.classroom.lab.items import items
+    from graphkin.classroom.printing.edition import read_edition
+    from graphkin.mechanism import Mechanism
+    from graphkin.scene.read_scene import read_text
+    from graphkin.writers.files import write_apart
+
+    opened = read_edition(folder)
+    mechanism = Mechanism(read_text(opened.scene, opened.lab.name))
+    fields = [item.field for item in items(mechanism, opened.lab)]
+    students = [taker.student for taker in opened.takers]
+    rows = ([student.id, student.name, *("" for _ in fields)] for student in students)
+    table = csv_bytes([["id", "name", *fields], *rows])
+    if output is None:
+        tell(table.decode("utf-8-sig").splitlines())
+    else:
+        tell([str(write_apart(output, table, folder, force))])
 
 
 @click.command()

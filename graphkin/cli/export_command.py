@@ -1,4 +1,4 @@
-"""The command that writes a mechanism as a function of another language: export."""
+"""The command that writes a mechanism for another language or another program: export."""
 
 from __future__ import annotations
 
@@ -14,9 +14,9 @@ from graphkin.cli.options import force_option, mechanism_of, say, scene_argument
 @click.option(
     "--to",
     "language",
-    type=click.Choice(["python", "javascript", "c"]),
+    type=click.Choice(["python", "javascript", "c", "matlab", "excel", "linkage", "pylinkage"]),
     required=True,
-    help="The language of the function.",
+    help="The language of the function, or the program that reads the file.",
 )
 @click.option(
     "-o",
@@ -24,31 +24,52 @@ from graphkin.cli.options import force_option, mechanism_of, say, scene_argument
     "file",
     metavar="FILE",
     type=click.Path(path_type=Path, dir_okay=False),
-    help="File to write; without it, the function is printed.",
+    help="File to write; without it, the text is printed.",
 )
 @force_option
 def export(
     name: str, settings: tuple[str, ...], language: str, file: Path | None, force: bool
 ) -> None:
-    """Write the motion as one function of the driver's coordinate and the parameters.
+    """Write the motion as a function, or the mechanism for another program.
 
-    The function needs only the standard library of its language. It gives positions, velocities and
+    python, javascript, c, matlab: one function of the driver's coordinate and the parameters. It
+    needs only the standard library of its language. It gives positions, velocities and
     accelerations of all points, and angular velocities and accelerations of all links, in SI units.
     With several drivers it has the coordinate of each, and with a law of time it has the time.
+    excel: the same as a workbook, which computes again when a value is changed.
 
     Mechanisms with groups of class III or higher, and those whose wheels are turned by pins alone,
-    cannot be written as one line of formulas.
+    cannot be written as such a function.
+
+    linkage, pylinkage: the mechanism in its position, as a .linkage2 file of Linkage, or as JSON of
+    pylinkage. What such a program does not have is refused. For PMKS+, use graphkin sheet --format
+    pmks.
 
     \b
     Examples:
       graphkin export pump --to python -o pump.py
-      graphkin export pump --to c -o pump.c
+      graphkin export crank.toml --to linkage -o crank.linkage2
+      graphkin export pump --to excel -o pump.xlsx
     """
-    from graphkin.web.formula import LANGUAGES, formula_of
+    from graphkin.documents.program_files import PROGRAMS
     from graphkin.writers.files import write_apart
 
-    source = LANGUAGES[language](formula_of(mechanism_of(name, settings)))
-    if file is None:
-        say(source.rstrip())
+    if language == "excel" and file is None:
+        context = click.get_current_context()
+        raise click.UsageError("--to excel: a workbook is no text; write it with -o FILE", context)
+    mechanism = mechanism_of(name, settings)
+    if language in PROGRAMS:
+        data = PROGRAMS[language](mechanism)
+    elif language == "excel":
+        from graphkin.web.formula import formula_of
+        from graphkin.web.formula_workbook import formula_workbook
+
+        data = formula_workbook(formula_of(mechanism))
     else:
-        tell([str(write_apart(file, source.encode(), name, force))])
+        from graphkin.web.formula import LANGUAGES, formula_of
+
+        data = LANGUAGES[language](formula_of(mechanism)).encode()
+    if file is None:
+        say(data.decode().rstrip())
+    else:
+        tell([str(write_apart(file, data, name, force))])

@@ -8,6 +8,8 @@ import click
 
 from graphkin.cli.options import READING, complain, current, force_option, tell
 
+UNITS = ("mm", "cm", "m", "in")
+
 
 @click.command("import")
 @click.argument("given", metavar="FILE|LINK")
@@ -18,31 +20,73 @@ from graphkin.cli.options import READING, complain, current, force_option, tell
     type=click.Path(path_type=Path),
     help="The scene file to write; without it the scene is printed.",
 )
+@click.option("--fixed", metavar="A,D", default="", help="Of a drawing: its fixed points.")
+@click.option("--drive", metavar="A-B", default="", help="Of a drawing: the bar that turns.")
+@click.option(
+    "--slide",
+    "slides",
+    metavar="C=ANGLE",
+    multiple=True,
+    help="Of a drawing: a point on a fixed guide, at an angle in degrees; repeatable.",
+)
+@click.option(
+    "--unit", type=click.Choice(UNITS), help="Of a drawing: its unit of length, if it states none."
+)
 @force_option
-def import_scene(given: str, output: Path | None, force: bool) -> None:
+def import_scene(
+    given: str,
+    output: Path | None,
+    fixed: str,
+    drive: str,
+    slides: tuple[str, ...],
+    unit: str | None,
+    force: bool,
+) -> None:
     """Write a mechanism of another program as a scene.
 
-    FILE is a .pmks file of PMKS+, a .linkage2 file of Linkage, a .json file of pylinkage, or a
-    text with an expression M[J[…], …] of Pyslvs. LINK is an address with which PMKS+ or the
-    older PMKS shares a mechanism, in quotes; it is read, never opened. The scene has the
-    closure that is nearest to the drawing. What a scene cannot hold is named on standard error,
+    FILE is a .pmks or .csv file of PMKS+, a .linkage2 file of Linkage, a .json file of pylinkage,
+    a text with an expression M[J[…], …] of Pyslvs, or a drawing. LINK is an address with which
+    PMKS+ or the older PMKS shares a mechanism, in quotes; it is read, never opened. The scene has
+    the closure that is nearest to the drawing. What a scene cannot hold is named on standard error,
     and in comments at the head of the scene.
+
+    A drawing is a .ggb file of GeoGebra or a DXF file (needs the extra [cad]). Its segments become
+    bars, to scale. It does not say what is fixed: name the fixed points with --fixed. Without
+    --fixed, the command lists the points.
 
     \b
     Examples:
       graphkin import crank.linkage2 -o crank.toml
       graphkin import shared.pmks
+      graphkin import engine.ggb --fixed O --drive O-A --slide B=0
     """
+    from graphkin.importing.figure import Completion
     from graphkin.importing.formats import LINK, content, imported
     from graphkin.importing.scene_text import scene_text
     from graphkin.writers.files import write_apart
 
+    tracing = Completion(words(fixed, ","), words(drive, "-"), guides(slides), unit or "")
     text = content(given)
     current().meta[READING] = given if LINK.match(given) is None else "the link"
-    found = scene_text(imported(text))
+    found = scene_text(imported(text, tracing))
     if output is None:
         tell(found.text.splitlines())
     else:
         tell([str(write_apart(output, found.text.encode(), given, force))])
     for note in found.notes:
         complain(note)
+
+
+def words(text: str, between: str) -> tuple[str, ...]:
+    return tuple(word.strip() for word in text.split(between) if word.strip())
+
+
+def guides(slides: tuple[str, ...]) -> dict[str, str]:
+    """The angle of the guide of each sliding point. Raises UsageError for other words."""
+    found = {}
+    for slide in slides:
+        name, _, angle = (part.strip() for part in slide.partition("="))
+        if not (name and angle):
+            raise click.UsageError(f"--slide {slide}: write POINT=ANGLE, such as C=0", current())
+        found[name] = angle
+    return found

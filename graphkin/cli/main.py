@@ -73,8 +73,8 @@ def app(context: click.Context) -> None:
     The plans are drawn step by step, as by hand with compass and ruler, and are checked by an
     independent calculation.
 
-    SCENE is the name of a lab that comes with graphkin, or a .toml file that describes your own
-    mechanism.
+    SCENE is the name of a lab or scene that comes with graphkin, or a .toml file that describes
+    your own mechanism.
 
     \b
     Examples:
@@ -95,15 +95,21 @@ def app(context: click.Context) -> None:
 
 
 @app.command("list")
-def list_labs() -> None:
-    """List the labs that come with graphkin.
+@click.option("--scenes", is_flag=True, help="List the names and titles of all scenes instead.")
+def list_labs(scenes: bool) -> None:
+    """List the labs and scenes that come with graphkin.
 
     Prints for each lab its title, the parameters that --set can change with their ranges, and the
-    quantities that the lab asks for.
-    """
-    from graphkin.cli.report.catalogue import labs_lines
+    quantities that the lab asks for. Every name that it prints can stand for SCENE.
 
-    tell(labs_lines())
+    \b
+    Examples:
+      graphkin list
+      graphkin list --scenes
+    """
+    from graphkin.cli.report.catalogue import labs_lines, scenes_lines
+
+    tell(scenes_lines() if scenes else labs_lines())
 
 
 @app.command()

@@ -44,6 +44,8 @@ STOPPED = 130
 BROKEN_PIPE = 141
 OBEYED = "[\x00-\x08\x0b-\x1f\x7f-\x9f\xad\u061c\u200b-\u200f\u2028-\u202e\u2060-\u206f\ufeff]"
 """Characters that control a terminal or hide text; tabs and line ends are harmless."""
+MOST_KEYS = 3
+"""Keys that are named under the problems of a scene."""
 READING = "graphkin.scene"
 """The key under which a command's context keeps the name of its scene."""
 
@@ -172,6 +174,9 @@ def guarded(work: Callable[[], Any]) -> int:
     except GraphkinError as error:
         for problem in error.problems:
             complain(str(problem))
+        if keys := explained_keys(error):
+            more = "; ".join(f"graphkin help {key}" for key in keys)
+            complain(f"the manual says more: {more}")
         return FAILED if isinstance(error, WitnessError) else REFUSED
     except OSError as error:
         silence()
@@ -184,6 +189,18 @@ def guarded(work: Callable[[], Any]) -> int:
         complain(fault(error))
         return REFUSED
     return status_of(status)
+
+
+def explained_keys(error: GraphkinError) -> list[str]:
+    """The keys of a scene that the manual explains, in the places of problems."""
+    if not isinstance(error, SceneError | StructureError):
+        return []
+    from graphkin.manual.pages import explained
+
+    known = explained()
+    parts = ([*reversed(str(problem.place).split("."))] for problem in error.problems)
+    keys = (next((part for part in each if part in known), "") for each in parts)
+    return [key for key in dict.fromkeys(keys) if key][:MOST_KEYS]
 
 
 def status_of(found: object) -> int:

@@ -22,6 +22,7 @@ from graphkin.cli.options import (
     say,
     say_aside,
 )
+from graphkin.cli.studio_command import refuse_without
 
 if TYPE_CHECKING:
     from graphkin.classroom.printing.print_run import Outcome, Tell
@@ -102,6 +103,8 @@ def print_sheets(
 
     chosen = option_words("--view", views, VIEWS)
     kinds = option_words("--format", formats, ("pdf", "svg", "html"))
+    if "pdf" in kinds:
+        refuse_without("print", "class", [("pikepdf", "pikepdf")])
     if "html" in kinds and "overlay" in chosen:
         raise click.UsageError("--view overlay is laid on paper: not with --format html", context)
     if cluster and not cluster.startswith(CLUSTER):

@@ -17,11 +17,14 @@ from math import floor, pi
 from string import ascii_lowercase, ascii_uppercase, digits
 
 from graphkin.construction.core.drawn_scene import METRES
+from graphkin.documents import known_joints
+from graphkin.documents.known_joints import along, not_cranks
 from graphkin.mechanism import Mechanism
-from graphkin.scene.model import FRAME, Link, Scene, Slide
-from graphkin.structure.link_axes import body, guide_line, metres
+from graphkin.scene.model import FRAME, Link, Scene
+from graphkin.structure.link_axes import guide_line
 from graphkin.text.errors import PageError, Problem, message
 
+PROGRAM = "PMKS+"
 ALPHABET = f"{digits}{ascii_uppercase}{ascii_lowercase}_-"
 LETTERS = f"{ascii_uppercase}{ascii_lowercase}"
 """Names of joints: PMKS+ joins them to form names of links, and splits those again."""
@@ -29,8 +32,6 @@ LETTER_OF_LENGTH = f"{digits}{LETTERS}"
 MASS, THOUSANDTH = 1.0, 1000
 EXACT = 10**9
 """Parts of one revolution per minute in the exact speed."""
-LEAST = 1e-9
-"""The distance (m) under which a joint is on a guide."""
 CENTIMETRES, INCHES = "1", "0"
 DEGREES, NEWTONS = "0", "1"
 GRIDS = 0b11000
@@ -56,25 +57,8 @@ def pmks_file(mechanism: Mechanism) -> bytes:
 def unknown(scene: Scene) -> Iterator[Problem]:
     """The problems of a scene that PMKS+ does not support."""
     hint = message("leave pmks out")
-    for link in scene.links.values():
-        place = f"links.{link.name}"
-        if link.has_wheels or link.cam or link.profiles:
-            yield Problem(
-                place,
-                message("PMKS+ has no wheels, cams or profiles"),
-                message("pins and guides"),
-                hint,
-            )
-        if link.slides and (len(link.points) > 1 or len(link.slides) > 1):
-            found = message("PMKS+ has no block with more than one point or guide")
-            yield Problem(place, found, message("a block with one pin on one guide"), hint)
-        elif any(slide.on != FRAME and len(along(scene, slide)) < 2 for slide in link.slides):
-            found = message("PMKS+ moves a guide only along two joints of its link")
-            yield Problem(place, found, message("a guide along two points, without offset"), hint)
-    cranks = [driver for driver in scene.drivers if driver.kind == "turn"]
-    cranks = [driver for driver in cranks if driver.against == FRAME]
-    pivoted = [d for d in cranks if {*scene.link(d.link).points} & {*scene.frame.points}]
-    if len(scene.drivers) != 1 or not pivoted:
+    yield from known_joints.unknown(scene, PROGRAM, hint, moving_guides=True)
+    if len(scene.drivers) != 1 or not_cranks(scene):
         yield Problem(
             "drivers",
             message("PMKS+ moves one crank about a fixed pin"),
@@ -169,17 +153,6 @@ class PmksText:
         joints = "".join(f"{each}," for each in held)
         own = "".join(held)
         return f"Y{kind}{own},{link.name},{decimal(MASS)},{inertia},{centre},{ink},{joints},"
-
-
-def along(scene: Scene, slide: Slide) -> tuple[str, ...]:
-    """The two points of a link between which a guide runs; none where there are fewer."""
-    if metres(scene, slide.offset):
-        return ()
-    if slide.along:
-        return slide.along
-    line, points = guide_line(scene, slide), body(scene, slide.on)
-    on = [p for p, z in points.items() if abs(((z - line.point) / line.along).imag) < LEAST]
-    return (on[0], on[-1]) if len(on) > 1 and points[on[0]] != points[on[-1]] else ()
 
 
 def direction(way: complex) -> float:

@@ -4,12 +4,18 @@ from __future__ import annotations
 
 import re
 
+from graphkin.importing.figure import Completion
 from graphkin.importing.record import Imported, damaged, refused
 from graphkin.scene.file_limits import LARGEST, file_bytes
 from graphkin.text.errors import message
 
 LINK = re.compile(r"https?://[^?\s]*\?", re.IGNORECASE)
 MECH = re.compile(r"(^|&)mech=")
+DXF = re.compile(r"\s*(0\s*\n\s*SECTION|999\s*\n)|AutoCAD Binary DXF")
+ARCHIVE = b"PK\x03\x04"
+LARGEST_DRAWING = 2 << 20
+"""The most bytes of a GeoGebra or DXF file."""
+UNTRACED = Completion()
 PMKS = re.compile(r"[\w-]{2}\.[\w,-]*\.[\w,-]*\.[\w-]*\.")
 
 
@@ -24,21 +30,50 @@ def content(given: str) -> str:
             return text
         raise refused(message("more than {most} bytes", most=LARGEST))
     try:
-        data = file_bytes(given, LARGEST + 1)
+        data = file_bytes(given, LARGEST_DRAWING + 1)
     except (OSError, ValueError):
         raise refused(
             message("no file {name} can be read", name=given), message("a file, or a link with ?")
         ) from None
-    if len(data) > LARGEST:
-        raise refused(message("more than {most} bytes", most=LARGEST))
-    return data.decode("utf-8-sig", "replace")
+    return text_of(data)
 
 
-def imported(text: str) -> Imported:
-    """The mechanism in a text of any format. Raises SceneError with what is wrong."""
+def text_of(data: bytes) -> str:
+    """The text of a file, or inside a file of GeoGebra. Raises SceneError where it is too large."""
+    if data.startswith(ARCHIVE) and len(data) <= LARGEST_DRAWING:
+        from graphkin.importing.geogebra import unpacked
+
+        return unpacked(data)
+    text = data.decode("utf-8-sig", "replace")
+    most = LARGEST_DRAWING if DXF.match(text) else LARGEST
+    if len(data) > most:
+        raise refused(message("more than {most} bytes", most=most))
+    return text
+
+
+def is_drawing(text: str) -> bool:
+    """Whether a text is a drawing of GeoGebra or DXF, which does not say what is fixed."""
+    return bool(DXF.match(text)) or (text.lstrip().startswith("<") and "<geogebra" in text)
+
+
+def imported(text: str, tracing: Completion = UNTRACED) -> Imported:
+    """The mechanism in a text of any format. Raises SceneError with what is wrong.
+
+    ``tracing`` says of a drawing which points are fixed; other formats say it themselves.
+    """
     text = text.strip()
     try:
-        if text.startswith("<") and "<linkage2" in text:
+        if text.startswith("<") and "<geogebra" in text:
+            from graphkin.importing.figure import traced
+            from graphkin.importing.geogebra import geogebra_figure
+
+            return traced(geogebra_figure(text), tracing)
+        if DXF.match(text):
+            from graphkin.importing.dxf_drawing import dxf_figure
+            from graphkin.importing.figure import traced
+
+            return traced(dxf_figure(text), tracing)
+        if text.startswith("<") and "<linkage" in text:
             from graphkin.importing.linkage import linkage_text
 
             return linkage_text(text)
@@ -54,8 +89,10 @@ def imported(text: str) -> Imported:
             from graphkin.importing.old_pmks import mech_text
 
             return mech_text(text)
-        from graphkin.importing.pmks import new_text, old_text
+        from graphkin.importing.pmks import csv_text, new_text, old_text
 
+        if text.partition("\n")[0].strip() == "joints":
+            return csv_text(text)
         if text.startswith("j="):
             return old_text(text)
         if PMKS.match(text):
@@ -66,6 +103,6 @@ def imported(text: str) -> Imported:
         message("the text has no format that is imported"),
         message(
             "a link or a file of PMKS+, a file .linkage2 of Linkage, JSON of pylinkage,"
-            " or M[J[…], …] of Pyslvs"
+            " M[J[…], …] of Pyslvs, a .ggb file of GeoGebra, or a DXF file"
         ),
     )

@@ -1,5 +1,7 @@
 """Linkage: connectors and links of a ``.linkage2`` file, in 96ths of an inch.
 
+An older ``.linkage`` file is read in the same way.
+
 Layer 1 is for drawing only. An actuator is a tube about its first connector, and a rod to its
 second. A link in whose slot two connectors of one body slide is a rod in bushings.
 """
@@ -8,10 +10,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
 from itertools import pairwise
-from xml.etree.ElementTree import Element, ParseError
-
-from defusedxml import DefusedXmlException
-from defusedxml.ElementTree import fromstring
+from xml.etree.ElementTree import Element
 
 from graphkin.importing.record import (
     DrawnGear,
@@ -25,11 +24,13 @@ from graphkin.importing.record import (
     named,
     number,
     refused,
+    safe_xml,
     unknown_unit,
 )
-from graphkin.text.errors import Message, message, verbatim
+from graphkin.text.errors import Message, message
 
 PROGRAM = "Linkage"
+NEWEST = "linkage2"
 PER_INCH = 96
 UNITS = {"Millimeters": ("mm", 25.4 / PER_INCH), "Inches": ("in", 1 / PER_INCH)}
 ROUNDING = 1e-5
@@ -40,18 +41,10 @@ STROKES = 2 / 60
 
 def linkage_text(text: str) -> Imported:
     """The mechanism of a file. Raises SceneError for curved slots and actuators that bend too."""
-    try:
-        root = fromstring(text, forbid_dtd=True)
-    except ParseError as error:
-        why = verbatim(named(str(error)))
-        raise refused(
-            message("the XML breaks off or is wrong: {why}", why=why),
-            message("the whole file, as Linkage saves it"),
-        ) from None
-    except (DefusedXmlException, ValueError):
-        raise refused(message("the text is no XML that is safe to read")) from None
-    program = root.find("program")
-    unit, factor, notes = units(program)
+    root = safe_xml(text, message("the whole file, as Linkage saves it"))
+    unit, factor, notes = units(root.find("program"))
+    if root.tag != NEWEST:
+        notes = (*notes, message("an older file of Linkage is read as a new one: compare"))
     few(len(root.findall("connector")))
     few(len(root.findall("Link")) + len(root.findall("element")))
     connectors = [each for each in root.findall("connector") if works(each)]
@@ -61,7 +54,8 @@ def linkage_text(text: str) -> Imported:
         own = each.attrib["id"]
         if own in joints:
             raise refused(message("two connectors have the id {name}", name=named(own)))
-        joints[own] = DrawnJoint(f"P{own}", place_of(each, factor), is_set(each, "anchor"))
+        name = each.get("name") or f"P{own}"
+        joints[own] = DrawnJoint(name, place_of(each, factor), is_set(each, "anchor"))
     if not any(joint.fixed for joint in joints.values()):
         raise refused(message("no connector is an anchor"), message("at least one anchor"))
     bodies: dict[str, DrawnLink] = {}

@@ -1,11 +1,13 @@
-"""PMKS+: the content of its links, new and old, and of its ``.pmks`` files.
+"""PMKS+: the content of its links, new and old, of its ``.pmks`` files, and of its CSV files.
 
 The new text has thousandths as numbers in base 64 and flags as bits (class StringTranscoder of
 github.com/PMKS-Web/PMKSWeb); the old one has decimal numbers under ``j=``, ``l=``, ``f=``, ``s=``.
+Until July 2023 PMKS+ saved CSV: a table each of joints, links, forces and settings.
 """
 
 from __future__ import annotations
 
+import csv
 from collections.abc import Iterable, Mapping
 from itertools import takewhile
 from urllib.parse import parse_qs
@@ -19,6 +21,7 @@ from graphkin.documents.pmks_file import (
     INPUT,
     LETTER_OF_LENGTH,
     PRISMATIC,
+    PROGRAM,
     THOUSANDTH,
 )
 from graphkin.importing.record import (
@@ -36,7 +39,6 @@ from graphkin.importing.record import (
 )
 from graphkin.text.errors import Message, message
 
-PROGRAM = "PMKS+"
 UNITS = {"0": "in", "1": "cm", "2": "m"}
 OLD_UNITS = {"cm": "cm", "m": "m", "in": "in", "inch": "in"}
 USUAL = "cm"
@@ -45,6 +47,8 @@ WELDED = 8
 DIGITS = 12
 """The most digits of a number."""
 NUMBER_OF_OLD_FIELDS = 8
+TABLES = ("joints", "links", "forces", "settings")
+"""The tables of a CSV file; a line of one cell begins each, and their heads follow."""
 
 
 class PmksJoint(Struct, frozen=True):
@@ -153,6 +157,44 @@ def old_text(text: str) -> Imported:
     speed, clockwise, _, unit = fields["s"][0].strip().split(",")[:4]
     signed = number(speed, -1.0 if clockwise == "true" else 1.0)
     return gathered(found, bodies, unit_of(unit, OLD_UNITS, notes), signed, notes)
+
+
+def csv_text(text: str) -> Imported:
+    """The mechanism of a CSV file."""
+    rows = tables(text)
+    few(len(rows["joints"]))
+    found: dict[str, PmksJoint] = {}
+    for row in rows["joints"]:
+        prismatic = row["type"] == "P"
+        place = complex(number(row["x"]), number(row["y"]))
+        joint = DrawnJoint(row["id"], place, row["ground"] == "true")
+        angle = number(row["angle"]) if prismatic else 0.0
+        found[row["id"]] = PmksJoint(joint, row["input"] == "true", prismatic, angle)
+    bodies = {
+        row["id"]: DrawnLink(row["id"], tuple(row["joints"].split(","))) for row in rows["links"]
+    }
+    notes = [left_out(row["id"]) for row in rows["forces"]]
+    settings = rows["settings"][0]
+    speed = number(settings["input_speed_mag"], -1.0 if settings["clockwise"] == "true" else 1.0)
+    return gathered(found, bodies, unit_of(settings["unit"], OLD_UNITS, notes), speed, notes)
+
+
+def tables(text: str) -> dict[str, list[dict[str, str]]]:
+    """The rows of each table of a CSV file, by their heads. Raises ValueError for broken quotes."""
+    found: dict[str, list[dict[str, str]]] = {name: [] for name in TABLES}
+    name, heads = "", list[str]()
+    try:
+        for row in csv.reader(text.splitlines(), strict=True):
+            cells = [cell.strip() for cell in row]
+            if len(cells) == 1 and cells[0] in TABLES:
+                name, heads = cells[0], []
+            elif name and not heads:
+                heads = cells
+            elif any(cells):
+                found[name].append(dict(zip(heads, cells, strict=False)))
+    except csv.Error:
+        raise ValueError from None
+    return found
 
 
 def gathered(

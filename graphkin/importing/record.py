@@ -4,10 +4,11 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from math import isfinite
+from xml.etree.ElementTree import Element, ParseError
 
 from msgspec import Struct
 
-from graphkin.text.errors import NO_WORDS, Message, Problem, SceneError, message
+from graphkin.text.errors import NO_WORDS, Message, Problem, SceneError, message, verbatim
 
 MOST = 200
 """The most joints, and the most links."""
@@ -109,6 +110,21 @@ def named(text: str) -> str:
     """A name from a file in one short line, without characters that control a terminal."""
     shown = "".join(sign for sign in text if sign.isprintable())
     return shown[:LONGEST_NAME]
+
+
+def safe_xml(text: str, expected: Message) -> Element:
+    """The root of an XML text without entities. Raises SceneError for XML that is wrong."""
+    from defusedxml import DefusedXmlException
+    from defusedxml.ElementTree import fromstring
+
+    try:
+        root: Element = fromstring(text, forbid_dtd=True)
+    except ParseError as error:
+        why = verbatim(named(str(error)))
+        raise refused(message("the XML breaks off or is wrong: {why}", why=why), expected) from None
+    except (DefusedXmlException, ValueError):
+        raise refused(message("the text is no XML that is safe to read")) from None
+    return root
 
 
 def unknown_unit(name: str, unit: str) -> Message:

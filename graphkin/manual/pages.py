@@ -154,3 +154,35 @@ def keys_in(text: str) -> list[str]:
 def cells(row: str) -> list[str]:
     """The cells of a row of a table."""
     return [cell.strip() for cell in row.strip().strip("|").split(" | ")]
+
+
+HEAD_OF_TABLE = re.compile(r"^\s*\[+\s*([^\]]+?)\s*\]+")
+WRITTEN = re.compile(r"[\w-]+(?=\s*=)")
+ANY_NAME = {"links": "links.NAME", "frame": "frame"}
+POINTS = {0: "P", 1: "P-Q", 2: "P-Q-R"}
+"""The names under which the reference explains keys made of points, by the dashes in them."""
+GENERIC = {"links": POINTS, "frame": POINTS, "branches": {0: "PIN"}}
+
+
+def address_at(text: str, line: int, column: int) -> str:
+    """The address within the web site of what explains the key at a place of a scene or a lab.
+
+    ``line`` and ``column`` count from 0. It is the key at the place, else the key of the line, else
+    the table; the index where none of them is explained.
+    """
+    known = explained()
+    lines = text.splitlines()
+    here = lines[line] if line < len(lines) else ""
+    above = (HEAD_OF_TABLE.match(each) for each in reversed(lines[: line + 1]))
+    table = next((head[1].replace(" ", "") for head in above if head), "")
+    first = table.partition(".")[0]
+    own = next((w[0] for w in WRITTEN.finditer(here) if w.start() <= column <= w.end()), "")
+    left = here.partition("=")[0].strip() if "=" in here else ""
+    general = GENERIC.get(first, {}).get(left.count("-"), "") if left not in known else ""
+    around = {left, ANY_NAME.get(first, first), table} - {""}
+    for key in (own, left, general, ANY_NAME.get(first, ""), table, first):
+        places = known.get(key, ())
+        near = [e for e in places if not around.isdisjoint(keys_in(e.section.title))]
+        if near or (places and (key != own or own == left)):
+            return (near or places)[0].address
+    return f"{INDEX}.html"

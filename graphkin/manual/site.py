@@ -8,7 +8,7 @@ from __future__ import annotations
 import json
 import posixpath
 import re
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from functools import lru_cache
 from html import escape
 from importlib import metadata
@@ -48,11 +48,19 @@ class NavEntry(Struct, frozen=True):
     here: bool = False
 
 
-def site() -> Iterator[tuple[str, bytes]]:
+Leading = Callable[[str], str]
+"""The address, as seen from the gallery, to which the card of a scene leads; empty for none."""
+
+
+def nowhere(name: str) -> str:
+    return ""
+
+
+def site(leading: Leading = nowhere) -> Iterator[tuple[str, bytes]]:
     """The files of the web site by their names, in a fixed order."""
     order = names()
     for name in order:
-        yield f"{name}.html", page(name, order).encode()
+        yield f"{name}.html", page(name, order, leading).encode()
     yield "search.js", f"const SECTIONS = {searched(order)};\n".encode()
     for file in FILES:
         yield file, (HERE / "web" / file).read_bytes()
@@ -60,7 +68,26 @@ def site() -> Iterator[tuple[str, bytes]]:
         yield f"{PICTURES}/{path.name}", path.read_bytes()
 
 
-def page(name: str, order: Sequence[str]) -> str:
+MOVING = "moving"
+"""The folder of the pages that move."""
+
+
+def moving_page(name: str) -> str:
+    """The name of the page that moves a scene, in the site."""
+    return f"{MOVING}/{name}.html"
+
+
+def moving_pages(told: Callable[[str], None]) -> Iterator[tuple[str, bytes]]:
+    """The page that draws and moves each shipped scene, in English; its name is told before."""
+    from graphkin.classroom.sheet_files import hand_out_page
+    from graphkin.mechanism import load
+
+    for name in scene_texts():
+        told(name)
+        yield moving_page(name), hand_out_page(load(name), name, name, language="en").encode()
+
+
+def page(name: str, order: Sequence[str], leading: Leading = nowhere) -> str:
     """A page of the site as HTML, with the navigation around it."""
     titles = {INDEX: "graphkin"} | dict(pair for each in chapters() for pair in each.pages)
     at = order.index(name)
@@ -71,7 +98,7 @@ def page(name: str, order: Sequence[str]) -> str:
     return from_template(
         "manual/web/page.html",
         title=titles[name],
-        body=markup(name),
+        body=markup(name, leading),
         root=relative(name, ""),
         name=name,
         home=link(INDEX),
@@ -116,7 +143,7 @@ def reader() -> MarkdownIt:
     return MarkdownIt("commonmark", {"highlight": highlighted}).enable("table")
 
 
-def markup(name: str) -> str:
+def markup(name: str, leading: Leading = nowhere) -> str:
     """A page as HTML: links lead within the site, and headings have the anchors of code hosts."""
     from markupsafe import Markup
 
@@ -129,7 +156,7 @@ def markup(name: str) -> str:
         for child in token.children or ():
             redirect(child, name)
     if name == GALLERY:
-        tokens = in_cards(tokens, sections(name))
+        tokens = in_cards(tokens, sections(name), leading)
     return Markup(reader().renderer.render(tokens, reader().options, {}))
 
 
@@ -153,8 +180,8 @@ def anchor_of_scene(name: str) -> str:
     return next(each.anchor for each in sections(GALLERY) if each.title == name)
 
 
-def in_cards(tokens: Sequence[Token], headed: Sequence[Section]) -> list[Token]:
-    """The gallery with a card around each section of a scene, and the scene's text in it."""
+def in_cards(tokens: Sequence[Token], headed: Sequence[Section], leading: Leading) -> list[Token]:
+    """The gallery with a card around each section of a scene, with its text and a link."""
     from markdown_it.token import Token
 
     texts = scene_texts()
@@ -166,7 +193,9 @@ def in_cards(tokens: Sequence[Token], headed: Sequence[Section]) -> list[Token]:
         if card is not None:
             text = highlighted(texts[card.title], "toml", "")
             details = f"<details><summary>Text</summary><pre><code>{text}</code></pre></details>"
-            found.append(Token("html_block", "", 0, content=f"{details}</section>\n"))
+            to = leading(card.title)
+            link = f'<p><a href="{escape(to)}">Draw and move it</a></p>' if to else ""
+            found.append(Token("html_block", "", 0, content=f"{link}{details}</section>\n"))
 
     for token in tokens:
         if token.type == "heading_open":

@@ -102,7 +102,7 @@ def scenes_beside(path: str) -> Iterator[str]:
 
 
 def find(name: str) -> str:
-    """The scene file for a path, for a folder with scene.toml, or for a shipped lab's name."""
+    """The scene file for a path, a folder with scene.toml, or a shipped lab's or scene's name."""
     path = name or "."
     settle(path)
     if paths.is_file(path) and paths.name_of(path) == LAB:
@@ -117,13 +117,16 @@ def find(name: str) -> str:
     if paths.is_folder(path):
         expected = message("a folder with scene.toml, a .toml file or the name of a lab")
         raise SceneError(Problem(path, message("is a folder without scene.toml"), expected))
-    near = near_file(name, [*scenes_beside(path), *names()])
+    if name in (more := examples()):
+        return str(more[name])
+    near = near_file(name, [*scenes_beside(path), *names(), *more])
+    lists = message("graphkin list shows the labs, graphkin list --scenes all")
     hint = message("did you mean {new}?", new=near) if near else NO_WORDS
     raise SceneError(
         Problem(
             name,
             message("is neither a file nor a shipped lab"),
             message("a .toml file or one of {names}", names=", ".join(names())),
-            joined(" ", (hint, message("graphkin list shows the labs"))),
+            joined(" ", (hint, lists)),
         )
     )

@@ -11,7 +11,7 @@ from graphkin.drawing.richtext import FOLDER as FONTS
 from graphkin.studio.session import PageRequestError
 
 KINDS = {".css": "text/css", ".js": "text/javascript", ".svg": "image/svg+xml"}
-KINDS[".woff2"] = "font/woff2"
+KINDS |= {".woff2": "font/woff2", ".html": "text/html", ".png": "image/png", ".jpg": "image/jpeg"}
 JSON = "application/json"
 
 
@@ -55,5 +55,7 @@ def answer(status: int, kind: str, body: bytes) -> Any:
     """An answer with a status and a content type; texts are UTF-8."""
     from bottle import HTTPResponse
 
-    whole = kind if kind.startswith(("font", "image/jpeg")) else f"{kind}; charset=utf-8"
+    whole = (
+        kind if kind.startswith(("font", "image/jpeg", "image/png")) else f"{kind}; charset=utf-8"
+    )
     return HTTPResponse(body, status, {"Content-Type": whole})

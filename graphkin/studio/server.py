@@ -14,8 +14,9 @@ from urllib.parse import urlencode
 from msgspec import Struct
 
 from graphkin import __version__
+from graphkin.scene import scene_files
 from graphkin.studio.guard import FRAMED, Guard, new_token
-from graphkin.studio.local_pages import JSON, answer, answering, new_application
+from graphkin.studio.local_pages import JSON, KINDS, answer, answering, new_application
 from graphkin.studio.look import spoken_in
 from graphkin.studio.session import MOST_BYTES, OPENED, Opened, PageRequest, Session
 from graphkin.text import LANGUAGES, Words
@@ -73,6 +74,8 @@ WORK = (
     "student",
     "begin",
     "motion",
+    "bring",
+    "explain",
 )
 """The requests of the page to the session."""
 
@@ -83,6 +86,7 @@ def application(session: Session) -> Any:
     app.route("/", "GET", lambda: start_page(session))
     app.route("/moving/<key:re:[a-zA-Z0-9_-]+>", "GET", lambda key: moving_page(session, key))
     app.route("/scenes", "GET", lambda: scenes(session))
+    app.route("/manual/<name:path>", "GET", manual_page)
     for name in WORK:
         app.route(f"/{name}", "POST", answering(done_by(session, name), MOST_BYTES))
     return app
@@ -119,6 +123,28 @@ def asked_language() -> str:
 
     language = str(request.query.getunicode("lang", ""))
     return language if language in LANGUAGES else ""
+
+
+@lru_cache(maxsize=1)
+def manual_files() -> Mapping[str, bytes]:
+    """The files of the manual by their names."""
+    from graphkin.manual.site import site
+
+    return dict(site(opening))
+
+
+def opening(name: str) -> str:
+    """The address that opens a shipped scene, as seen from the gallery of the manual."""
+    kind = "lab" if name in scene_files.names() else "example"
+    return f"../?{urlencode({kind: name})}"
+
+
+def manual_page(name: str) -> Any:
+    """A file of the manual."""
+    found = manual_files().get(name)
+    if found is None:
+        return answer(404, "text/plain", b"no such page\n")
+    return answer(200, KINDS.get(Path(name).suffix, "application/octet-stream"), found)
 
 
 def moving_page(session: Session, key: str) -> Any:

@@ -507,6 +507,28 @@ class Session:
             "examples": examples(language),
         }
 
+    def bring(self, order: PageRequest) -> dict[str, Any]:
+        """A file, link or text of another program as the text of a scene."""
+        from graphkin.studio.bringing import Brought, asks_more, brought, tracing_of
+
+        words = {key: order.text(key) for key in ("fixed", "drive", "slides")}
+        language = language_in(order)
+        given = Brought(
+            order.long_text("file"),
+            order.text("name"),
+            order.long_text("pasted"),
+            tracing_of(words),
+        )
+        found = told(lambda: brought(given, language), "", language, text="", name="", notes=[])
+        return found | {"drawing": bool(found["problems"]) and asks_more(given)}
+
+    def explain(self, order: PageRequest) -> dict[str, Any]:
+        """The address of what the manual says about the key at a place of a text."""
+        from graphkin.manual.pages import address_at
+
+        line, column = order.number("line"), order.number("column")
+        return {"address": f"manual/{address_at(order.scene(), line, column)}"}
+
     def look(self, order: PageRequest) -> dict[str, Any]:
         """The view of a text, or only that it is stale if a newer view has been requested."""
         tab, number = order.text("tab"), order.number("number")

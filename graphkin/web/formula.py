@@ -60,6 +60,15 @@ PYTHON_SIGNS = {
     "both": "{} and {}",
     "either": "{} or {}",
 }
+MATLAB_SIGNS = {
+    **C_SIGNS,
+    **{op: f"{call}({{}})" for op, call in CALLS.items() if op not in ("min", "max", "atan2")},
+    "sqrt": "root({})",
+    "not": "~{}",
+    "choose": "pick({}, {}, {})",
+    "min": "pick({0} <= {1}, {0}, {1})",
+    "max": "pick({0} <= {1}, {1}, {0})",
+}
 Assignments = list[tuple[str, str]]
 
 
@@ -99,11 +108,12 @@ class Formula(Struct, frozen=True):
         ]
 
     def statements(
-        self, signs: Mapping[str, str], numbers: Mapping[str, str]
+        self, signs: Mapping[str, str], numbers: Mapping[str, str], prefix: str = "_"
     ) -> tuple[Assignments, Assignments]:
         """The computed nodes in order, then the results, each a name and an expression.
 
-        ``signs`` writes the operations, and ``numbers`` infinity and what is no number.
+        ``signs`` writes the operations, and ``numbers`` infinity and what is no number. The name of
+        a computed node is its number behind the ``prefix``.
         """
         text: dict[int, str] = {}
         names = {each.input: each.name for each in self.arguments}
@@ -115,7 +125,7 @@ class Formula(Struct, frozen=True):
             elif node.op == "input":
                 text[number] = names[node.name]
             else:
-                text[number] = f"_{number}"
+                text[number] = f"{prefix}{number}"
                 args = [text[arg] for arg in node.args]
                 found.append((text[number], signs[node.op].format(*args)))
         return found, [(name, text[node]) for name, node in self.results.items()]
@@ -171,6 +181,8 @@ def formula_of(mechanism: Mechanism) -> Formula:
     points, links = identifiers(solution.points), identifiers(solution.links)
     results = results_of(graph, solution, points, links)
     others = {made: owner for owner, made in [*points.items(), *links.items()] if made != owner}
+    used = {graph.nodes[number].name for number in graph.needed(results.values())}
+    arguments = [each for each in arguments if each.input in used]
     return Formula(name, scene.title, graph, arguments, results, others)
 
 
@@ -328,5 +340,37 @@ def c(formula: Formula) -> str:
     return "\n".join([*lines, "    return result;", "}"]) + "\n"
 
 
-LANGUAGES = {"python": python, "javascript": javascript, "c": c}
+MATLAB_END = """
+function y = root(x)
+if x >= 0
+    y = sqrt(x);
+else
+    y = NaN;
+end
+end
+
+function y = pick(condition, yes, no)
+if condition
+    y = yes;
+else
+    y = no;
+end
+end
+"""
+
+
+def matlab(formula: Formula) -> str:
+    """The function as MATLAB, for a file of its own name; it returns a struct."""
+    body, results = formula.statements(MATLAB_SIGNS, {"inf": "Inf", "nan": "NaN"}, "t")
+    given = ", ".join(each.name for each in formula.arguments)
+    lines = [f"function result = {formula.name}({given})"]
+    lines += [f"% {line}" for line in formula.notes]
+    for number, each in enumerate(formula.arguments, 1):
+        lines += [f"if nargin < {number}", f"    {each.name} = {each.value!r};", "end"]
+    lines += [f"{name} = {text};" for name, text in body]
+    lines += [f"result.{name} = {text};" for name, text in results]
+    return "\n".join([*lines, "end", MATLAB_END])
+
+
+LANGUAGES = {"python": python, "javascript": javascript, "c": c, "matlab": matlab}
 """The languages of a formula; tests hold the numbers of each to ``solve``."""

@@ -42,6 +42,7 @@ def locked(folder: Path, patience: float = 0.0) -> Iterator[str]:
     try:
         lock.acquire()
     except Timeout:
+        refuse_unwritable(folder)  # filelock also waits where no file can be made, as in /proc
         raise InUseError(in_use(folder, told(note))) from None
     except OSError as error:
         if error.errno not in LOCKLESS:
@@ -56,6 +57,14 @@ def locked(folder: Path, patience: float = 0.0) -> Iterator[str]:
             with suppress(OSError):  # Windows keeps an open file
                 path.unlink()
         lock.release()
+
+
+def refuse_unwritable(folder: Path) -> None:
+    """Raise OSError where no file can be made in a folder."""
+    from tempfile import TemporaryFile
+
+    with TemporaryFile(dir=folder):
+        pass
 
 
 def alive(process: int) -> bool:

@@ -1,4 +1,4 @@
-"""PDF files joined into one, page by page, with bookmarks."""
+"""PDF files joined into one, page by page, with bookmarks; by pikepdf of the extra [class]."""
 
 from __future__ import annotations
 
@@ -6,9 +6,7 @@ from collections.abc import Iterable
 from pathlib import Path
 from typing import BinaryIO
 
-import pikepdf
 from msgspec import Struct
-from pikepdf import Dictionary, Name, OutlineItem
 
 
 class PdfPart(Struct, frozen=True):
@@ -25,6 +23,9 @@ def join(parts: Iterable[PdfPart], stream: BinaryIO, title: str, language: str) 
     of processor time and 39 MB; pypdf takes 2.0 s and 78 MB. Raises pikepdf.PdfError for an
     incomplete PDF.
     """
+    import pikepdf
+    from pikepdf import Dictionary, Name, OutlineItem
+
     with pikepdf.new() as joined:
         marks = []
         for part in parts:

@@ -18,10 +18,14 @@ WIDEST = 24
 """The widest column, in characters."""
 
 
+class Computed(str):
+    """A formula that the program of the workbook computes, with its equals sign."""
+
+
 def workbook(tables: Mapping[str, Sequence[Sequence[Cell]]]) -> bytes:
     """A workbook with a sheet for each table, by its name; the first row is the head.
 
-    Numbers keep 16 digits.
+    Numbers keep 16 digits. A text is a text, whatever it begins with, unless it is ``Computed``.
 
     Raises PageError if openpyxl is not installed.
     """
@@ -38,6 +42,9 @@ def workbook(tables: Mapping[str, Sequence[Sequence[Cell]]]) -> bytes:
         sheet = book.create_sheet(name)
         for row in rows:
             sheet.append([held(cell) for cell in row])
+            for own, cell in zip(row, sheet[sheet.max_row], strict=False):
+                if cell.data_type == "f" and not isinstance(own, Computed):
+                    cell.data_type = "s"
         for column, head in enumerate(rows[0], 1):
             sheet.cell(1, column).font = Font(bold=True)
             wide = min(len(str(head)) + 4, WIDEST)

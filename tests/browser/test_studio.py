@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+import zipfile
 from collections.abc import Callable, Iterator
 from pathlib import Path
 from typing import Any
@@ -523,3 +524,70 @@ def test_what_is_written_is_completed_and_mended(studio):
         "all => new Set(all.map((each) => getComputedStyle(each).color)).size"
     )
     assert colours > 3
+
+
+FOUR_BAR_LINK = "https://app.pmksplus.com/?2P.Fe.K,0.1011.MA,A,0,0,0.GB,B,0,Fe,0.KC,C,ku,0,0.GD,D,0RF,Oj,0.HP,P,0,Fe,0,CD,C,D..YRAB,AB,Fe,Fe,0,7q,c5cae9,A,B,,.YRCD,CD,Fe,Fe,9q,CN,303e9f,C,D,,.YPBP,BP,Fe,0,0,0,,B,P,,...N_r"
+TRIANGLE = (
+    "<geogebra><construction>"
+    + "".join(
+        f'<element type="point" label="{name}"><coords x="{x}" y="{y}" z="1"/></element>'
+        for name, x, y in (("A", 0, 0), ("B", 20, 30), ("C", 90, 60), ("D", 100, 0))
+    )
+    + "".join(
+        f'<command name="Segment"><input a0="{one}" a1="{other}"/><output a0="s{one}"/></command>'
+        for one, other in ("AB", "BC", "CD")
+    )
+    + "</construction></geogebra>"
+)
+
+
+def test_a_pasted_link_becomes_the_scene_and_can_be_undone(studio: Studio) -> None:
+    page = studio()
+    before = page.input_value("#text")
+    page.evaluate(
+        """link => {
+          const data = new DataTransfer();
+          data.setData("text/plain", link);
+          const paste = new ClipboardEvent("paste", { clipboardData: data, cancelable: true });
+          document.getElementById("text").dispatchEvent(paste);
+        }""",
+        FOUR_BAR_LINK,
+    )
+    until(page, "document.getElementById('text').value.includes('# from PMKS+')")
+    at_rest(page)
+    assert page.input_value("#file") == "imported.toml"
+    page.focus("#text")
+    page.keyboard.press("Control+z")
+    until(page, "!document.getElementById('text').value.includes('# from PMKS+')")
+    assert page.input_value("#text") == before
+
+
+def test_a_drawing_is_asked_what_is_fixed(studio: Studio, tmp_path: Path) -> None:
+    drawing = tmp_path / "bars.ggb"
+    with zipfile.ZipFile(drawing, "w") as archive:
+        archive.writestr("geogebra.xml", TRIANGLE)
+    page = studio()
+    page.click("#open")
+    page.set_input_files("#import-file", str(drawing))
+    page.wait_for_selector("#import-drawing:not([hidden])")
+    assert "C (90, 60)" in page.text_content("#import-said")
+    page.fill("#import-fixed", "A, D")
+    page.fill("#import-drive", "A-B")
+    page.click("#import")
+    until(page, "document.getElementById('text').value.includes('# from GeoGebra')")
+    at_rest(page)
+    assert page.input_value("#file") == "bars.toml"
+
+
+def test_help_opens_the_page_of_the_key_at_the_caret(studio: Studio) -> None:
+    page = studio()
+    at = page.input_value("#text").index("slides") + 2
+    page.evaluate(
+        f"find = document.getElementById('text'), find.focus(), find.setSelectionRange({at}, {at})"
+    )
+    with page.expect_popup() as opening:
+        page.keyboard.press("F1")
+    manual = opening.value
+    manual.wait_for_url("**/manual/reference/scene.html#slides")
+    assert "slides" in manual.text_content("main")
+    manual.close()

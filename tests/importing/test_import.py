@@ -120,6 +120,58 @@ def test_a_four_bar_turns_as_its_circles_cross():
     assert float(solved.links["3"].omega) == pytest.approx(rate(rocker), rel=1e-5)
 
 
+CSV = """joints
+id,x,y,links,type,ground,angle,input
+a,0,0,ab,R,true,Null,true
+b,3,4,ab|bc,R,false,Null,false
+c,15,-1,bc|cd,R,false,Null,false
+d,15,-1,cd,P,true,0.25,false
+links
+id,type,mass,mass_moi,center_of_mass_x,center_of_mass_y,joints,forces,shape
+ab,R,1,1,1.5,2,"a,b","",
+bc,R,1,1,9,1.5,"b,c","F1",
+cd,P,1,Null,Null,Null,"c,d","",Null
+forces
+id,link,startx,starty,endx,endy,fixed,direction,mag
+F1,bc,9,1,9,3,true,true,10
+settings
+input_speed_mag,clockwise,gravity,unit
+30,true,false,cm
+"""
+
+
+def test_a_csv_file_of_pmks_moves_as_its_slider_crank():
+    """The guide rises at 0.25 rad through (15, -1); in its axes the pin is at y = b.imag."""
+    found = scene_text(imported(CSV))
+    assert any("force F1" in note for note in found.notes)
+    solved = Mechanism(read_text(found.text, "imported")).solve()
+    way, start, rod = rect(1, 0.25), 15 - 1j, abs(12 - 5j)
+
+    def along(time: float) -> float:
+        pin = (turned(3 + 4j, 0, -pi * time) - start) / way
+        return (pin.real + sqrt(rod**2 - pin.imag**2)).real
+
+    assert along(0) == pytest.approx(0, abs=1e-9)
+    velocity = complex(solved.points["c"].velocity) * 100
+    assert velocity == pytest.approx(rate(along) * way, rel=1e-6)
+
+
+@pytest.mark.parametrize(
+    ("part", "other"), [("type,ground", "kind,ground"), ("settings", "other"), ('"b,c"', '"b,x"')]
+)
+def test_a_damaged_csv_file_is_refused_in_words(part, other):
+    assert part in CSV
+    with pytest.raises(GraphkinError, match=r"damaged|no unit|nothing"):
+        scene_text(imported(CSV.replace(part, other)))
+
+
+def test_an_older_file_of_linkage_is_read_and_named():
+    text = (HERE / "crank.linkage2").read_text()
+    old = imported(text.replace("linkage2>", "linkage>"))
+    assert any("older file" in note for note in old.notes)
+    assert old.joints == imported(text).joints
+
+
 def test_an_old_link_turns_counter_clockwise_where_it_says_so():
     assert float(opened(LINKS["old-four-bar"]).solve().links["1"].omega) == pytest.approx(pi / 3)
 

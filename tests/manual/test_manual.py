@@ -76,7 +76,9 @@ def test_a_mistake_gives_its_message(mistake: Mistake, tmp_path: Path, monkeypat
     Path("my.toml").write_text(with_part(whole, mistake.part), encoding="utf-8")
     result = ran("check", "my.toml")
     assert result.exit_code == 2
-    assert result.stderr == f"graphkin: my.toml: {mistake.message}\n"
+    told, *more = result.stderr.splitlines()
+    assert told == f"graphkin: my.toml: {mistake.message}"
+    assert all(line.startswith("graphkin: the manual says more: ") for line in more)
 
 
 def test_the_bound_of_an_unfair_crossing_is_the_one_on_the_page() -> None:

@@ -7,6 +7,7 @@ import math
 import re
 import shutil
 import subprocess
+import sys
 from collections.abc import Callable, Sequence
 from fractions import Fraction
 from functools import cache
@@ -14,14 +15,17 @@ from pathlib import Path
 
 import pytest
 from click.testing import CliRunner
+from openpyxl import load_workbook
 
 from graphkin.cli.export_command import export
 from graphkin.cli.main import app
+from graphkin.documents.program_files import PROGRAMS
 from graphkin.mechanism import Mechanism, load
 from graphkin.motion.driving import stated_motion
 from graphkin.motion.sweep import law_of_time
 from graphkin.text.errors import GraphkinError, SceneError
 from graphkin.web.formula import LANGUAGES, Formula, formula_of
+from graphkin.web.formula_workbook import formula_workbook
 
 SCENES = Path(__file__).resolve().parents[2] / "examples" / "scenes"
 TOLERANCE = 1e-9
@@ -93,11 +97,13 @@ def places(mechanism: Mechanism) -> Case:
 def compared(name: str) -> tuple[Formula, list[Case], list[dict[str, float]]]:
     """The formula of a scene as written, arguments of other variants, and what ``solve`` gives."""
     variants = at_other_values(name)
-    cases = [
-        [*places(each), *(float(each.scene.values[name]) for name in each.scene.parameters)]
-        for each in variants
-    ]
-    return formula_of(variants[0]), cases, [motion_of(each) for each in variants]
+    formula = formula_of(variants[0])
+    taken = {each.name for each in formula.arguments}
+    cases = []
+    for each in variants:
+        given = [name for name in each.scene.parameters if f"p_{name}" in taken]
+        cases.append([*places(each), *(float(each.scene.values[name]) for name in given)])
+    return formula, cases, [motion_of(each) for each in variants]
 
 
 def by_python(formula: Formula, cases: Sequence[Case], _: Path) -> list[dict[str, float]]:
@@ -136,16 +142,42 @@ def by_c(formula: Formula, cases: Sequence[Case], tmp: Path) -> list[dict[str, f
     return [{name: next(numbers) for name in formula.results} for _ in cases]
 
 
-RUNS = {"python": by_python, "javascript": by_javascript, "c": by_c}
+def by_matlab(formula: Formula, cases: Sequence[Case], tmp: Path) -> list[dict[str, float]]:
+    octave = shutil.which("octave-cli") or shutil.which("octave")
+    if octave is None:
+        pytest.skip("GNU Octave is not installed")
+    (tmp / f"{formula.name}.m").write_text(LANGUAGES["matlab"](formula), encoding="utf-8")
+    lines = ["more off;"]
+    for case in cases:
+        lines += [f"r = {formula.name}({', '.join(map(repr, case))});"]
+        lines += [f'printf("%.17g\\n", r.{name});' for name in formula.results]
+    (tmp / "calls.m").write_text("\n".join(lines), encoding="utf-8")
+    command = [octave, "--norc", "--no-history", "--quiet", "calls.m"]
+    done = subprocess.run(command, cwd=tmp, capture_output=True, check=True)
+    numbers = iter(map(float, done.stdout.split()))
+    return [{name: next(numbers) for name in formula.results} for _ in cases]
+
+
+RUNS = {"python": by_python, "javascript": by_javascript, "c": by_c, "matlab": by_matlab}
 
 
 def test_the_command_offers_every_language() -> None:
     (choice,) = (each.type for each in export.params if each.name == "language")
-    assert list(choice.choices) == list(LANGUAGES)
+    assert list(choice.choices) == [*LANGUAGES, "excel", *PROGRAMS]
 
 
 def test_every_language_is_run() -> None:
     assert set(RUNS) == set(LANGUAGES)
+
+
+@pytest.mark.parametrize("name", KINDS)
+def test_each_argument_changes_a_result(name: str, tmp_path: Path) -> None:
+    formula, (case, *_), _ = compared(name)
+    (before,) = by_python(formula, [case], tmp_path)
+    for place, value in enumerate(case):
+        other = [*case[:place], value * 1.0001 + 1e-4, *case[place + 1 :]]
+        (after,) = by_python(formula, [other], tmp_path)
+        assert after != before, formula.arguments[place].name
 
 
 @pytest.mark.parametrize("language", RUNS)
@@ -159,6 +191,50 @@ def test_the_numbers_are_those_of_solve(name: str, language: str, tmp_path: Path
             alike = [v for n, v in wanted.items() if n.partition("_")[0].replace("y", "x") == kind]
             size = max(map(abs, alike)) if max(map(abs, alike)) > TOLERANCE else 1.0
             assert found[one] == pytest.approx(wanted[one], rel=0, abs=TOLERANCE * size), one
+
+
+RECALCULATE = """
+import json, sys
+from formulas import ExcelModel
+model = ExcelModel().loads(sys.argv[1]).finish(circular=False)
+sheet = "'[book.xlsx]MOTION'!"
+for values in json.loads(sys.argv[2]):
+    given = {sheet + cell: value for cell, value in values.items()}
+    wanted = {name: sheet + cell for name, cell in json.loads(sys.argv[3]).items()}
+    found = model.calculate(inputs=given, outputs=list(wanted.values()))
+    print(json.dumps({name: float(found[c].value[0, 0]) for name, c in wanted.items()}))
+"""
+"""A formula engine that knows nothing of mechanisms computes the workbook with other arguments."""
+
+
+@pytest.mark.parametrize("name", ["pump", "crank-slot", "gears-planet", "cylinders-two"])
+def test_a_workbook_computes_what_solve_does(name: str, tmp_path: Path) -> None:
+    formula, cases, expected = compared(name)
+    (tmp_path / "book.xlsx").write_bytes(formula_workbook(formula))
+    rows = {
+        row[0].value: row[1].coordinate
+        for row in load_workbook(tmp_path / "book.xlsx")["Motion"].iter_rows()
+        if len(row) > 1
+    }
+    given = [
+        {rows[a.name]: value for a, value in zip(formula.arguments, case, strict=True)}
+        for case in cases
+    ]
+    wanted = {result: rows[result] for result in formula.results}
+    command = [sys.executable, "-c", RECALCULATE, "book.xlsx", json.dumps(given)]
+    done = subprocess.run(
+        [*command, json.dumps(wanted)], cwd=tmp_path, capture_output=True, check=True, text=True
+    )
+    for line, solved in zip(done.stdout.splitlines(), expected, strict=True):
+        found = json.loads(line)
+        for one, value in solved.items():
+            assert found[one] == pytest.approx(value, rel=1e-8, abs=1e-7), one
+
+
+def test_a_workbook_needs_a_file() -> None:
+    told = CliRunner().invoke(app, ["export", "pump", "--to", "excel"])
+    assert told.exit_code == 2
+    assert "-o FILE" in told.stderr
 
 
 def test_most_scenes_are_compared_at_several_positions() -> None:

@@ -14,6 +14,7 @@ from threading import Thread
 import pytest
 
 from graphkin.text.errors import PageError
+from graphkin.writers.files import write_all
 from graphkin.writers.lock import HOLDER, LOCK, locked
 
 ROOT = Path(__file__).resolve().parents[2]
@@ -97,3 +98,11 @@ def test_a_folder_without_locks_is_written_all_the_same(tmp_path, monkeypatch):
     monkeypatch.setattr(fcntl, "flock", none)
     with locked(tmp_path) as left:
         assert left == ""
+
+
+@pytest.mark.skipif(not Path("/proc/self").exists(), reason="a folder in which nothing can be made")
+def test_a_folder_that_cannot_be_written_is_no_folder_in_use():
+    with pytest.raises(OSError), locked(Path("/proc")):
+        pass
+    with pytest.raises(PageError, match="cannot be written"):
+        write_all(Path("/proc"), {"x": b""}, force=False)

@@ -31,6 +31,18 @@ def labs_lines() -> Iterator[str]:
         yield ""
 
 
+def scenes_lines() -> Iterator[str]:
+    """The name and title of every shipped lab and scene."""
+    from graphkin.scene.file_limits import decoded, read_bytes, tables_of
+
+    titles = {
+        name: str(tables_of(decoded(read_bytes(scene_files.find(name))))["title"])
+        for name in (*scene_files.names(), *scene_files.examples())
+    }
+    width = max(map(len, titles))
+    return (f"{name:{width}}  {title}" for name, title in titles.items())
+
+
 def lab_lines(scene: Scene) -> list[str]:
     """The lines about one lab."""
     parameters = [

@@ -6,6 +6,7 @@ import { agreed, choose, saved, saveSheets } from "./dialogs.js";
 import { onChoosing, onMechanism, onPointing, showDrawings } from "./drawings.js";
 import { change, go as goTo, onWriting, replace, showProblems, written } from "./editor.js";
 import { historyOf } from "./history.js";
+import { helping, importing } from "./imports.js";
 import { inClass, labOf, markScene, onWritingRules, replaceRules, showClass, showRules, trySoon, writtenRules } from "./lab.js";
 import { counted, sentence } from "./mistakes.js";
 import { inMotion, motionOf, moveSoon, showMotion } from "./motion.js";
@@ -366,8 +367,24 @@ function asLab() {
   state();
 }
 
+/** Show an imported scene as a change of the text, under a name of its own. */
+async function imported(text, name, notes) {
+  if (!isSafe() && !(await agreed(say("studio.leave"), say("studio.go_on")))) return;
+  held = { name, mark: "", rulesMark: "", lab: false };
+  file.value = name;
+  forgetMoves();
+  replace(text);
+  replaceRules("");
+  safe = "";
+  state();
+  await look(false);
+  if (notes.length) tell(notes.join("; "), "poor");
+}
+
 safe = texts();
 recall();
+importing(imported);
+helping();
 labOf(scene, asLab, () => inMotion() && showMotion(false));
 motionOf(scene, () => {
   if (inClass()) showClass(false);
