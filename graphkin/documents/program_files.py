@@ -23,6 +23,8 @@ from graphkin.structure.link_axes import guide_line
 from graphkin.text.errors import NO_WORDS, PageError, Problem, message
 
 PER_INCH = 96
+LAYER = "16"
+"""The layer of mechanisms in Linkage."""
 DIGITS = 9
 """Decimals of a coordinate."""
 
@@ -63,7 +65,7 @@ def linkage_file(mechanism: Mechanism) -> bytes:
     held = [(name, [ids[point] for point in points]) for name, points in sent.bodies.items()]
     held += [("", [*track]) for track in tracks]
     for number, (name, owns) in enumerate(held):
-        link = SubElement(root, "Link", id=str(number), name=name)
+        link = SubElement(root, "Link", id=str(number), layer=LAYER, name=name)
         for own in owns:
             SubElement(link, "connector", id=own)
     indent(root)
@@ -73,7 +75,7 @@ def linkage_file(mechanism: Mechanism) -> bytes:
 def add_connector(root: Element, own: str, place: complex, **more: str) -> Element:
     """Add a connector at a place in metres."""
     x, y = (decimal(part / METRES["in"] * PER_INCH) for part in (place.real, place.imag))
-    return SubElement(root, "connector", {"id": own, "x": x, "y": y, **more})
+    return SubElement(root, "connector", {"id": own, "layer": LAYER, "x": x, "y": y, **more})
 
 
 def pylinkage_file(mechanism: Mechanism) -> bytes:

@@ -165,6 +165,21 @@ def test_a_damaged_csv_file_is_refused_in_words(part, other):
         scene_text(imported(CSV.replace(part, other)))
 
 
+def test_a_link_that_hangs_on_nothing_is_left_out_and_named():
+    text = (HERE / "crank.linkage2").read_text()
+    loose = (
+        '<connector id="0" x="0" y="0"/><connector id="9" x="50" y="0"/>'
+        '<Link id="7"><connector id="0"/><connector id="9"/></Link></linkage2>'
+    )
+    found = scene_text(imported(text.replace("</linkage2>", loose)))
+    alone = scene_text(imported(text))
+    assert [note for note in found.notes if note not in alone.notes] == [
+        "link link 7 is connected with nothing fixed and is left out"
+    ]
+    one, other = (Mechanism(read_text(each.text, "a")).solve() for each in (found, alone))
+    assert one.links.keys() == other.links.keys()
+
+
 def test_an_older_file_of_linkage_is_read_and_named():
     text = (HERE / "crank.linkage2").read_text()
     old = imported(text.replace("linkage2>", "linkage>"))
