@@ -358,6 +358,46 @@ def test_an_error_of_the_scene_names_the_links_of_the_file():
         scene_text(imported(free))
 
 
+PROJECTS = {
+    "blocks": """background: {}
+input:
+- - 4
+  - 2
+links:
+  ground: White
+mechanism: M[J[R, color[Green], P[0.0, 0.0], L[ground, a]], J[R, color[Green], P[12.92,
+  32.53], L[a, b]], J[R, color[Green], P[73.28, 67.97], L[b, c]], J[R, color[Green],
+  P[33.3, 66.95], L[b]], J[R, color[Green], P[90.0, 0.0], L[ground, c]]]
+pyslvs_ver: 22.7.0
+""",
+    "flow": "{input: [[4, 2]], links: {ground: White}, mechanism: 'M[J[R, P[0.0, 0.0], L[ground,"
+    " a]], J[R, P[12.92, 32.53], L[a, b]], J[R, P[73.28, 67.97], L[b, c]], J[R, P[33.3, 66.95],"
+    " L[b]], J[R, P[90.0, 0.0], L[ground, c]]]', pyslvs_ver: 22.7.0}",
+}
+
+
+@pytest.mark.parametrize("name", PROJECTS)
+def test_a_project_of_pyslvs_drives_the_joints_of_its_inputs(name):
+    """The input turns P2 about P4, which is not the first pivot of the file."""
+    found = scene_text(imported(PROJECTS[name]))
+    assert any("no speed" in note for note in found.notes)
+    solved = Mechanism(read_text(found.text, name)).solve()
+    at = [0j, 12.92 + 32.53j, 73.28 + 67.97j, 33.3 + 66.95j, 90 + 0j]
+    for own, place in enumerate(at):
+        assert complex(solved.points[f"P{own}"].position) * 1000 == pytest.approx(place, abs=1e-6)
+
+    def crank(time: float) -> float:
+        pin = turned(at[2], at[4], pi / 30 * time)
+        return phase(crossing(pin, abs(at[2] - at[1]), at[0], abs(at[1]), at[1]))
+
+    assert float(solved.links["1"].omega) == pytest.approx(rate(crank), rel=1e-5)
+
+
+def test_a_project_with_an_input_on_no_link_is_refused():
+    with pytest.raises(GraphkinError, match="damaged"):
+        imported(PROJECTS["flow"].replace("[[4, 2]]", "[[4, 1]]"))
+
+
 def test_a_length_without_a_unit_is_named():
     assert any("unit" in note for note in scene_text(imported(PYSLVS["slider"])).notes)
 
