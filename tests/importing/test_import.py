@@ -454,6 +454,14 @@ def test_a_link_of_the_old_pmks_turns_as_its_circles_cross(between):
         assert complex(solved.points[point].position) == pytest.approx(place / 1000)
 
 
+def test_a_file_of_the_old_pmks_has_a_line_for_each_joint():
+    joints = (
+        "ground,in,R,0,0,0,tfft|in,rod,R,3,26,ffff|rod,out,R,95,62,0,ffff|out,ground,R,9,-5,f"
+    )
+    lines = "mech=\n" + joints.replace("|", "\n") + "\n"
+    assert imported(lines) == imported(f"mech={joints}")
+
+
 def test_a_block_of_the_old_pmks_slides_on_its_guide():
     text = "mech=ground,a,R,0,0,tfft|a,b,R,30,40,ffff|b,c,R,150,-10,ffff|c,ground,P,150,-10,0,ffff"
     solved = opened(text).solve()
