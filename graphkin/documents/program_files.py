@@ -1,4 +1,4 @@
-"""A mechanism as a file of Linkage or of pylinkage: its joints at their places, and its links.
+"""A mechanism as a file of another program: Linkage and pylinkage here, PMKS+ beside.
 
 Both programs know pins, bars and plates, cranks about fixed pins, and blocks with one pin. Linkage
 has guides on the frame and along two joints of a link; pylinkage has them on the frame only.
@@ -17,6 +17,7 @@ from msgspec.json import encode, format
 
 from graphkin.construction.core.drawn_scene import METRES
 from graphkin.documents.known_joints import along, not_cranks, unknown
+from graphkin.documents.pmks_file import pmks_file
 from graphkin.mechanism import Mechanism
 from graphkin.scene.model import FRAME, Link, Slide
 from graphkin.structure.link_axes import guide_line
@@ -106,8 +107,10 @@ def pylinkage_file(mechanism: Mechanism) -> bytes:
     return format(encode(whole), indent=1) + b"\n"
 
 
-PROGRAMS: Mapping[str, Callable[[Mechanism], bytes]] = {
+Writer = Callable[[Mechanism], bytes]
+PROGRAMS: Mapping[str, Writer] = {
     "linkage": linkage_file,
+    "pmks": pmks_file,
     "pylinkage": pylinkage_file,
 }
 """The writer of each program's file, by the program's name."""

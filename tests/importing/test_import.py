@@ -455,9 +455,7 @@ def test_a_link_of_the_old_pmks_turns_as_its_circles_cross(between):
 
 
 def test_a_file_of_the_old_pmks_has_a_line_for_each_joint():
-    joints = (
-        "ground,in,R,0,0,0,tfft|in,rod,R,3,26,ffff|rod,out,R,95,62,0,ffff|out,ground,R,9,-5,f"
-    )
+    joints = "ground,in,R,0,0,0,tfft|in,rod,R,3,26,ffff|rod,out,R,95,62,0,ffff|out,ground,R,9,-5,f"
     lines = "mech=\n" + joints.replace("|", "\n") + "\n"
     assert imported(lines) == imported(f"mech={joints}")
 
