@@ -35,7 +35,7 @@ def sheet_files(
     if "pmks" in kinds:
         from graphkin.documents.pmks_file import pmks_file
 
-        files[f"{stem}.pmks"] = pmks_file(mechanism)
+        files[f"{stem}.pmks"] = pmks_file(mechanism, message("leave pmks out"))
     if {*kinds} - {"html", "pmks"}:
         from graphkin.documents.sheet_documents import hand_out
         from graphkin.writers.files import rendered

@@ -14,7 +14,9 @@ from graphkin.cli.options import force_option, mechanism_of, say, scene_argument
 @click.option(
     "--to",
     "language",
-    type=click.Choice(["python", "javascript", "c", "matlab", "excel", "linkage", "pylinkage"]),
+    type=click.Choice(
+        ["python", "javascript", "c", "matlab", "excel", "linkage", "pmks", "pylinkage"]
+    ),
     required=True,
     help="The language of the function, or the program that reads the file.",
 )
@@ -41,9 +43,8 @@ def export(
     Mechanisms with groups of class III or higher, and those whose wheels are turned by pins alone,
     cannot be written as such a function.
 
-    linkage, pylinkage: the mechanism in its position, as a .linkage2 file of Linkage, or as JSON of
-    pylinkage. What such a program does not have is refused. For PMKS+, use graphkin sheet --format
-    pmks.
+    linkage, pmks, pylinkage: the mechanism in its position, as a .linkage2 file of Linkage, a .pmks
+    file of PMKS+, or JSON of pylinkage. What such a program does not have is refused.
 
     \b
     Examples:

@@ -45,7 +45,7 @@ def import_scene(
     """Write a mechanism of another program as a scene.
 
     FILE is a .pmks or .csv file of PMKS+, a .linkage2 file of Linkage, a .json file of pylinkage,
-    a text with an expression M[J[…], …] of Pyslvs, or a drawing. LINK is an address with which
+    a .pyslvs file or an expression M[J[…], …] of Pyslvs, or a drawing. LINK is an address by which
     PMKS+ or the older PMKS shares a mechanism, in quotes; it is read, never opened. The scene has
     the closure that is nearest to the drawing. What a scene cannot hold is named on standard error,
     and in comments at the head of the scene.

@@ -44,6 +44,7 @@ STOPPED = 130
 BROKEN_PIPE = 141
 OBEYED = "[\x00-\x08\x0b-\x1f\x7f-\x9f\xad\u061c\u200b-\u200f\u2028-\u202e\u2060-\u206f\ufeff]"
 """Characters that control a terminal or hide text; tabs and line ends are harmless."""
+OF_SCENES = (SceneError, StructureError, ClosureError, PageError)
 MOST_KEYS = 3
 """Keys that are named under the problems of a scene."""
 READING = "graphkin.scene"
@@ -193,7 +194,7 @@ def guarded(work: Callable[[], Any]) -> int:
 
 def explained_keys(error: GraphkinError) -> list[str]:
     """The keys of a scene that the manual explains, in the places of problems."""
-    if not isinstance(error, SceneError | StructureError):
+    if isinstance(error, FileError) or not isinstance(error, OF_SCENES):
         return []
     from graphkin.manual.pages import explained
 

@@ -22,7 +22,7 @@ from graphkin.documents.known_joints import along, not_cranks
 from graphkin.mechanism import Mechanism
 from graphkin.scene.model import FRAME, Link, Scene
 from graphkin.structure.link_axes import guide_line
-from graphkin.text.errors import PageError, Problem, message
+from graphkin.text.errors import NO_WORDS, Hint, PageError, Problem, message
 
 PROGRAM = "PMKS+"
 ALPHABET = f"{digits}{ascii_uppercase}{ascii_lowercase}_-"
@@ -42,21 +42,21 @@ SIZE = 0.3
 """Drawn size of joints, in parts of a third of the mechanism's extent."""
 
 
-def pmks_file(mechanism: Mechanism) -> bytes:
+def pmks_file(mechanism: Mechanism, hint: Hint = NO_WORDS) -> bytes:
     """A mechanism as the text of a ``.pmks`` file, with lengths to 0.01 mm (in inches to 0.001 in).
 
-    Raises PageError for everything that PMKS+ has no joint or link for, with a problem for each.
+    Raises PageError for everything that PMKS+ has no joint or link for, with a problem for each and
+    the hint.
     """
     scene = mechanism.scene
-    refused = list(unknown(scene))
+    refused = list(unknown(scene, hint))
     if refused:
         raise PageError(refused)
     return PmksText(mechanism).text().encode("ascii")
 
 
-def unknown(scene: Scene) -> Iterator[Problem]:
+def unknown(scene: Scene, hint: Hint) -> Iterator[Problem]:
     """The problems of a scene that PMKS+ does not support."""
-    hint = message("leave pmks out")
     yield from known_joints.unknown(scene, PROGRAM, hint, moving_guides=True)
     if len(scene.drivers) != 1 or not_cranks(scene):
         yield Problem(

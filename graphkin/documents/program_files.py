@@ -1,4 +1,4 @@
-"""A mechanism as a file of Linkage or of pylinkage: its joints at their places, and its links.
+"""A mechanism as a file of another program: Linkage and pylinkage here, PMKS+ beside.
 
 Both programs know pins, bars and plates, cranks about fixed pins, and blocks with one pin. Linkage
 has guides on the frame and along two joints of a link; pylinkage has them on the frame only.
@@ -17,12 +17,15 @@ from msgspec.json import encode, format
 
 from graphkin.construction.core.drawn_scene import METRES
 from graphkin.documents.known_joints import along, not_cranks, unknown
+from graphkin.documents.pmks_file import pmks_file
 from graphkin.mechanism import Mechanism
 from graphkin.scene.model import FRAME, Link, Slide
 from graphkin.structure.link_axes import guide_line
 from graphkin.text.errors import NO_WORDS, PageError, Problem, message
 
 PER_INCH = 96
+LAYER = "16"
+"""The layer of mechanisms in Linkage."""
 DIGITS = 9
 """Decimals of a coordinate."""
 
@@ -63,7 +66,7 @@ def linkage_file(mechanism: Mechanism) -> bytes:
     held = [(name, [ids[point] for point in points]) for name, points in sent.bodies.items()]
     held += [("", [*track]) for track in tracks]
     for number, (name, owns) in enumerate(held):
-        link = SubElement(root, "Link", id=str(number), name=name)
+        link = SubElement(root, "Link", id=str(number), layer=LAYER, name=name)
         for own in owns:
             SubElement(link, "connector", id=own)
     indent(root)
@@ -73,7 +76,7 @@ def linkage_file(mechanism: Mechanism) -> bytes:
 def add_connector(root: Element, own: str, place: complex, **more: str) -> Element:
     """Add a connector at a place in metres."""
     x, y = (decimal(part / METRES["in"] * PER_INCH) for part in (place.real, place.imag))
-    return SubElement(root, "connector", {"id": own, "x": x, "y": y, **more})
+    return SubElement(root, "connector", {"id": own, "layer": LAYER, "x": x, "y": y, **more})
 
 
 def pylinkage_file(mechanism: Mechanism) -> bytes:
@@ -104,8 +107,10 @@ def pylinkage_file(mechanism: Mechanism) -> bytes:
     return format(encode(whole), indent=1) + b"\n"
 
 
-PROGRAMS: Mapping[str, Callable[[Mechanism], bytes]] = {
+Writer = Callable[[Mechanism], bytes]
+PROGRAMS: Mapping[str, Writer] = {
     "linkage": linkage_file,
+    "pmks": pmks_file,
     "pylinkage": pylinkage_file,
 }
 """The writer of each program's file, by the program's name."""

@@ -8,7 +8,7 @@ from __future__ import annotations
 import io
 from collections import Counter
 from collections.abc import Iterator
-from itertools import islice, pairwise
+from itertools import islice, pairwise, product
 from typing import Any
 
 from graphkin.importing.figure import NEAR, BarFigure
@@ -56,8 +56,9 @@ class DrawingReader:
         known = {"LINE", "LWPOLYLINE", "POLYLINE", "CIRCLE", "POINT", "TEXT", "MTEXT"}
         self.others = Counter(e.dxftype() for e in entities if e.dxftype() not in known)
         every = [place for _, way in self.ways for place in way] + self.marks
-        self.near = NEAR * max(map(abs, every), default=1.0)
+        self.near = NEAR * (max(map(abs, every), default=1.0) or 1.0)
         self.places: list[complex] = []
+        self.cells: dict[tuple[int, int], int] = {}
 
     def figure(self, unit: str) -> BarFigure:
         """The drawing with names of points."""
@@ -85,11 +86,13 @@ class DrawingReader:
 
     def point(self, place: complex) -> int:
         """The number of the point at a place."""
-        for own, known in enumerate(self.places):
-            if abs(known - place) <= self.near:
-                return own
+        x, y = (round(part / self.near) for part in (place.real, place.imag))
+        for cell in product((x - 1, x, x + 1), (y - 1, y, y + 1)):
+            if cell in self.cells:
+                return self.cells[cell]
+        self.cells[x, y] = len(self.places)
         self.places.append(place)
-        return len(self.places) - 1
+        return self.cells[x, y]
 
     def names(self) -> list[str]:
         """A name for each point: of the nearest short text, or P with its number."""

@@ -144,16 +144,20 @@ def reached(bars: Iterable[frozenset[str]], fixed: tuple[str, ...]) -> list[froz
 
 def with_points_between(figure: BarFigure) -> Iterator[frozenset[str]]:
     """The points of each bar, with those drawn on it between its ends."""
-    extent = max((abs(place) for place in figure.points.values()), default=1.0)
+    import numpy as np
+
+    names = [*figure.points]
+    places = np.array([*figure.points.values()], complex)
+    near = NEAR * max(np.abs(places), default=1.0)
     for bar in figure.bars:
-        between = set(bar)
-        if len(bar) == 2:
+        if len(bar) == 2 and figure.points[bar[0]] != figure.points[bar[1]]:
             one, other = (figure.points[end] for end in bar)
-            for name, place in figure.points.items():
-                if one != other and 0 < ((place - one) / (other - one)).real < 1:
-                    off = abs(((place - one) / (other - one)).imag) * abs(other - one)
-                    between |= {name} if off < NEAR * extent else set()
-        yield frozenset(between)
+            along = (places - one) / (other - one)
+            on = np.abs(along.imag) * abs(other - one) < near
+            (between,) = np.nonzero(on & (along.real > 0) & (along.real < 1))
+            yield frozenset([*bar, *(names[own] for own in between)])
+        else:
+            yield frozenset(bar)
 
 
 def plates(bars: Iterable[frozenset[str]]) -> list[tuple[str, ...]]:

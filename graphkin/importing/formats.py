@@ -15,6 +15,8 @@ DXF = re.compile(r"\s*(0\s*\n\s*SECTION|999\s*\n)|AutoCAD Binary DXF")
 ARCHIVE = b"PK\x03\x04"
 LARGEST_DRAWING = 2 << 20
 """The most bytes of a GeoGebra or DXF file."""
+PROJECT = "pyslvs_ver:"
+"""A key of every project of Pyslvs, which may also hold long paths."""
 UNTRACED = Completion()
 PMKS = re.compile(r"[\w-]{2}\.[\w,-]*\.[\w,-]*\.[\w-]*\.")
 
@@ -45,7 +47,7 @@ def text_of(data: bytes) -> str:
 
         return unpacked(data)
     text = data.decode("utf-8-sig", "replace")
-    most = LARGEST_DRAWING if DXF.match(text) else LARGEST
+    most = LARGEST_DRAWING if DXF.match(text) or PROJECT in text else LARGEST
     if len(data) > most:
         raise refused(message("more than {most} bytes", most=most))
     return text
@@ -81,7 +83,11 @@ def imported(text: str, tracing: Completion = UNTRACED) -> Imported:
             from graphkin.importing.pyslvs import pyslvs_text
 
             return pyslvs_text(text)
-        if text.startswith("{"):
+        if "mechanism:" in text and "M[" in text:
+            from graphkin.importing.pyslvs import project_text
+
+            return project_text(text)
+        if text.startswith("{") and '"joints"' in text:
             from graphkin.importing.pylinkage import pylinkage_text
 
             return pylinkage_text(text)

@@ -8,18 +8,33 @@ from __future__ import annotations
 import io
 from collections import Counter
 from collections.abc import Iterator
+from contextlib import suppress
+from itertools import pairwise
 from xml.etree.ElementTree import Element
 from zipfile import BadZipFile, ZipFile
 
 from graphkin.importing.figure import BarFigure
 from graphkin.importing.record import few, named, number, refused, safe_xml
-from graphkin.text.errors import Message, joined, message
+from graphkin.text.errors import Message, SceneError, joined, message
 
 PROGRAM = "GeoGebra"
 INSIDE = "geogebra.xml"
 LARGEST_XML = 2 << 20
-RIGID = ("Segment", "Polygon", "RigidPolygon")
-QUIET = {"point", "segment", "polygon", "numeric", "text", "angle", "boolean", "button", "image"}
+CHAIN = "PolyLine"
+"""The command of a chain of bars; each of the others makes one bar or plate."""
+DRAWN = ("Segment", "Polygon", "RigidPolygon", CHAIN)
+QUIET = {
+    "point",
+    "segment",
+    "polygon",
+    "polyline",
+    "numeric",
+    "text",
+    "angle",
+    "boolean",
+    "button",
+    "image",
+}
 """Kinds of element that are read, or that no mechanism has."""
 
 
@@ -47,9 +62,9 @@ def geogebra_figure(text: str) -> BarFigure:
     elements = {each.get("label", ""): each for each in construction.iter("element")}
     points = dict(places(elements))
     few(len(points))
-    bars, notes = [], list[Message]()
+    bars, notes = list[tuple[str, ...]](), list[Message]()
     for command in construction.iter("command"):
-        if command.get("name") not in RIGID:
+        if command.get("name") not in DRAWN:
             continue
         made = [*values(command.find("output"))]
         held = dict.fromkeys(each for each in values(command.find("input")) if each in points)
@@ -63,6 +78,8 @@ def geogebra_figure(text: str) -> BarFigure:
                 if made
                 else message("a segment has no points at its ends and is left out")
             )
+        elif command.get("name") == CHAIN:
+            bars += pairwise(held)
         else:
             bars.append(tuple(held))
     others = Counter(
@@ -77,13 +94,14 @@ def geogebra_figure(text: str) -> BarFigure:
 
 
 def places(elements: dict[str, Element]) -> Iterator[tuple[str, complex]]:
-    """The place of each defined point."""
+    """The place of each point that has one; others are undefined in the drawing, or far away."""
     for label, element in elements.items():
         coords = element.find("coords")
         if element.get("type") == "point" and coords is not None:
-            x, y, z = (coords.get(name, "NaN") for name in "xyz")
-            if "NaN" not in (x, y, z) and number(z):
-                yield label, complex(number(x), number(y)) / number(z)
+            with suppress(SceneError):
+                x, y, z = (number(coords.get(name, "")) for name in "xyz")
+                if z:
+                    yield label, complex(number(str(x / z)), number(str(y / z)))
 
 
 def values(element: Element | None) -> list[str]:

@@ -37,7 +37,8 @@ def mech_text(text: str) -> Imported:
     Raises SceneError for a pin in a slot and for a gear, too.
     """
     fields = parse_qs(text, keep_blank_values=True, max_num_fields=MOST_FIELDS)
-    lines = [line.replace(",", " ").split() for line in fields["mech"][0].split("|")]
+    said = fields["mech"][0].replace("\n", "|").split("|")
+    lines = [line.replace(",", " ").split() for line in said]
     lines = [line for line in lines if line]
     few(len(lines))
     joints: dict[str, DrawnJoint] = {}

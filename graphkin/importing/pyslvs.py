@@ -2,7 +2,8 @@
 and blocks that do not turn in their slots (P).
 
 Each joint names the links that meet there; of a slot, the first link has it. The angle of a slot is
-that of the drawing.
+that of the drawing. A ``.pyslvs`` file is YAML with such an expression under ``mechanism``, and the
+numbers of a fixed and a turned joint for each input under ``input``.
 """
 
 from __future__ import annotations
@@ -10,8 +11,11 @@ from __future__ import annotations
 import re
 from math import radians
 
+from msgspec.structs import replace
+
 from graphkin.importing.record import (
     DrawnGuide,
+    DrawnInput,
     DrawnJoint,
     DrawnLink,
     Imported,
@@ -32,6 +36,32 @@ JOINT = re.compile(
     r", *P\[(?P<x>[^],]*),(?P<y>[^],]*)\], *L\[(?P<links>[^]]*)\]\]\s*,?\s*"
 )
 """One joint and the comma after it."""
+EXPRESSION = re.compile(r"\bmechanism:\s*['\"]?M\[")
+INPUTS = re.compile(r"\binput:\s*([-\[\](),\s\d]*)")
+"""Pairs of numbers as YAML writes them, in blocks or in brackets."""
+
+
+def project_text(text: str) -> Imported:
+    """The mechanism of a ``.pyslvs`` file, with its inputs."""
+    begin = EXPRESSION.search(text)
+    assert begin is not None
+    depth, end = 0, begin.end() - 1
+    for end in range(begin.end() - 1, len(text)):
+        depth += (text[end] == "[") - (text[end] == "]")
+        if not depth:
+            break
+    found = pyslvs_text("M" + " ".join(text[begin.end() - 1 : end + 1].split()))
+    stated = INPUTS.search(text[: begin.start()]) or INPUTS.search(text[end:])
+    numbers = re.findall(r"\d+", stated[1]) if stated else []
+    inputs = []
+    for one, other in zip(numbers[::2], numbers[1::2], strict=False):
+        about, turned = f"P{int(one)}", f"P{int(other)}"
+        both = (own for own, body in found.bodies.items() if {about, turned} <= {*body.joints})
+        inputs.append(DrawnInput(next(both, ""), 1.0, about))
+        if not inputs[-1].body:
+            raise damaged()
+    more = (message("no speed in the file; 1 rev/min is written"),) if inputs else ()
+    return replace(found, inputs=tuple(inputs), notes=(*found.notes, *more))
 
 
 def pyslvs_text(text: str) -> Imported:

@@ -118,6 +118,7 @@ class SceneWriter:
                 )
         if not self.bodies:
             raise refused(message("nothing in it moves"))
+        self.leave_out_loose(fixed)
         for own in sorted(self.geared - self.bodies.keys()):
             raise refused(
                 message("gear {name} does not move", name=named(found.bodies[own].name)),
@@ -134,6 +135,27 @@ class SceneWriter:
         self.drivers = [each for each in found.inputs if each.body in self.bodies]
         if not self.drivers:
             self.drivers = [self.some_driver(fixed)]
+
+    def leave_out_loose(self, fixed: set[str]) -> None:
+        """Leave out the links that hang together with nothing fixed, with a note for each."""
+        ties = [
+            {("link", own), *(("joint", joint) for joint in body.joints)}
+            for own, body in self.bodies.items()
+        ]
+        ties += [{("link", guide.body), ("link", guide.on)} for guide in self.found.guides]
+        ties += [{("link", gear.one), ("link", gear.other)} for gear in self.found.gears]
+        held, rest = {("link", ""), *(("joint", joint) for joint in fixed)}, ties
+        while joining := [tie for tie in rest if tie & held]:
+            rest = [tie for tie in rest if not tie & held]
+            held.update(*joining)
+        loose = [own for own in self.bodies if ("link", own) not in held]
+        for own in loose if len(loose) < len(self.bodies) else ():
+            self.notes.append(
+                message(
+                    "link {name} is connected with nothing fixed and is left out",
+                    name=named(self.bodies.pop(own).name),
+                )
+            )
 
     def ordered(self, own: str, body: DrawnLink, fixed: set[str]) -> DrawnLink:
         """A link with its sliding joint first, else its fixed one."""

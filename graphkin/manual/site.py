@@ -78,13 +78,24 @@ def moving_page(name: str) -> str:
 
 
 def moving_pages(told: Callable[[str], None]) -> Iterator[tuple[str, bytes]]:
-    """The page that draws and moves each shipped scene, in English; its name is told before."""
+    """The page that draws and moves each shipped scene, in English; its name is told when done."""
+    from concurrent.futures import ProcessPoolExecutor
+
+    from graphkin.classroom.printing.workers import cores
+
+    order = [*scene_texts()]
+    with ProcessPoolExecutor(cores()) as pool:
+        for name, html in zip(order, pool.map(drawn_and_moved, order), strict=True):
+            told(name)
+            yield moving_page(name), html.encode()
+
+
+def drawn_and_moved(name: str) -> str:
+    """The page of one scene."""
     from graphkin.classroom.sheet_files import hand_out_page
     from graphkin.mechanism import load
 
-    for name in scene_texts():
-        told(name)
-        yield moving_page(name), hand_out_page(load(name), name, name, language="en").encode()
+    return hand_out_page(load(name), name, name, language="en")
 
 
 def page(name: str, order: Sequence[str], leading: Leading = nowhere) -> str:

@@ -130,6 +130,23 @@ def test_a_point_between_the_ends_of_a_bar_belongs_to_it():
     assert sorted(len(body.joints) for body in found.bodies.values()) == [2, 2, 2, 3]
 
 
+def test_a_chain_of_segments_is_a_bar_for_each() -> None:
+    chain = geogebra(*POINTS, command("PolyLine", "chain", "A", "B", "C", "D"))
+    found = imported(text_of(chain), FOUR_BAR)
+    assert sorted(body.joints for body in found.bodies.values()) == [
+        ("A", "B"),
+        ("B", "C"),
+        ("C", "D"),
+    ]
+
+
+def test_a_point_without_a_place_is_none() -> None:
+    lost = POINTS[0].replace('label="A"', 'label="Z"').replace('x="0.0"', 'x="Infinity"')
+    assert "Infinity" in lost
+    apart = POINTS[1].replace('label="B"', 'label="Y"').replace('z="2.0"', 'z="0.0"')
+    assert imported(text_of(geogebra(lost, apart, *POINTS, *BARS)), FOUR_BAR).bodies
+
+
 def test_a_title_block_is_left_out():
     frame = [(500 + 10j * n, 900 + 10j * n) for n in range(400)]
     found = imported(dxf(*LINES, *frame), FOUR_BAR)

@@ -165,6 +165,21 @@ def test_a_damaged_csv_file_is_refused_in_words(part, other):
         scene_text(imported(CSV.replace(part, other)))
 
 
+def test_a_link_that_hangs_on_nothing_is_left_out_and_named():
+    text = (HERE / "crank.linkage2").read_text()
+    loose = (
+        '<connector id="0" x="0" y="0"/><connector id="9" x="50" y="0"/>'
+        '<Link id="7"><connector id="0"/><connector id="9"/></Link></linkage2>'
+    )
+    found = scene_text(imported(text.replace("</linkage2>", loose)))
+    alone = scene_text(imported(text))
+    assert [note for note in found.notes if note not in alone.notes] == [
+        "link link 7 is connected with nothing fixed and is left out"
+    ]
+    one, other = (Mechanism(read_text(each.text, "a")).solve() for each in (found, alone))
+    assert one.links.keys() == other.links.keys()
+
+
 def test_an_older_file_of_linkage_is_read_and_named():
     text = (HERE / "crank.linkage2").read_text()
     old = imported(text.replace("linkage2>", "linkage>"))
@@ -343,6 +358,46 @@ def test_an_error_of_the_scene_names_the_links_of_the_file():
         scene_text(imported(free))
 
 
+PROJECTS = {
+    "blocks": """background: {}
+input:
+- - 4
+  - 2
+links:
+  ground: White
+mechanism: M[J[R, color[Green], P[0.0, 0.0], L[ground, a]], J[R, color[Green], P[12.92,
+  32.53], L[a, b]], J[R, color[Green], P[73.28, 67.97], L[b, c]], J[R, color[Green],
+  P[33.3, 66.95], L[b]], J[R, color[Green], P[90.0, 0.0], L[ground, c]]]
+pyslvs_ver: 22.7.0
+""",
+    "flow": "{input: [[4, 2]], links: {ground: White}, mechanism: 'M[J[R, P[0.0, 0.0], L[ground,"
+    " a]], J[R, P[12.92, 32.53], L[a, b]], J[R, P[73.28, 67.97], L[b, c]], J[R, P[33.3, 66.95],"
+    " L[b]], J[R, P[90.0, 0.0], L[ground, c]]]', pyslvs_ver: 22.7.0}",
+}
+
+
+@pytest.mark.parametrize("name", PROJECTS)
+def test_a_project_of_pyslvs_drives_the_joints_of_its_inputs(name):
+    """The input turns P2 about P4, which is not the first pivot of the file."""
+    found = scene_text(imported(PROJECTS[name]))
+    assert any("no speed" in note for note in found.notes)
+    solved = Mechanism(read_text(found.text, name)).solve()
+    at = [0j, 12.92 + 32.53j, 73.28 + 67.97j, 33.3 + 66.95j, 90 + 0j]
+    for own, place in enumerate(at):
+        assert complex(solved.points[f"P{own}"].position) * 1000 == pytest.approx(place, abs=1e-6)
+
+    def crank(time: float) -> float:
+        pin = turned(at[2], at[4], pi / 30 * time)
+        return phase(crossing(pin, abs(at[2] - at[1]), at[0], abs(at[1]), at[1]))
+
+    assert float(solved.links["1"].omega) == pytest.approx(rate(crank), rel=1e-5)
+
+
+def test_a_project_with_an_input_on_no_link_is_refused():
+    with pytest.raises(GraphkinError, match="damaged"):
+        imported(PROJECTS["flow"].replace("[[4, 2]]", "[[4, 1]]"))
+
+
 def test_a_length_without_a_unit_is_named():
     assert any("unit" in note for note in scene_text(imported(PYSLVS["slider"])).notes)
 
@@ -397,6 +452,12 @@ def test_a_link_of_the_old_pmks_turns_as_its_circles_cross(between):
     assert float(solved.links["3"].omega) == pytest.approx(rate(rocker), rel=1e-5)
     for point, place in at.items():
         assert complex(solved.points[point].position) == pytest.approx(place / 1000)
+
+
+def test_a_file_of_the_old_pmks_has_a_line_for_each_joint():
+    joints = "ground,in,R,0,0,0,tfft|in,rod,R,3,26,ffff|rod,out,R,95,62,0,ffff|out,ground,R,9,-5,f"
+    lines = "mech=\n" + joints.replace("|", "\n") + "\n"
+    assert imported(lines) == imported(f"mech={joints}")
 
 
 def test_a_block_of_the_old_pmks_slides_on_its_guide():

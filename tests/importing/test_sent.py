@@ -27,7 +27,7 @@ EVERYWHERE = (
     "five-bar",
 )
 LINKAGE_ONLY = ("shaper", "crank-slot", "geneva-wheel")
-CASES = [(name, program) for name in EVERYWHERE for program in PROGRAMS]
+CASES = [(name, program) for name in EVERYWHERE for program in ("linkage", "pylinkage")]
 CASES += [(name, "linkage") for name in LINKAGE_ONLY]
 STEP = 1e-5
 MM = 0.001

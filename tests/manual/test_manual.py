@@ -12,6 +12,7 @@ import pytest
 from graphkin.classroom.grading.grading_files import read_marks
 from graphkin.construction.core.solution import FAIR
 from graphkin.manual import pages
+from graphkin.manual import site as site_module
 from graphkin.manual.site import relative, site
 from graphkin.scene import scene_files
 from graphkin.studio.look import every_key
@@ -211,3 +212,27 @@ def test_help_prints_a_key_in_each_table_that_may_hold_it() -> None:
     assert places == [f"[links.NAME], {key}" for key in ("rolls", "belt", "cam")]
     assert "did you mean slides?" in ran("help", "slidse").stderr
     assert "Coriolis" in ran("help", "slides").stdout
+
+
+def test_each_card_of_the_gallery_leads_to_the_page_that_moves() -> None:
+    written = dict(site_module.site(site_module.moving_page))["gallery.html"].decode()
+    for name in site_module.scene_texts():
+        assert f'href="moving/{name}.html"' in written
+    assert "moving/" not in dict(site())["gallery.html"].decode()
+
+
+def test_the_manual_is_written_with_the_pages_that_move(tmp_path: Path, monkeypatch: Any) -> None:
+    texts = {"slider-crank": site_module.scene_texts()["slider-crank"]}
+    monkeypatch.setattr(site_module, "scene_texts", lambda: texts)
+    result = ran("manual", "--write", tmp_path, "--moving")
+    assert result.exit_code == 0, result.stderr
+    page = (tmp_path / "moving" / "slider-crank.html").read_text(encoding="utf-8")
+    assert "Slider-crank" in page
+    assert ran("manual", "--moving").exit_code == 2
+
+
+def test_help_explains_a_command_and_names_no_long_list() -> None:
+    assert ran("help", "export").stdout.startswith("Usage: graphkin export")
+    assert "graphkin variants --help" in ran("help", "variants").stdout
+    assert ran("help", "zzzz").stderr.count("\n") == 2
+    assert len(ran("help", "zzzz").stderr) < 120
