@@ -52,6 +52,8 @@ class Drawing(Struct, frozen=True, dict=True):
 
     ``chosen`` is the sheet that decides where marks have room and which lengths are long enough for
     a mark. At another position of the same scene the choice could be different.
+
+    ``fields`` is the layout of a sheet whose kind lays it out itself.
     """
 
     kind: str
@@ -66,6 +68,7 @@ class Drawing(Struct, frozen=True, dict=True):
     computed: Mapping[str, str] = field(default_factory=dict)
     driven: Mapping[str, Any] = field(default_factory=dict)
     chosen: Drawing | None = None
+    fields: Any = None
 
     @property
     def choosing(self) -> Drawing:
@@ -81,6 +84,11 @@ class Drawing(Struct, frozen=True, dict=True):
     def vector(self) -> MotionQuantity:
         """The quantity that this sheet finds for points: velocity or acceleration."""
         return MOTION[self.kind]
+
+    @property
+    def unit(self) -> str:
+        """The unit of the vectors of its plan."""
+        return self.vector.unit
 
     @property
     def rate(self) -> MotionQuantity:

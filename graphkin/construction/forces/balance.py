@@ -19,7 +19,7 @@ class BalancingMoment(Construction, frozen=True, kw_only=True):
     """The balancing moment ``name`` of a driven ``link``."""
 
     gives: ClassVar[tuple[str, ...]] = ("moment",)
-    reasons: ClassVar[Mapping[str, str]] = {"moment": "why.balance"}
+    reasons: ClassVar[Mapping[str, str]] = {"moment": "why.force_balance"}
 
     name: str
     link: str
@@ -42,7 +42,12 @@ class BalancingMoment(Construction, frozen=True, kw_only=True):
             "sense": sense(drawing.words, size),
             "sum": self.moments.symbols(drawing, turned=size > 0),
         }
-        return drawing.words("step.balance" if size else "step.balance-none", **fields)
+        key = "-metres" if self.moments.in_metres(drawing) else ""
+        return drawing.words(f"step.force-balance{key if size else '-none'}", **fields)
+
+    def symbols(self) -> Mapping[str, str]:
+        """The pivot."""
+        return {"o": symbol(self.moments.letter)}
 
     def equations(self, drawing: Drawing, role: str) -> Iterator[Relation]:
         """The sum of moments, with arms in metres."""

@@ -255,18 +255,14 @@ class ForcePlan:
         pin = pen.the("position", outer[one].place)  # type: ignore[union-attr]
         letter = outer[one].place  # type: ignore[union-attr]
         near = moments_about(pen, pin, letter, self.acting[one], self.arms)
-        place = place_on_guide(
-            pen, self.name(inner, one), f"x_{one}", one, guides[0], back, near
-        )
+        place = place_on_guide(pen, self.name(inner, one), f"x_{one}", one, guides[0], back, near)
         self.pressed(inner, one, other, back, place)
         rest = moments_about(pen, place, letter, self.acting[other], self.arms)
         at = place_on_guide(pen, names[1], f"x_{other}", other, guides[1], outward, rest)
         self.give(outer[other], other, outward, at)
         polygon = self.new_polygon((one,), group.type)
         last = polygon.lay_all(self.acting[one])
-        reaction = polygon.reaction(
-            self.name(outer[one], one), last, polygon.start, closes=True
-        )
+        reaction = polygon.reaction(self.name(outer[one], one), last, polygon.start, closes=True)
         self.settle(outer[one], one, reaction, 0, None)
 
     # --- drivers ---------------------------------------------------------------------------------

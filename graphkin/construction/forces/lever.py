@@ -15,12 +15,11 @@ from graphkin.construction.core.kind import ByHand, Construction
 from graphkin.construction.core.naming import sense
 from graphkin.construction.core.pen import Pen, letter
 from graphkin.construction.core.program import Part, Plane
-from graphkin.construction.core.quantities import OnPaper
 from graphkin.construction.core.relation import Relation, answer, figure
 from graphkin.construction.core.vocabulary import action
 from graphkin.construction.forces.force_words import newtons, signed
 from graphkin.construction.forces.loads import LENGTH, Acting
-from graphkin.construction.forces.moments import SEEN, arm
+from graphkin.construction.forces.moments import SEEN, arm, right_angle
 from graphkin.construction.plan import omega_of
 from graphkin.drawing.symbol_markup import bar, symbol
 from graphkin.numbers.arithmetic import Point, Real
@@ -137,18 +136,20 @@ class LeverForce(Construction, frozen=True, kw_only=True):
         turned, foot, force = map(canvas.value, (self.turned, self.foot, self.force))
         if not canvas.drawing.settled(abs(force)):
             return
-        canvas.vector(self.name, self.look, turned, turned + force / abs(force) * LENGTH / canvas.mm)
+        canvas.vector(
+            self.name, self.look, turned, turned + force / abs(force) * LENGTH / canvas.mm
+        )
         if canvas.size(foot) > SEEN:
             canvas.leg(self.name, "ray", turned, foot)
             canvas.dimension(self.number, 0 * foot, foot)
-            canvas.corner(foot, 0 * foot, force)
+            right_angle(canvas, foot, 0 * foot, force)
 
 
 class LeverBalance(Construction, frozen=True, kw_only=True):
     """The balancing ``force`` at the image of the driven point, and the ``moment`` of a crank."""
 
     gives: ClassVar[tuple[str, ...]] = ("force", "moment")
-    reasons: ClassVar[Mapping[str, str]] = {"force": "why.lever"}
+    reasons: ClassVar[Mapping[str, str]] = {"force": "why.force_lever"}
 
     name: str
     moment_name: str
@@ -212,8 +213,8 @@ class LeverBalance(Construction, frozen=True, kw_only=True):
         fields = {
             "p": letter,
             "f": symbol(self.name),
-            "arm": f"*o*{letter}",
-            "sum": self.symbols(drawing),
+            "below": self.below(drawing),
+            "sum": self.sum(drawing),
             "force": newtons(drawing, drawing.settled(force)),
             "m": symbol(self.moment_name),
             "bar": bar(*self.ends),
@@ -221,11 +222,18 @@ class LeverBalance(Construction, frozen=True, kw_only=True):
             "sense": sense(words, size),
         }
         if not size:
-            return words("step.lever-none", **fields)
-        said = words("step.lever", **fields)
-        return said + words("step.lever-moment", **fields) if self.moment is not None else said
+            return words("step.force-lever-none", **fields)
+        said = words("step.force-lever", **fields)
+        return (
+            said + words("step.force-lever-moment", **fields) if self.moment is not None else said
+        )
 
-    def symbols(self, drawing: Drawing) -> str:
+    def below(self, drawing: Drawing) -> str:
+        """The arm of the balancing force in symbols, in m/s beside couples."""
+        arm = f"*o*{symbol(drawing.trace.program.steps[self.turned].name)}"
+        return f"({arm}·*k*_v)" if any(not each[3] for each in self.terms(drawing)) else arm
+
+    def sum(self, drawing: Drawing) -> str:
         """The sum of moments in symbols, positive as a whole."""
         some = list(self.terms(drawing))
         turned = sum(each[2] for each in some) < 0
@@ -243,7 +251,7 @@ class LeverBalance(Construction, frozen=True, kw_only=True):
         some = list(self.terms(drawing))
         turned = sum(each[2] for each in some) < 0
         metres = any(not each[3] for each in some)
-        scale = f"·{figure(drawing, drawing.scales.kv_lever / 1000)}" if metres else ""
+        scale = f"·{figure(drawing, drawing.scales.k_lever / 1000)}" if metres else ""
         return signed(
             (
                 (moment > 0) is not turned,
@@ -260,17 +268,15 @@ class LeverBalance(Construction, frozen=True, kw_only=True):
         if role != "force" or not size:
             return
         values = drawing.trace.values
-        letter = symbol(drawing.trace.program.steps[self.turned].name)
         metres = any(not each[3] for each in self.terms(drawing))
         along = figure(drawing, drawing.on_lever(abs(values[self.turned])))
-        below, put = f"*o*{letter}", along
+        put = along
         if metres:
-            below = f"({below}·*k*_v)"
-            put = f"({along}·{figure(drawing, drawing.scales.kv_lever / 1000)})"
+            put = f"({along}·{figure(drawing, drawing.scales.k_lever / 1000)})"
         force = float(abs(values[self.force]))
         yield Relation(
             symbol(self.name),
-            f"({self.symbols(drawing)})/{below}",
+            f"({self.sum(drawing)})/{self.below(drawing)}",
             f"({self.figures(drawing)})/{put}",
             answer(drawing, force),
             "N",

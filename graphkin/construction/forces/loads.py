@@ -114,7 +114,7 @@ class InertiaForce(Construction, frozen=True, kw_only=True):
     """
 
     gives: ClassVar[tuple[str, ...]] = ("force", "moment", "place")
-    reasons: ClassVar[Mapping[str, str]] = {"force": "why.inertia"}
+    reasons: ClassVar[Mapping[str, str]] = {"force": "why.force_inertia"}
 
     link: str
     point: str
@@ -154,22 +154,23 @@ class InertiaForce(Construction, frozen=True, kw_only=True):
         fields = {
             "f": symbol(self.name),
             "k": escape(self.link),
+            "m": symbol(f"m_{self.link}"),
             "s": symbol(self.point),
             "a": symbol(f"a_{lettered(self.point)}"),
             "image": symbol(drawing.trace.program.steps[self.image].name),
             "size": newtons(drawing, size),
         }
         if not size:
-            return drawing.words("step.inertia-none", **fields)
-        said = drawing.words("step.inertia", **fields)
+            return drawing.words("step.force-inertia-none", **fields)
+        said = drawing.words("step.force-inertia", **fields)
         if self.place is None or not self.shift(drawing):
             return said
         moment = float(drawing.trace.values[self.moment])  # type: ignore[index]
         more = drawing.words(
-            "step.inertia-moved",
+            "step.force-inertia-moved",
             h=symbol(self.number),
             mm=in_mm(drawing.words, drawing.on_paper(self.shift(drawing))),
-            m=symbol(f"M_i{self.link}"),
+            turning=symbol(f"M_i{self.link}"),
             sense=drawing.words("page.anticlockwise" if moment > 0 else "page.clockwise"),
             **fields,
         )
@@ -185,13 +186,19 @@ class InertiaForce(Construction, frozen=True, kw_only=True):
         result = answer(drawing, size)
         figures = put_in(drawing, result, lambda m, a: m * a, mass, a)
         left, acceleration = symbol(self.name), symbol(f"a_{lettered(self.point)}")
-        yield Relation(left, f"{symbol(f'm_{self.link}')}·{acceleration}", "·".join(figures), result, "N")
+        yield Relation(
+            left, f"{symbol(f'm_{self.link}')}·{acceleration}", "·".join(figures), result, "N"
+        )
         if self.place is None or not size:
             return
         moment, spun = abs(values[self.moment]), abs(values[self.epsilon])  # type: ignore[index]
         told = answer(drawing, moment)
         figures = put_in(
-            drawing, told, lambda j, e: j * e, float(values[self.inertia]), spun  # type: ignore[index]
+            drawing,
+            told,
+            lambda j, e: j * e,
+            float(values[self.inertia]),
+            spun,  # type: ignore[index]
         )
         turning = symbol(f"M_i{self.link}")
         yield Relation(
@@ -226,7 +233,7 @@ class Weight(Construction, frozen=True, kw_only=True):
     """The weight of a ``link`` with its centre of mass in ``point``."""
 
     gives: ClassVar[tuple[str, ...]] = ("force",)
-    reasons: ClassVar[Mapping[str, str]] = {"force": "why.weight"}
+    reasons: ClassVar[Mapping[str, str]] = {"force": "why.force_weight"}
 
     link: str
     point: str
@@ -237,11 +244,12 @@ class Weight(Construction, frozen=True, kw_only=True):
 
     def sentence_alone(self, drawing: Drawing, role: str) -> str:
         """The instruction with the size of the weight."""
+        force = drawing.trace.values[self.force]
         return drawing.words(
-            "step.weight",
+            "step.force-weight-turned" if force.real or force.imag > 0 else "step.force-weight",
             g=symbol(self.name),
             s=symbol(self.point),
-            size=newtons(drawing, abs(drawing.trace.values[self.force])),
+            size=newtons(drawing, abs(force)),
         )
 
     def equations(self, drawing: Drawing, role: str) -> Iterator[Relation]:
@@ -275,7 +283,9 @@ def loads_of(pen: Pen, forces: Forces, numbers: Iterator[str]) -> dict[str, list
                 force = pen.given("point", *load.force, name=f"load {load.at}{tail}")
                 place = pen.the("position", load.at)
                 name = f"P_{lettered(load.at)}{tail}"
-                found[load.link].append(applied(pen, Acting(name, "load", force, place, at=load.at)))
+                found[load.link].append(
+                    applied(pen, Acting(name, "load", force, place, at=load.at))
+                )
             if load.moment is not None:
                 couple = pen.given("number", load.moment, name=f"moment {load.link}{tail}")
                 found[load.link].append(Acting(f"M_{load.link}{tail}", "load", couple=couple))

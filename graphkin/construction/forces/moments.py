@@ -14,6 +14,7 @@ from msgspec import Struct
 from graphkin.construction.core.canvas import Canvas
 from graphkin.construction.core.drawn_scene import Drawing
 from graphkin.construction.core.kind import ByHand, Construction
+from graphkin.construction.core.naming import sense
 from graphkin.construction.core.pen import Pen
 from graphkin.construction.core.program import Part, Plane
 from graphkin.construction.core.quantities import in_mm
@@ -22,6 +23,7 @@ from graphkin.construction.core.vocabulary import action
 from graphkin.construction.forces.force_words import force_amount, newtons, signed
 from graphkin.construction.forces.loads import Acting
 from graphkin.drawing.symbol_markup import bar, escape, symbol
+from graphkin.drawing.symbols import SQUARE
 from graphkin.numbers.arithmetic import Point, Real, pick
 from graphkin.numbers.plane import Line, cross, dot
 
@@ -71,6 +73,15 @@ def place_by_moments(about: Point, guide: Line, reaction: Point, *rest: Any) -> 
     return about - moment_sum(about, rest) / pick(arm == 0, 1.0, arm) * unit
 
 
+def right_angle(canvas: Canvas, corner: Any, toward: Any, way: Any) -> None:
+    """Draw the mark of a right angle at the foot of an arm, where there is room for it."""
+    back = toward - corner
+    if canvas.size(back) > 2 * SQUARE and abs(way):
+        first, second = (v / abs(v) * SQUARE / canvas.mm for v in (back, way))
+        canvas.leg("", "square-mark", corner + first, corner + first + second)
+        canvas.leg("", "square-mark", corner + first + second, corner + second)
+
+
 class ForceArm(Construction, frozen=True, kw_only=True):
     """The arm of a force ``name`` about a point: its ``foot``, and its symbol ``number``."""
 
@@ -92,7 +103,7 @@ class ForceArm(Construction, frozen=True, kw_only=True):
         if canvas.size(foot - place) > SEEN:
             canvas.leg(self.name, "ray", place, foot)
         canvas.dimension(self.number, about, foot)
-        canvas.corner(foot, about, canvas.value(self.force))
+        right_angle(canvas, foot, about, canvas.value(self.force))
 
 
 class Term(NamedTuple):
@@ -176,7 +187,7 @@ class TangentialPart(Construction, frozen=True, kw_only=True):
     """The part of the reaction ``name`` of a ``link``'s outer pin across the bar to its inner pin."""
 
     gives: ClassVar[tuple[str, ...]] = ("force",)
-    reasons: ClassVar[Mapping[str, str]] = {"force": "why.tangential"}
+    reasons: ClassVar[Mapping[str, str]] = {"force": "why.force_tangential"}
 
     name: str
     link: str
@@ -198,8 +209,15 @@ class TangentialPart(Construction, frozen=True, kw_only=True):
             "size": newtons(drawing, size),
             "drawn": force_amount(drawing, size),
             "sum": self.sum(drawing),
+            "sense": sense(drawing.words, 1 if self.is_turned(drawing) else -1),
         }
-        return drawing.words("step.tangential" if size else "step.tangential-none", **fields)
+        return drawing.words(
+            "step.force-tangential" if size else "step.force-tangential-none", **fields
+        )
+
+    def symbols(self) -> Mapping[str, str]:
+        """The inner pin, and the bar."""
+        return {"b": symbol(self.ends[1]), "bar": bar(*self.ends)}
 
     def is_turned(self, drawing: Drawing) -> bool:
         """Whether the sum of moments is negative, so that its signs are reversed."""
@@ -234,7 +252,7 @@ class PlaceOnGuide(Construction, frozen=True, kw_only=True):
     """The place of the reaction ``name`` of a guide, from the moments of its ``link``."""
 
     gives: ClassVar[tuple[str, ...]] = ("place",)
-    reasons: ClassVar[Mapping[str, str]] = {"place": "why.place"}
+    reasons: ClassVar[Mapping[str, str]] = {"place": "why.force_place"}
     pencil: ClassVar[Mapping[str, ByHand]] = {"place": ByHand.LAID_OFF}
 
     name: str
@@ -249,6 +267,10 @@ class PlaceOnGuide(Construction, frozen=True, kw_only=True):
         pin, place = canvas.value(self.moments.about), canvas.value(self.place)
         if canvas.size(place - pin) > SEEN:
             canvas.dimension(self.number, pin, place)
+
+    def symbols(self) -> Mapping[str, str]:
+        """The pin about which the moments are taken."""
+        return {"b": symbol(self.moments.letter)}
 
     def shift(self, drawing: Drawing) -> float:
         """The distance from the pin in metres."""
@@ -266,7 +288,9 @@ class PlaceOnGuide(Construction, frozen=True, kw_only=True):
             "mm": in_mm(drawing.words, drawing.on_paper(self.shift(drawing))),
             "sum": self.sum(drawing),
         }
-        key = "step.place" if size and self.moments.shown(drawing) else "step.place-none"
+        key = (
+            "step.force-place" if size and self.moments.shown(drawing) else "step.force-place-none"
+        )
         return drawing.words(key, **fields)
 
     def sum(self, drawing: Drawing) -> str:
@@ -304,15 +328,11 @@ def moments_about(
             terms.append(Term(each.name, "", None, None, each.couple))
         elif each.place != about:
             assert each.place is not None and each.force is not None
-            terms.append(
-                of_arm(pen, about, each.name, each.place, each.force, next(numbers))
-            )
+            terms.append(of_arm(pen, about, each.name, each.place, each.force, next(numbers)))
     return Moments(letter, about, tuple(terms))
 
 
-def of_arm(
-    pen: Pen, about: int, name: str, place: int, force: int, number: str
-) -> Term:
+def of_arm(pen: Pen, about: int, name: str, place: int, force: int, number: str) -> Term:
     """Draw the arm of a force about a point."""
     with pen.on(Part.FORCE, Plane.MECHANISM):
         foot = pen.draw(arm, about, place, force)
@@ -324,9 +344,7 @@ def tangential(pen: Pen, name: str, link: str, ends: tuple[str, str], moments: M
     """The part of an outer reaction across a bar."""
     outer = pen.the("position", ends[0])
     with pen.on(Part.FORCE, Plane.NUMBERS):
-        force = pen.draw(
-            tangential_part, outer, moments.about, *moments.steps, extra=moments.extra
-        )
+        force = pen.draw(tangential_part, outer, moments.about, *moments.steps, extra=moments.extra)
     part = TangentialPart(
         name=name,
         link=link,

@@ -8,7 +8,7 @@ meet where the polygon closes.
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
-from typing import ClassVar, NamedTuple
+from typing import Any, ClassVar, NamedTuple
 
 from graphkin.construction.core.canvas import Canvas
 from graphkin.construction.core.drawn_scene import Drawing
@@ -16,14 +16,16 @@ from graphkin.construction.core.kind import ByHand, Construction
 from graphkin.construction.core.naming import way_of
 from graphkin.construction.core.pen import Pen
 from graphkin.construction.core.program import Part, Plane
+from graphkin.construction.core.quantities import in_mm
 from graphkin.construction.core.relation import Relation, as_read
+from graphkin.construction.core.segments import TINY
 from graphkin.construction.core.vocabulary import action, along_bar, join, lay_off, meet
 from graphkin.construction.forces.force_words import drawn_force, force_amount, newtons
 from graphkin.construction.forces.loads import Acting
 from graphkin.drawing.symbol_markup import bar, escape, symbol
 from graphkin.numbers.arithmetic import Point
-from graphkin.numbers.plane import Line, Vector
-from graphkin.text.markup import AND, COMMA
+from graphkin.numbers.plane import Line
+from graphkin.text.markup import COMMA
 
 PART = "reaction-part"
 """The style of the parts of reactions along and across bars."""
@@ -109,7 +111,9 @@ class PolygonSide(InPolygon, frozen=True, kw_only=True):
 
     def marks(self, canvas: Canvas, role: str) -> None:
         """Draw the force."""
-        canvas.force(self.name, self.look, canvas.value(self.start), canvas.value(self.corner))
+        draw_force(
+            canvas, self.name, self.look, canvas.value(self.start), canvas.value(self.corner)
+        )
 
 
 class ClosedByLines(InPolygon, frozen=True, kw_only=True):
@@ -121,7 +125,7 @@ class ClosedByLines(InPolygon, frozen=True, kw_only=True):
     """
 
     gives: ClassVar[tuple[str, ...]] = ("one", "other", "corner")
-    reasons: ClassVar[Mapping[str, str]] = {"corner": "why.polygon"}
+    reasons: ClassVar[Mapping[str, str]] = {"corner": "why.force_polygon"}
     lines: ClassVar[Mapping[str, str]] = {"one": "the side {first}", "other": "the side {last}"}
     titled: ClassVar[str] = "the polygon of {title}"
 
@@ -145,15 +149,16 @@ class ClosedByLines(InPolygon, frozen=True, kw_only=True):
             canvas.locus("", way.words(canvas.drawing))
             return
         corner = canvas.value(self.corner)
-        canvas.force(self.last, self.looks[1], canvas.value(self.end), corner)
-        canvas.force(self.first, self.looks[0], corner, canvas.value(self.start))
+        draw_force(canvas, self.last, self.looks[1], canvas.value(self.end), corner)
+        draw_force(canvas, self.first, self.looks[0], corner, canvas.value(self.start))
 
     def sentence_alone(self, drawing: Drawing, role: str) -> str:
         """The instruction: the sides in order, and the lines that close the polygon."""
         if role != "corner":
             return ""
         return drawing.words(
-            "step.polygon" if self.sides else "step.polygon-none",
+            "step.force-polygon" if self.sides else "step.force-polygon-none",
+            n=str(self.polygon),
             k=links_words(drawing, self.links),
             sides=COMMA.join(symbol(name) for name in self.sides),
             one=self.ways[0].words(drawing),
@@ -177,7 +182,7 @@ class ClosingReaction(InPolygon, frozen=True, kw_only=True):
     """
 
     gives: ClassVar[tuple[str, ...]] = ("force", "arrow")
-    reasons: ClassVar[Mapping[str, str]] = {"arrow": "why.closing"}
+    reasons: ClassVar[Mapping[str, str]] = {"arrow": "why.force_closing"}
 
     name: str
     links: tuple[str, ...]
@@ -191,26 +196,40 @@ class ClosingReaction(InPolygon, frozen=True, kw_only=True):
     def marks(self, canvas: Canvas, role: str) -> None:
         """Draw the reaction."""
         if role == "arrow":
-            canvas.force(self.name, REACTION, canvas.value(self.tail), canvas.value(self.tip))
+            draw_force(canvas, self.name, REACTION, canvas.value(self.tail), canvas.value(self.tip))
 
     def sentence_alone(self, drawing: Drawing, role: str) -> str:
         """The sum of its parts, or the side that closes the polygon."""
         if role != "arrow":
             return ""
         fields = {
+            "n": str(self.polygon),
+            "one": escape(self.links[0]),
             "k": links_words(drawing, self.links),
             "r": symbol(self.name),
             "read": read_side(drawing, self.name, self.tail, self.tip),
             "sides": COMMA.join(symbol(name) for name in self.sides),
             "parts": " + ".join(symbol(name) for name in self.whole),
         }
-        key = "reaction-sum" if self.whole else "reaction-closes" if self.sides else "reaction-inner"
-        return drawing.words(f"step.{key}", **fields)
+        key = "sum" if self.whole else "closes" if self.sides else "inner"
+        return drawing.words(f"step.force-{key}", **fields)
 
     def equations(self, drawing: Drawing, role: str) -> Iterator[Relation]:
         """The reaction read off."""
         if role == "arrow":
             yield of_side(drawing, self.name, self.tail, self.tip)
+
+
+def draw_force(canvas: Canvas, name: str, look: str, tail: Any, tip: Any) -> None:
+    """Draw a side of a polygon; a note says that it is too short to be seen."""
+    if canvas.size(tip - tail) >= TINY:
+        canvas.vector(name, look, tail, tip)
+        return
+    drawing = canvas.drawing
+    size = drawing.settled(abs(tip - tail))
+    length = in_mm(drawing.words, drawn_force(drawing, size))
+    key = "page.tiny" if size else "page.nought"
+    canvas.note(drawing.words(key, name=symbol(name), length=length))
 
 
 def links_words(drawing: Drawing, links: Sequence[str]) -> str:
@@ -236,7 +255,7 @@ def of_side(drawing: Drawing, name: str, tail: int, tip: int) -> Relation:
     """A side as a relation: scale factor times drawn length."""
     size = side_size(drawing, tail, tip)
     read = as_read(drawing, drawn_force(drawing, size), drawing.scales.kF / 1000)
-    return Relation(symbol(name), f"*k*_F·{symbol(name)}^*", *read, "N")
+    return Relation(symbol(name), "", *read, "N", drawing.words("calculation.force_measured"))
 
 
 # --- writing their steps -------------------------------------------------------------------------

@@ -14,7 +14,7 @@ from graphkin.construction.core.program import Part, Plane
 from graphkin.construction.core.relation import Relation, answer, figure
 from graphkin.construction.core.vocabulary import action
 from graphkin.construction.forces.force_words import force_amount, newtons
-from graphkin.construction.forces.moments import SEEN, Moments, arm, moment_sum
+from graphkin.construction.forces.moments import SEEN, Moments, arm, moment_sum, right_angle
 from graphkin.drawing.symbol_markup import escape, symbol
 from graphkin.numbers.arithmetic import Point
 from graphkin.numbers.plane import Line, cross
@@ -48,7 +48,7 @@ class SlidePressure(Construction, frozen=True, kw_only=True):
     """
 
     gives: ClassVar[tuple[str, ...]] = ("foot", "force")
-    reasons: ClassVar[Mapping[str, str]] = {"force": "why.pressure"}
+    reasons: ClassVar[Mapping[str, str]] = {"force": "why.force_pressure"}
     pencil: ClassVar[Mapping[str, ByHand]] = {"foot": ByHand.LAID_OFF}
 
     name: str
@@ -70,16 +70,20 @@ class SlidePressure(Construction, frozen=True, kw_only=True):
             return
         canvas.leg(self.name, "ray", near, foot)
         canvas.dimension(self.number, far, foot)
-        canvas.corner(foot, far, foot - near if canvas.size(foot - near) > SEEN else 1j * (far - foot))
+        right_angle(
+            canvas, foot, far, foot - near if canvas.size(foot - near) > SEEN else 1j * (far - foot)
+        )
 
     def sentence_alone(self, drawing: Drawing, role: str) -> str:
         """The moment equation, and the size of the force."""
         if role != "force":
             return ""
         size = drawing.settled(abs(drawing.trace.values[self.force]))
-        key = "step.pressure" if not self.others.shown(drawing) else "step.pressure-both"
+        key = (
+            "step.force-pressure" if not self.others.shown(drawing) else "step.force-pressure-both"
+        )
         return drawing.words(
-            key if size else "step.pressure-none",
+            key if size else "step.force-pressure-none",
             k=escape(self.link),
             far=symbol(self.ends[0]),
             near=symbol(self.ends[1]),
