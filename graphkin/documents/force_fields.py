@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
-from itertools import combinations
+from itertools import combinations, pairwise
 from typing import NamedTuple
 
 from msgspec.structs import replace
@@ -20,7 +20,7 @@ from graphkin.drawing.field import AREA, Field, Rect
 from graphkin.drawing.labels import FieldContent
 from graphkin.drawing.marks import LineMark, Text
 from graphkin.drawing.richtext import extent
-from graphkin.drawing.scale import ENLARGED, Extent, preferred
+from graphkin.drawing.scale import REDUCED, Extent, preferred
 from graphkin.numbers.plane import Line
 from graphkin.text.errors import PageError, Problem, message
 
@@ -83,7 +83,7 @@ def laid_out(drawing: ForceDrawing, mechanism: Field) -> ForceDrawing:
         part = fields[-1]
         room = part[2] - part[0] - 2 * LEVER_SIDE, part[3] - part[1] - 2 * LEVER_SIDE
         sizes = (lever.width / room[0], lever.height / room[1])
-        k = next(preferred(max(sizes), ENLARGED))
+        k = next(preferred(max(sizes), REDUCED))
         own = field_of(lever, part, 1 / k, 2.0)
         scales = replace(scales, k_lever=1000 * k)
     found_at = ForceLayout(mechanism, Field(rect, 1.0, 0j, centre(rect)), {}, polygons, own)
@@ -100,7 +100,7 @@ def field_of(box: Extent, rect: Rect, mm: float, lower: float) -> Field:
 def found(cells: Sequence[Cell], rect: Rect, largest: float) -> tuple[float, Rows]:
     """The smallest preferred kF in N/mm at which all cells have room, and their rows."""
     wide, high = rect[2] - rect[0], rect[3] - rect[1]
-    scales = preferred(largest / high if largest else 1.0, ENLARGED)
+    scales = preferred(largest / high if largest else 1.0, REDUCED)
     for _, kF in zip(range(MOST), scales, strict=False):
         fitting = [
             (slack(cells, rows, wide, high, 1 / kF), rows) for rows in arrangements(len(cells))
@@ -131,8 +131,7 @@ def arrangements(count: int) -> Iterator[Rows]:
     """The ways to put cells in order into at most three rows."""
     for rows in range(1, min(3, count) + 1):
         for cuts in combinations(range(1, count), rows - 1):
-            ends_of = (0, *cuts, count)
-            yield tuple(tuple(range(a, b)) for a, b in zip(ends_of, ends_of[1:], strict=False))
+            yield tuple(tuple(range(a, b)) for a, b in pairwise((0, *cuts, count)))
 
 
 def placed(cells: Sequence[Cell], rows: Rows, rect: Rect, mm: float) -> list[Rect]:

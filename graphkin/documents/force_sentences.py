@@ -19,7 +19,7 @@ from graphkin.scene.link_points import lettered
 
 def force_sentences(drawing: Drawing) -> list[Sentence]:
     """The sentences of the plan of forces, in the order of the work."""
-    found = [Sentence(-1, "again", drawing.words("step.again"))]
+    found = [Sentence(-1, "again", drawing.words("step.force-again"))]
     for number, step in enumerate(drawing.trace.program.steps):
         kind = construction(step)
         if step.part is not Part.FORCE or kind is None or number not in drawing.trace.values:

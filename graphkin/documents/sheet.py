@@ -654,6 +654,7 @@ def right_board(drawing: Drawing, layout: Layout, view: str) -> FieldContent:
     if drawing.kind == FORCE:
         from graphkin.documents.force_fields import draw_fields
 
+        board.detailed = False
         draw_fields(board, drawing, layout, view)
         board.labels = at_bare_stretches(board.labels, board.marks)
         return board

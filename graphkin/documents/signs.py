@@ -147,7 +147,7 @@ class Sign(NamedTuple):
 
 def sign_of(drawing: Drawing, name: str) -> Sign:
     """The arrow of a link with its letter inside."""
-    text = symbol(f"{drawing.rate.letter}_{name}")
+    text = symbol(drawing.turning_name(name))
     width, top, bottom = extent(text, HEIGHT)
     return Sign(text, drawing.kind, max(ROUND, hypot(width, bottom - top) / 2 + 0.7))
 

@@ -318,6 +318,10 @@ class Drawing(Struct, frozen=True, dict=True):
             largest = max(largest**2, *map(abs, self.all_of(self.rate.target)))
         return 0.0 if abs(value) < NOISE * largest else float(value)
 
+    def turning_name(self, link: str) -> str:
+        """The name of the symbol of what turns a link on this sheet."""
+        return f"{self.rate.letter}_{link}"
+
     def rate_size(self, number: int, kind: str = "velocity") -> float:
         """The magnitude of an angular velocity or acceleration, by its step; zero for rounding."""
         value = abs(float(self.trace.values[number]))

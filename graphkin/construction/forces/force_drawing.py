@@ -7,9 +7,11 @@ from functools import cached_property
 from typing import Any
 
 from graphkin.construction.core.drawn_scene import Drawing, ends
+from graphkin.construction.core.kind import constructions
 from graphkin.construction.core.layout import Layout
 from graphkin.construction.core.program import Part, Plane, Step
 from graphkin.construction.core.quantities import RATE, MotionQuantity, OnPaper
+from graphkin.construction.forces.balance import BalancingMoment
 from graphkin.construction.forces.lever import LeverBalance
 from graphkin.construction.forces.polygon import InPolygon
 from graphkin.drawing.field import Field
@@ -47,8 +49,25 @@ class ForceDrawing(Drawing, frozen=True):
         return "o"
 
     def turning(self, link: str) -> float | None:
-        """None: rates of links are on the other sheets."""
-        return None
+        """The balancing moment or the first given moment on a link, in N·m; None without one."""
+        return next(iter(self.moments.get(link, {}).values()), None)
+
+    def turning_name(self, link: str) -> str:
+        """The name of the moment on a link."""
+        return next(iter(self.moments[link]))
+
+    @cached_property
+    def moments(self) -> Mapping[str, Mapping[str, float]]:
+        """The moments on each link by their names: that of its driver, then given ones."""
+        found: dict[str, dict[str, float]] = {}
+        for each in constructions(self.trace.program, BalancingMoment):
+            if size := each.size(self):
+                found.setdefault(each.link, {})[each.name] = size
+        forces, values = self.scene.forces, self.scene.values
+        for load in forces.loads if forces is not None else ():
+            if load.moment is not None and (size := float(load.moment.si(values))):
+                found.setdefault(load.link, {})[f"M_{load.link}"] = size
+        return found
 
     @cached_property
     def on_mechanism(self) -> tuple[tuple[int, Step, Any], ...]:

@@ -25,9 +25,10 @@ def force_amount(drawing: Drawing, size: float) -> str:
 
 
 def signed(terms: Iterable[tuple[bool, str]]) -> str:
-    """A sum of terms with their signs, a positive first term without one."""
-    said = ""
-    for positive, term in terms:
+    """A sum of terms with their signs; the first positive term comes first, without its sign."""
+    said, some = "", [*terms]
+    first = next((term for term in some if term[0]), None)
+    for positive, term in sorted(some, key=lambda term: term is not first):
         sign = "+" if positive else "−"
         said += f" {sign} {term}" if said else term if positive else f"−{term}"
     return said

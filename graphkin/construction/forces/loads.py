@@ -11,7 +11,7 @@ from typing import ClassVar, NamedTuple
 
 from graphkin.construction.core.canvas import Canvas
 from graphkin.construction.core.drawn_scene import Drawing
-from graphkin.construction.core.kind import Construction
+from graphkin.construction.core.kind import Construction, constructions
 from graphkin.construction.core.pen import Pen
 from graphkin.construction.core.program import Part, Plane
 from graphkin.construction.core.quantities import EPSILON, in_mm
@@ -24,6 +24,7 @@ from graphkin.numbers.arithmetic import Point, Real, pick
 from graphkin.numbers.plane import dot
 from graphkin.scene.forces import Forces, Mass
 from graphkin.scene.link_points import lettered
+from graphkin.text.markup import COMMA, saying
 
 LENGTH = 13.0
 """Length in mm of the arrows of forces on the mechanism, which show sense and direction alone."""
@@ -162,11 +163,10 @@ class InertiaForce(Construction, frozen=True, kw_only=True):
         }
         if not size:
             return drawing.words("step.force-inertia-none", **fields)
-        said = drawing.words("step.force-inertia", **fields)
         if self.place is None or not self.shift(drawing):
-            return said
+            return drawing.words("step.force-inertia", **fields)
         moment = float(drawing.trace.values[self.moment])  # type: ignore[index]
-        more = drawing.words(
+        return drawing.words(
             "step.force-inertia-moved",
             h=symbol(self.number),
             mm=in_mm(drawing.words, drawing.on_paper(self.shift(drawing))),
@@ -174,7 +174,6 @@ class InertiaForce(Construction, frozen=True, kw_only=True):
             sense=drawing.words("page.anticlockwise" if moment > 0 else "page.clockwise"),
             **fields,
         )
-        return f"{said}; {more}"
 
     def equations(self, drawing: Drawing, role: str) -> Iterator[Relation]:
         """m·a_S, then J·ε and the displacement."""
@@ -243,14 +242,18 @@ class Weight(Construction, frozen=True, kw_only=True):
     force: int
 
     def sentence_alone(self, drawing: Drawing, role: str) -> str:
-        """The instruction with the size of the weight."""
-        force = drawing.trace.values[self.force]
-        return drawing.words(
-            "step.force-weight-turned" if force.real or force.imag > 0 else "step.force-weight",
-            g=symbol(self.name),
-            s=symbol(self.point),
-            size=newtons(drawing, abs(force)),
+        """The sentence for all weights together, at the first of them."""
+        every = [*constructions(drawing.trace.program, Weight)]
+        if self is not every[0]:
+            return ""
+        values = drawing.trace.values
+        falls = values[self.gravity]
+        told = (
+            saying(f"{symbol(e.name)} = {newtons(drawing, abs(values[e.force]))}", symbol(e.name))
+            for e in every
         )
+        key = "-along" if falls.real or falls.imag > 0 else ""
+        return drawing.words(f"step.force-weights{key}", list=COMMA.join(told))
 
     def equations(self, drawing: Drawing, role: str) -> Iterator[Relation]:
         """m·g."""

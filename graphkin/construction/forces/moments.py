@@ -78,8 +78,8 @@ def right_angle(canvas: Canvas, corner: Any, toward: Any, way: Any) -> None:
     back = toward - corner
     if canvas.size(back) > 2 * SQUARE and abs(way):
         first, second = (v / abs(v) * SQUARE / canvas.mm for v in (back, way))
-        canvas.leg("", "square-mark", corner + first, corner + first + second)
-        canvas.leg("", "square-mark", corner + first + second, corner + second)
+        canvas.leg("right-angle", "square-mark", corner + first, corner + first + second)
+        canvas.leg("right-angle", "square-mark", corner + first + second, corner + second)
 
 
 class ForceArm(Construction, frozen=True, kw_only=True):
@@ -205,6 +205,9 @@ class TangentialPart(Construction, frozen=True, kw_only=True):
             "k": escape(self.link),
             "b": symbol(inner),
             "bar": bar(outer, inner),
+            "below": f"({bar(outer, inner)}·*k*_L)"
+            if self.moments.in_metres(drawing)
+            else bar(outer, inner),
             "r": symbol(self.name),
             "size": newtons(drawing, size),
             "drawn": force_amount(drawing, size),

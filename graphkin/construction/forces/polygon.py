@@ -192,6 +192,7 @@ class ClosingReaction(InPolygon, frozen=True, kw_only=True):
     arrow: int
     whole: tuple[str, ...] = ()
     sides: tuple[str, ...] = ()
+    closes: bool = False
 
     def marks(self, canvas: Canvas, role: str) -> None:
         """Draw the reaction."""
@@ -211,7 +212,9 @@ class ClosingReaction(InPolygon, frozen=True, kw_only=True):
             "sides": COMMA.join(symbol(name) for name in self.sides),
             "parts": " + ".join(symbol(name) for name in self.whole),
         }
-        key = "sum" if self.whole else "closes" if self.sides else "inner"
+        key = "sum" if self.whole else "inner"
+        if self.closes:
+            key = "closes" if self.sides else "closes-none"
         return drawing.words(f"step.force-{key}", **fields)
 
     def equations(self, drawing: Drawing, role: str) -> Iterator[Relation]:
@@ -356,5 +359,6 @@ class Polygon:
             arrow=arrow,
             whole=whole,
             sides=tuple(self.sides) if closes else (),
+            closes=closes,
         )
         return pen.make(record).force
