@@ -8,6 +8,7 @@ from typing import NamedTuple
 
 from msgspec.structs import replace
 
+from graphkin.construction.core.drawn_scene import Drawing
 from graphkin.construction.core.kind import construction, constructions
 from graphkin.construction.core.layout import Layout, centre, line_span, points_on
 from graphkin.construction.core.paper_canvas import PaperCanvas, Plot, draw_part
@@ -164,17 +165,18 @@ def spans_of(drawing: ForceDrawing) -> Mapping[int, tuple[float, float]]:
 # --- drawing in them -----------------------------------------------------------------------------
 
 
-def draw_fields(board: FieldContent, drawing: ForceDrawing, layout: Layout, view: str) -> None:
+def draw_fields(board: FieldContent, drawing: Drawing, layout: Layout, view: str) -> None:
     """Draw the polygons and the lever with their captions; a task has their starts alone."""
-    assert isinstance(layout, ForceLayout)
+    assert isinstance(drawing, ForceDrawing) and isinstance(layout, ForceLayout)
     starts = {each.polygon: each for each in constructions(drawing.trace.program, PolygonStart)}
-    for number, field in layout.polygons.items():
-        caption(board, field.rect, title_of(drawing, starts[number]))
+    for number, own in layout.polygons.items():
+        caption(board, own.rect, title_of(drawing, starts[number]))
     if layout.lever is not None:
         k = ". . . . ." if view == "task" else figure(drawing, drawing.scales.k_lever / 1000)
         caption(board, layout.lever.rect, drawing.words("page.lever_heading", k=k))
     for number, step, _ in drawing.steps(Plane.FORCES, Plane.LEVER):
-        kind, field = construction(step), layout.lever
+        kind = construction(step)
+        field: Field | None = layout.lever
         if isinstance(kind, InPolygon):
             field = layout.polygons[kind.polygon]
         if kind is None or field is None:
@@ -182,7 +184,7 @@ def draw_fields(board: FieldContent, drawing: ForceDrawing, layout: Layout, view
         if view == "task" and not isinstance(kind, PolygonStart | LeverPole):
             continue
         draw_part(PaperCanvas(Plot(board, field, drawing, layout), number), kind)
-    board.marks += dividers([field.rect for field in rects_of(layout)], board.rect)
+    board.marks += dividers([each.rect for each in rects_of(layout)], board.rect)
 
 
 def rects_of(layout: ForceLayout) -> list[Field]:

@@ -91,7 +91,7 @@ def forces_asked(drawing: Drawing) -> list[str]:
     """The requests of a sheet of forces, in words."""
     words, forces = drawing.words, drawing.scene.forces
     assert forces is not None
-    found = []
+    found: list[str] = []
     for key, blocks in (("reactions", False), ("guide_reactions", True)):
         names = [e for e in forces.reactions if (e in drawing.scene.links) is blocks]
         if names:

@@ -674,7 +674,7 @@ def below(drawing: Drawing, view: str) -> tuple[list[Mark], set[Moved], int]:
 
     Also returns the parts that do not fit, and the number of sentences that fit where not all do.
     """
-    words, moved, said = drawing.words, set[Moved](), 0
+    moved, said = set[Moved](), 0
     left, top = BELOW[0] + 2, BELOW[1]
     if view == "key":
         place = drawing, left, top + 10.5, TABLES[0] - left - 5, BELOW[3] - 3.5

@@ -10,7 +10,7 @@ from graphkin.construction.core.drawn_scene import Drawing, ends
 from graphkin.construction.core.kind import constructions
 from graphkin.construction.core.layout import Layout
 from graphkin.construction.core.program import Part, Plane, Step
-from graphkin.construction.core.quantities import RATE, MotionQuantity, OnPaper
+from graphkin.construction.core.quantities import RATE, MotionQuantity
 from graphkin.construction.forces.balance import BalancingMoment
 from graphkin.construction.forces.lever import LeverBalance
 from graphkin.construction.forces.polygon import InPolygon
@@ -80,10 +80,6 @@ class ForceDrawing(Drawing, frozen=True):
         """The largest force, against which rounding is measured."""
         forces = [abs(value) for _, _, value in self.steps(Plane.FORCES) if is_point(value)]
         return max(forces, default=0.0)
-
-    def on_lever(self, speed: float) -> OnPaper:
-        """The drawn length of a velocity on the lever, in mm."""
-        return OnPaper(1000 * speed / self.scales.k_lever)
 
     def polygon_extents(self) -> dict[int, Extent]:
         """The box of each polygon in N, by its number."""

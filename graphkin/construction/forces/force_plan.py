@@ -17,6 +17,7 @@ from graphkin.construction.forces.force_words import link_pair
 from graphkin.construction.forces.lever import LeverPlan
 from graphkin.construction.forces.loads import Acting, applied, loads_of, opposite
 from graphkin.construction.forces.moments import (
+    Moments,
     moments_about,
     place_on_guide,
     tangential,
@@ -77,7 +78,7 @@ class ForcePlan:
 
     def write(self, groups: Sequence[Group]) -> None:
         """Draw every group, then the lever of a mechanism with one driver."""
-        balances = []
+        balances: list[tuple[Crank | Driven, int]] = []
         for group in reversed(groups):
             match group:
                 case Dyad(inner=Pin()):
@@ -138,17 +139,12 @@ class ForcePlan:
             link: moments_about(pen, pin, inner.place, self.acting[link], self.arms)
             for link in (one, other)
         }
-        across = {
-            link: tangential(
-                pen,
-                self.name(outer[link], link, "t"),
-                link,
-                (outer[link].place, inner.place),
-                moments[link],
-            )
-            for link in (one, other)
-            if isinstance(outer[link], Pin) and moments[link].terms
-        }
+        across = {}
+        for link in (one, other):
+            pair = outer[link]
+            if isinstance(pair, Pin) and moments[link].terms:
+                name, ends = self.name(pair, link, "t"), (pair.place, inner.place)
+                across[link] = tangential(pen, name, link, ends, moments[link])
         polygon = self.new_polygon((one, other), group.type)
         first = polygon.start
         if one in across:
@@ -157,12 +153,16 @@ class ForcePlan:
         second = polygon.lay_all(self.acting[other])
         if other in across:
             polygon.lay(self.name(outer[other], other, "t"), PART, across[other])
-        parts = tuple(
-            self.name(outer[link], link, "n" if link in across else "") for link in (one, other)
+        parts = {
+            link: self.name(outer[link], link, "n" if link in across else "")
+            for link in (one, other)
+        }
+        looks = {link: PART if link in across else REACTION for link in (one, other)}
+        closed = polygon.close(
+            (parts[one], parts[other]),
+            (self.way(outer[one], inner), self.way(outer[other], inner)),
+            (looks[one], looks[other]),
         )
-        ways = tuple(self.way(outer[link], inner) for link in (one, other))
-        looks = tuple(PART if link in across else REACTION for link in (one, other))
-        closed = polygon.close(*parts, ways, looks)  # type: ignore[arg-type]
         corner = closed.corner
         forces = {}
         for link, tail, tip in ((one, corner, first), (other, second, corner)):
@@ -171,17 +171,20 @@ class ForcePlan:
             forces[link] = polygon.reaction(name, tail, tip, whole=whole, drawn=bool(whole))
         polygon.reaction(self.name(inner, one), middle, corner)
         for link in (one, other):
-            self.settle(outer[link], link, forces[link], pin, moments[link])
+            self.settle(outer[link], link, forces[link], moments[link])
 
-    def settle(self, pair: Joint, link: str, force: int, pin: int, moments: object) -> None:
-        """Enter an outer reaction at its pin, or at its place on a guide."""
+    def settle(self, pair: Joint, link: str, force: int, moments: Moments) -> None:
+        """Enter an outer reaction at its pin, or at its place on a guide by moments."""
         if isinstance(pair, Pin):
-            self.give(pair, link, force, self.pen.the("position", pair.place), pair.place)
+            self.at_pin(pair, link, force)
             return
         name, guide = self.name(pair, link), self.guide(pair)
-        number = f"x_{link}"
-        place = place_on_guide(self.pen, name, number, link, guide, force, moments)  # type: ignore[arg-type]
+        place = place_on_guide(self.pen, name, f"x_{link}", link, guide, force, moments)
         self.give(pair, link, force, place)
+
+    def at_pin(self, pair: Pin, link: str, force: int) -> None:
+        """Enter the reaction in a pin."""
+        self.give(pair, link, force, self.pen.the("position", pair.place), pair.place)
 
     def way(self, pair: Joint, inner: Pin) -> Way:
         """The direction of a closing side."""
@@ -194,36 +197,50 @@ class ForcePlan:
         """RPR, RPP: the force normal to the inner guide, then the polygon of each link."""
         inner = group.inner
         assert isinstance(inner, Sliding)
-        outer = {link: outer_of(group, link) for link in group.links}
         one, other = group.links
-        if isinstance(outer[one], Sliding):
+        if isinstance(outer_of(group, one), Sliding):
             one, other = other, one
-        if isinstance(outer[other], Sliding):
-            self.on_two_guides(group, one, other)
-            return
-        pen = self.pen
-        pins = {link: pen.the("position", outer[link].place) for link in group.links}  # type: ignore[union-attr]
-        if self.has_moments(one, pins[one]) and not self.has_moments(other, pins[other]):
-            one, other = other, one
-        near, far = (
-            moments_about(pen, pins[link], outer[link].place, self.acting[link], self.arms)  # type: ignore[union-attr]
-            for link in (one, other)
-        )
-        name, guide = self.name(inner, one), self.guide(inner)
-        force = pressure(pen, name, next(self.arms), (other, inner.block), guide, far, near)
-        place = place_on_guide(pen, name, f"x_{one}", one, guide, force, near)
-        self.pressed(inner, one, other, force, place)
-        for link in (other, one):
-            polygon = self.new_polygon((link,), group.type)
-            last = polygon.lay_all(self.acting[link])
-            reaction = polygon.reaction(
-                self.name(outer[link], link), last, polygon.start, closes=True
-            )
-            self.settle(outer[link], link, reaction, 0, None)
+        first, second = outer_of(group, one), outer_of(group, other)
+        if isinstance(first, Pin) and isinstance(second, Sliding):
+            self.on_two_guides(group, inner, (one, first), (other, second))
+        elif isinstance(first, Pin) and isinstance(second, Pin):
+            self.between_pins(group, inner, (one, first), (other, second))
 
-    def has_moments(self, link: str, pin: int) -> bool:
+    def between_pins(
+        self, group: Dyad, inner: Sliding, near: tuple[str, Pin], far: tuple[str, Pin]
+    ) -> None:
+        """RPR: the force of the guide by moments about the far pin, then both polygons.
+
+        The near link is the one whose loads pass through its pin, if there is one.
+        """
+        pen = self.pen
+        if self.has_moments(*near) and not self.has_moments(*far):
+            near, far = far, near
+        others, own = (
+            moments_about(
+                pen, pen.the("position", pin.place), pin.place, self.acting[link], self.arms
+            )
+            for link, pin in (near, far)
+        )
+        one, other = near[0], far[0]
+        name, guide = self.name(inner, one), self.guide(inner)
+        force = pressure(pen, name, next(self.arms), (other, inner.block), guide, own, others)
+        place = place_on_guide(pen, name, f"x_{one}", one, guide, force, others)
+        self.pressed(inner, one, other, force, place)
+        for link, pin in (far, near):
+            self.closed_at(group.type, link, pin)
+
+    def closed_at(self, kind: str, link: str, pin: Pin) -> None:
+        """The polygon of one link, which the reaction in its pin closes."""
+        polygon = self.new_polygon((link,), kind)
+        last = polygon.lay_all(self.acting[link])
+        force = polygon.reaction(self.name(pin, link), last, polygon.start, closes=True)
+        self.at_pin(pin, link, force)
+
+    def has_moments(self, link: str, pin: Pin) -> bool:
         """Whether a force on a link acts elsewhere than at a pin."""
-        return any(each.couple is not None or each.place != pin for each in self.acting[link])
+        place = self.pen.the("position", pin.place)
+        return any(each.couple is not None or each.place != place for each in self.acting[link])
 
     def pressed(self, inner: Sliding, one: str, other: str, force: int, place: int) -> None:
         """Enter the force of a guide on one link, and its opposite on the other."""
@@ -234,36 +251,29 @@ class ForcePlan:
         passed = Acting(self.name(inner, other), REACTION, back, place)
         self.acting[other].append(applied(pen, passed))
 
-    def on_two_guides(self, group: Dyad, one: str, other: str) -> None:
+    def on_two_guides(
+        self, group: Dyad, inner: Sliding, near: tuple[str, Pin], far: tuple[str, Sliding]
+    ) -> None:
         """RPP: the polygon of the link on two guides, then that of the link with a pin."""
-        pen, inner = self.pen, group.inner
-        assert isinstance(inner, Sliding)
-        outer = {link: outer_of(group, link) for link in group.links}
+        pen, (one, pair), (other, outer) = self.pen, near, far
         polygon = self.new_polygon((other,), group.type)
         last = polygon.lay_all(self.acting[other])
-        names = self.name(inner, other), self.name(outer[other], other)
-        guides = self.guide(inner), self.guide(outer[other])
-        ways = (
-            Way(guide=guides[0], block=inner.block),
-            Way(guide=guides[1], block=outer[other].block),  # type: ignore[union-attr]
-        )
-        closed = polygon.close(*names, ways, (REACTION, REACTION))
+        names = self.name(inner, other), self.name(outer, other)
+        guides = self.guide(inner), self.guide(outer)
+        ways = Way(guide=guides[0], block=inner.block), Way(guide=guides[1], block=outer.block)
+        closed = polygon.close(names, ways, (REACTION, REACTION))
         pushed = polygon.reaction(names[0], closed.corner, polygon.start, drawn=False)
         outward = polygon.reaction(names[1], last, closed.corner, drawn=False)
         with pen.on(Part.FORCE, Plane.NUMBERS):
             back = pen.draw(opposite, pushed)
-        pin = pen.the("position", outer[one].place)  # type: ignore[union-attr]
-        letter = outer[one].place  # type: ignore[union-attr]
-        near = moments_about(pen, pin, letter, self.acting[one], self.arms)
-        place = place_on_guide(pen, self.name(inner, one), f"x_{one}", one, guides[0], back, near)
+        pin = pen.the("position", pair.place)
+        moments = moments_about(pen, pin, pair.place, self.acting[one], self.arms)
+        name = self.name(inner, one)
+        place = place_on_guide(pen, name, f"x_{one}", one, guides[0], back, moments)
         self.pressed(inner, one, other, back, place)
-        rest = moments_about(pen, place, letter, self.acting[other], self.arms)
-        at = place_on_guide(pen, names[1], f"x_{other}", other, guides[1], outward, rest)
-        self.give(outer[other], other, outward, at)
-        polygon = self.new_polygon((one,), group.type)
-        last = polygon.lay_all(self.acting[one])
-        reaction = polygon.reaction(self.name(outer[one], one), last, polygon.start, closes=True)
-        self.settle(outer[one], one, reaction, 0, None)
+        rest = moments_about(pen, place, pair.place, self.acting[other], self.arms)
+        self.settle(outer, other, outward, rest)
+        self.closed_at(group.type, one, pair)
 
     # --- drivers ---------------------------------------------------------------------------------
 
@@ -273,11 +283,7 @@ class ForcePlan:
         pivot = pen.the("position", group.pivot)
         moments = moments_about(pen, pivot, group.pivot, self.acting[link], self.arms)
         moment = balance_of(pen, f"M_b{link}", link, moments)
-        polygon = self.new_polygon((link,), "crank")
-        last = polygon.lay_all(self.acting[link])
-        pair = Pin(group.pivot, (FRAME, link))
-        force = polygon.reaction(self.name(pair, link), last, polygon.start, closes=True)
-        self.give(pair, link, force, pivot, group.pivot)
+        self.closed_at("crank", link, Pin(group.pivot, (FRAME, link)))
         return moment
 
     def driven(self, group: Driven) -> int:
@@ -291,11 +297,11 @@ class ForcePlan:
         last = polygon.lay_all(self.acting[link])
         ways = Way(guide=guide, block=pair.block, along=True), Way(guide=guide, block=pair.block)
         names = f"F_b{link}", self.name(pair, link)
-        closed = polygon.close(*names, ways, ("balance", REACTION))
+        closed = polygon.close(names, ways, ("balance", REACTION))
         push = polygon.reaction(names[0], closed.corner, polygon.start, drawn=False)
         force = polygon.reaction(names[1], last, closed.corner, drawn=False)
         applied(pen, Acting(names[0], "balance", push, pin, at=point))
-        self.settle(pair, link, force, pin, moments)
+        self.settle(pair, link, force, moments)
         return push
 
     # --- the lever -------------------------------------------------------------------------------

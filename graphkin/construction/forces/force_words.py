@@ -19,6 +19,11 @@ def drawn_force(drawing: Drawing, size: float) -> OnPaper:
     return OnPaper(1000 * size / drawing.scales.kF)
 
 
+def on_lever(drawing: Drawing, speed: float) -> OnPaper:
+    """The drawn length of a velocity on the lever, in mm."""
+    return OnPaper(1000 * speed / drawing.scales.k_lever)
+
+
 def force_amount(drawing: Drawing, size: float) -> str:
     """The drawn length of a force in a polygon, as text."""
     return f"{in_mm(drawing.words, drawn_force(drawing, size))} mm"

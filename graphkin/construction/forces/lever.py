@@ -17,7 +17,7 @@ from graphkin.construction.core.pen import Pen, letter
 from graphkin.construction.core.program import Part, Plane
 from graphkin.construction.core.relation import Relation, answer, figure
 from graphkin.construction.core.vocabulary import action
-from graphkin.construction.forces.force_words import newtons, signed
+from graphkin.construction.forces.force_words import newtons, on_lever, signed
 from graphkin.construction.forces.loads import LENGTH, Acting
 from graphkin.construction.forces.moments import SEEN, arm, right_angle
 from graphkin.construction.plan import omega_of
@@ -175,7 +175,7 @@ class LeverBalance(Construction, frozen=True, kw_only=True):
         values = drawing.trace.values
         for name, number, foot, force in self.forces:
             moment, size = float(cross(values[foot], values[force])), abs(values[force])
-            arm = drawing.on_lever(abs(values[foot]))
+            arm = on_lever(drawing, abs(values[foot]))
             if drawing.settled(size) and arm > SEEN:
                 yield name, number, moment, float(size), arm
         for name, number, couple in self.couples:
@@ -269,7 +269,7 @@ class LeverBalance(Construction, frozen=True, kw_only=True):
             return
         values = drawing.trace.values
         metres = any(not each[3] for each in self.terms(drawing))
-        along = figure(drawing, drawing.on_lever(abs(values[self.turned])))
+        along = figure(drawing, on_lever(drawing, abs(values[self.turned])))
         put = along
         if metres:
             put = f"({along}·{figure(drawing, drawing.scales.k_lever / 1000)})"

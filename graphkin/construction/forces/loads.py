@@ -163,9 +163,9 @@ class InertiaForce(Construction, frozen=True, kw_only=True):
         }
         if not size:
             return drawing.words("step.force-inertia-none", **fields)
-        if self.place is None or not self.shift(drawing):
+        if self.moment is None or not self.shift(drawing):
             return drawing.words("step.force-inertia", **fields)
-        moment = float(drawing.trace.values[self.moment])  # type: ignore[index]
+        moment = float(drawing.trace.values[self.moment])
         return drawing.words(
             "step.force-inertia-moved",
             h=symbol(self.number),
@@ -190,14 +190,15 @@ class InertiaForce(Construction, frozen=True, kw_only=True):
         )
         if self.place is None or not size:
             return
-        moment, spun = abs(values[self.moment]), abs(values[self.epsilon])  # type: ignore[index]
+        assert self.moment is not None and self.epsilon is not None and self.inertia is not None
+        moment, spun = abs(values[self.moment]), abs(values[self.epsilon])
         told = answer(drawing, moment)
         figures = put_in(
             drawing,
             told,
             lambda j, e: j * e,
             float(values[self.inertia]),
-            spun,  # type: ignore[index]
+            spun,
         )
         turning = symbol(f"M_i{self.link}")
         yield Relation(
@@ -315,8 +316,10 @@ def of_mass(
         turns = mass.inertia is not None and not mass.inertia.is_zero() and pen.turns(link)
         epsilon = omega_of(pen, link, EPSILON) if turns else None
         turns = epsilon is not None and not pen.is_nought(epsilon)
-        inertia = pen.given("number", mass.inertia, name=f"inertia {link}") if turns else None
-        moment = pen.draw(inertia_moment, inertia, epsilon) if turns else None
+        inertia = moment = None
+        if turns and epsilon is not None:
+            inertia = pen.given("number", mass.inertia, name=f"inertia {link}")
+            moment = pen.draw(inertia_moment, inertia, epsilon)
         if rests:
             if moment is not None:
                 yield Acting(f"M_i{link}", "inertia", couple=moment)

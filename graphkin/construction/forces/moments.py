@@ -139,9 +139,10 @@ class Moments(Struct, frozen=True):
         value = drawing.trace.values
         about = value[self.about]
         for term in self.terms:
-            if term.foot is None:
+            if term.couple is not None:
                 yield term, float(value[term.couple]), 0.0, 0.0
                 continue
+            assert term.foot is not None and term.force is not None
             way, force = value[term.foot] - about, value[term.force]
             arm = drawing.on_paper(abs(way))
             yield term, float(cross(way, force)), drawing.settled(abs(force)), arm
@@ -152,7 +153,7 @@ class Moments(Struct, frozen=True):
         return [e for e in every if (e[2] and e[3] > SEEN) or (e[0].foot is None and e[1])]
 
     def symbols(self, drawing: Drawing, *, turned: bool = False) -> str:
-        """The sum in symbols: F·h_1 − G·h_2 + M, each arm as drawn; signs reversed if ``turned``."""
+        """The sum in symbols: F·h_1 − G·h_2 + M; all signs are reversed if ``turned``."""
         scale = "·*k*_L" if any(t.foot is None for t, *_ in self.shown(drawing)) else ""
         return signed(
             (
@@ -184,7 +185,7 @@ class Moments(Struct, frozen=True):
 
 
 class TangentialPart(Construction, frozen=True, kw_only=True):
-    """The part of the reaction ``name`` of a ``link``'s outer pin across the bar to its inner pin."""
+    """The part ``name`` of the reaction at a ``link``'s outer pin, across the bar to the inner."""
 
     gives: ClassVar[tuple[str, ...]] = ("force",)
     reasons: ClassVar[Mapping[str, str]] = {"force": "why.force_tangential"}
@@ -309,9 +310,10 @@ class PlaceOnGuide(Construction, frozen=True, kw_only=True):
         total = sum(moment for _, moment, _, _ in self.moments.values(drawing))
         scale = drawing.scales.kL / 1000 if self.moments.in_metres(drawing) else 0.0
         put = figure(drawing, size) + (f"·{figure(drawing, scale)}" if scale else "")
+        below = f"({symbol(self.name)}·*k*_L)" if scale else symbol(self.name)
         yield Relation(
             symbol(self.number),
-            f"({self.sum(drawing)})/{f'({symbol(self.name)}·*k*_L)' if scale else symbol(self.name)}",
+            f"({self.sum(drawing)})/{below}",
             f"({self.moments.figures(drawing, turned=total < 0)})/{f'({put})' if scale else put}",
             drawing.words.fixed(drawing.on_paper(self.shift(drawing)), 2),
             "mm",

@@ -127,9 +127,9 @@ class ClosedByLines(InPolygon, frozen=True, kw_only=True):
     gives: ClassVar[tuple[str, ...]] = ("one", "other", "corner")
     reasons: ClassVar[Mapping[str, str]] = {"corner": "why.force_polygon"}
     lines: ClassVar[Mapping[str, str]] = {"one": "the side {first}", "other": "the side {last}"}
-    titled: ClassVar[str] = "the polygon of {title}"
+    titled: ClassVar[str] = "the polygon of {kind}"
 
-    title: str
+    kind: str
     links: tuple[str, ...]
     first: str
     last: str
@@ -307,19 +307,19 @@ class Polygon:
             return pen.draw(along_guide if way.along else normal_to_guide, start, way.guide)
 
     def close(
-        self, first: str, last: str, ways: tuple[Way, Way], looks: tuple[str, str]
+        self, names: tuple[str, str], ways: tuple[Way, Way], looks: tuple[str, str]
     ) -> ClosedByLines:
-        """Close the polygon by two lines."""
+        """Close the polygon by two sides: one through its start, and one through its end."""
         one, other = self.line(self.start, ways[0]), self.line(self.last, ways[1])
         with self.pen.on(Part.FORCE, Plane.FORCES):
             corner = self.pen.draw(meet, one, other)
         return self.pen.make(
             ClosedByLines(
                 polygon=self.number,
-                title=self.kind,
+                kind=self.kind,
                 links=self.links,
-                first=first,
-                last=last,
+                first=names[0],
+                last=names[1],
                 looks=looks,
                 ways=ways,
                 sides=tuple(self.sides),
