@@ -188,14 +188,26 @@ class Mechanism(Struct, frozen=True, dict=True):
         return self if scene is self.scene else Mechanism(scene)
 
     def asked(self) -> tuple[Target, ...]:
-        """The targets that the scene asks for; all targets if it asks for nothing."""
+        """The targets that the scene asks for; all targets if it asks for nothing.
+
+        A scene that asks for forces alone asks for the motions from which they follow.
+        """
         wanted = [
             (quantity.target, point_of(self.scene, name))
             for key, some in ASKED.items()
             for name in getattr(self.scene.ask, key)
             for quantity in some
         ]
-        return tuple(target for target in wanted or self.program.answers if self.gives(target))
+        wanted = wanted or self.for_forces() or list(self.program.answers)
+        return tuple(target for target in wanted if self.gives(target))
+
+    def for_forces(self) -> list[Target]:
+        """The motions from which the asked forces follow; none where no force is asked."""
+        given = self.scene.forces
+        if given is None or not given.asked:
+            return []
+        every = (each for each in given.motions() if each[1] not in self.scene.fixed_points)
+        return [target for target in dict.fromkeys(every) if self.gives(target)]
 
     def gives(self, target: Target) -> bool:
         """Whether the program constructs a quantity."""
