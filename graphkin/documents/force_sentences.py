@@ -11,7 +11,7 @@ from graphkin.construction.core.program import Part
 from graphkin.construction.core.quantities import number_of, quantity_text
 from graphkin.construction.core.relation import Relation
 from graphkin.construction.forces.force_drawing import ForceDrawing
-from graphkin.construction.forces.loads import InertiaForce, Weight
+from graphkin.construction.forces.loads import InertiaForce, InertiaMoment, Weight
 from graphkin.drawing.symbol_markup import escape, symbol
 from graphkin.scene.forces import Load
 from graphkin.scene.link_points import lettered
@@ -36,7 +36,7 @@ def force_relations(drawing: Drawing) -> list[tuple[str, list[Relation]]]:
     for number, step in enumerate(drawing.trace.program.steps):
         kind = construction(step)
         if step.part is Part.FORCE and kind is not None and number in drawing.trace.values:
-            own = loads if isinstance(kind, InertiaForce | Weight) else others
+            own = loads if isinstance(kind, InertiaForce | InertiaMoment | Weight) else others
             own += kind.equations(drawing, step.role)
     return [("loads", list(dict.fromkeys(loads))), ("forces", list(dict.fromkeys(others)))]
 

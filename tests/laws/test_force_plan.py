@@ -7,6 +7,8 @@ import random
 from collections.abc import Iterator
 
 import pytest
+from hypothesis import given
+from hypothesis import strategies as st
 
 from graphkin.construction.core.kind import constructions
 from graphkin.construction.core.run import Trace
@@ -18,6 +20,7 @@ from graphkin.documents.force_sheets import traced
 from graphkin.mechanism import Mechanism
 from graphkin.numbers.plane import cross
 from graphkin.scene.model import FRAME
+from tests.laws.loaded import loaded
 from tests.laws.test_forces import (
     CROSSED,
     FOUR_BAR,
@@ -28,7 +31,7 @@ from tests.laws.test_forces import (
     four_bar,
     solved,
 )
-from tests.mechanisms import mechanism_of
+from tests.mechanisms import LAW, mechanism_of, mechanisms
 
 EVERY = [SLIDER, SWINGING, CROSSED, TWO_BLOCKS, SHARED.format(on=2), SHARED.format(on=4)]
 NAMES = ["RRP", "RPR", "RPP", "PRP", "RRR", "RRR-shared"]
@@ -70,7 +73,7 @@ def differences(mechanism: Mechanism) -> Iterator[float]:
     values = trace.values
     for lever in constructions(trace.program, LeverBalance):
         balance = values[lever.force if lever.moment is None else lever.moment]
-        (other,) = found.balance
+        other = next(each for each in found.balance if each.link in lever.moment_name)
         size = other.force if other.moment is None else other.moment
         yield abs(balance - size) / max(abs(size), 1e-9 * largest)
 
@@ -247,3 +250,10 @@ def test_the_lever_needs_one_driver_that_moves():
         )
     )
     assert not [*constructions(still.program, LeverBalance)]
+
+
+@LAW
+@given(mechanisms(most=3), st.integers(0, 10**6))
+def test_they_do_for_chains_of_dyads_with_masses_and_loads_at_random(made, seed):
+    mechanism = loaded(made.mechanism(), random.Random(seed))
+    assert max(differences(mechanism), default=0.0) < 1e-9

@@ -13,6 +13,7 @@ from graphkin.construction.core.program import Part, Plane, Step
 from graphkin.construction.core.quantities import RATE, MotionQuantity
 from graphkin.construction.forces.balance import BalancingMoment
 from graphkin.construction.forces.lever import LeverBalance
+from graphkin.construction.forces.loads import InertiaMoment
 from graphkin.construction.forces.polygon import InPolygon
 from graphkin.drawing.field import Field
 from graphkin.drawing.scale import Extent, extent_of
@@ -67,6 +68,9 @@ class ForceDrawing(Drawing, frozen=True):
         for load in forces.loads if forces is not None else ():
             if load.moment is not None and (size := float(load.moment.si(values))):
                 found.setdefault(load.link, {})[f"M_{load.link}"] = size
+        for inertia in constructions(self.trace.program, InertiaMoment):
+            if couple := float(self.trace.values[inertia.couple]):
+                found.setdefault(inertia.link, {})[f"M_i{inertia.link}"] = couple
         return found
 
     @cached_property

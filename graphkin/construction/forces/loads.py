@@ -7,16 +7,17 @@ moves it sideways by h = J·ε/(m·a_S), so that one force replaces both.
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
-from typing import ClassVar, NamedTuple
+from typing import Any, ClassVar, NamedTuple
 
 from graphkin.construction.core.canvas import Canvas
 from graphkin.construction.core.drawn_scene import Drawing
 from graphkin.construction.core.kind import Construction, constructions
+from graphkin.construction.core.naming import sense
 from graphkin.construction.core.pen import Pen
 from graphkin.construction.core.program import Part, Plane
 from graphkin.construction.core.quantities import EPSILON, in_mm
 from graphkin.construction.core.relation import Relation, answer, put_in
-from graphkin.construction.core.vocabulary import action
+from graphkin.construction.core.vocabulary import action, distance
 from graphkin.construction.forces.force_words import newtons
 from graphkin.construction.plan import omega_of
 from graphkin.drawing.symbol_markup import escape, symbol
@@ -28,6 +29,8 @@ from graphkin.text.markup import COMMA, saying
 
 LENGTH = 13.0
 """Length in mm of the arrows of forces on the mechanism, which show sense and direction alone."""
+MOST = 2.0
+"""An inertia force is moved out by less than this many sizes of its link."""
 SEEN = 0.4
 """A displacement of an inertia force below this, in mm, is not dimensioned."""
 
@@ -45,12 +48,24 @@ def inertia_moment(inertia: Real, epsilon: Real) -> Real:
 
 
 @action("moved-out")
-def moved_out(centre: Point, force: Point, moment: Real) -> Point:
-    """The foot of the centre of mass on the force that replaces force and moment; the centre
-    itself where the force is zero.
+def moved_out(centre: Point, force: Point, moment: Real, reach: Real) -> Point:
+    """The foot of the centre of mass on the one force that replaces force and moment.
+
+    It is the centre itself where the force is too small to be moved that far.
     """
-    square = dot(force, force)
-    return centre - 1j * force * (moment / pick(square == 0, 1.0, square))
+    square, far = dot(force, force), is_far(force, moment, reach)
+    return centre - 1j * force * (pick(far, 0.0, moment) / pick(far, 1.0, square))
+
+
+@action("left-moment")
+def left_moment(force: Point, moment: Real, reach: Real) -> Real:
+    """The inertia moment where the force is too small to be moved out for it, otherwise zero."""
+    return pick(is_far(force, moment, reach), moment, 0.0)
+
+
+def is_far(force: Point, moment: Real, reach: Real) -> Any:
+    """Whether a force would have to be moved out by more than MOST of the size of its link."""
+    return abs(moment) >= MOST * reach * abs(force)
 
 
 @action("weight")
@@ -188,27 +203,52 @@ class InertiaForce(Construction, frozen=True, kw_only=True):
         yield Relation(
             left, f"{symbol(f'm_{self.link}')}·{acceleration}", "·".join(figures), result, "N"
         )
-        if self.place is None or not size:
+        if self.moment is None or not self.shift(drawing):
             return
-        assert self.moment is not None and self.epsilon is not None and self.inertia is not None
-        moment, spun = abs(values[self.moment]), abs(values[self.epsilon])
-        told = answer(drawing, moment)
-        figures = put_in(
-            drawing,
-            told,
-            lambda j, e: j * e,
-            float(values[self.inertia]),
-            spun,
-        )
-        turning = symbol(f"M_i{self.link}")
-        yield Relation(
-            turning,
-            f"{symbol(f'J_{self.link}')}·{symbol(f'ε_{self.link}')}",
-            "·".join(figures),
-            told,
-            "N·m",
-        )
+        assert self.epsilon is not None and self.inertia is not None
+        moment = abs(values[self.moment])
+        yield of_moment(drawing, self.link, self.inertia, self.epsilon)
         yield of_shift(drawing, self, moment, size)
+
+
+class InertiaMoment(Construction, frozen=True, kw_only=True):
+    """The inertia moment of a ``link`` that acts as a couple, in N·m."""
+
+    gives: ClassVar[tuple[str, ...]] = ("couple",)
+    reasons: ClassVar[Mapping[str, str]] = {"couple": "why.force_inertia"}
+
+    link: str
+    inertia: int
+    epsilon: int
+    couple: int
+
+    def sentence_alone(self, drawing: Drawing, role: str) -> str:
+        """Its magnitude and its sense; empty where a moved force replaces it."""
+        moment = float(drawing.trace.values[self.couple])
+        if not moment:
+            return ""
+        return drawing.words(
+            "step.force-inertia-couple",
+            turning=symbol(f"M_i{self.link}"),
+            j=symbol(f"J_{self.link}"),
+            e=symbol(f"ε_{self.link}"),
+            size=f"{answer(drawing, abs(moment))} N·m",
+            sense=sense(drawing.words, moment),
+        )
+
+    def equations(self, drawing: Drawing, role: str) -> Iterator[Relation]:
+        """J·ε."""
+        if drawing.trace.values[self.couple]:
+            yield of_moment(drawing, self.link, self.inertia, self.epsilon)
+
+
+def of_moment(drawing: Drawing, link: str, inertia: int, epsilon: int) -> Relation:
+    """The relation of an inertia moment."""
+    j, spun = (abs(float(drawing.trace.values[n])) for n in (inertia, epsilon))
+    told = answer(drawing, j * spun)
+    figures = put_in(drawing, told, lambda j, e: j * e, j, spun)
+    symbols = f"{symbol(f'J_{link}')}·{symbol(f'ε_{link}')}"
+    return Relation(symbol(f"M_i{link}"), symbols, "·".join(figures), told, "N·m")
 
 
 def of_shift(drawing: Drawing, force: InertiaForce, moment: float, size: float) -> Relation:
@@ -254,7 +294,8 @@ class Weight(Construction, frozen=True, kw_only=True):
             for e in every
         )
         key = "-along" if falls.real or falls.imag > 0 else ""
-        return drawing.words(f"step.force-weights{key}", list=COMMA.join(told))
+        many = "s" if len(every) > 1 else ""
+        return drawing.words(f"step.force-weight{many}{key}", list=COMMA.join(told))
 
     def equations(self, drawing: Drawing, role: str) -> Iterator[Relation]:
         """m·g."""
@@ -321,15 +362,18 @@ def of_mass(
             inertia = pen.given("number", mass.inertia, name=f"inertia {link}")
             moment = pen.draw(inertia_moment, inertia, epsilon)
         if rests:
-            if moment is not None:
-                yield Acting(f"M_i{link}", "inertia", couple=moment)
+            if moment is not None and inertia is not None and epsilon is not None:
+                yield couple_of(pen, link, inertia, epsilon, moment)
             return
         pole, image = pen.pole(Plane.ACCELERATIONS), pen.the("acceleration", point)
         force = pen.draw(inertia_force, own, pole, image)
-    place = None
+    place = left = None
     if moment is not None:
+        reach = reach_of(pen, link, centre)
         with pen.on(Part.FORCE, Plane.MECHANISM):
-            place = pen.draw(moved_out, centre, force, moment)
+            place = pen.draw(moved_out, centre, force, moment, reach)
+        with pen.on(Part.FORCE, Plane.NUMBERS):
+            left = pen.draw(left_moment, force, moment, reach)
     name = f"F_i{link}"
     pen.make(
         InertiaForce(
@@ -348,10 +392,27 @@ def of_mass(
             place=place,
         )
     )
+    if left is not None and inertia is not None and epsilon is not None:
+        yield couple_of(pen, link, inertia, epsilon, left)
     if place is None:
         yield applied(pen, Acting(name, "inertia", force, centre, at=point))
     else:
         yield applied(pen, Acting(name, "inertia", force, place))
+
+
+def couple_of(pen: Pen, link: str, inertia: int, epsilon: int, couple: int) -> Acting:
+    """The inertia moment of a link as a couple."""
+    pen.make(InertiaMoment(link=link, inertia=inertia, epsilon=epsilon, couple=couple))
+    return Acting(f"M_i{link}", "inertia", couple=couple)
+
+
+def reach_of(pen: Pen, link: str, centre: int) -> int:
+    """The distance of the centre of mass from another point of its link, or of the mechanism."""
+    points = (*pen.scene.link(link).points, *pen.scene.points)
+    places = (pen.the("position", point) for point in points)
+    other = next(place for place in places if place != centre)
+    with pen.on(Part.FORCE, Plane.NUMBERS):
+        return pen.draw(distance, centre, other)
 
 
 def applied(pen: Pen, acting: Acting) -> Acting:

@@ -25,7 +25,7 @@ from graphkin.construction.forces.loads import Acting
 from graphkin.drawing.symbol_markup import bar, escape, symbol
 from graphkin.numbers.arithmetic import Point
 from graphkin.numbers.plane import Line
-from graphkin.text.markup import COMMA
+from graphkin.text.markup import AND, COMMA
 
 PART = "reaction-part"
 """The style of the parts of reactions along and across bars."""
@@ -156,7 +156,7 @@ class ClosedByLines(InPolygon, frozen=True, kw_only=True):
         """The instruction: the sides in order, and the lines that close the polygon."""
         if role != "corner":
             return ""
-        return drawing.words(
+        said = drawing.words(
             "step.force-polygon" if self.sides else "step.force-polygon-none",
             n=str(self.polygon),
             k=links_words(drawing, self.links),
@@ -166,6 +166,15 @@ class ClosedByLines(InPolygon, frozen=True, kw_only=True):
             first=read_side(drawing, self.first, self.start, self.corner),
             last=read_side(drawing, self.last, self.end, self.corner),
         )
+        return AND.join([*self.two_force(drawing), said])
+
+    def two_force(self, drawing: Drawing) -> Iterator[str]:
+        """The links without loads between their pins, whose reactions lie along them."""
+        for name, way, link in zip((self.first, self.last), self.ways, self.links, strict=True):
+            if way.guide is None and "^" not in name and self.sides:
+                b = symbol(way.ends[1])
+                fields = {"k": escape(link), "b": b, "r": symbol(name), "bar": bar(*way.ends)}
+                yield drawing.words("step.force-two", **fields)
 
     def equations(self, drawing: Drawing, role: str) -> Iterator[Relation]:
         """The sides read off."""
