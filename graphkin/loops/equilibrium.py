@@ -23,6 +23,8 @@ from graphkin.text.errors import Problem, StructureError, joined, message
 
 RANK = 1e-10
 """Share of the largest singular value below which a constraint counts as redundant."""
+LITTLE = 1e-3
+"""Share of the largest possible power below which the work of loads counts as none."""
 HELD = 1e-9
 """Difference, as a share of the largest force, up to which two routes agree."""
 
@@ -212,9 +214,16 @@ def gathered(columns: list[Column], values: list[float], size: float) -> Equilib
 
 
 def power(
-    scene: Scene, forces: Forces, motion: Motion, drivers: Mapping[str, complex | float]
+    scene: Scene,
+    forces: Forces,
+    motion: Motion,
+    drivers: Mapping[str, complex | float],
+    largest: float,
 ) -> float:
-    """Σ F·v + Σ M·ω of all loads, inertia and driving forces, per sum of the magnitudes."""
+    """Σ F·v + Σ M·ω of all loads, inertia and driving forces, per sum of the magnitudes.
+
+    Where loads do next to no work, it is a share of what the largest force could do.
+    """
     terms = []
     for each in known_forces(scene, forces, motion):
         omega = float(motion.omega[0, motion.index[each.link]])
@@ -228,7 +237,9 @@ def power(
         number = guide_of(motion, driver)
         rate = complex(motion.slides[1, 0, number]) * along_guide(motion, number)
         terms.append((complex(given).conjugate() * rate).real)
-    whole = sum(map(abs, terms))
+    turning = float(np.max(np.abs(motion.omega), initial=0.0)) * float(np.max(motion.loops.size))
+    sliding = float(np.max(np.abs(motion.slides[1]), initial=0.0))
+    whole = max(sum(map(abs, terms)), LITTLE * largest * max(turning, sliding))
     return sum(terms) / whole if whole else 0.0
 
 
@@ -258,4 +269,4 @@ def compare_forces(
         off[f"balance {balance.link}"] = missed if is_force else missed / here.size
     worst = max(off, key=lambda name: off[name])
     difference = float(off[worst] / largest) if largest else float(off[worst])
-    return ForceVerdict(difference, worst, float(power(scene, forces, motion, drivers)))
+    return ForceVerdict(difference, worst, float(power(scene, forces, motion, drivers, largest)))

@@ -15,8 +15,7 @@ from graphkin.text.errors import GraphkinError
 from tests.chance.checking import Case, told
 from tests.chance.maker import Maker
 from tests.chance.making import add
-from tests.laws.loaded import loaded
-from tests.laws.test_force_plan import differences
+from tests.laws.force_routes import differences, loaded
 
 HELD = 1e-9
 """The share of the largest force up to which the routes agree."""

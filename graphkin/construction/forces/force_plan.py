@@ -18,6 +18,7 @@ from graphkin.construction.forces.lever import LeverPlan
 from graphkin.construction.forces.loads import Acting, applied, loads_of, opposite
 from graphkin.construction.forces.moments import (
     Moments,
+    couple_on_guide,
     moments_about,
     place_on_guide,
     tangential,
@@ -181,6 +182,21 @@ class ForcePlan:
         name, guide = self.name(pair, link), self.guide(pair)
         place = place_on_guide(self.pen, name, f"x_{link}", link, guide, force, moments)
         self.give(pair, link, force, place)
+        self.turn(pair, link, couple_on_guide(self.pen, guide, force, moments))
+
+    def turn(self, pair: Joint, link: str, couple: int | None, *, both: bool = False) -> None:
+        """Pass the couple of a guide on a link to the other one, and enter it on ``both``."""
+        other = self.partner(pair, link)
+        if couple is None:
+            return
+        index = link_pair(other, link)
+        if both:
+            self.acting[link].append(Acting(f"M_{index}", REACTION, couple=couple))
+        if other != FRAME:
+            with self.pen.on(Part.FORCE, Plane.NUMBERS):
+                back = self.pen.draw(opposite, couple)
+            passed = Acting(f"M_{link_pair(link, other)}", REACTION, couple=back)
+            self.acting[other].append(passed)
 
     def at_pin(self, pair: Pin, link: str, force: int) -> None:
         """Enter the reaction in a pin."""
@@ -227,6 +243,7 @@ class ForcePlan:
         force = pressure(pen, name, next(self.arms), (other, inner.block), guide, own, others)
         place = place_on_guide(pen, name, f"x_{one}", one, guide, force, others)
         self.pressed(inner, one, other, force, place)
+        self.turn(inner, one, couple_on_guide(pen, guide, force, others), both=True)
         for link, pin in (far, near):
             self.closed_at(group.type, link, pin)
 
@@ -271,6 +288,7 @@ class ForcePlan:
         name = self.name(inner, one)
         place = place_on_guide(pen, name, f"x_{one}", one, guides[0], back, moments)
         self.pressed(inner, one, other, back, place)
+        self.turn(inner, one, couple_on_guide(pen, guides[0], back, moments), both=True)
         rest = moments_about(pen, place, pair.place, self.acting[other], self.arms)
         self.settle(outer, other, outward, rest)
         self.closed_at(group.type, one, pair)

@@ -82,6 +82,13 @@ def right_angle(canvas: Canvas, corner: Any, toward: Any, way: Any) -> None:
         canvas.leg("right-angle", "square-mark", corner + first + second, corner + second)
 
 
+@action("left-couple")
+def left_couple(about: Point, guide: Line, reaction: Point, *rest: Any) -> Real:
+    """The couple of a guide without a reaction that balances the moments about a point."""
+    arm = cross(guide.along, reaction)
+    return pick(arm == 0, -moment_sum(about, rest), 0.0)
+
+
 class ForceArm(Construction, frozen=True, kw_only=True):
     """The arm of a force ``name`` about a point: its ``foot``, and its symbol ``number``."""
 
@@ -98,7 +105,8 @@ class ForceArm(Construction, frozen=True, kw_only=True):
     def marks(self, canvas: Canvas, role: str) -> None:
         """Draw the arm with its right angle, and the line of action as far as the foot."""
         about, foot, place = map(canvas.value, (self.about, self.foot, self.place))
-        if canvas.size(foot - about) <= SEEN:
+        drawn = canvas.drawing.settled(abs(canvas.value(self.force)))
+        if not drawn or canvas.size(foot - about) <= SEEN:
             return
         if canvas.size(foot - place) > SEEN:
             canvas.leg(self.name, "ray", place, foot)
@@ -269,7 +277,8 @@ class PlaceOnGuide(Construction, frozen=True, kw_only=True):
     def marks(self, canvas: Canvas, role: str) -> None:
         """Draw the distance from the pin, with its dimension."""
         pin, place = canvas.value(self.moments.about), canvas.value(self.place)
-        if canvas.size(place - pin) > SEEN:
+        drawn = canvas.drawing.settled(abs(canvas.value(self.reaction)))
+        if drawn and canvas.size(place - pin) > SEEN:
             canvas.dimension(self.number, pin, place)
 
     def symbols(self) -> Mapping[str, str]:
@@ -360,6 +369,16 @@ def tangential(pen: Pen, name: str, link: str, ends: tuple[str, str], moments: M
         force=force,
     )
     return pen.make(part).force
+
+
+def couple_on_guide(pen: Pen, guide: int, reaction: int, moments: Moments) -> int | None:
+    """The couple that a guide carries where it has no reaction; None where no moment is left."""
+    if not moments.terms:
+        return None
+    with pen.on(Part.FORCE, Plane.NUMBERS):
+        return pen.draw(
+            left_couple, moments.about, guide, reaction, *moments.steps, extra=moments.extra
+        )
 
 
 def place_on_guide(

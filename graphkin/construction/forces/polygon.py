@@ -170,7 +170,8 @@ class ClosedByLines(InPolygon, frozen=True, kw_only=True):
 
     def two_force(self, drawing: Drawing) -> Iterator[str]:
         """The links without loads between their pins, whose reactions lie along them."""
-        for name, way, link in zip((self.first, self.last), self.ways, self.links, strict=True):
+        both = zip((self.first, self.last), self.ways, self.links, strict=False)
+        for name, way, link in both:
             if way.guide is None and "^" not in name and self.sides:
                 b = symbol(way.ends[1])
                 fields = {"k": escape(link), "b": b, "r": symbol(name), "bar": bar(*way.ends)}
