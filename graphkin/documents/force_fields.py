@@ -39,7 +39,7 @@ MOST = 60
 """The number of scale factors that are tried."""
 
 
-class Cell(NamedTuple):
+class FieldNeed(NamedTuple):
     """A field to be placed: the size of its drawing in N, or in mm where it is ``fixed``."""
 
     wide: float
@@ -67,10 +67,10 @@ def laid_out(drawing: ForceDrawing, mechanism: Field) -> ForceDrawing:
     """
     rect: Rect = (mechanism.rect[2], AREA[1], AREA[2], AREA[3])
     boxes, lever = drawing.polygon_extents(), drawing.lever_extent()
-    cells = [Cell(box.width, box.height) for box in boxes.values()]
+    cells = [FieldNeed(box.width, box.height) for box in boxes.values()]
     if lever is not None:
         size = max(lever.width, lever.height)
-        cells.append(Cell(lever.width / size * LEVER, lever.height / size * LEVER, fixed=True))
+        cells.append(FieldNeed(lever.width / size * LEVER, lever.height / size * LEVER, fixed=True))
     largest = max((max(cell.wide, cell.high) for cell in cells if not cell.fixed), default=0.0)
     kF, rows = found(cells, rect, largest)
     fields = placed(cells, rows, rect, 1 / kF)
@@ -98,7 +98,7 @@ def field_of(box: Extent, rect: Rect, mm: float, lower: float) -> Field:
     return Field(rect, mm, box.middle, (x, y + lower))
 
 
-def found(cells: Sequence[Cell], rect: Rect, largest: float) -> tuple[float, Rows]:
+def found(cells: Sequence[FieldNeed], rect: Rect, largest: float) -> tuple[float, Rows]:
     """The smallest preferred kF in N/mm at which all cells have room, and their rows."""
     wide, high = rect[2] - rect[0], rect[3] - rect[1]
     scales = preferred(largest / high if largest else 1.0, REDUCED)
@@ -121,7 +121,7 @@ def found(cells: Sequence[Cell], rect: Rect, largest: float) -> tuple[float, Row
     )
 
 
-def slack(cells: Sequence[Cell], rows: Rows, wide: float, high: float, mm: float) -> float:
+def slack(cells: Sequence[FieldNeed], rows: Rows, wide: float, high: float, mm: float) -> float:
     """The least share of free room of an arrangement; negative where it does not fit."""
     across = (1 - sum(cells[i].width(mm) for i in row) / wide for row in rows)
     down = 1 - sum(max(cells[i].height(mm) for i in row) for row in rows) / high
@@ -135,7 +135,7 @@ def arrangements(count: int) -> Iterator[Rows]:
             yield tuple(tuple(range(a, b)) for a, b in pairwise((0, *cuts, count)))
 
 
-def placed(cells: Sequence[Cell], rows: Rows, rect: Rect, mm: float) -> list[Rect]:
+def placed(cells: Sequence[FieldNeed], rows: Rows, rect: Rect, mm: float) -> list[Rect]:
     """The rectangle of each cell; rows and cells share the free room in equal parts."""
     left, top, right, low = rect
     heights = [max(cells[i].height(mm) for i in row) for row in rows]

@@ -18,6 +18,8 @@ from graphkin.construction.reactions import ForceSolution
 from graphkin.documents.force_fields import laid_out
 from graphkin.mechanism import Mechanism
 from graphkin.numbers.arithmetic import FLOAT
+from graphkin.scene.model import joined_words, link_words
+from graphkin.structure.groups import Group
 from graphkin.text.errors import Problem, StructureError, WitnessError, message
 
 HELD = 1e-9
@@ -31,18 +33,9 @@ def force_drawing(mechanism: Mechanism, drawings: Sequence[Drawing]) -> ForceDra
     polygons, the equations of equilibrium and the lever disagree.
     """
     groups = mechanism.laid[0]
-    title = undrawn(mechanism.scene, groups)
-    if title is not None:
-        raise StructureError(
-            Problem(
-                "loads",
-                message("the forces of {what} are not drawn yet", what=title),
-                message("dyads of pins and slides, driven cranks and blocks"),
-                message(
-                    "graphkin solve gives the numbers; leave reactions and balance out of [ask]"
-                ),
-            )
-        )
+    group = undrawn(mechanism.scene, groups)
+    if group is not None:
+        raise StructureError(not_drawn(mechanism, group))
     by_forces = mechanism.forces()
     assert by_forces is not None
     found, verdict = by_forces
@@ -73,6 +66,25 @@ def force_drawing(mechanism: Mechanism, drawings: Sequence[Drawing]) -> ForceDra
         )
     drawing = replace(drawing, verdict=replace(first.verdict, largest_difference=worst))
     return laid_out(drawing, first.stand or mechanism_field(drawings))
+
+
+def not_drawn(mechanism: Mechanism, group: Group) -> Problem:
+    """The problem of a group whose forces are not drawn, with a hint where its numbers are."""
+    first, *others = group.links
+    links = joined_words(group.links) if others else link_words(first)
+    hint = message("leave reactions and balance out of [ask]")
+    if not any(link.rolls or link.cam is not None for link in mechanism.scene.every_link):
+        hint = message("{hint}: graphkin solve gives their numbers", hint=hint)
+    return Problem(
+        "loads",
+        message(
+            "the forces of {links} ({what}) are not drawn yet",
+            links=links,
+            what=group.title,
+        ),
+        message("dyads of pins and slides, driven cranks and blocks"),
+        hint,
+    )
 
 
 def traced(mechanism: Mechanism) -> Trace:

@@ -14,7 +14,7 @@ from typing import Any
 import numpy as np
 from msgspec import Struct
 
-from graphkin.construction.reactions import ForceSolution
+from graphkin.construction.reactions import Balance, ForceSolution, PairReaction
 from graphkin.loops.loop_motion import Motion
 from graphkin.loops.rigid_bodies import Reals
 from graphkin.scene.forces import Forces
@@ -47,11 +47,13 @@ class ForceVerdict(Struct, frozen=True):
 
     ``largest_difference`` is a share of the largest force, or of the largest force times the
     longest arm for moments. ``power`` is the sum of all powers per sum of their magnitudes.
+    Forces that are not ``constructed`` are those of the equations; only their power is a check.
     """
 
     largest_difference: float
     quantity: str
     power: float
+    constructed: bool = True
 
     @property
     def agrees(self) -> bool:
@@ -241,6 +243,36 @@ def power(
     sliding = float(np.max(np.abs(motion.slides[1]), initial=0.0))
     whole = max(sum(map(abs, terms)), LITTLE * largest * max(turning, sliding))
     return sum(terms) / whole if whole else 0.0
+
+
+def by_equations(scene: Scene, motion: Motion, here: Equilibrium) -> ForceSolution:
+    """The reactions and balances of the equations, for groups without a construction."""
+    guides = {f"{guide.block}-{guide.on}": k for k, guide in enumerate(motion.loops.guides)}
+    reactions = []
+    for (name, link), (force, turned) in here.pairs.items():
+        number = guides.get(name)
+        if number is None:
+            place = pin_of(motion, name)
+            reactions.append(PairReaction(name, link, force, 0.0, place))
+            continue
+        guide, along = motion.loops.guides[number], along_guide(motion, number)
+        place, normal = pin_of(motion, guide.point), moment(along, force)
+        at = place + turned / normal * along if normal else None
+        reactions.append(PairReaction(name, link, force, turned, at, guide.block))
+    balance = [
+        Balance(driver.link, moment=here.drivers[driver.link].real)
+        if driver.kind == "turn"
+        else Balance(driver.link, force=here.drivers[driver.link])
+        for driver in scene.drivers
+    ]
+    return ForceSolution(tuple(reactions), tuple(balance))
+
+
+def by_power_alone(scene: Scene, forces: Forces, motion: Motion, here: Equilibrium) -> ForceVerdict:
+    """The verdict on forces of the equations: virtual power is their only check."""
+    largest = max([abs(force) for force, _ in here.pairs.values()], default=0.0)
+    done = float(power(scene, forces, motion, here.drivers, largest))
+    return ForceVerdict(0.0, "", done, constructed=False)
 
 
 def compare_forces(

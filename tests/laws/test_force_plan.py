@@ -15,6 +15,7 @@ from graphkin.construction.forces.lever import LeverBalance
 from graphkin.construction.forces.loads import AppliedForce, InertiaForce
 from graphkin.construction.reactions import by_name
 from graphkin.documents.force_sheets import traced
+from graphkin.loops.equilibrium import by_equations, equilibrium
 from graphkin.mechanism import Mechanism
 from graphkin.numbers.plane import cross
 from graphkin.scene.model import FRAME
@@ -227,3 +228,19 @@ def test_they_do_for_chains_of_all_dyads_with_masses_and_loads_at_random(seed):
     made = dyads(seed)
     assert made is not None
     assert max(differences(loaded(made.mechanism, random.Random(seed)))) < 1e-9
+
+
+@pytest.mark.parametrize("text", EVERY, ids=NAMES)
+def test_the_equations_alone_give_what_the_groups_give(text):
+    """The numbers of groups that have no construction, where there is one to compare with."""
+    mechanism = mechanism_of(text)
+    found, _ = mechanism.forces()
+    motion = mechanism.check.examine(mechanism.solve(), numbered=0).solved.motion
+    here = equilibrium(mechanism.scene, mechanism.scene.forces, motion)
+    others = {(e.name, e.link): e for e in by_equations(mechanism.scene, motion, here).reactions}
+    largest = max(abs(each.force) for each in found.reactions)
+    for each in found.reactions:
+        other = others[each.name, each.link]
+        assert abs(each.force - other.force) < 1e-9 * largest
+        assert abs(each.moment - other.moment) < 1e-9 * largest
+        assert each.block == other.block

@@ -15,7 +15,7 @@ from graphkin.construction.core.program import Part, Plane, Program
 from graphkin.construction.forces.balance import balance_of
 from graphkin.construction.forces.force_words import link_pair
 from graphkin.construction.forces.lever import LeverPlan
-from graphkin.construction.forces.loads import Acting, applied, loads_of, opposite
+from graphkin.construction.forces.loads import LinkForce, applied, loads_of, opposite
 from graphkin.construction.forces.moments import (
     Moments,
     couple_on_guide,
@@ -23,18 +23,17 @@ from graphkin.construction.forces.moments import (
     place_on_guide,
     tangential,
 )
-from graphkin.construction.forces.polygon import PART, REACTION, Polygon, Way
+from graphkin.construction.forces.polygon import PART, REACTION, Polygon, SideDirection
 from graphkin.construction.forces.slide_pressure import pressure
 from graphkin.scene.model import FRAME, Scene
 from graphkin.structure.groups import Crank, Driven, Dyad, Group
 from graphkin.structure.pairs import Joint, Pin, PinLine, Sliding
 from graphkin.structure.wheel_groups import other_of
-from graphkin.text.errors import Message
 
 
-def undrawn(scene: Scene, groups: Sequence[Group]) -> Message | str | None:
-    """The title of the first group whose forces are not drawn; None where all are."""
-    return next((each.title for each in reversed(groups) if not is_drawn(scene, each)), None)
+def undrawn(scene: Scene, groups: Sequence[Group]) -> Group | None:
+    """The last group whose forces are not drawn; None where all are."""
+    return next((each for each in reversed(groups) if not is_drawn(scene, each)), None)
 
 
 def is_drawn(scene: Scene, group: Group) -> bool:
@@ -118,11 +117,11 @@ class ForcePlan:
         """Enter the reaction on a link, drawn on the mechanism, and pass its opposite on."""
         pen, other = self.pen, self.partner(pair, link)
         if other == FRAME:
-            applied(pen, Acting(self.name(pair, link), REACTION, force, place, at=at))
+            applied(pen, LinkForce(self.name(pair, link), REACTION, force, place, at=at))
             return
         with pen.on(Part.FORCE, Plane.NUMBERS):
             back = pen.draw(opposite, force)
-        passed = Acting(self.name(pair, other), REACTION, back, place, at=at)
+        passed = LinkForce(self.name(pair, other), REACTION, back, place, at=at)
         self.acting[other].append(applied(pen, passed))
 
     # --- dyads -----------------------------------------------------------------------------------
@@ -191,23 +190,23 @@ class ForcePlan:
             return
         index = link_pair(other, link)
         if both:
-            self.acting[link].append(Acting(f"M_{index}", REACTION, couple=couple))
+            self.acting[link].append(LinkForce(f"M_{index}", REACTION, couple=couple))
         if other != FRAME:
             with self.pen.on(Part.FORCE, Plane.NUMBERS):
                 back = self.pen.draw(opposite, couple)
-            passed = Acting(f"M_{link_pair(link, other)}", REACTION, couple=back)
+            passed = LinkForce(f"M_{link_pair(link, other)}", REACTION, couple=back)
             self.acting[other].append(passed)
 
     def at_pin(self, pair: Pin, link: str, force: int) -> None:
         """Enter the reaction in a pin."""
         self.give(pair, link, force, self.pen.the("position", pair.place), pair.place)
 
-    def way(self, pair: Joint, inner: Pin) -> Way:
+    def way(self, pair: Joint, inner: Pin) -> SideDirection:
         """The direction of a closing side."""
         if isinstance(pair, Pin):
-            return Way((pair.place, inner.place))
+            return SideDirection((pair.place, inner.place))
         assert isinstance(pair, Sliding)
-        return Way(guide=self.guide(pair), block=pair.block)
+        return SideDirection(guide=self.guide(pair), block=pair.block)
 
     def by_inner_slide(self, group: Dyad) -> None:
         """RPR, RPP: the force normal to the inner guide, then the polygon of each link."""
@@ -264,8 +263,8 @@ class ForcePlan:
         pen = self.pen
         with pen.on(Part.FORCE, Plane.NUMBERS):
             back = pen.draw(opposite, force)
-        self.acting[one].append(Acting(self.name(inner, one), REACTION, force, place))
-        passed = Acting(self.name(inner, other), REACTION, back, place)
+        self.acting[one].append(LinkForce(self.name(inner, one), REACTION, force, place))
+        passed = LinkForce(self.name(inner, other), REACTION, back, place)
         self.acting[other].append(applied(pen, passed))
 
     def on_two_guides(
@@ -277,7 +276,10 @@ class ForcePlan:
         last = polygon.lay_all(self.acting[other])
         names = self.name(inner, other), self.name(outer, other)
         guides = self.guide(inner), self.guide(outer)
-        ways = Way(guide=guides[0], block=inner.block), Way(guide=guides[1], block=outer.block)
+        ways = (
+            SideDirection(guide=guides[0], block=inner.block),
+            SideDirection(guide=guides[1], block=outer.block),
+        )
         closed = polygon.close(names, ways, (REACTION, REACTION))
         pushed = polygon.reaction(names[0], closed.corner, polygon.start, drawn=False)
         outward = polygon.reaction(names[1], last, closed.corner, drawn=False)
@@ -313,12 +315,15 @@ class ForcePlan:
         moments = moments_about(pen, pin, point, self.acting[link], self.arms)
         polygon = self.new_polygon((link,), "slide")
         last = polygon.lay_all(self.acting[link])
-        ways = Way(guide=guide, block=pair.block, along=True), Way(guide=guide, block=pair.block)
+        ways = (
+            SideDirection(guide=guide, block=pair.block, along=True),
+            SideDirection(guide=guide, block=pair.block),
+        )
         names = f"F_b{link}", self.name(pair, link)
         closed = polygon.close(names, ways, ("balance", REACTION))
         push = polygon.reaction(names[0], closed.corner, polygon.start, drawn=False)
         force = polygon.reaction(names[1], last, closed.corner, drawn=False)
-        applied(pen, Acting(names[0], "balance", push, pin, at=point))
+        applied(pen, LinkForce(names[0], "balance", push, pin, at=point))
         self.settle(pair, link, force, moments)
         return push
 

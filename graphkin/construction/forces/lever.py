@@ -18,7 +18,7 @@ from graphkin.construction.core.program import Part, Plane
 from graphkin.construction.core.relation import Relation, answer, figure
 from graphkin.construction.core.vocabulary import action
 from graphkin.construction.forces.force_words import newtons, on_lever, signed
-from graphkin.construction.forces.loads import LENGTH, Acting
+from graphkin.construction.forces.loads import LENGTH, LinkForce
 from graphkin.construction.forces.moments import SEEN, arm, right_angle
 from graphkin.construction.plan import omega_of
 from graphkin.drawing.symbol_markup import bar, symbol
@@ -330,7 +330,7 @@ class LeverPlan:
             turned = pen.draw(lever_moved, near, omega, centre, place)
         return pen.make(LeverMoved(name=name, near=near, turned=turned)).turned
 
-    def put(self, acting: Acting, turned: int, number: str) -> tuple[str, str, int, int]:
+    def put(self, acting: LinkForce, turned: int, number: str) -> tuple[str, str, int, int]:
         """Put a force at an image, with its arm; its term in the sum of moments."""
         assert acting.force is not None
         with self.pen.on(Part.FORCE, Plane.LEVER):
@@ -348,7 +348,7 @@ class LeverPlan:
         )
         return acting.name, number, foot, acting.force
 
-    def couple(self, link: str, acting: Acting) -> tuple[str, str, int]:
+    def couple(self, link: str, acting: LinkForce) -> tuple[str, str, int]:
         """A couple on a link: its term in the sum of moments."""
         pen = self.pen
         assert acting.couple is not None

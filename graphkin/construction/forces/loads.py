@@ -89,7 +89,7 @@ def acts_at(place: Point, force: Point) -> Point:
 # --- the forces that act on a link ---------------------------------------------------------------
 
 
-class Acting(NamedTuple):
+class LinkForce(NamedTuple):
     """A force or a moment on a link: its symbol and its style, and the steps that hold it.
 
     ``at`` is the point of the mechanism through which the force passes; empty for a moved inertia
@@ -310,12 +310,12 @@ class Weight(Construction, frozen=True, kw_only=True):
 # --- writing their steps -------------------------------------------------------------------------
 
 
-def loads_of(pen: Pen, forces: Forces, numbers: Iterator[str]) -> dict[str, list[Acting]]:
+def loads_of(pen: Pen, forces: Forces, numbers: Iterator[str]) -> dict[str, list[LinkForce]]:
     """The loads of each moving link, in the order of a moment equation: weight, inertia, given.
 
     ``numbers`` gives the symbols of arms, in order.
     """
-    found: dict[str, list[Acting]] = {link: [] for link in pen.scene.links}
+    found: dict[str, list[LinkForce]] = {link: [] for link in pen.scene.links}
     for link, mass in forces.masses.items():
         if not mass.mass.is_zero():
             found[link] += of_mass(pen, forces, link, mass, numbers)
@@ -329,17 +329,17 @@ def loads_of(pen: Pen, forces: Forces, numbers: Iterator[str]) -> dict[str, list
                 place = pen.the("position", load.at)
                 name = f"P_{lettered(load.at)}{tail}"
                 found[load.link].append(
-                    applied(pen, Acting(name, "load", force, place, at=load.at))
+                    applied(pen, LinkForce(name, "load", force, place, at=load.at))
                 )
             if load.moment is not None:
                 couple = pen.given("number", load.moment, name=f"moment {load.link}{tail}")
-                found[load.link].append(Acting(f"M_{load.link}{tail}", "load", couple=couple))
+                found[load.link].append(LinkForce(f"M_{load.link}{tail}", "load", couple=couple))
     return found
 
 
 def of_mass(
     pen: Pen, forces: Forces, link: str, mass: Mass, numbers: Iterator[str]
-) -> Iterator[Acting]:
+) -> Iterator[LinkForce]:
     """The weight and the inertia force of a link."""
     point = mass.centre
     centre = pen.the("position", point)
@@ -352,7 +352,7 @@ def of_mass(
             pen.make(
                 Weight(link=link, point=point, name=name, mass=own, gravity=gravity, force=force)
             )
-            yield applied(pen, Acting(name, "load", force, centre, at=point))
+            yield applied(pen, LinkForce(name, "load", force, centre, at=point))
         rests = point in pen.scene.frame.points
         turns = mass.inertia is not None and not mass.inertia.is_zero() and pen.turns(link)
         epsilon = omega_of(pen, link, EPSILON) if turns else None
@@ -395,15 +395,15 @@ def of_mass(
     if left is not None and inertia is not None and epsilon is not None:
         yield couple_of(pen, link, inertia, epsilon, left)
     if place is None:
-        yield applied(pen, Acting(name, "inertia", force, centre, at=point))
+        yield applied(pen, LinkForce(name, "inertia", force, centre, at=point))
     else:
-        yield applied(pen, Acting(name, "inertia", force, place))
+        yield applied(pen, LinkForce(name, "inertia", force, place))
 
 
-def couple_of(pen: Pen, link: str, inertia: int, epsilon: int, couple: int) -> Acting:
+def couple_of(pen: Pen, link: str, inertia: int, epsilon: int, couple: int) -> LinkForce:
     """The inertia moment of a link as a couple."""
     pen.make(InertiaMoment(link=link, inertia=inertia, epsilon=epsilon, couple=couple))
-    return Acting(f"M_i{link}", "inertia", couple=couple)
+    return LinkForce(f"M_i{link}", "inertia", couple=couple)
 
 
 def reach_of(pen: Pen, link: str, centre: int) -> int:
@@ -415,7 +415,7 @@ def reach_of(pen: Pen, link: str, centre: int) -> int:
         return pen.draw(distance, centre, other)
 
 
-def applied(pen: Pen, acting: Acting) -> Acting:
+def applied(pen: Pen, acting: LinkForce) -> LinkForce:
     """Draw a force on the mechanism."""
     assert acting.force is not None and acting.place is not None
     with pen.on(Part.FORCE, Plane.MECHANISM):

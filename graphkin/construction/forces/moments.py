@@ -21,7 +21,7 @@ from graphkin.construction.core.quantities import in_mm
 from graphkin.construction.core.relation import Relation, answer, figure
 from graphkin.construction.core.vocabulary import action
 from graphkin.construction.forces.force_words import force_amount, newtons, signed
-from graphkin.construction.forces.loads import Acting
+from graphkin.construction.forces.loads import LinkForce
 from graphkin.drawing.symbol_markup import bar, escape, symbol
 from graphkin.drawing.symbols import SQUARE
 from graphkin.numbers.arithmetic import Point, Real, pick
@@ -114,7 +114,7 @@ class ForceArm(Construction, frozen=True, kw_only=True):
         right_angle(canvas, foot, about, canvas.value(self.force))
 
 
-class Term(NamedTuple):
+class MomentTerm(NamedTuple):
     """One term of a sum of moments: its force or couple, and its arm."""
 
     name: str
@@ -129,7 +129,7 @@ class Moments(Struct, frozen=True):
 
     letter: str
     about: int
-    terms: tuple[Term, ...]
+    terms: tuple[MomentTerm, ...]
 
     @property
     def steps(self) -> tuple[int, ...]:
@@ -142,7 +142,7 @@ class Moments(Struct, frozen=True):
         """The number of pairs, after the inputs."""
         return (float(sum(t.foot is not None for t in self.terms)),)
 
-    def values(self, drawing: Drawing) -> Iterator[tuple[Term, float, float, float]]:
+    def values(self, drawing: Drawing) -> Iterator[tuple[MomentTerm, float, float, float]]:
         """Each term with its moment in N·m, its force in N and its arm in mm on paper."""
         value = drawing.trace.values
         about = value[self.about]
@@ -155,7 +155,7 @@ class Moments(Struct, frozen=True):
             arm = drawing.on_paper(abs(way))
             yield term, float(cross(way, force)), drawing.settled(abs(force)), arm
 
-    def shown(self, drawing: Drawing) -> list[tuple[Term, float, float, float]]:
+    def shown(self, drawing: Drawing) -> list[tuple[MomentTerm, float, float, float]]:
         """The terms that are not zero on paper."""
         every = self.values(drawing)
         return [e for e in every if (e[2] and e[3] > SEEN) or (e[0].foot is None and e[1])]
@@ -179,7 +179,7 @@ class Moments(Struct, frozen=True):
         metres = any(term.foot is None for term, *_ in some)
         scale = drawing.scales.kL / 1000
 
-        def of(term: Term, moment: float, force: float, arm: float) -> str:
+        def of(term: MomentTerm, moment: float, force: float, arm: float) -> str:
             if term.foot is None:
                 return figure(drawing, abs(moment))
             said = f"{figure(drawing, force)}·{figure(drawing, arm)}"
@@ -333,25 +333,25 @@ class PlaceOnGuide(Construction, frozen=True, kw_only=True):
 
 
 def moments_about(
-    pen: Pen, about: int, letter: str, acting: Sequence[Acting], numbers: Iterator[str]
+    pen: Pen, about: int, letter: str, acting: Sequence[LinkForce], numbers: Iterator[str]
 ) -> Moments:
     """The moments of some forces about a point; forces through that point have none."""
     terms = []
     for each in acting:
         if each.couple is not None:
-            terms.append(Term(each.name, "", None, None, each.couple))
+            terms.append(MomentTerm(each.name, "", None, None, each.couple))
         elif each.place != about:
             assert each.place is not None and each.force is not None
             terms.append(of_arm(pen, about, each.name, each.place, each.force, next(numbers)))
     return Moments(letter, about, tuple(terms))
 
 
-def of_arm(pen: Pen, about: int, name: str, place: int, force: int, number: str) -> Term:
+def of_arm(pen: Pen, about: int, name: str, place: int, force: int, number: str) -> MomentTerm:
     """Draw the arm of a force about a point."""
     with pen.on(Part.FORCE, Plane.MECHANISM):
         foot = pen.draw(arm, about, place, force)
     pen.make(ForceArm(name=name, number=number, about=about, place=place, force=force, foot=foot))
-    return Term(name, number, foot, force, None)
+    return MomentTerm(name, number, foot, force, None)
 
 
 def tangential(pen: Pen, name: str, link: str, ends: tuple[str, str], moments: Moments) -> int:

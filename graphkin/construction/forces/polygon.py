@@ -21,7 +21,7 @@ from graphkin.construction.core.relation import Relation, as_read
 from graphkin.construction.core.segments import TINY
 from graphkin.construction.core.vocabulary import action, along_bar, join, lay_off, meet
 from graphkin.construction.forces.force_words import drawn_force, force_amount, newtons
-from graphkin.construction.forces.loads import Acting
+from graphkin.construction.forces.loads import LinkForce
 from graphkin.drawing.symbol_markup import bar, escape, symbol
 from graphkin.numbers.arithmetic import Point
 from graphkin.numbers.plane import Line
@@ -57,7 +57,7 @@ def side_between(tail: Point, tip: Point) -> Point:
     return tip - tail
 
 
-class Way(NamedTuple):
+class SideDirection(NamedTuple):
     """The direction of a closing side: along the bar between two pins, or by a block's guide.
 
     ``guide`` is the step of the guide and ``block`` its block; ``along`` says that the side is
@@ -134,7 +134,7 @@ class ClosedByLines(InPolygon, frozen=True, kw_only=True):
     first: str
     last: str
     looks: tuple[str, str]
-    ways: tuple[Way, Way]
+    ways: tuple[SideDirection, SideDirection]
     sides: tuple[str, ...]
     start: int
     end: int
@@ -300,14 +300,14 @@ class Polygon:
         self.last = corner
         return corner
 
-    def lay_all(self, acting: Sequence[Acting]) -> int:
+    def lay_all(self, acting: Sequence[LinkForce]) -> int:
         """Lay off the loads of a link; the end of the last one."""
         for each in acting:
             if each.force is not None:
                 self.lay(each.name, each.look, each.force)
         return self.last
 
-    def line(self, start: int, way: Way) -> int:
+    def line(self, start: int, way: SideDirection) -> int:
         """A line through a point of the polygon."""
         pen = self.pen
         with pen.on(Part.FORCE, Plane.FORCES):
@@ -317,7 +317,10 @@ class Polygon:
             return pen.draw(along_guide if way.along else normal_to_guide, start, way.guide)
 
     def close(
-        self, names: tuple[str, str], ways: tuple[Way, Way], looks: tuple[str, str]
+        self,
+        names: tuple[str, str],
+        ways: tuple[SideDirection, SideDirection],
+        looks: tuple[str, str],
     ) -> ClosedByLines:
         """Close the polygon by two sides: one through its start, and one through its end."""
         one, other = self.line(self.start, ways[0]), self.line(self.last, ways[1])
