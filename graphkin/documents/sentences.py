@@ -86,15 +86,15 @@ SET_ON = "set-on"
 
 def sentences(drawing: Drawing) -> list[Sentence]:
     """The sentences of a sheet in the order of drawing, with the readings at the end."""
-    if drawing.kind == FORCE:
-        from graphkin.documents.force_sentences import force_sentences
-
-        return force_sentences(drawing)
     return with_indices(drawing, unexplained(drawing))
 
 
 def unexplained(drawing: Drawing) -> list[Sentence]:
     """The sentences of a sheet without the meanings of indices."""
+    if drawing.kind == FORCE:
+        from graphkin.documents.force_sentences import force_sentences
+
+        return force_sentences(drawing)
     found: list[Sentence] = []
     if drawing.again:
         found.append(Sentence(-1, "again", drawing.words("step.again")))

@@ -11,7 +11,7 @@ from typing import Any, ClassVar
 
 from graphkin.construction.core.canvas import Canvas
 from graphkin.construction.core.drawn_scene import Drawing
-from graphkin.construction.core.kind import ByHand, Construction
+from graphkin.construction.core.kind import Construction
 from graphkin.construction.core.naming import sense
 from graphkin.construction.core.pen import Pen, letter
 from graphkin.construction.core.program import Part, Plane
@@ -79,7 +79,6 @@ class LeverPole(Construction, frozen=True, kw_only=True):
     """The pole of the lever."""
 
     gives: ClassVar[tuple[str, ...]] = ("pole",)
-    pencil: ClassVar[Mapping[str, ByHand]] = {"pole": ByHand.KNOWN}
 
     pole: int
 
@@ -121,7 +120,6 @@ class LeverForce(Construction, frozen=True, kw_only=True):
     """A force at the image of its point on the lever, and its arm about the pole."""
 
     gives: ClassVar[tuple[str, ...]] = ("foot",)
-    pencil: ClassVar[Mapping[str, ByHand]] = {"foot": ByHand.LAID_OFF}
 
     name: str
     look: str

@@ -13,7 +13,7 @@ from msgspec import Struct
 
 from graphkin.construction.core.canvas import Canvas
 from graphkin.construction.core.drawn_scene import Drawing
-from graphkin.construction.core.kind import ByHand, Construction
+from graphkin.construction.core.kind import Construction
 from graphkin.construction.core.naming import sense
 from graphkin.construction.core.pen import Pen
 from graphkin.construction.core.program import Part, Plane
@@ -93,7 +93,6 @@ class ForceArm(Construction, frozen=True, kw_only=True):
     """The arm of a force ``name`` about a point: its ``foot``, and its symbol ``number``."""
 
     gives: ClassVar[tuple[str, ...]] = ("foot",)
-    pencil: ClassVar[Mapping[str, ByHand]] = {"foot": ByHand.LAID_OFF}
 
     name: str
     number: str
@@ -265,7 +264,6 @@ class PlaceOnGuide(Construction, frozen=True, kw_only=True):
 
     gives: ClassVar[tuple[str, ...]] = ("place",)
     reasons: ClassVar[Mapping[str, str]] = {"place": "why.force_place"}
-    pencil: ClassVar[Mapping[str, ByHand]] = {"place": ByHand.LAID_OFF}
 
     name: str
     number: str

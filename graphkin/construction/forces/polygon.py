@@ -12,7 +12,7 @@ from typing import Any, ClassVar, NamedTuple
 
 from graphkin.construction.core.canvas import Canvas
 from graphkin.construction.core.drawn_scene import Drawing
-from graphkin.construction.core.kind import ByHand, Construction
+from graphkin.construction.core.kind import Construction
 from graphkin.construction.core.naming import way_of
 from graphkin.construction.core.pen import Pen
 from graphkin.construction.core.program import Part, Plane
@@ -86,7 +86,6 @@ class PolygonStart(InPolygon, frozen=True, kw_only=True):
     """The start of the polygon of some ``links``."""
 
     gives: ClassVar[tuple[str, ...]] = ("start",)
-    pencil: ClassVar[Mapping[str, ByHand]] = {"start": ByHand.KNOWN}
 
     links: tuple[str, ...]
     kind: str
@@ -101,7 +100,6 @@ class PolygonSide(InPolygon, frozen=True, kw_only=True):
     """A known force laid off from the last point of a polygon."""
 
     gives: ClassVar[tuple[str, ...]] = ("corner",)
-    pencil: ClassVar[Mapping[str, ByHand]] = {"corner": ByHand.LAID_OFF}
 
     name: str
     look: str

@@ -7,7 +7,7 @@ from typing import Any, ClassVar
 
 from graphkin.construction.core.canvas import Canvas
 from graphkin.construction.core.drawn_scene import Drawing
-from graphkin.construction.core.kind import ByHand, Construction
+from graphkin.construction.core.kind import Construction
 from graphkin.construction.core.naming import way_of
 from graphkin.construction.core.pen import Pen
 from graphkin.construction.core.program import Part, Plane
@@ -49,7 +49,6 @@ class SlidePressure(Construction, frozen=True, kw_only=True):
 
     gives: ClassVar[tuple[str, ...]] = ("foot", "force")
     reasons: ClassVar[Mapping[str, str]] = {"force": "why.force_pressure"}
-    pencil: ClassVar[Mapping[str, ByHand]] = {"foot": ByHand.LAID_OFF}
 
     name: str
     number: str
