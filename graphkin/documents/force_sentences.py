@@ -92,12 +92,16 @@ def forces_asked(drawing: Drawing) -> list[str]:
     words, forces = drawing.words, drawing.scene.forces
     assert forces is not None
     found: list[str] = []
-    for key, blocks in (("reactions", False), ("guide_reactions", True)):
+    keys = (
+        ("ask.reactions", "ask.reactions_many", False),
+        ("ask.guide_reactions", "ask.guide_reactions_many", True),
+    )
+    for one, many, blocks in keys:
         names = [e for e in forces.reactions if (e in drawing.scene.links) is blocks]
         if names:
             told = (escape(n) if blocks else symbol(lettered(n)) for n in names)
             mentioned = words("list_mark").join(told)
-            found.append(words(f"ask.{key}" + ("_many" if len(names) > 1 else ""), list=mentioned))
+            found.append(words(many if len(names) > 1 else one, list=mentioned))
     if forces.balance:
         lever = isinstance(drawing, ForceDrawing) and drawing.lever_extent() is not None
         found.append(words("ask.balance_lever" if lever else "ask.balance"))

@@ -42,8 +42,11 @@ class BalancingMoment(Construction, frozen=True, kw_only=True):
             "sense": sense(drawing.words, size),
             "sum": self.moments.symbols(drawing, turned=size > 0),
         }
-        key = "-metres" if self.moments.in_metres(drawing) else ""
-        return drawing.words(f"step.force-balance{key if size else '-none'}", **fields)
+        key = "step.force-balance-none"
+        if size:
+            metres = self.moments.in_metres(drawing)
+            key = "step.force-balance-metres" if metres else "step.force-balance"
+        return drawing.words(key, **fields)
 
     def symbols(self) -> Mapping[str, str]:
         """The pivot."""

@@ -293,9 +293,10 @@ class Weight(Construction, frozen=True, kw_only=True):
             saying(f"{symbol(e.name)} = {newtons(drawing, abs(values[e.force]))}", symbol(e.name))
             for e in every
         )
-        key = "-along" if falls.real or falls.imag > 0 else ""
-        many = "s" if len(every) > 1 else ""
-        return drawing.words(f"step.force-weight{many}{key}", list=COMMA.join(told))
+        one, many = "step.force-weight", "step.force-weights"
+        if falls.real or falls.imag > 0:
+            one, many = "step.force-weight-along", "step.force-weights-along"
+        return drawing.words(many if len(every) > 1 else one, list=COMMA.join(told))
 
     def equations(self, drawing: Drawing, role: str) -> Iterator[Relation]:
         """m·g."""

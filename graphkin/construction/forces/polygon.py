@@ -220,10 +220,10 @@ class ClosingReaction(InPolygon, frozen=True, kw_only=True):
             "sides": COMMA.join(symbol(name) for name in self.sides),
             "parts": " + ".join(symbol(name) for name in self.whole),
         }
-        key = "sum" if self.whole else "inner"
+        key = "step.force-sum" if self.whole else "step.force-inner"
         if self.closes:
-            key = "closes" if self.sides else "closes-none"
-        return drawing.words(f"step.force-{key}", **fields)
+            key = "step.force-closes" if self.sides else "step.force-closes-none"
+        return drawing.words(key, **fields)
 
     def equations(self, drawing: Drawing, role: str) -> Iterator[Relation]:
         """The reaction read off."""
