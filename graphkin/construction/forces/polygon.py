@@ -57,6 +57,13 @@ def side_between(tail: Point, tip: Point) -> Point:
     return tip - tail
 
 
+class KnownSide(NamedTuple):
+    """A known side of a polygon: its symbol, and the step of its force."""
+
+    name: str
+    force: int
+
+
 class SideDirection(NamedTuple):
     """The direction of a closing side: along the bar between two pins, or by a block's guide.
 
@@ -108,7 +115,9 @@ class PolygonSide(InPolygon, frozen=True, kw_only=True):
     corner: int
 
     def marks(self, canvas: Canvas, role: str) -> None:
-        """Draw the force."""
+        """Draw the force, unless it is zero."""
+        if not canvas.drawing.settled(abs(canvas.value(self.force))):
+            return
         draw_force(
             canvas, self.name, self.look, canvas.value(self.start), canvas.value(self.corner)
         )
@@ -133,7 +142,7 @@ class ClosedByLines(InPolygon, frozen=True, kw_only=True):
     last: str
     looks: tuple[str, str]
     ways: tuple[SideDirection, SideDirection]
-    sides: tuple[str, ...]
+    sides: tuple[KnownSide, ...]
     start: int
     end: int
     one: int
@@ -155,10 +164,10 @@ class ClosedByLines(InPolygon, frozen=True, kw_only=True):
         if role != "corner":
             return ""
         said = drawing.words(
-            "step.force-polygon" if self.sides else "step.force-polygon-none",
+            "step.force-polygon" if sides_words(drawing, self.sides) else "step.force-polygon-none",
             n=str(self.polygon),
             k=links_words(drawing, self.links),
-            sides=COMMA.join(symbol(name) for name in self.sides),
+            sides=sides_words(drawing, self.sides),
             one=self.ways[0].words(drawing),
             other=self.ways[1].words(drawing),
             first=read_side(drawing, self.first, self.start, self.corner),
@@ -199,7 +208,7 @@ class ClosingReaction(InPolygon, frozen=True, kw_only=True):
     force: int
     arrow: int
     whole: tuple[str, ...] = ()
-    sides: tuple[str, ...] = ()
+    sides: tuple[KnownSide, ...] = ()
     closes: bool = False
 
     def marks(self, canvas: Canvas, role: str) -> None:
@@ -217,12 +226,13 @@ class ClosingReaction(InPolygon, frozen=True, kw_only=True):
             "k": links_words(drawing, self.links),
             "r": symbol(self.name),
             "read": read_side(drawing, self.name, self.tail, self.tip),
-            "sides": COMMA.join(symbol(name) for name in self.sides),
+            "sides": sides_words(drawing, self.sides),
             "parts": " + ".join(symbol(name) for name in self.whole),
         }
         key = "step.force-sum" if self.whole else "step.force-inner"
         if self.closes:
-            key = "step.force-closes" if self.sides else "step.force-closes-none"
+            sides = fields["sides"]
+            key = "step.force-closes" if sides else "step.force-closes-none"
         return drawing.words(key, **fields)
 
     def equations(self, drawing: Drawing, role: str) -> Iterator[Relation]:
@@ -248,6 +258,13 @@ def links_words(drawing: Drawing, links: Sequence[str]) -> str:
     names = drawing.words("list_mark").join(map(escape, links))
     key = "one_link" if len(links) == 1 else "many_links"
     return drawing.words(f"calculation.{key}", links=names)
+
+
+def sides_words(drawing: Drawing, sides: Sequence[KnownSide]) -> str:
+    """The symbols of the sides that are not zero, in order."""
+    values = drawing.trace.values
+    shown = (each.name for each in sides if drawing.settled(abs(values[each.force])))
+    return COMMA.join(map(symbol, shown))
 
 
 def side_size(drawing: Drawing, tail: int, tip: int) -> float:
@@ -282,7 +299,7 @@ class Polygon:
         record = PolygonStart(polygon=number, links=self.links, kind=kind, start=self.start)
         pen.make(record)
         self.kind = kind
-        self.sides: list[str] = []
+        self.sides: list[KnownSide] = []
 
     def lay(self, name: str, look: str, force: int) -> int:
         """Lay off a force; its end."""
@@ -294,7 +311,7 @@ class Polygon:
                 polygon=self.number, name=name, look=look, start=start, force=force, corner=corner
             )
         )
-        self.sides.append(name)
+        self.sides.append(KnownSide(name, force))
         self.last = corner
         return corner
 
