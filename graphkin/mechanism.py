@@ -188,14 +188,26 @@ class Mechanism(Struct, frozen=True, dict=True):
         return self if scene is self.scene else Mechanism(scene)
 
     def asked(self) -> tuple[Target, ...]:
-        """The targets that the scene asks for; all targets if it asks for nothing."""
+        """The targets that the scene asks for; all targets if it asks for nothing.
+
+        A scene that asks for forces alone asks for the motions from which they follow.
+        """
         wanted = [
             (quantity.target, point_of(self.scene, name))
             for key, some in ASKED.items()
             for name in getattr(self.scene.ask, key)
             for quantity in some
         ]
-        return tuple(target for target in wanted or self.program.answers if self.gives(target))
+        wanted = wanted or self.for_forces() or list(self.program.answers)
+        return tuple(target for target in wanted if self.gives(target))
+
+    def for_forces(self) -> list[Target]:
+        """The motions from which the asked forces follow; none where no force is asked."""
+        given = self.scene.forces
+        if given is None or not given.asked:
+            return []
+        every = (each for each in given.motions() if each[1] not in self.scene.fixed_points)
+        return [target for target in dict.fromkeys(every) if self.gives(target)]
 
     def gives(self, target: Target) -> bool:
         """Whether the program constructs a quantity."""
@@ -272,21 +284,31 @@ class Mechanism(Struct, frozen=True, dict=True):
     def forces(self) -> tuple[ForceSolution, ForceVerdict] | None:
         """Reactions and balance with the verdict of two independent routes; None without forces.
 
-        Raises StructureError where equilibrium does not determine the reactions, and for groups
-        whose reactions have no construction.
+        Groups without a construction of their reactions have those of all equations at once. Raises
+        StructureError where equilibrium does not determine the reactions, and for wheels and cams.
         """
         given = self.scene.forces
         if given is None:
             return None
         from graphkin.construction.core.link_poses import LinkPoses
-        from graphkin.construction.reactions import construct
-        from graphkin.loops.equilibrium import compare_forces, equilibrium
+        from graphkin.construction.reactions import NotConstructedError, construct
+        from graphkin.loops.equilibrium import (
+            by_equations,
+            by_power_alone,
+            compare_forces,
+            equilibrium,
+        )
 
         trace = self.trace()
         solution = gathered(trace, self.scene.links)
         motion = self.check.examine(solution, numbered=0).solved.motion
         here = equilibrium(self.scene, given, motion)
-        found = construct(self.scene, given, self.groups, solution, LinkPoses(self.scene, trace))
+        poses = LinkPoses(self.scene, trace)
+        try:
+            found = construct(self.scene, given, self.groups, solution, poses)
+        except NotConstructedError:
+            verdict = by_power_alone(self.scene, given, motion, here)
+            return by_equations(self.scene, motion, here), verdict
         return found, compare_forces(self.scene, given, motion, here, found)
 
     def batch(

@@ -45,6 +45,9 @@ def sheet_files(
             notes += part.unread
             own, steps = f"{stem}-{part.kind}-{view}", view == "steps"
             files |= rendered(own, part.kind, part.pages, kinds, ink, steps=steps)
+    given = mechanism.scene.forces
+    if "html" in kinds and given is not None and given.asked:
+        notes.append(language_of(mechanism, language)("sheet.no_forces"))
     return files, notes
 
 

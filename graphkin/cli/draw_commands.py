@@ -64,13 +64,14 @@ def sheet(
     formats: str,
     force: bool,
 ) -> None:
-    """Draw the velocity and acceleration sheets and the calculations.
+    """Draw the velocity, acceleration and force sheets and the calculations.
 
     Writes A3 drawings (SVG and PDF) and A4 calculation pages (PDF), named after the scene and its
-    settings: pump-n7-velocity-key.pdf. Existing files are kept unless you give --force.
+    settings: pump-n7-velocity-key.pdf. Existing files are kept unless you give --force. The force
+    sheet is drawn if [ask] has reactions or balance.
 
-    With --format html, writes one page for a browser, pump-n7-key.html, with all drawings, every
-    step and the results. The page needs no network.
+    With --format html, writes one page for a browser, pump-n7-key.html, with both plans, every step
+    and the results. The page needs no network. It does not show forces.
 
     \b
     Examples:

@@ -148,9 +148,13 @@ class Standing(Struct):
             self.acting[other] = self.acting[other].plus(-on)
 
 
-def not_constructed(what: Message | str) -> StructureError:
+class NotConstructedError(StructureError):
+    """A group whose reactions have no construction."""
+
+
+def not_constructed(what: Message | str) -> NotConstructedError:
     """The error for a group whose reactions have no construction."""
-    return StructureError(
+    return NotConstructedError(
         Problem(
             "loads",
             message("the reactions of {what} are not constructed", what=what),

@@ -7,7 +7,7 @@ from collections.abc import Callable, Iterator, Sequence
 from graphkin.construction.core.drawn_scene import Drawing
 from graphkin.construction.core.naming import drawn_in, sense, way_of
 from graphkin.construction.core.plan_vector import plan_vector
-from graphkin.construction.core.quantities import RATES, OnPaper, in_mm, names_asked
+from graphkin.construction.core.quantities import FORCE, RATES, OnPaper, in_mm, names_asked
 from graphkin.construction.core.relation import value_of
 from graphkin.construction.core.segments import segment_of
 from graphkin.drawing.columns import SMALL, ColumnTable, laid_out, on_sheets
@@ -19,8 +19,10 @@ from graphkin.numbers.plane import Vector
 from graphkin.text.tables import CellTable, Row
 
 WIDTHS = {"vectors": (13.5, 13.5, 13, 16), "turns": (13, 14, 33), "slides": (12.5, 12, 31.5)}
+WIDTHS |= {"sides": (13.5, 13, 16), "balance": (20, 30, 20)}
 """Widths of the columns of each table on paper, in mm."""
 NUMBERS = {"vectors": (2, 3), "turns": (1,), "slides": (1,)}
+NUMBERS |= {"sides": (1, 2), "balance": (1, 2)}
 """The columns of numbers of each table; those before them name the row."""
 LEGIBLE = 2.0
 """Least length in mm of a vector that is read off a plan: an error of 0.5 mm is a quarter of it."""
@@ -157,6 +159,10 @@ def tables_on_sheets(
 
 def result_tables(drawing: Drawing, *, empty: bool) -> list[CellTable]:
     """The tables of a sheet that have rows: vectors, turning of links, sliding of blocks."""
+    if drawing.kind == FORCE:
+        from graphkin.construction.forces.force_tables import force_tables
+
+        return force_tables(drawing, empty=empty)
     words = drawing.words
     symbol_head, sense_head = words("table.symbol"), words("table.sense")
     unit, turning = words(f"table.{drawing.kind}"), words(f"table.{drawing.rate.target}")

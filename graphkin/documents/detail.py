@@ -70,6 +70,8 @@ class Source(NamedTuple):
 
 def sources(board: FieldContent) -> Iterator[Source]:
     """The sources of a drawing: its first short vector, and crowded places elsewhere."""
+    if not board.detailed:
+        return
     for mark in board.marks:
         if is_vector(mark) and TOO_SHORT <= length_of(mark) < SHORT:
             times = ENLARGED[0] if length_of(mark) * ENLARGED[0] >= 4 else ENLARGED[1]

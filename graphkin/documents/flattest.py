@@ -12,6 +12,7 @@ from graphkin.construction.core.crossings import Crossing, crossings, flattest
 from graphkin.construction.core.drawn_scene import Drawing
 from graphkin.construction.core.kind import construction
 from graphkin.construction.core.program import Part
+from graphkin.construction.core.quantities import FORCE
 from graphkin.construction.higher_class.closed_group import ClosedGroup
 from graphkin.documents.sentences import sentences
 from graphkin.drawing.field import BELOW, TABLES
@@ -28,6 +29,7 @@ END = TABLES[0] - 22.0
 OWN = {
     "velocity": (Part.POSITION, Part.VELOCITY, Part.CENTRE),
     "acceleration": (Part.POSITION, Part.NORMAL, Part.ACCELERATION, Part.POLE),
+    FORCE: (Part.FORCE,),
 }
 """The parts of the work that are drawn on each sheet."""
 

@@ -21,7 +21,7 @@ from graphkin.construction.core.link_poses import Disc
 from graphkin.construction.core.naming import drawn_in, scale_of
 from graphkin.construction.core.plan_vector import plan_vector, sign_of
 from graphkin.construction.core.program import Part, Step
-from graphkin.construction.core.quantities import BY_TARGET, Whose
+from graphkin.construction.core.quantities import BY_TARGET, FORCE, Whose
 from graphkin.construction.core.relation import (
     Relation,
     answer,
@@ -218,6 +218,10 @@ def ends_on(drawing: Drawing, p: str, q: str) -> frozenset[complex]:
 
 def sections_of(drawing: Drawing) -> list[Section]:
     """The sections of one sheet."""
+    if drawing.kind == FORCE:
+        from graphkin.documents.force_sentences import force_relations
+
+        return force_relations(drawing)
     plan = list(of_plan(drawing))
     turning = [relation for relation in of_turning(drawing) if relation not in plan]
     if drawing.kind == "velocity":

@@ -26,10 +26,13 @@ from graphkin.text.errors import Message, PageError, Problem, SceneError, messag
 def targets_of(mechanism: Mechanism, kind: str) -> tuple[Target, ...]:
     """The targets of one sheet, with the whole mechanism; empty where nothing is asked for.
 
+    The motions from which forces follow are drawn, asked for or not.
+
     Velocities that the acceleration sheet uses are drawn on the first sheet, asked for or not.
     """
     ask = mechanism.scene.ask
-    asked = [target for target in mechanism.asked() if is_found_on(kind, target)]
+    every = dict.fromkeys((*mechanism.asked(), *mechanism.for_forces()))
+    asked = [target for target in every if is_found_on(kind, target)]
     if kind == "velocity":
         later = targets_of(mechanism, "acceleration")
         asked += mechanism.program.also_found(later, ("velocity", OMEGA), asked)

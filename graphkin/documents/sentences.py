@@ -16,6 +16,7 @@ from graphkin.construction.core.kind import PlanPole, Sentence, construction
 from graphkin.construction.core.pen import PRIME, image_name
 from graphkin.construction.core.plan_vector import is_set_on, plan_vector
 from graphkin.construction.core.program import Part, Plane, Step
+from graphkin.construction.core.quantities import FORCE
 from graphkin.construction.core.relation import beside_plan
 from graphkin.construction.core.segments import TINY
 from graphkin.construction.links.idle_links import idle_sentences
@@ -90,6 +91,10 @@ def sentences(drawing: Drawing) -> list[Sentence]:
 
 def unexplained(drawing: Drawing) -> list[Sentence]:
     """The sentences of a sheet without the meanings of indices."""
+    if drawing.kind == FORCE:
+        from graphkin.documents.force_sentences import force_sentences
+
+        return force_sentences(drawing)
     found: list[Sentence] = []
     if drawing.again:
         found.append(Sentence(-1, "again", drawing.words("step.again")))

@@ -24,7 +24,7 @@ from graphkin.construction.core.paper_canvas import (
     draw_part,
 )
 from graphkin.construction.core.program import Plane
-from graphkin.construction.core.quantities import ASKED, PLANES, SHEETS, WHOSE
+from graphkin.construction.core.quantities import ASKED, FORCE, PLANES, SHEETS, WHOSE
 from graphkin.construction.core.relation import beside_plan, figure
 from graphkin.construction.drivers import driver_symbols
 from graphkin.construction.drivers.driver_relations import driven_bars, plan_scales
@@ -94,6 +94,11 @@ def others(drawing: Drawing) -> list[str]:
 def said_above(drawing: Drawing, kind: str, view: str) -> tuple[str, str]:
     """The captions of a mechanism and of a kind of plan next to it, which may be missing."""
     words, scales, task = drawing.words, drawing.scales, view == "task"
+    if kind == FORCE:
+        fields = {"scale": words.decimal(scales.words), "kL": length_scale(drawing)}
+        k = BLANK if task else figure(drawing, scales.kF / 1000)
+        above = words("page.loads_heading", **fields | ({"kL": BLANK} if task else {}))
+        return above, words("page.force_heading", k=k)
     beside = beside_plan(drawing, kind) if kind else ""
     kL = f"{BLANK if task else length_scale(drawing)} m/mm" + (f"; {beside}" if beside else "")
     mechanism = words("page.mechanism_heading", scale=words.decimal(scales.words), kL=kL)
@@ -179,7 +184,12 @@ def data_heading(
     ``spare`` is the height in mm that the drawings leave free below the captions. Many lines of
     data extend into it, and the captions move down. Raises PageError where the data do not fit.
     """
-    found = data(drawing, solved=view != "task", laws=True)
+    if drawing.kind == FORCE:
+        from graphkin.documents.force_sentences import force_data
+
+        found = force_data(drawing, solved=view != "task")
+    else:
+        found = data(drawing, solved=view != "task", laws=True)
     return in_table(found, x, y) or in_lines(drawing, found, x, y, spare)
 
 
@@ -333,6 +343,8 @@ def of_link(words: Words, link: Link) -> str:
 
 def plan_at(drawing: Drawing) -> str:
     """The sentence for the scale of a task's plan; empty without a plan."""
+    if drawing.kind == FORCE:
+        return drawing.words("task.forces", k=figure(drawing, drawing.scales.kF / 1000))
     if not has_plan(drawing):
         return ""
     return drawing.words("task.plan", rule=", ".join(rules(drawing)))
@@ -639,6 +651,13 @@ def right_board(drawing: Drawing, layout: Layout, view: str) -> FieldContent:
     field = layout.plan
     board = FieldContent(field.rect, unnamed=drawing.words("page.unnamed"))
     board.marks += headlines(drawing, layout, view)[1]
+    if drawing.kind == FORCE:
+        from graphkin.documents.force_fields import draw_fields
+
+        board.detailed = False
+        draw_fields(board, drawing, layout, view)
+        board.labels = at_bare_stretches(board.labels, board.marks)
+        return board
     plot = Plot(board, field, drawing, layout)
     if view == "task":
         for number, step, _ in drawing.steps(drawing.plane):
@@ -655,7 +674,7 @@ def below(drawing: Drawing, view: str) -> tuple[list[Mark], set[Moved], int]:
 
     Also returns the parts that do not fit, and the number of sentences that fit where not all do.
     """
-    words, moved, said = drawing.words, set[Moved](), 0
+    moved, said = set[Moved](), 0
     left, top = BELOW[0] + 2, BELOW[1]
     if view == "key":
         place = drawing, left, top + 10.5, TABLES[0] - left - 5, BELOW[3] - 3.5
@@ -678,10 +697,19 @@ def below(drawing: Drawing, view: str) -> tuple[list[Mark], set[Moved], int]:
     moved |= more
     if view == "task":
         return marks, moved, said
-    worst = words.significant(drawing.verdict.largest_difference, 2)
-    text = words("page.verified", difference=worst)
+    text = checked_line(drawing)
     marks.append(Text(left, BELOW[3] + 0.8, text, "caption", 1.8, name="witness"))
     return [*marks, *flattest_line(drawing, left + extent(text, 1.8)[0])], moved, said
+
+
+def checked_line(drawing: Drawing) -> str:
+    """The line on the difference of the independent route."""
+    if drawing.kind == FORCE:
+        from graphkin.documents.force_sentences import checked
+
+        return checked(drawing)
+    worst = drawing.words.significant(drawing.verdict.largest_difference, 2)
+    return drawing.words("page.verified", difference=worst)
 
 
 def construction_head(drawing: Drawing, x: float, y: float) -> Text:
@@ -724,6 +752,10 @@ def task_lines(drawing: Drawing, moved: set[Moved], width: float) -> list[str]:
 
 def asked_words(drawing: Drawing) -> Sequence[str]:
     """The quantities that a sheet asks for, in words."""
+    if drawing.kind == FORCE:
+        from graphkin.documents.force_sentences import forces_asked
+
+        return forces_asked(drawing)
     words, ask = drawing.words, drawing.scene.ask
     shown = {drawing.kind, "position" if drawing.kind == "velocity" else drawing.kind}
     found = []

@@ -66,14 +66,24 @@ def hand_out(
             )
         )
     verdict = proved(mechanism, sheet_motion(mechanism))
-    drawings = drawings_of(mechanism, verdict, spoken)
+    drawings = with_forces(mechanism, drawings_of(mechanism, verdict, spoken))
     sheets = [
-        replace(each, unread=tuple(unread(drawing)))
+        replace(each, unread=tuple(unread(drawing)) if drawing.kind in SHEETS else ())
         for each, drawing in zip(drawn_sheets(drawings, view), drawings, strict=True)
     ]
     if view not in CALCULATED:
         return sheets
     return [*sheets, SheetDocument("calculation", calculation(drawings, view))]
+
+
+def with_forces(mechanism: Mechanism, drawings: list[Drawing]) -> list[Drawing]:
+    """The drawings, with that of the forces where the scene asks for reactions or the balance."""
+    given = mechanism.scene.forces
+    if given is None or not given.asked:
+        return drawings
+    from graphkin.documents.force_sheets import force_drawing
+
+    return [*drawings, force_drawing(mechanism, drawings)]
 
 
 def drawn_sheets(drawings: Sequence[Drawing], view: str) -> list[SheetDocument]:

@@ -147,7 +147,7 @@ class Sign(NamedTuple):
 
 def sign_of(drawing: Drawing, name: str) -> Sign:
     """The arrow of a link with its letter inside."""
-    text = symbol(f"{drawing.rate.letter}_{name}")
+    text = symbol(drawing.turning_name(name))
     width, top, bottom = extent(text, HEIGHT)
     return Sign(text, drawing.kind, max(ROUND, hypot(width, bottom - top) / 2 + 0.7))
 
@@ -240,7 +240,7 @@ def plan_scale(drawing: Drawing, space: Space) -> Iterator[Mark]:
     """The bar of a plan's scale in a free corner, with a round value at its end."""
     words, k = drawing.words, scale_of(drawing, drawing.plane) / 1000
     value, first = round_below(LONGEST * k)
-    length, unit = value / k, escape(drawing.vector.unit)
+    length, unit = value / k, escape(drawing.unit)
     beyond = extent(unit, HEIGHT)[0] + 3
     half = (length + beyond) / 2 + 1, 3.0
     at = space.first(corners(space.rect, *half), half, APART)

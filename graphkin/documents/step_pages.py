@@ -187,7 +187,7 @@ def when_told(drawing: Drawing, staged: Mapping[int, int]) -> dict[str, int]:
             found.setdefault(name, staged[number])
             if vector and vector.foot:
                 found.setdefault(vector.foot, staged[number])
-            if step.plane is drawing.plane or step.part in (Part.CENTRE, Part.POLE):
+            if step.plane in (drawing.plane, Plane.LEVER) or step.part in (Part.CENTRE, Part.POLE):
                 found[step.name] = staged[number]
     return found
 

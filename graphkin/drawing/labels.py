@@ -350,6 +350,7 @@ class FieldContent(Struct):
     - ``unnamed`` is the start of the note that lists vectors without room for their names.
     - ``crowds`` are places where so much meets that they are shown enlarged.
     - ``dispensable`` labels are drawn where the others leave room nearby.
+    - ``detailed`` fields may have details, which show their short vectors enlarged.
     - ``unplaced`` are letters and numbers of a finished field that only its foot notes.
     """
 
@@ -363,6 +364,7 @@ class FieldContent(Struct):
     crowds: list[XY] = field(default_factory=list)
     dispensable: list[Label] = field(default_factory=list)
     unplaced: list[Label] = field(default_factory=list)
+    detailed: bool = True
 
     @property
     def lettering(self) -> Rect:

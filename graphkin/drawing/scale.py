@@ -36,6 +36,8 @@ class Scales(Struct, frozen=True):
       crank; 0 where no crank gives it.
     - ``triangles``: optional triangles are drawn; they are computed instead where the space is
       needed for a larger mechanism.
+    - ``kF`` (N per metre of paper) and ``k_lever`` (m/s per metre of paper): the scale factors of
+      polygons of forces and of Zhukovsky's lever, where these are drawn.
     """
 
     kL: float
@@ -44,6 +46,8 @@ class Scales(Struct, frozen=True):
     larger_still: float = 1.0
     of_crank: float = 0.0
     triangles: bool = True
+    kF: float = 0.0
+    k_lever: float = 0.0
 
     @property
     def kv(self) -> float:

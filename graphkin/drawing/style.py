@@ -23,6 +23,8 @@ BLUE = "#0b4f9e"
 TEAL = "#006d77"
 RED = "#b3260e"
 PURPLE = "#6600cc"
+GREEN = "#1c6b2a"
+BROWN = "#8a4500"
 LIGHT = "#e9edf2"
 PALE = "#f5f6f8"
 WHITE = "#ffffff"
@@ -35,6 +37,8 @@ INKS = {
     TEAL: "teal",
     RED: "red",
     PURPLE: "purple",
+    GREEN: "green",
+    BROWN: "brown",
     LIGHT: "light",
     PALE: "pale",
     WHITE: "paper",
@@ -89,9 +93,13 @@ BY_SIGN = {kind.sign: kind for kind in COMPONENTS}
 """The components of accelerations, by sign."""
 AUXILIARY = OWN_LINES, CHAIN_LINES = "trial", "trial-line"
 """The classes of lines in auxiliary plans: their own, and chain lines through their points."""
-VECTORS = ("velocity", "relative-velocity", "acceleration", *(kind.look for kind in COMPONENTS))
+MOTIONS = ("velocity", "relative-velocity", "acceleration", *(kind.look for kind in COMPONENTS))
+"""The classes of lines that are vectors of a motion."""
+FORCES = ("load", "inertia", "reaction", "reaction-part", "balance")
+"""The classes of lines that are forces: given, of inertia, in pairs, their parts, of a driver."""
+VECTORS = (*MOTIONS, *FORCES)
 """The classes of lines that are vectors."""
-DRAWN = ("construction", "ray", "compass", *AUXILIARY, "centre", "inflection", "ordinate", *VECTORS)
+DRAWN = ("construction", "ray", "compass", *AUXILIARY, "centre", "inflection", "ordinate", *MOTIONS)
 """The classes of lines that a construction draws."""
 CENTRODES = {"fixed-centrode": "relative-velocity", "moving-centrode": "coriolis"}
 """The classes whose colours the names of centrodes take."""
@@ -154,6 +162,13 @@ STYLES: dict[str, Style] = {
     "ordinate": Style(0.35, BLUE),  # of a velocity laid off perpendicular to an axis
     "acceleration": Style(0.5, RED),
     "relative-acceleration": Style(0.35, RED),
+    # forces
+    "force": Style(0.5, GREEN),
+    "load": Style(0.5, GREEN),
+    "inertia": Style(0.5, GREEN, DASHED),
+    "reaction": Style(0.5, BROWN),
+    "reaction-part": Style(0.35, BROWN, SHORT_CHAIN),
+    "balance": Style(0.5, BROWN, DOTTED),
     "trial": Style(0.13, GREY),
     "trial-line": Style(0.18, GREY, CHAIN),
     "arrowhead": Style(0, NEXT, fill="ink"),

@@ -14,7 +14,7 @@ from typing import Any
 import numpy as np
 from msgspec import Struct
 
-from graphkin.construction.reactions import ForceSolution
+from graphkin.construction.reactions import Balance, ForceSolution, PairReaction
 from graphkin.loops.loop_motion import Motion
 from graphkin.loops.rigid_bodies import Reals
 from graphkin.scene.forces import Forces
@@ -23,6 +23,8 @@ from graphkin.text.errors import Problem, StructureError, joined, message
 
 RANK = 1e-10
 """Share of the largest singular value below which a constraint counts as redundant."""
+LITTLE = 1e-3
+"""Share of the largest possible power below which the work of loads counts as none."""
 HELD = 1e-9
 """Difference, as a share of the largest force, up to which two routes agree."""
 
@@ -45,11 +47,13 @@ class ForceVerdict(Struct, frozen=True):
 
     ``largest_difference`` is a share of the largest force, or of the largest force times the
     longest arm for moments. ``power`` is the sum of all powers per sum of their magnitudes.
+    Forces that are not ``constructed`` are those of the equations; only their power is a check.
     """
 
     largest_difference: float
     quantity: str
     power: float
+    constructed: bool = True
 
     @property
     def agrees(self) -> bool:
@@ -212,9 +216,16 @@ def gathered(columns: list[Column], values: list[float], size: float) -> Equilib
 
 
 def power(
-    scene: Scene, forces: Forces, motion: Motion, drivers: Mapping[str, complex | float]
+    scene: Scene,
+    forces: Forces,
+    motion: Motion,
+    drivers: Mapping[str, complex | float],
+    largest: float,
 ) -> float:
-    """Σ F·v + Σ M·ω of all loads, inertia and driving forces, per sum of the magnitudes."""
+    """Σ F·v + Σ M·ω of all loads, inertia and driving forces, per sum of the magnitudes.
+
+    Where loads do next to no work, it is a share of what the largest force could do.
+    """
     terms = []
     for each in known_forces(scene, forces, motion):
         omega = float(motion.omega[0, motion.index[each.link]])
@@ -228,8 +239,40 @@ def power(
         number = guide_of(motion, driver)
         rate = complex(motion.slides[1, 0, number]) * along_guide(motion, number)
         terms.append((complex(given).conjugate() * rate).real)
-    whole = sum(map(abs, terms))
+    turning = float(np.max(np.abs(motion.omega), initial=0.0)) * float(np.max(motion.loops.size))
+    sliding = float(np.max(np.abs(motion.slides[1]), initial=0.0))
+    whole = max(sum(map(abs, terms)), LITTLE * largest * max(turning, sliding))
     return sum(terms) / whole if whole else 0.0
+
+
+def by_equations(scene: Scene, motion: Motion, here: Equilibrium) -> ForceSolution:
+    """The reactions and balances of the equations, for groups without a construction."""
+    guides = {f"{guide.block}-{guide.on}": k for k, guide in enumerate(motion.loops.guides)}
+    reactions = []
+    for (name, link), (force, turned) in here.pairs.items():
+        number = guides.get(name)
+        if number is None:
+            place = pin_of(motion, name)
+            reactions.append(PairReaction(name, link, force, 0.0, place))
+            continue
+        guide, along = motion.loops.guides[number], along_guide(motion, number)
+        place, normal = pin_of(motion, guide.point), moment(along, force)
+        at = place + turned / normal * along if normal else None
+        reactions.append(PairReaction(name, link, force, turned, at, guide.block))
+    balance = [
+        Balance(driver.link, moment=here.drivers[driver.link].real)
+        if driver.kind == "turn"
+        else Balance(driver.link, force=here.drivers[driver.link])
+        for driver in scene.drivers
+    ]
+    return ForceSolution(tuple(reactions), tuple(balance))
+
+
+def by_power_alone(scene: Scene, forces: Forces, motion: Motion, here: Equilibrium) -> ForceVerdict:
+    """The verdict on forces of the equations: virtual power is their only check."""
+    largest = max([abs(force) for force, _ in here.pairs.values()], default=0.0)
+    done = float(power(scene, forces, motion, here.drivers, largest))
+    return ForceVerdict(0.0, "", done, constructed=False)
 
 
 def compare_forces(
@@ -258,4 +301,4 @@ def compare_forces(
         off[f"balance {balance.link}"] = missed if is_force else missed / here.size
     worst = max(off, key=lambda name: off[name])
     difference = float(off[worst] / largest) if largest else float(off[worst])
-    return ForceVerdict(difference, worst, float(power(scene, forces, motion, drivers)))
+    return ForceVerdict(difference, worst, float(power(scene, forces, motion, drivers, largest)))

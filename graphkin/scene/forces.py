@@ -5,7 +5,7 @@ All numbers are in SI units: kg, kg·m², N, N·m and m/s².
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 
 from msgspec import Struct
 from msgspec.structs import replace
@@ -48,6 +48,25 @@ class Forces(Struct, frozen=True):
     def asked(self) -> bool:
         """Whether any reaction or the balance is asked."""
         return bool(self.reactions) or self.balance
+
+    def motions(self) -> Iterator[tuple[str, str]]:
+        """The motions from which the forces follow, each a quantity with its point or link.
+
+        They are the velocities of loaded points and links, for the lever, and the accelerations of
+        masses.
+        """
+        for load in self.loads:
+            if load.force is not None:
+                yield "velocity", load.at
+            if load.moment is not None:
+                yield "omega", load.link
+        for link, mass in self.masses.items():
+            if mass.mass.is_zero():
+                continue
+            yield "velocity", mass.centre
+            yield "acceleration", mass.centre
+            if mass.inertia is not None and not mass.inertia.is_zero():
+                yield "epsilon", link
 
     def called(self, names: Mapping[str, str]) -> Forces:
         """The same with links renamed."""

@@ -135,7 +135,8 @@ def read_point(sketch: LinkKeys, point: str, raw: object, place: str, measures: 
             expected = message(
                 "coordinates [x, y], {{from, length, angle}}, {phrases}", phrases=PHRASES
             )
-            measures.findings.add(place, shown(raw), expected, phrase_hint(raw, PLACES))
+            hint = phrase_hint(raw, PLACES) or nearest(point, KEYWORDS)
+            measures.findings.add(place, shown(raw), expected, hint)
             sketch.broken = True
         else:
             sketch.words[point] = words

@@ -299,6 +299,10 @@ class MovingCanvas(Struct, frozen=True):
         """Draw a small point, which shows where the field has room for it."""
         self.put(lambda: self.in_room(at), lambda: self.binder.at(at))
 
+    def dimension(self, name: str, start: Any, end: Any) -> None:
+        """Draw a dimension line between two moving points."""
+        self.put(lambda: self.joining(start, end), lambda: self.beside_vector(start, end))
+
     def circle(self, circle: Circle, look: str) -> None:
         """Draw a circle while it is neither a point nor straight."""
         self.put(lambda: self.around_centre(circle))

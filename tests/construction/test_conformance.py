@@ -26,12 +26,13 @@ from graphkin.cli.report.pencil_report import pencil_lines, step_words
 from graphkin.construction.core.drawn_scene import Drawing
 from graphkin.construction.core.kind import Construction, Sentence
 from graphkin.construction.core.layout import lay_out
+from graphkin.construction.core.program import Step
 from graphkin.construction.core.solution import Verdict
 from graphkin.documents.relations import relations
 from graphkin.documents.scaling import sheet_motion
 from graphkin.documents.sentences import sentences
 from graphkin.documents.sheet import left_board, right_board, sheet
-from graphkin.documents.sheet_documents import drawings_of, proved
+from graphkin.documents.sheet_documents import drawings_of, proved, with_forces
 from graphkin.mechanism import Mechanism, load
 from graphkin.numbers.kinds import ball_kind
 from graphkin.text import words
@@ -59,11 +60,13 @@ SPARED = (
 """Those that draw nothing by which a face shows that no smaller scene has."""
 TESTS = Path(__file__).parents[1]
 OWN = {
-    path.stem: path
+    f"{path.stem} with forces" if path.parent.name == "forces" else path.stem: path
     for path in (
         TESTS / "motion" / "scenes" / "planet-on-coupler.toml",
         TESTS / "scenes" / "construction" / "coupler-point-curvature.toml",
         TESTS / "scenes" / "construction" / "wheels-that-speed-up.toml",
+        TESTS / "scenes" / "forces" / "ram.toml",
+        TESTS / "scenes" / "forces" / "shaper.toml",
         TESTS / "scenes" / "structure" / "pins" / "rod-in-two-bushings.toml",
         TESTS / "scenes" / "structure" / "plate-on-parallel-bars.toml",
     )
@@ -116,7 +119,12 @@ def materials(name: str, language: str = "en") -> list[Drawing]:
     """The sheets of a scene in a language."""
     one = mechanism(name)
     scales = materials(name)[0].scales if language != "en" else None
-    return drawings_of(one, verdict(name), words(language), scales)
+    return with_forces(one, drawings_of(one, verdict(name), words(language), scales))
+
+
+def steps_of(name: str) -> tuple[Step, ...]:
+    """The steps of a scene, with its plan of forces if it asks for one."""
+    return materials(name)[-1].trace.program.steps
 
 
 @cache
@@ -139,7 +147,7 @@ def homes() -> dict[type, list[str]]:
     written: dict[type, list[str]] = {}
     every = (*LABS, *CHOSEN, *MORE, *RARE, *OWN)
     for name in every if EVERY else (each for each in every if each not in SPARED):
-        steps = mechanism(name).program.steps
+        steps = steps_of(name)
         for kind in {type(steps[number].of) for number in drawn(name)}:
             found.setdefault(kind, []).append(name)
         for kind in {type(step.of) for step in steps}:
@@ -174,7 +182,7 @@ def test_every_kind_that_is_drawn_is_one_of_them():
 @pytest.mark.parametrize("kind", KINDS, ids=lambda kind: kind.__name__)
 def test_a_scene_draws_it_and_its_roles_are_its_own_steps(kind):
     assert kind in homes(), "no scene draws it"
-    steps = mechanism(homes()[kind][0]).program.steps
+    steps = steps_of(homes()[kind][0])
     records = {id(step.of): step.of for step in steps if type(step.of) is kind}
     for record in records.values():
         own = dict(record.given())
@@ -198,7 +206,7 @@ def test_its_value_is_the_drawn_way_in_balls(kind):
 
 def reported(name: str) -> object:
     """What a report says of the steps of a scene."""
-    program = mechanism(name).program
+    program = materials(name)[-1].trace.program
     return [(step_words(program, n), place_words(program, n)) for n in drawn(name)]
 
 

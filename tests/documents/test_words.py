@@ -28,10 +28,11 @@ from graphkin.documents.sheet_documents import (
     drawings_of,
     drawn_sheets,
     proved,
+    with_forces,
 )
 from graphkin.drawing.marks import Page, Text
 from graphkin.drawing.richtext import plain
-from graphkin.mechanism import Mechanism
+from graphkin.mechanism import Mechanism, load
 from graphkin.numbers.cam_motions import MOTIONS
 from graphkin.numbers.plane import Ratio
 from graphkin.reading.desk_app import SAID
@@ -55,6 +56,7 @@ from tests.mechanisms import SHIPPED
 from tests.scene_files import scene_texts
 
 CODE = Path(graphkin.__file__).parent
+FORCES = Path(__file__).parents[1] / "scenes" / "forces"
 MARKS = {"en": ".", "ro": ",", "it": ","}
 OTHER_LANGUAGES = [language for language in LANGUAGES if language != "en"]
 
@@ -82,7 +84,7 @@ def every_page(mechanism: Mechanism, spoken: Words, views: Sequence[str] = ("key
     """All pages of a mechanism in some views, and what its task asks; what does not fit is left
     out."""
     verdict = proved(mechanism, mechanism.solve())
-    drawings = drawings_of(mechanism, verdict, spoken)
+    drawings = with_forces(mechanism, drawings_of(mechanism, verdict, spoken))
     pages: list[Page] = []
     for drawing in drawings:
         asked_words(drawing)
@@ -235,6 +237,7 @@ def test_every_sentence_is_used():
     USED.clear()
     spoken = Recording("en")
     every_page(mechanism_named(SHIPPED[0], 7), spoken, ("key", "task", "steps", "overlay"))
+    every_page(load(FORCES / "ram.toml"), spoken)
     waiting = (
         words("en").sentences.keys()
         - literals()

@@ -89,6 +89,11 @@ CASES = [
     ("O2-B = 30", "", "links.2", "a link without points", "points, such as"),
     ("[links.1]", "[links]\n9 = 3\n[links.1]", "links.9", "3", "a table with its points"),
     ("[links.1]", "slides = { on = 1 }\n[links.1]", "frame.slides", "the frame is at rest", ""),
+    # keys of masses
+    ("O2-B = 30", "O2-B = 30\nmasss = 2", "links.2.masss", "2", "did you mean mass?"),
+    ("O2-B = 30", 'O2-B = 30\ncenter = "B"', "links.2.center", '"B"', "did you mean centre?"),
+    ("O2-B = 30", "O2-B = 30\ninertial = 2", "links.2.inertial", "2", "did you mean inertia?"),
+    ("O2-B = 30", "O2-B = 30\nslide = 2", "links.2.slide", "2", "did you mean slides?"),
     # slides
     ("on = 0", "on = 7", "links.5.slides.on", "link 7 is not in [links]", "0, 1, 2, 3, 4, 5"),
     ("on = 0", "on = 5", "links.5.slides.on", "link 5 itself", "another link"),

@@ -78,3 +78,44 @@ def test_khurmi_steam_engine_moment_and_thrust_on_the_bearings():
     crank = complex(math.cos(math.pi / 4), math.sin(math.pi / 4))
     assert within(abs((thrust * crank.conjugate()).real) / 1000, 11.96, ROUNDED)
     assert within(abs(balance.moment), 3920, ROUNDED)
+
+
+def thrust_in_rod(found) -> complex:
+    """The force of the connecting rod on the piston."""
+    return next(e.force for e in by_name(found, "P")["P"] if e.link == "3")
+
+
+def test_khurmi_vertical_steam_engine_effective_turning_moment():
+    """Bore 300 mm, stroke 450 mm, 200 rev/min, 225 kg, rod 50 mm, l = 1.2 m, 125° from the top.
+
+    Steam 30 kN/m² above the piston, 1.5 kN/m² below. Printed: 3021.6 N·m.
+    """
+    piston, rod = (math.pi / 4 * d**2 for d in (0.3, 0.05))
+    gas = 30e3 * piston - 1.5e3 * (piston - rod) + 225 * 9.81
+    effort = piston_effort(gas, 225, 200, 0.225, 1.2 / 0.225, 125)
+    found, verdict = mechanism(ENGINE.format(r=225, l=1200, effort=-effort, angle=125)).forces()
+    assert verdict.agrees
+    (balance,) = found.balance
+    assert within(abs(balance.moment), 3021.6, ROUNDED)
+
+
+def test_khurmi_petrol_engine_gudgeon_pin_and_cylinder_walls():
+    """Bore 100 mm, stroke 120 mm, l = 250 mm, 1.1 kg, 2000 rev/min, 20° from the top, 700 kN/m².
+
+    Printed: load on the gudgeon pin 2265 N, thrust on the cylinder walls 185.5 N.
+    """
+    gas = 700e3 * math.pi / 4 * 0.1**2 + 1.1 * 9.81
+    effort = piston_effort(gas, 1.1, 2000, 0.06, 250 / 60, 20)
+    found, verdict = mechanism(ENGINE.format(r=60, l=250, effort=-effort, angle=20)).forces()
+    assert verdict.agrees
+    assert within(abs(thrust_in_rod(found)), 2265, ROUNDED)
+    (guide,) = by_name(found, "3").values()
+    assert within(abs(guide[0].force), 185.5, ROUNDED)
+
+
+def test_khurmi_15_7_pressure_on_the_slide_bars():
+    """The engine above. Printed: 10.96 kN."""
+    effort = piston_effort(0.35e6 * math.pi / 4 * 0.5**2, 250, 250, 0.3, 4, 60)
+    found, _ = mechanism(ENGINE.format(r=300, l=1200, effort=-effort, angle=60)).forces()
+    (guide,) = by_name(found, "3").values()
+    assert within(abs(guide[0].force) / 1000, 10.96, ROUNDED)

@@ -78,9 +78,13 @@ def meant(item: Item) -> tuple[str, str]:
 
 
 def asked(mechanism: Mechanism) -> Iterator[Item]:
-    """The items that the scene asks for; everything it can ask where it asks nothing."""
+    """The items that the scene asks for; everything it can ask where it asks nothing.
+
+    A scene that asks for forces alone has no items: forms have no fields for forces.
+    """
     ask, scene = mechanism.scene.ask, mechanism.scene
-    nothing = not ask.anything
+    forces = scene.forces
+    nothing = not ask.anything and not (forces is not None and forces.asked)
     for quantity in VECTORS:
         points = [point_of(scene, name) for name in names_asked(ask, quantity)]
         for point in moving_points(mechanism) if nothing else points:

@@ -33,7 +33,7 @@ def witness_of_forces(verdict: ForceVerdict) -> Record:
     """The differences from the equations of equilibrium and from zero power."""
     return {
         "agrees": verdict.agrees,
-        "largest_difference": real(verdict.largest_difference),
+        "largest_difference": real(verdict.largest_difference) if verdict.constructed else None,
         "quantity": verdict.quantity,
         "power": real(verdict.power),
     }
@@ -81,6 +81,9 @@ def moment_of(each: dict[str, Any], biggest: float) -> float | None:
 def force_verdict_words(witness: Record) -> str:
     """How far the equations of equilibrium and virtual power are from the construction."""
     said = "agrees" if witness["agrees"] else "DIFFERS"
+    if witness["largest_difference"] is None:
+        power = abs(witness["power"])
+        return f"by all equations of equilibrium; {said} with virtual power to {power:.1e}"
     return (
         f"{said} with all equations of equilibrium to {witness['largest_difference']:.1e} "
         f"({witness['quantity']}) and with virtual power to {abs(witness['power']):.1e}"

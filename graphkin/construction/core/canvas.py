@@ -99,6 +99,9 @@ class Canvas(Protocol):
     def spot(self, at: Any) -> None:
         """A small point with its letter, if it lies in the field."""
 
+    def dimension(self, name: str, start: Any, end: Any) -> None:
+        """A dimension line between two points, with its symbol."""
+
     def circle(self, circle: Circle, look: str) -> None:
         """The part of a circle that lies in the field."""
 

@@ -52,6 +52,8 @@ class Drawing(Struct, frozen=True, dict=True):
 
     ``chosen`` is the sheet that decides where marks have room and which lengths are long enough for
     a mark. At another position of the same scene the choice could be different.
+
+    ``fields`` is the layout of a sheet whose kind lays it out itself.
     """
 
     kind: str
@@ -66,6 +68,7 @@ class Drawing(Struct, frozen=True, dict=True):
     computed: Mapping[str, str] = field(default_factory=dict)
     driven: Mapping[str, Any] = field(default_factory=dict)
     chosen: Drawing | None = None
+    fields: Any = None
 
     @property
     def choosing(self) -> Drawing:
@@ -81,6 +84,11 @@ class Drawing(Struct, frozen=True, dict=True):
     def vector(self) -> MotionQuantity:
         """The quantity that this sheet finds for points: velocity or acceleration."""
         return MOTION[self.kind]
+
+    @property
+    def unit(self) -> str:
+        """The unit of the vectors of its plan."""
+        return self.vector.unit
 
     @property
     def rate(self) -> MotionQuantity:
@@ -309,6 +317,10 @@ class Drawing(Struct, frozen=True, dict=True):
         if self.kind == "acceleration":
             largest = max(largest**2, *map(abs, self.all_of(self.rate.target)))
         return 0.0 if abs(value) < NOISE * largest else float(value)
+
+    def turning_name(self, link: str) -> str:
+        """The name of the symbol of what turns a link on this sheet."""
+        return f"{self.rate.letter}_{link}"
 
     def rate_size(self, number: int, kind: str = "velocity") -> float:
         """The magnitude of an angular velocity or acceleration, by its step; zero for rounding."""

@@ -46,6 +46,9 @@ class Layout(Struct, frozen=True):
 
 def lay_out(drawing: Drawing) -> Layout:
     """Mechanism and plan side by side, with the mechanism where it is on all sheets."""
+    if drawing.fields is not None:
+        own: Layout = drawing.fields
+        return own
     mechanism = drawing.stand or mechanism_field([drawing])
     rect = (mechanism.rect[2], AREA[1], AREA[2], AREA[3])
     metres, plan = drawing.scales.metres(drawing.kind), drawing.plan_extent()

@@ -72,6 +72,8 @@ def vector_of(drawing: Drawing, tail: int, tip: int, default: str = "") -> str:
 
 def scale_of(drawing: Drawing, plane: Plane) -> float:
     """The scale factor of a plan, per metre of paper."""
+    if plane is Plane.FORCES:
+        return drawing.scales.kF
     return drawing.scales.kv if plane is Plane.VELOCITIES else drawing.scales.ka
 
 

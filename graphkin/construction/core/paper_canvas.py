@@ -26,7 +26,7 @@ from graphkin.drawing.labels import FieldContent, FootNote, Label
 from graphkin.drawing.marks import Arc, CircleMark, LineMark, Polyline, SharedLetter, Shown
 from graphkin.drawing.style import BY_SIGN, CENTRODES, CHAIN_LINES, OWN_LINES
 from graphkin.drawing.symbol_markup import symbol
-from graphkin.drawing.symbols import FIXED, PIN, SHORT, arrow, bearing, head, square_mark
+from graphkin.drawing.symbols import FIXED, HEAD, PIN, SHORT, arrow, bearing, head, square_mark
 from graphkin.numbers.plane import Circle, Ratio
 from graphkin.text import Words
 
@@ -584,6 +584,19 @@ class PaperCanvas(Struct, frozen=True):
             place = self.plot.field(at)
             self.circled(place, "point construction", DOT)
             name_point(self.plot, self.number, self.step.name, place, DOT)
+
+    @stroke
+    def dimension(self, name: str, start: Any, end: Any) -> None:
+        """Draw a dimension line with a head at each end of it, and its symbol."""
+        tail, tip = self.plot.field(start), self.plot.field(end)
+        if hypot(tip[0] - tail[0], tip[1] - tail[1]) < 2 * HEAD:
+            self.thin(tail, tip, "dimension", name)
+        else:
+            self.plot.board.marks += arrow(tail, tip, "dimension", name, self.number)
+            self.plot.board.marks.append(head(tip, tail, "dimension", name, self.number))
+        self.plot.board.labels.append(
+            Label(symbol(name), "dimension", (tail, tip), 2.5, name, self.number, spare=True)
+        )
 
     @stroke
     def circle(self, circle: Circle, look: str) -> None:

@@ -68,6 +68,17 @@ class Pen:
         self.part, self.plane, self.hand = Part.SHAPE, Plane.NUMBERS, False
         self.effect: Effect | None = None
 
+    @classmethod
+    def resumed(cls, scene: Scene, program: Program) -> Pen:
+        """A pen that writes after the steps of a program of the same scene."""
+        pen = cls(scene)
+        pen.steps, pen.targets = [*program.steps], {**program.targets}
+        pen.scale_step = program.seconds
+        pen.drives = {drive.driver: drive for drive in program.drives}
+        poles = (n for n, step in enumerate(pen.steps) if isinstance(step.of, PlanPole))
+        pen.shared = {("pole", pen.steps[n].plane): n for n in poles}
+        return pen
+
     @contextmanager
     def on(self, part: Part, plane: Plane) -> Iterator[None]:
         """Write steps for one part of the work, in one drawing."""

@@ -42,6 +42,7 @@ class Part(Enum):
     CENTRE = "centre"
     POLE = "pole"
     RESULT = "result"
+    FORCE = "force"
 
 
 OF_PART: Mapping[Part, Effect] = {
@@ -64,6 +65,8 @@ class Plane(Enum):
     MECHANISM = "mechanism"
     VELOCITIES = "velocities"
     ACCELERATIONS = "accelerations"
+    FORCES = "forces"
+    LEVER = "lever"
 
 
 CONSTANTS: Mapping[str, Any] = {"one": 1.0, "zero": 0.0, "origin": 0j, "ahead": 1 + 0j}

@@ -24,6 +24,8 @@ KINDS = ("position", "velocity", "acceleration")
 """The derivatives of a motion."""
 SHEETS = KINDS[1:]
 """The derivatives that have a plan, and a sheet that shows it."""
+FORCE = "force"
+"""The kind of the sheet of forces, which no quantity of a motion belongs to."""
 PLANES = dict(zip(KINDS, (Plane.MECHANISM, Plane.VELOCITIES, Plane.ACCELERATIONS), strict=True))
 
 

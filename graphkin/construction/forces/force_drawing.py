@@ -1,0 +1,116 @@
+"""The material of a sheet of forces: the mechanism with its loads, polygons, and the lever."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from functools import cached_property
+from typing import Any
+
+from graphkin.construction.core.drawn_scene import Drawing, ends
+from graphkin.construction.core.kind import constructions
+from graphkin.construction.core.layout import Layout
+from graphkin.construction.core.program import Part, Plane, Step
+from graphkin.construction.core.quantities import RATE, MotionQuantity
+from graphkin.construction.forces.balance import BalancingMoment
+from graphkin.construction.forces.lever import LeverBalance
+from graphkin.construction.forces.loads import InertiaMoment
+from graphkin.construction.forces.polygon import InPolygon
+from graphkin.drawing.field import Field
+from graphkin.drawing.scale import Extent, extent_of
+
+
+class ForceLayout(Layout, frozen=True):
+    """The fields of a sheet of forces: each polygon's by its number, and the lever's."""
+
+    polygons: Mapping[int, Field] = {}
+    lever: Field | None = None
+
+
+class ForceDrawing(Drawing, frozen=True):
+    """The material of a sheet of forces; ``fields`` is its ForceLayout."""
+
+    @property
+    def plane(self) -> Plane:
+        """The polygons of forces."""
+        return Plane.FORCES
+
+    @property
+    def unit(self) -> str:
+        """The unit of the sides of its polygons."""
+        return "N"
+
+    @property
+    def rate(self) -> MotionQuantity:
+        """The angular acceleration, from which inertia moments follow."""
+        return RATE["acceleration"]
+
+    @property
+    def pole(self) -> str:
+        """The name of the lever's pole."""
+        return "o"
+
+    def turning(self, link: str) -> float | None:
+        """The balancing moment or the first given moment on a link, in N·m; None without one."""
+        return next(iter(self.moments.get(link, {}).values()), None)
+
+    def turning_name(self, link: str) -> str:
+        """The name of the moment on a link."""
+        return next(iter(self.moments[link]))
+
+    @cached_property
+    def moments(self) -> Mapping[str, Mapping[str, float]]:
+        """The moments on each link by their names: that of its driver, then given ones."""
+        found: dict[str, dict[str, float]] = {}
+        for each in constructions(self.trace.program, BalancingMoment):
+            if size := each.size(self):
+                found.setdefault(each.link, {})[each.name] = size
+        forces, values = self.scene.forces, self.scene.values
+        for load in forces.loads if forces is not None else ():
+            if load.moment is not None and (size := float(load.moment.si(values))):
+                found.setdefault(load.link, {})[f"M_{load.link}"] = size
+        for inertia in constructions(self.trace.program, InertiaMoment):
+            if couple := float(self.trace.values[inertia.couple]):
+                found.setdefault(inertia.link, {})[f"M_i{inertia.link}"] = couple
+        return found
+
+    @cached_property
+    def on_mechanism(self) -> tuple[tuple[int, Step, Any], ...]:
+        """The forces and arms on the mechanism."""
+        on_it = self.steps(Plane.MECHANISM)
+        return tuple(drawn for drawn in on_it if drawn[1].part is Part.FORCE)
+
+    @cached_property
+    def natural(self) -> float:
+        """The largest force, against which rounding is measured."""
+        forces = [abs(value) for _, _, value in self.steps(Plane.FORCES) if is_point(value)]
+        return max(forces, default=0.0)
+
+    def polygon_extents(self) -> dict[int, Extent]:
+        """The box of each polygon in N, by its number."""
+        found: dict[int, list[complex]] = {}
+        for _, step, value in self.steps(Plane.FORCES):
+            if isinstance(step.of, InPolygon):
+                found.setdefault(step.of.polygon, []).extend(ends(value))
+        return {number: extent_of(points) for number, points in found.items()}
+
+    def lever_extent(self) -> Extent | None:
+        """The box of the lever in m/s; None where there is none, or where nothing moves."""
+        points = [
+            value
+            for _, step, value in self.steps(Plane.LEVER)
+            if is_point(value) and not isinstance(step.of, LeverBalance)
+        ]
+        box = extent_of(points)
+        return box if len(points) > 1 and box.diagonal else None
+
+    def lever_balances(self) -> Iterator[LeverBalance]:
+        """The balance by the lever, if it is drawn."""
+        if self.lever_extent() is not None:
+            for step in self.trace.program.steps:
+                if isinstance(step.of, LeverBalance) and step.role == "force":
+                    yield step.of
+
+
+def is_point(value: Any) -> bool:
+    """Whether a value is a point of a plan."""
+    return isinstance(value, complex)

@@ -1,0 +1,73 @@
+"""The tables of a sheet of forces: reactions, and the balance by polygons and by the lever."""
+
+from __future__ import annotations
+
+from graphkin.construction.core.drawn_scene import Drawing
+from graphkin.construction.core.kind import constructions
+from graphkin.construction.core.naming import sense
+from graphkin.construction.core.quantities import in_mm
+from graphkin.construction.core.relation import answer, value_of
+from graphkin.construction.forces.balance import BalancingMoment
+from graphkin.construction.forces.force_drawing import ForceDrawing
+from graphkin.construction.forces.force_words import drawn_force
+from graphkin.construction.forces.polygon import ClosedByLines, ClosingReaction, side_size
+from graphkin.construction.forces.slide_pressure import SlidePressure
+from graphkin.drawing.symbol_markup import symbol
+from graphkin.text.tables import CellTable, Row
+
+
+def force_tables(drawing: Drawing, *, empty: bool) -> list[CellTable]:
+    """The tables of a sheet of forces: reactions, arms, and the balance by both routes."""
+    words = drawing.words
+    assert isinstance(drawing, ForceDrawing)
+    rows = []
+    for name, size in sorted_sides(drawing):
+        cells = ("", "")
+        if not empty:
+            length = drawn_force(drawing, size)
+            cells = (in_mm(words, length), value_of(words, size, length))
+        rows.append(Row((symbol(name), *cells), name))
+    heads = words("table.symbol"), words("table.millimetres"), "N"
+    found = [CellTable(heads, rows, kind="sides")]
+    if balance := balance_rows(drawing, empty=empty):
+        heads = words("table.balance"), words("table.by_polygon"), words("table.by_lever")
+        found.append(CellTable(heads, balance, kind="balance"))
+    return [table for table in found if table.rows]
+
+
+def sorted_sides(drawing: ForceDrawing) -> list[tuple[str, float]]:
+    """The whole reactions and driving forces of all polygons with their magnitudes, in order."""
+    found: dict[str, float] = {}
+    for step in drawing.trace.program.steps:
+        kind = step.of
+        if isinstance(kind, ClosedByLines) and step.role == "corner":
+            for name, tail, tip in (
+                (kind.first, kind.corner, kind.start),
+                (kind.last, kind.end, kind.corner),
+            ):
+                if "^" not in name:
+                    found[name] = side_size(drawing, tail, tip)
+        elif isinstance(kind, ClosingReaction) and step.role == "arrow":
+            found[kind.name] = side_size(drawing, kind.tail, kind.tip)
+        elif isinstance(kind, SlidePressure) and step.role == "force":
+            found[kind.name] = drawing.settled(abs(drawing.trace.values[kind.force]))
+    return list(found.items())
+
+
+def balance_rows(drawing: ForceDrawing, *, empty: bool) -> list[Row]:
+    """One row for the balance of each driver: by polygons, and by the lever where it is drawn."""
+    words, rows = drawing.words, []
+    levers = {each.other: each for each in drawing.lever_balances()}
+    for each in constructions(drawing.trace.program, BalancingMoment):
+        lever = levers.get(each.moment)
+        value = answer(drawing, abs(each.size(drawing)))
+        turned = sense(words, each.size(drawing))
+        other = answer(drawing, abs(lever.size(drawing))) if lever is not None else "–"
+        cells = ("", "") if empty else (f"{value} {turned}".strip(), other)
+        rows.append(Row((f"{symbol(each.name)}, N·m", *cells), each.name))
+    for number, lever in levers.items():
+        if lever.moment is None:
+            force = answer(drawing, abs(drawing.trace.values[number]))
+            cells = ("", "") if empty else (force, answer(drawing, lever.size(drawing)))
+            rows.append(Row((f"{symbol(lever.name)}, N", *cells), lever.name))
+    return rows

@@ -1,0 +1,44 @@
+"""Numbers of forces as printed, in N and in mm of a polygon."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+
+from graphkin.construction.core.drawn_scene import Drawing
+from graphkin.construction.core.quantities import OnPaper, in_mm
+from graphkin.construction.core.relation import answer
+
+
+def newtons(drawing: Drawing, size: float) -> str:
+    """A force as printed, in N."""
+    return f"{answer(drawing, size)} N"
+
+
+def drawn_force(drawing: Drawing, size: float) -> OnPaper:
+    """The drawn length of a force in a polygon, in mm."""
+    return OnPaper(1000 * size / drawing.scales.kF)
+
+
+def on_lever(drawing: Drawing, speed: float) -> OnPaper:
+    """The drawn length of a velocity on the lever, in mm."""
+    return OnPaper(1000 * speed / drawing.scales.k_lever)
+
+
+def force_amount(drawing: Drawing, size: float) -> str:
+    """The drawn length of a force in a polygon, as text."""
+    return f"{in_mm(drawing.words, drawn_force(drawing, size))} mm"
+
+
+def signed(terms: Iterable[tuple[bool, str]]) -> str:
+    """A sum of terms with their signs; the first positive term comes first, without its sign."""
+    said, some = "", [*terms]
+    first = next((term for term in some if term[0]), None)
+    for positive, term in sorted(some, key=lambda term: term is not first):
+        sign = "+" if positive else "−"
+        said += f" {sign} {term}" if said else term if positive else f"−{term}"
+    return said
+
+
+def link_pair(one: str, other: str) -> str:
+    """The index of a force of one link on another: 34, or crank,rod."""
+    return one + other if len(one) == len(other) == 1 else f"{one},{other}"

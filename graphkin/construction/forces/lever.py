@@ -1,0 +1,399 @@
+"""Zhukovsky's lever: the velocity plan turned by 90°, with every force at the image of its point.
+
+The moment of a force about the pole is its power. The sum of all moments is zero, and no reaction
+enters, so the lever gives the balance of the driver without any polygon (N. E. Zhukovsky, 1909).
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping, Sequence
+from typing import Any, ClassVar
+
+from graphkin.construction.core.canvas import Canvas
+from graphkin.construction.core.drawn_scene import Drawing
+from graphkin.construction.core.kind import Construction
+from graphkin.construction.core.naming import sense
+from graphkin.construction.core.pen import Pen, letter
+from graphkin.construction.core.program import Part, Plane
+from graphkin.construction.core.relation import Relation, answer, figure
+from graphkin.construction.core.vocabulary import action
+from graphkin.construction.forces.force_words import newtons, on_lever, signed
+from graphkin.construction.forces.loads import LENGTH, LinkForce
+from graphkin.construction.forces.moments import SEEN, arm, right_angle
+from graphkin.construction.plan import omega_of
+from graphkin.drawing.symbol_markup import bar, symbol
+from graphkin.numbers.arithmetic import Point, Real
+from graphkin.numbers.plane import cross
+
+
+@action("lever-pole")
+def lever_pole() -> Point:
+    """The pole of the turned velocity plan."""
+    return 0j
+
+
+@action("lever-image")
+def lever_image(image: Point) -> Point:
+    """The image of a point in the velocity plan turned clockwise by 90°."""
+    return -1j * image
+
+
+@action("lever-moved")
+def lever_moved(turned: Point, omega: Real, centre: Point, place: Point) -> Point:
+    """The image of a place near a point of the same link: parallel to it in the turned plan."""
+    return turned + omega * (place - centre)
+
+
+@action("lever-couple")
+def lever_couple(moment: Real, omega: Real) -> Real:
+    """The moment of a couple on the lever: its power M·ω."""
+    return moment * omega
+
+
+@action("lever-balance")
+def lever_balance(turned: Point, *rest: Any) -> Point:
+    """The force at the image of the driven point, normal to it, that balances the lever.
+
+    ``rest`` holds pairs of the foot of an arm and its force, then the moments of couples, then the
+    number of pairs.
+    """
+    *terms, count = rest
+    pairs = int(count)
+    total: Any = 0.0
+    for k in range(pairs):
+        foot, force = terms[2 * k : 2 * k + 2]
+        total = total + cross(foot, force)
+    for couple in terms[2 * pairs :]:
+        total = total + couple
+    square = turned.real * turned.real + turned.imag * turned.imag
+    return -total / square * (1j * turned)
+
+
+@action("lever-moment")
+def lever_moment(start: Point, end: Point, force: Point) -> Real:
+    """The moment of the balancing force about the crank's pivot."""
+    return cross(end - start, force)
+
+
+class LeverPole(Construction, frozen=True, kw_only=True):
+    """The pole of the lever."""
+
+    gives: ClassVar[tuple[str, ...]] = ("pole",)
+
+    pole: int
+
+    def marks(self, canvas: Canvas, role: str) -> None:
+        """Draw the pole."""
+        canvas.pole()
+
+
+class LeverImage(Construction, frozen=True, kw_only=True):
+    """The ``turned`` image of a point, named as in the velocity plan; its ray from the pole."""
+
+    gives: ClassVar[tuple[str, ...]] = ("turned",)
+
+    image: int
+    turned: int
+
+    def marks(self, canvas: Canvas, role: str) -> None:
+        """Draw the image with its ray."""
+        turned = canvas.value(self.turned)
+        canvas.leg("", "construction", 0 * turned, turned)
+        canvas.image()
+
+
+class LeverMoved(Construction, frozen=True, kw_only=True):
+    """The ``turned`` image of the place of a moved inertia force, near that of its centre."""
+
+    gives: ClassVar[tuple[str, ...]] = ("turned",)
+
+    name: str
+    near: int
+    turned: int
+
+    def marks(self, canvas: Canvas, role: str) -> None:
+        """Draw the short side from the image of the centre of mass."""
+        canvas.leg("", "construction", canvas.value(self.near), canvas.value(self.turned))
+
+
+class LeverForce(Construction, frozen=True, kw_only=True):
+    """A force at the image of its point on the lever, and its arm about the pole."""
+
+    gives: ClassVar[tuple[str, ...]] = ("foot",)
+
+    name: str
+    look: str
+    number: str
+    pole: int
+    turned: int
+    force: int
+    foot: int
+
+    def marks(self, canvas: Canvas, role: str) -> None:
+        """Draw the force without scale, and its arm with its dimension."""
+        turned, foot, force = map(canvas.value, (self.turned, self.foot, self.force))
+        if not canvas.drawing.settled(abs(force)):
+            return
+        canvas.vector(
+            self.name, self.look, turned, turned + force / abs(force) * LENGTH / canvas.mm
+        )
+        if canvas.size(foot) > SEEN:
+            canvas.leg(self.name, "ray", turned, foot)
+            canvas.dimension(self.number, 0 * foot, foot)
+            right_angle(canvas, foot, 0 * foot, force)
+
+
+class LeverBalance(Construction, frozen=True, kw_only=True):
+    """The balancing ``force`` at the image of the driven point, and the ``moment`` of a crank."""
+
+    gives: ClassVar[tuple[str, ...]] = ("force", "moment")
+    reasons: ClassVar[Mapping[str, str]] = {"force": "why.force_lever"}
+
+    name: str
+    moment_name: str
+    ends: tuple[str, str]
+    turned: int
+    start: int | None
+    end: int | None
+    forces: tuple[tuple[str, str, int, int], ...]
+    couples: tuple[tuple[str, str, int], ...]
+    other: int
+    force: int
+    moment: int | None = None
+
+    def marks(self, canvas: Canvas, role: str) -> None:
+        """Draw the balancing force at the image of the driven point."""
+        turned, force = canvas.value(self.turned), canvas.value(self.force)
+        if role == "force" and canvas.drawing.settled(abs(force)):
+            way = force / abs(force) * LENGTH / canvas.mm
+            canvas.vector(self.name, "balance", turned, turned + way)
+
+    def terms(self, drawing: Drawing) -> Iterator[tuple[str, str, float, float, float]]:
+        """Each term: its symbol, its arm's, its moment in W, its force in N and its arm in mm."""
+        values = drawing.trace.values
+        for name, number, foot, force in self.forces:
+            moment, size = float(cross(values[foot], values[force])), abs(values[force])
+            arm = on_lever(drawing, abs(values[foot]))
+            if drawing.settled(size) and arm > SEEN:
+                yield name, number, moment, float(size), arm
+        for name, number, couple in self.couples:
+            if values[couple]:
+                yield name, number, float(values[couple]), 0.0, 0.0
+
+    def size(self, drawing: Drawing) -> float:
+        """The moment (N·m) or the force (N) along the motion, by the lever; zero for rounding."""
+        values = drawing.trace.values
+        if self.moment is not None:
+            moment = float(values[self.moment])
+            return moment if drawing.settled(abs(moment) / drawing.reach) else 0.0
+        return drawing.settled(abs(values[self.force]))
+
+    def by_polygon(self, drawing: Drawing) -> float:
+        """The same by the polygons of forces."""
+        value = drawing.trace.values[self.other]
+        return float(value) if self.moment is not None else abs(value)
+
+    def difference(self, drawing: Drawing) -> float:
+        """The difference of both routes, as a share of the larger one."""
+        values = drawing.trace.values
+        found = values[self.force] if self.moment is None else values[self.moment]
+        other = values[self.other]
+        largest = max(abs(found), abs(other))
+        return float(abs(found - other) / largest) if largest else 0.0
+
+    def sentence_alone(self, drawing: Drawing, role: str) -> str:
+        """The lever with its sum of moments, and its result."""
+        if role != "force":
+            return ""
+        words, force = drawing.words, abs(drawing.trace.values[self.force])
+        size = self.size(drawing)
+        letter = symbol(drawing.trace.program.steps[self.turned].name)
+        fields = {
+            "p": letter,
+            "f": symbol(self.name),
+            "below": self.below(drawing),
+            "sum": self.sum(drawing),
+            "force": newtons(drawing, drawing.settled(force)),
+            "m": symbol(self.moment_name),
+            "bar": bar(*self.ends),
+            "size": f"{answer(drawing, abs(size))} N·m",
+            "sense": sense(words, size),
+        }
+        if not size:
+            return words("step.force-lever-none", **fields)
+        said = words("step.force-lever", **fields)
+        return (
+            said + words("step.force-lever-moment", **fields) if self.moment is not None else said
+        )
+
+    def below(self, drawing: Drawing) -> str:
+        """The arm of the balancing force in symbols, in m/s beside couples."""
+        arm = f"*o*{symbol(drawing.trace.program.steps[self.turned].name)}"
+        return f"({arm}·*k*_v)" if any(not each[3] for each in self.terms(drawing)) else arm
+
+    def sum(self, drawing: Drawing) -> str:
+        """The sum of moments in symbols, positive as a whole."""
+        some = list(self.terms(drawing))
+        turned = sum(each[2] for each in some) < 0
+        metres = any(not each[3] for each in some)
+        return signed(
+            (
+                (moment > 0) is not turned,
+                (f"{symbol(name)}·{symbol(number)}" + ("·*k*_v" if metres and force else "")),
+            )
+            for name, number, moment, force, _ in some
+        )
+
+    def figures(self, drawing: Drawing) -> str:
+        """The same in figures."""
+        some = list(self.terms(drawing))
+        turned = sum(each[2] for each in some) < 0
+        metres = any(not each[3] for each in some)
+        scale = f"·{figure(drawing, drawing.scales.k_lever / 1000)}" if metres else ""
+        return signed(
+            (
+                (moment > 0) is not turned,
+                f"{figure(drawing, force)}·{figure(drawing, arm)}{scale}"
+                if force
+                else figure(drawing, abs(moment)),
+            )
+            for _, _, moment, force, arm in some
+        )
+
+    def equations(self, drawing: Drawing, role: str) -> Iterator[Relation]:
+        """The force, then the moment of the crank."""
+        size = self.size(drawing)
+        if role != "force" or not size:
+            return
+        values = drawing.trace.values
+        metres = any(not each[3] for each in self.terms(drawing))
+        along = figure(drawing, on_lever(drawing, abs(values[self.turned])))
+        put = along
+        if metres:
+            put = f"({along}·{figure(drawing, drawing.scales.k_lever / 1000)})"
+        force = float(abs(values[self.force]))
+        yield Relation(
+            symbol(self.name),
+            f"({self.sum(drawing)})/{self.below(drawing)}",
+            f"({self.figures(drawing)})/{put}",
+            answer(drawing, force),
+            "N",
+        )
+        if self.moment is None:
+            return
+        assert self.start is not None and self.end is not None
+        length = float(abs(values[self.end] - values[self.start]))
+        yield Relation(
+            symbol(self.moment_name),
+            f"{symbol(self.name)}·{bar(*self.ends)}",
+            f"{figure(drawing, force)}·{figure(drawing, length)}",
+            answer(drawing, abs(size)),
+            "N·m",
+            sense(drawing.words, size),
+            turns=True,
+        )
+
+
+# --- writing its steps ---------------------------------------------------------------------------
+
+
+class LeverPlan:
+    """The lever while it is drawn."""
+
+    def __init__(self, pen: Pen) -> None:
+        self.pen = pen
+        with pen.on(Part.FORCE, Plane.LEVER):
+            self.pole = pen.draw(lever_pole, name="o")
+        pen.make(LeverPole(pole=self.pole))
+        self.images: dict[int, int] = {}
+
+    def image(self, point: str) -> int:
+        """The turned image of a point; the pole itself for a point at rest."""
+        pen = self.pen
+        image = pen.the("velocity", point)
+        if image == pen.pole(Plane.VELOCITIES):
+            return self.pole
+        if image not in self.images:
+            with pen.on(Part.FORCE, Plane.LEVER):
+                turned = pen.draw(lever_image, image, name=pen.steps[image].name)
+            pen.make(LeverImage(image=image, turned=turned))
+            self.images[image] = turned
+        return self.images[image]
+
+    def moved(self, link: str, name: str, point: str, place: int) -> int:
+        """The turned image of the place of a moved inertia force."""
+        pen, near = self.pen, self.image(point)
+        omega, centre = omega_of(pen, link), pen.the("position", point)
+        with pen.on(Part.FORCE, Plane.LEVER):
+            turned = pen.draw(lever_moved, near, omega, centre, place)
+        return pen.make(LeverMoved(name=name, near=near, turned=turned)).turned
+
+    def put(self, acting: LinkForce, turned: int, number: str) -> tuple[str, str, int, int]:
+        """Put a force at an image, with its arm; its term in the sum of moments."""
+        assert acting.force is not None
+        with self.pen.on(Part.FORCE, Plane.LEVER):
+            foot = self.pen.draw(arm, self.pole, turned, acting.force)
+        self.pen.make(
+            LeverForce(
+                name=acting.name,
+                look=acting.look,
+                number=number,
+                pole=self.pole,
+                turned=turned,
+                force=acting.force,
+                foot=foot,
+            )
+        )
+        return acting.name, number, foot, acting.force
+
+    def couple(self, link: str, acting: LinkForce) -> tuple[str, str, int]:
+        """A couple on a link: its term in the sum of moments."""
+        pen = self.pen
+        assert acting.couple is not None
+        omega = omega_of(pen, link)
+        with pen.on(Part.FORCE, Plane.NUMBERS):
+            found = pen.draw(lever_couple, acting.couple, omega)
+        return acting.name, f"ω_{link}", found
+
+    def balance(
+        self,
+        names: tuple[str, str],
+        ends: tuple[str, str],
+        forces: Sequence[tuple[str, str, int, int]],
+        couples: Sequence[tuple[str, str, int]],
+        other: int,
+        *,
+        turns: bool,
+    ) -> None:
+        """The balance at the image of the second of two points, ``other`` being the polygons'."""
+        pen = self.pen
+        start, end = (pen.the("position", point) for point in ends)
+        turned = self.image(ends[1])
+        pairs = [n for _, _, foot, force in forces for n in (foot, force)]
+        with pen.on(Part.FORCE, Plane.LEVER):
+            force = pen.draw(
+                lever_balance,
+                turned,
+                *pairs,
+                *(step for _, _, step in couples),
+                extra=(float(len(forces)),),
+            )
+        moment = None
+        if turns:
+            with pen.on(Part.FORCE, Plane.NUMBERS):
+                moment = pen.draw(lever_moment, start, end, force)
+        pen.make(
+            LeverBalance(
+                name=names[0],
+                moment_name=names[1],
+                ends=(letter(ends[0]), letter(ends[1])),
+                turned=turned,
+                start=start,
+                end=end,
+                forces=tuple(forces),
+                couples=tuple(couples),
+                other=other,
+                force=force,
+                moment=moment,
+            )
+        )

@@ -1,0 +1,395 @@
+"""Moments of the forces on one link: arms measured on the drawing, and what balances them.
+
+The part of a reaction across a bar follows from the moments about the bar's other pin. The place of
+a guide's reaction follows from the moments about the block's pin.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping, Sequence
+from typing import Any, ClassVar, NamedTuple
+
+from msgspec import Struct
+
+from graphkin.construction.core.canvas import Canvas
+from graphkin.construction.core.drawn_scene import Drawing
+from graphkin.construction.core.kind import Construction
+from graphkin.construction.core.naming import sense
+from graphkin.construction.core.pen import Pen
+from graphkin.construction.core.program import Part, Plane
+from graphkin.construction.core.quantities import in_mm
+from graphkin.construction.core.relation import Relation, answer, figure
+from graphkin.construction.core.vocabulary import action
+from graphkin.construction.forces.force_words import force_amount, newtons, signed
+from graphkin.construction.forces.loads import LinkForce
+from graphkin.drawing.symbol_markup import bar, escape, symbol
+from graphkin.drawing.symbols import SQUARE
+from graphkin.numbers.arithmetic import Point, Real, pick
+from graphkin.numbers.plane import Line, cross, dot
+
+SEEN = 0.3
+"""An arm below this, in mm, is zero on paper."""
+
+
+@action("arm")
+def arm(about: Point, place: Point, force: Point) -> Point:
+    """The foot of the perpendicular from a point to the line of action of a force."""
+    square = dot(force, force)
+    along = dot(about - place, force) / pick(square == 0, 1.0, square)
+    return place + along * force
+
+
+def moment_sum(about: Point, rest: Sequence[Any]) -> Real:
+    """The moments about a point: pairs of a foot and a force, then couples, then their number."""
+    *terms, count = rest
+    pairs = int(count)
+    total: Any = 0.0
+    for k in range(pairs):
+        foot, force = terms[2 * k : 2 * k + 2]
+        total = total + cross(foot - about, force)
+    for couple in terms[2 * pairs :]:
+        total = total + couple
+    return total
+
+
+@action("tangential-part")
+def tangential_part(outer: Point, inner: Point, *rest: Any) -> Point:
+    """The force across a bar at its outer pin that balances the moments about the inner one."""
+    way = outer - inner
+    return -moment_sum(inner, rest) / dot(way, way) * (1j * way)
+
+
+@action("balancing-moment")
+def balancing_moment(about: Point, *rest: Any) -> Real:
+    """The moment that balances the moments about a point."""
+    return -moment_sum(about, rest)
+
+
+@action("place-by-moments")
+def place_by_moments(about: Point, guide: Line, reaction: Point, *rest: Any) -> Point:
+    """The place along a guide through a point where a reaction balances the moments about it."""
+    unit = guide.along / abs(guide.along)
+    arm = cross(unit, reaction)
+    return about - moment_sum(about, rest) / pick(arm == 0, 1.0, arm) * unit
+
+
+def right_angle(canvas: Canvas, corner: Any, toward: Any, way: Any) -> None:
+    """Draw the mark of a right angle at the foot of an arm, where there is room for it."""
+    back = toward - corner
+    if canvas.size(back) > 2 * SQUARE and abs(way):
+        first, second = (v / abs(v) * SQUARE / canvas.mm for v in (back, way))
+        canvas.leg("right-angle", "square-mark", corner + first, corner + first + second)
+        canvas.leg("right-angle", "square-mark", corner + first + second, corner + second)
+
+
+@action("left-couple")
+def left_couple(about: Point, guide: Line, reaction: Point, *rest: Any) -> Real:
+    """The couple of a guide without a reaction that balances the moments about a point."""
+    arm = cross(guide.along, reaction)
+    return pick(arm == 0, -moment_sum(about, rest), 0.0)
+
+
+class ForceArm(Construction, frozen=True, kw_only=True):
+    """The arm of a force ``name`` about a point: its ``foot``, and its symbol ``number``."""
+
+    gives: ClassVar[tuple[str, ...]] = ("foot",)
+
+    name: str
+    number: str
+    about: int
+    place: int
+    force: int
+    foot: int
+
+    def marks(self, canvas: Canvas, role: str) -> None:
+        """Draw the arm with its right angle, and the line of action as far as the foot."""
+        about, foot, place = map(canvas.value, (self.about, self.foot, self.place))
+        drawn = canvas.drawing.settled(abs(canvas.value(self.force)))
+        if not drawn or canvas.size(foot - about) <= SEEN:
+            return
+        if canvas.size(foot - place) > SEEN:
+            canvas.leg(self.name, "ray", place, foot)
+        canvas.dimension(self.number, about, foot)
+        right_angle(canvas, foot, about, canvas.value(self.force))
+
+
+class MomentTerm(NamedTuple):
+    """One term of a sum of moments: its force or couple, and its arm."""
+
+    name: str
+    number: str
+    foot: int | None
+    force: int | None
+    couple: int | None
+
+
+class Moments(Struct, frozen=True):
+    """The terms of a sum of moments about a point, by its ``letter`` and its step."""
+
+    letter: str
+    about: int
+    terms: tuple[MomentTerm, ...]
+
+    @property
+    def steps(self) -> tuple[int, ...]:
+        """The inputs of an action: feet and forces, then couples."""
+        pairs = [n for t in self.terms if t.foot is not None for n in (t.foot, t.force)]
+        return (*pairs, *(t.couple for t in self.terms if t.couple is not None))  # type: ignore[arg-type]
+
+    @property
+    def extra(self) -> tuple[float, ...]:
+        """The number of pairs, after the inputs."""
+        return (float(sum(t.foot is not None for t in self.terms)),)
+
+    def values(self, drawing: Drawing) -> Iterator[tuple[MomentTerm, float, float, float]]:
+        """Each term with its moment in N·m, its force in N and its arm in mm on paper."""
+        value = drawing.trace.values
+        about = value[self.about]
+        for term in self.terms:
+            if term.couple is not None:
+                yield term, float(value[term.couple]), 0.0, 0.0
+                continue
+            assert term.foot is not None and term.force is not None
+            way, force = value[term.foot] - about, value[term.force]
+            arm = drawing.on_paper(abs(way))
+            yield term, float(cross(way, force)), drawing.settled(abs(force)), arm
+
+    def shown(self, drawing: Drawing) -> list[tuple[MomentTerm, float, float, float]]:
+        """The terms that are not zero on paper."""
+        every = self.values(drawing)
+        return [e for e in every if (e[2] and e[3] > SEEN) or (e[0].foot is None and e[1])]
+
+    def symbols(self, drawing: Drawing, *, turned: bool = False) -> str:
+        """The sum in symbols: F·h_1 − G·h_2 + M; all signs are reversed if ``turned``."""
+        scale = "·*k*_L" if any(t.foot is None for t, *_ in self.shown(drawing)) else ""
+        return signed(
+            (
+                (moment > 0) is not turned,
+                symbol(term.name)
+                if term.foot is None
+                else f"{symbol(term.name)}·{symbol(term.number)}{scale}",
+            )
+            for term, moment, _, _ in self.shown(drawing)
+        )
+
+    def figures(self, drawing: Drawing, *, turned: bool = False) -> str:
+        """The same in figures."""
+        some = self.shown(drawing)
+        metres = any(term.foot is None for term, *_ in some)
+        scale = drawing.scales.kL / 1000
+
+        def of(term: MomentTerm, moment: float, force: float, arm: float) -> str:
+            if term.foot is None:
+                return figure(drawing, abs(moment))
+            said = f"{figure(drawing, force)}·{figure(drawing, arm)}"
+            return f"{said}·{figure(drawing, scale)}" if metres else said
+
+        return signed(((e[1] > 0) is not turned, of(*e)) for e in some)
+
+    def in_metres(self, drawing: Drawing) -> bool:
+        """Whether a couple among the terms needs arms in metres."""
+        return any(term.foot is None for term, *_ in self.shown(drawing))
+
+
+class TangentialPart(Construction, frozen=True, kw_only=True):
+    """The part ``name`` of the reaction at a ``link``'s outer pin, across the bar to the inner."""
+
+    gives: ClassVar[tuple[str, ...]] = ("force",)
+    reasons: ClassVar[Mapping[str, str]] = {"force": "why.force_tangential"}
+
+    name: str
+    link: str
+    ends: tuple[str, str]
+    outer: int
+    inner: int
+    moments: Moments
+    force: int
+
+    def sentence_alone(self, drawing: Drawing, role: str) -> str:
+        """The moment equation, and the size of the part."""
+        size = drawing.settled(abs(drawing.trace.values[self.force]))
+        outer, inner = self.ends
+        fields = {
+            "k": escape(self.link),
+            "b": symbol(inner),
+            "bar": bar(outer, inner),
+            "below": f"({bar(outer, inner)}·*k*_L)"
+            if self.moments.in_metres(drawing)
+            else bar(outer, inner),
+            "r": symbol(self.name),
+            "size": newtons(drawing, size),
+            "drawn": force_amount(drawing, size),
+            "sum": self.sum(drawing),
+            "sense": sense(drawing.words, 1 if self.is_turned(drawing) else -1),
+        }
+        return drawing.words(
+            "step.force-tangential" if size else "step.force-tangential-none", **fields
+        )
+
+    def symbols(self) -> Mapping[str, str]:
+        """The inner pin, and the bar."""
+        return {"b": symbol(self.ends[1]), "bar": bar(*self.ends)}
+
+    def is_turned(self, drawing: Drawing) -> bool:
+        """Whether the sum of moments is negative, so that its signs are reversed."""
+        return sum(moment for _, moment, _, _ in self.moments.values(drawing)) < 0
+
+    def sum(self, drawing: Drawing) -> str:
+        """The sum of moments in symbols, positive as a whole."""
+        return self.moments.symbols(drawing, turned=self.is_turned(drawing))
+
+    def equations(self, drawing: Drawing, role: str) -> Iterator[Relation]:
+        """The sum of moments divided by the bar."""
+        values = drawing.trace.values
+        size = drawing.settled(abs(values[self.force]))
+        outer, inner = self.ends
+        if not size:
+            return
+        turned, length = self.is_turned(drawing), abs(values[self.outer] - values[self.inner])
+        scale = "·*k*_L" if self.moments.in_metres(drawing) else ""
+        along = drawing.on_paper(length)
+        put = figure(drawing, along)
+        put = f"{put}·{figure(drawing, drawing.scales.kL / 1000)}" if scale else put
+        yield Relation(
+            symbol(self.name),
+            f"({self.sum(drawing)})/({bar(outer, inner)}{scale})",
+            f"({self.moments.figures(drawing, turned=turned)})/({put})",
+            answer(drawing, size),
+            "N",
+        )
+
+
+class PlaceOnGuide(Construction, frozen=True, kw_only=True):
+    """The place of the reaction ``name`` of a guide, from the moments of its ``link``."""
+
+    gives: ClassVar[tuple[str, ...]] = ("place",)
+    reasons: ClassVar[Mapping[str, str]] = {"place": "why.force_place"}
+
+    name: str
+    number: str
+    link: str
+    moments: Moments
+    reaction: int
+    place: int
+
+    def marks(self, canvas: Canvas, role: str) -> None:
+        """Draw the distance from the pin, with its dimension."""
+        pin, place = canvas.value(self.moments.about), canvas.value(self.place)
+        drawn = canvas.drawing.settled(abs(canvas.value(self.reaction)))
+        if drawn and canvas.size(place - pin) > SEEN:
+            canvas.dimension(self.number, pin, place)
+
+    def symbols(self) -> Mapping[str, str]:
+        """The pin about which the moments are taken."""
+        return {"b": symbol(self.moments.letter)}
+
+    def shift(self, drawing: Drawing) -> float:
+        """The distance from the pin in metres."""
+        values = drawing.trace.values
+        return float(abs(values[self.place] - values[self.moments.about]))
+
+    def sentence_alone(self, drawing: Drawing, role: str) -> str:
+        """The moment equation of the block, and the distance of the reaction from its pin."""
+        size = drawing.settled(abs(drawing.trace.values[self.reaction]))
+        fields = {
+            "k": escape(self.link),
+            "b": symbol(self.moments.letter),
+            "r": symbol(self.name),
+            "x": symbol(self.number),
+            "mm": in_mm(drawing.words, drawing.on_paper(self.shift(drawing))),
+            "sum": self.sum(drawing),
+        }
+        key = (
+            "step.force-place" if size and self.moments.shown(drawing) else "step.force-place-none"
+        )
+        return drawing.words(key, **fields)
+
+    def sum(self, drawing: Drawing) -> str:
+        """The sum of moments in symbols, positive as a whole."""
+        total = sum(moment for _, moment, _, _ in self.moments.values(drawing))
+        return self.moments.symbols(drawing, turned=total < 0)
+
+    def equations(self, drawing: Drawing, role: str) -> Iterator[Relation]:
+        """The sum of moments divided by the reaction."""
+        size = drawing.settled(abs(drawing.trace.values[self.reaction]))
+        if not size or not self.moments.shown(drawing):
+            return
+        total = sum(moment for _, moment, _, _ in self.moments.values(drawing))
+        scale = drawing.scales.kL / 1000 if self.moments.in_metres(drawing) else 0.0
+        put = figure(drawing, size) + (f"·{figure(drawing, scale)}" if scale else "")
+        below = f"({symbol(self.name)}·*k*_L)" if scale else symbol(self.name)
+        yield Relation(
+            symbol(self.number),
+            f"({self.sum(drawing)})/{below}",
+            f"({self.moments.figures(drawing, turned=total < 0)})/{f'({put})' if scale else put}",
+            drawing.words.fixed(drawing.on_paper(self.shift(drawing)), 2),
+            "mm",
+        )
+
+
+# --- writing their steps -------------------------------------------------------------------------
+
+
+def moments_about(
+    pen: Pen, about: int, letter: str, acting: Sequence[LinkForce], numbers: Iterator[str]
+) -> Moments:
+    """The moments of some forces about a point; forces through that point have none."""
+    terms = []
+    for each in acting:
+        if each.couple is not None:
+            terms.append(MomentTerm(each.name, "", None, None, each.couple))
+        elif each.place != about:
+            assert each.place is not None and each.force is not None
+            terms.append(of_arm(pen, about, each.name, each.place, each.force, next(numbers)))
+    return Moments(letter, about, tuple(terms))
+
+
+def of_arm(pen: Pen, about: int, name: str, place: int, force: int, number: str) -> MomentTerm:
+    """Draw the arm of a force about a point."""
+    with pen.on(Part.FORCE, Plane.MECHANISM):
+        foot = pen.draw(arm, about, place, force)
+    pen.make(ForceArm(name=name, number=number, about=about, place=place, force=force, foot=foot))
+    return MomentTerm(name, number, foot, force, None)
+
+
+def tangential(pen: Pen, name: str, link: str, ends: tuple[str, str], moments: Moments) -> int:
+    """The part of an outer reaction across a bar."""
+    outer = pen.the("position", ends[0])
+    with pen.on(Part.FORCE, Plane.NUMBERS):
+        force = pen.draw(tangential_part, outer, moments.about, *moments.steps, extra=moments.extra)
+    part = TangentialPart(
+        name=name,
+        link=link,
+        ends=ends,
+        outer=outer,
+        inner=moments.about,
+        moments=moments,
+        force=force,
+    )
+    return pen.make(part).force
+
+
+def couple_on_guide(pen: Pen, guide: int, reaction: int, moments: Moments) -> int | None:
+    """The couple that a guide carries where it has no reaction; None where no moment is left."""
+    if not moments.terms:
+        return None
+    with pen.on(Part.FORCE, Plane.NUMBERS):
+        return pen.draw(
+            left_couple, moments.about, guide, reaction, *moments.steps, extra=moments.extra
+        )
+
+
+def place_on_guide(
+    pen: Pen, name: str, number: str, link: str, guide: int, reaction: int, moments: Moments
+) -> int:
+    """The place of a guide's reaction: at the pin itself, where no force has a moment about it."""
+    if not moments.terms:
+        return moments.about
+    with pen.on(Part.FORCE, Plane.MECHANISM):
+        place = pen.draw(
+            place_by_moments, moments.about, guide, reaction, *moments.steps, extra=moments.extra
+        )
+    found = PlaceOnGuide(
+        name=name, number=number, link=link, moments=moments, reaction=reaction, place=place
+    )
+    return pen.make(found).place

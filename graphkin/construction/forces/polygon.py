@@ -1,0 +1,392 @@
+"""Polygons of forces: sides laid off one after the other, and the sides that close them.
+
+The polygon of a dyad begins with the part of the first outer reaction across its bar and ends with
+that of the second one. Lines along both bars, or normal to guides, through its start and its end
+meet where the polygon closes.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping, Sequence
+from typing import Any, ClassVar, NamedTuple
+
+from graphkin.construction.core.canvas import Canvas
+from graphkin.construction.core.drawn_scene import Drawing
+from graphkin.construction.core.kind import Construction
+from graphkin.construction.core.naming import way_of
+from graphkin.construction.core.pen import Pen
+from graphkin.construction.core.program import Part, Plane
+from graphkin.construction.core.quantities import in_mm
+from graphkin.construction.core.relation import Relation, as_read
+from graphkin.construction.core.segments import TINY
+from graphkin.construction.core.vocabulary import action, along_bar, join, lay_off, meet
+from graphkin.construction.forces.force_words import drawn_force, force_amount, newtons
+from graphkin.construction.forces.loads import LinkForce
+from graphkin.drawing.symbol_markup import bar, escape, symbol
+from graphkin.numbers.arithmetic import Point
+from graphkin.numbers.plane import Line
+from graphkin.text.markup import AND, COMMA
+
+PART = "reaction-part"
+"""The style of the parts of reactions along and across bars."""
+REACTION = "reaction"
+"""The style of reactions."""
+
+
+@action("force-start")
+def force_start() -> Point:
+    """The start of a polygon of forces."""
+    return 0j
+
+
+@action("normal-to-guide")
+def normal_to_guide(start: Point, guide: Line) -> Line:
+    """The perpendicular to a guide through a point of the polygon."""
+    return Line(start, 1j * guide.along)
+
+
+@action("along-guide")
+def along_guide(start: Point, guide: Line) -> Line:
+    """The parallel to a guide through a point of the polygon."""
+    return Line(start, guide.along)
+
+
+@action("side-between")
+def side_between(tail: Point, tip: Point) -> Point:
+    """The force from one point of the polygon to another."""
+    return tip - tail
+
+
+class KnownSide(NamedTuple):
+    """A known side of a polygon: its symbol, and the step of its force."""
+
+    name: str
+    force: int
+
+
+class SideDirection(NamedTuple):
+    """The direction of a closing side: along the bar between two pins, or by a block's guide.
+
+    ``guide`` is the step of the guide and ``block`` its block; ``along`` says that the side is
+    parallel to the guide, for the force of a driver.
+    """
+
+    ends: tuple[str, str] = ("", "")
+    guide: int | None = None
+    block: str = ""
+    along: bool = False
+
+    def words(self, drawing: Drawing) -> str:
+        """The direction as markup: ∥ AB, ⊥ guide 5."""
+        if self.guide is None:
+            return f"∥ {bar(*self.ends)}"
+        return f"{'∥' if self.along else '⊥'} {way_of(drawing, self.block)}"
+
+
+class InPolygon(Construction, frozen=True, kw_only=True):
+    """A construction in the polygon with the number ``polygon``, in the order of the work."""
+
+    polygon: int
+
+
+class PolygonStart(InPolygon, frozen=True, kw_only=True):
+    """The start of the polygon of some ``links``."""
+
+    gives: ClassVar[tuple[str, ...]] = ("start",)
+
+    links: tuple[str, ...]
+    kind: str
+    start: int
+
+    def marks(self, canvas: Canvas, role: str) -> None:
+        """Draw the start as a circle with its number."""
+        canvas.pole()
+
+
+class PolygonSide(InPolygon, frozen=True, kw_only=True):
+    """A known force laid off from the last point of a polygon."""
+
+    gives: ClassVar[tuple[str, ...]] = ("corner",)
+
+    name: str
+    look: str
+    start: int
+    force: int
+    corner: int
+
+    def marks(self, canvas: Canvas, role: str) -> None:
+        """Draw the force, unless it is zero."""
+        if not canvas.drawing.settled(abs(canvas.value(self.force))):
+            return
+        draw_force(
+            canvas, self.name, self.look, canvas.value(self.start), canvas.value(self.corner)
+        )
+
+
+class ClosedByLines(InPolygon, frozen=True, kw_only=True):
+    """A polygon closed by two sides of known direction, whose lines meet.
+
+    ``first`` is the symbol of the side along the line through the polygon's start, ``last`` that of
+    the side along the line through its end. ``sides`` are all known sides, in order. ``looks`` are
+    the styles of both closing sides.
+    """
+
+    gives: ClassVar[tuple[str, ...]] = ("one", "other", "corner")
+    reasons: ClassVar[Mapping[str, str]] = {"corner": "why.force_polygon"}
+    lines: ClassVar[Mapping[str, str]] = {"one": "the side {first}", "other": "the side {last}"}
+    titled: ClassVar[str] = "the polygon of {kind}"
+
+    kind: str
+    links: tuple[str, ...]
+    first: str
+    last: str
+    looks: tuple[str, str]
+    ways: tuple[SideDirection, SideDirection]
+    sides: tuple[KnownSide, ...]
+    start: int
+    end: int
+    one: int
+    other: int
+    corner: int
+
+    def marks(self, canvas: Canvas, role: str) -> None:
+        """Draw both lines, and where they meet both closing sides."""
+        if role != "corner":
+            way = self.ways[0 if role == "one" else 1]
+            canvas.locus("", way.words(canvas.drawing))
+            return
+        corner = canvas.value(self.corner)
+        draw_force(canvas, self.last, self.looks[1], canvas.value(self.end), corner)
+        draw_force(canvas, self.first, self.looks[0], corner, canvas.value(self.start))
+
+    def sentence_alone(self, drawing: Drawing, role: str) -> str:
+        """The instruction: the sides in order, and the lines that close the polygon."""
+        if role != "corner":
+            return ""
+        said = drawing.words(
+            "step.force-polygon" if sides_words(drawing, self.sides) else "step.force-polygon-none",
+            n=str(self.polygon),
+            k=links_words(drawing, self.links),
+            sides=sides_words(drawing, self.sides),
+            one=self.ways[0].words(drawing),
+            other=self.ways[1].words(drawing),
+            first=read_side(drawing, self.first, self.start, self.corner),
+            last=read_side(drawing, self.last, self.end, self.corner),
+        )
+        return AND.join([*self.two_force(drawing), said])
+
+    def two_force(self, drawing: Drawing) -> Iterator[str]:
+        """The links without loads between their pins, whose reactions lie along them."""
+        both = zip((self.first, self.last), self.ways, self.links, strict=False)
+        for name, way, link in both:
+            if way.guide is None and "^" not in name and self.sides:
+                b = symbol(way.ends[1])
+                fields = {"k": escape(link), "b": b, "r": symbol(name), "bar": bar(*way.ends)}
+                yield drawing.words("step.force-two", **fields)
+
+    def equations(self, drawing: Drawing, role: str) -> Iterator[Relation]:
+        """The sides read off."""
+        if role == "corner":
+            yield of_side(drawing, self.first, self.start, self.corner)
+            yield of_side(drawing, self.last, self.end, self.corner)
+
+
+class ClosingReaction(InPolygon, frozen=True, kw_only=True):
+    """A reaction that leads from one point of a polygon to another: ``force``, and its arrow.
+
+    ``whole`` are the symbols of its two parts where it is their sum. ``sides`` are the known sides
+    of a polygon that it closes alone.
+    """
+
+    gives: ClassVar[tuple[str, ...]] = ("force", "arrow")
+    reasons: ClassVar[Mapping[str, str]] = {"arrow": "why.force_closing"}
+
+    name: str
+    links: tuple[str, ...]
+    tail: int
+    tip: int
+    force: int
+    arrow: int
+    whole: tuple[str, ...] = ()
+    sides: tuple[KnownSide, ...] = ()
+    closes: bool = False
+
+    def marks(self, canvas: Canvas, role: str) -> None:
+        """Draw the reaction."""
+        if role == "arrow":
+            draw_force(canvas, self.name, REACTION, canvas.value(self.tail), canvas.value(self.tip))
+
+    def sentence_alone(self, drawing: Drawing, role: str) -> str:
+        """The sum of its parts, or the side that closes the polygon."""
+        if role != "arrow":
+            return ""
+        fields = {
+            "n": str(self.polygon),
+            "one": escape(self.links[0]),
+            "k": links_words(drawing, self.links),
+            "r": symbol(self.name),
+            "read": read_side(drawing, self.name, self.tail, self.tip),
+            "sides": sides_words(drawing, self.sides),
+            "parts": " + ".join(symbol(name) for name in self.whole),
+        }
+        key = "step.force-sum" if self.whole else "step.force-inner"
+        if self.closes:
+            sides = fields["sides"]
+            key = "step.force-closes" if sides else "step.force-closes-none"
+        return drawing.words(key, **fields)
+
+    def equations(self, drawing: Drawing, role: str) -> Iterator[Relation]:
+        """The reaction read off."""
+        if role == "arrow":
+            yield of_side(drawing, self.name, self.tail, self.tip)
+
+
+def draw_force(canvas: Canvas, name: str, look: str, tail: Any, tip: Any) -> None:
+    """Draw a side of a polygon; a note says that it is too short to be seen."""
+    if canvas.size(tip - tail) >= TINY:
+        canvas.vector(name, look, tail, tip)
+        return
+    drawing = canvas.drawing
+    size = drawing.settled(abs(tip - tail))
+    length = in_mm(drawing.words, drawn_force(drawing, size))
+    key = "page.tiny" if size else "page.nought"
+    canvas.note(drawing.words(key, name=symbol(name), length=length))
+
+
+def links_words(drawing: Drawing, links: Sequence[str]) -> str:
+    """Links in words: link 3, links 2 and 3."""
+    names = drawing.words("list_mark").join(map(escape, links))
+    key = "one_link" if len(links) == 1 else "many_links"
+    return drawing.words(f"calculation.{key}", links=names)
+
+
+def sides_words(drawing: Drawing, sides: Sequence[KnownSide]) -> str:
+    """The symbols of the sides that are not zero, in order."""
+    values = drawing.trace.values
+    shown = (each.name for each in sides if drawing.settled(abs(values[each.force])))
+    return COMMA.join(map(symbol, shown))
+
+
+def side_size(drawing: Drawing, tail: int, tip: int) -> float:
+    """The magnitude of a side in N; zero for rounding."""
+    values = drawing.trace.values
+    return drawing.settled(abs(values[tip] - values[tail]))
+
+
+def read_side(drawing: Drawing, name: str, tail: int, tip: int) -> str:
+    """A side as read off: R_03 = 123 N (24.6 mm)."""
+    size = side_size(drawing, tail, tip)
+    return f"{symbol(name)} = {newtons(drawing, size)} ({force_amount(drawing, size)})"
+
+
+def of_side(drawing: Drawing, name: str, tail: int, tip: int) -> Relation:
+    """A side as a relation: scale factor times drawn length."""
+    size = side_size(drawing, tail, tip)
+    read = as_read(drawing, drawn_force(drawing, size), drawing.scales.kF / 1000)
+    return Relation(symbol(name), "", *read, "N", drawing.words("calculation.force_measured"))
+
+
+# --- writing their steps -------------------------------------------------------------------------
+
+
+class Polygon:
+    """A polygon while it is drawn: its number, its last point, and its sides so far."""
+
+    def __init__(self, pen: Pen, number: int, links: Sequence[str], kind: str) -> None:
+        self.pen, self.number, self.links = pen, number, tuple(links)
+        with pen.on(Part.FORCE, Plane.FORCES):
+            self.start = self.last = pen.draw(force_start, name=f"{number}")
+        record = PolygonStart(polygon=number, links=self.links, kind=kind, start=self.start)
+        pen.make(record)
+        self.kind = kind
+        self.sides: list[KnownSide] = []
+
+    def lay(self, name: str, look: str, force: int) -> int:
+        """Lay off a force; its end."""
+        start = self.last
+        with self.pen.on(Part.FORCE, Plane.FORCES):
+            corner = self.pen.draw(lay_off, start, force)
+        self.pen.make(
+            PolygonSide(
+                polygon=self.number, name=name, look=look, start=start, force=force, corner=corner
+            )
+        )
+        self.sides.append(KnownSide(name, force))
+        self.last = corner
+        return corner
+
+    def lay_all(self, acting: Sequence[LinkForce]) -> int:
+        """Lay off the loads of a link; the end of the last one."""
+        for each in acting:
+            if each.force is not None:
+                self.lay(each.name, each.look, each.force)
+        return self.last
+
+    def line(self, start: int, way: SideDirection) -> int:
+        """A line through a point of the polygon."""
+        pen = self.pen
+        with pen.on(Part.FORCE, Plane.FORCES):
+            if way.guide is None:
+                p, q = (pen.the("position", point) for point in way.ends)
+                return pen.draw(along_bar, start, p, q)
+            return pen.draw(along_guide if way.along else normal_to_guide, start, way.guide)
+
+    def close(
+        self,
+        names: tuple[str, str],
+        ways: tuple[SideDirection, SideDirection],
+        looks: tuple[str, str],
+    ) -> ClosedByLines:
+        """Close the polygon by two sides: one through its start, and one through its end."""
+        one, other = self.line(self.start, ways[0]), self.line(self.last, ways[1])
+        with self.pen.on(Part.FORCE, Plane.FORCES):
+            corner = self.pen.draw(meet, one, other)
+        return self.pen.make(
+            ClosedByLines(
+                polygon=self.number,
+                kind=self.kind,
+                links=self.links,
+                first=names[0],
+                last=names[1],
+                looks=looks,
+                ways=ways,
+                sides=tuple(self.sides),
+                start=self.start,
+                end=self.last,
+                one=one,
+                other=other,
+                corner=corner,
+            )
+        )
+
+    def reaction(
+        self,
+        name: str,
+        tail: int,
+        tip: int,
+        *,
+        whole: tuple[str, ...] = (),
+        closes: bool = False,
+        drawn: bool = True,
+    ) -> int:
+        """The force from one point of the polygon to another, with its arrow."""
+        pen = self.pen
+        with pen.on(Part.FORCE, Plane.NUMBERS):
+            force = pen.draw(side_between, tail, tip)
+        if not drawn:
+            return force
+        with pen.on(Part.FORCE, Plane.FORCES):
+            arrow = pen.draw(join, tail, tip)
+        record = ClosingReaction(
+            polygon=self.number,
+            name=name,
+            links=self.links,
+            tail=tail,
+            tip=tip,
+            force=force,
+            arrow=arrow,
+            whole=whole,
+            sides=tuple(self.sides) if closes else (),
+            closes=closes,
+        )
+        return pen.make(record).force

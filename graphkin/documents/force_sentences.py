@@ -1,0 +1,120 @@
+"""The plan of forces in words: data, requests, sentences, relations and tables of its sheet."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+
+from graphkin.construction.core.drawn_scene import Drawing
+from graphkin.construction.core.given_data import Datum, of_driver
+from graphkin.construction.core.kind import Sentence, construction
+from graphkin.construction.core.program import Part
+from graphkin.construction.core.quantities import number_of, quantity_text
+from graphkin.construction.core.relation import Relation
+from graphkin.construction.forces.force_drawing import ForceDrawing
+from graphkin.construction.forces.loads import InertiaForce, InertiaMoment, Weight
+from graphkin.drawing.symbol_markup import escape, symbol
+from graphkin.scene.forces import Load
+from graphkin.scene.link_points import lettered
+
+
+def force_sentences(drawing: Drawing) -> list[Sentence]:
+    """The sentences of the plan of forces, in the order of the work."""
+    found = [Sentence(-1, "again", drawing.words("step.force-again"))]
+    for number, step in enumerate(drawing.trace.program.steps):
+        kind = construction(step)
+        if step.part is not Part.FORCE or kind is None or number not in drawing.trace.values:
+            continue
+        if said := kind.sentence_alone(drawing, step.role):
+            found.append(Sentence(number, step.role, said))
+    return found
+
+
+def force_relations(drawing: Drawing) -> list[tuple[str, list[Relation]]]:
+    """The relations of the plan of forces: those of the loads, then those of the reactions."""
+    loads: list[Relation] = []
+    others: list[Relation] = []
+    for number, step in enumerate(drawing.trace.program.steps):
+        kind = construction(step)
+        if step.part is Part.FORCE and kind is not None and number in drawing.trace.values:
+            own = loads if isinstance(kind, InertiaForce | InertiaMoment | Weight) else others
+            own += kind.equations(drawing, step.role)
+    return [("loads", list(dict.fromkeys(loads))), ("forces", list(dict.fromkeys(others)))]
+
+
+def force_data(drawing: Drawing, *, solved: bool) -> list[Datum]:
+    """The motion of drivers, masses, moments of inertia, gravity and loads as data."""
+    scene, words = drawing.scene, drawing.words
+    forces = scene.forces
+    assert forces is not None
+    found = [
+        piece
+        for driver in scene.drivers
+        for piece in of_driver(scene, words, driver, solved=solved)
+    ]
+    remarks = []
+    for link, mass in forces.masses.items():
+        if mass.mass.is_zero():
+            continue
+        found.append(valued(f"m_{link}", quantity_text(scene, words, mass.mass)))
+        if mass.inertia is not None and not mass.inertia.is_zero():
+            found.append(valued(f"J_{link}", quantity_text(scene, words, mass.inertia)))
+        fields = {"k": escape(link), "s": symbol(mass.centre)}
+        remarks.append(Datum(words("page.centre_of_mass", **fields)))
+    if forces.gravity is not None:
+        pair = (number_of(scene, words, each) for each in forces.gravity)
+        found.append(Datum(name="*g*", value=f"{words.place(*pair)} m/s^2"))
+    names = load_names(forces.loads)
+    for load, name in zip(forces.loads, names, strict=True):
+        if load.force is not None:
+            x, y = (number_of(scene, words, each) for each in load.force)
+            found.append(valued(f"P_{name}", f"{words.place(x, y)} N"))
+        if load.moment is not None:
+            found.append(valued(f"M_{name}", quantity_text(scene, words, load.moment)))
+    return [*found, *remarks]
+
+
+def load_names(loads: Sequence[Load]) -> Iterator[str]:
+    """The index of each load: its point, or its link for a moment alone."""
+    counts: dict[str, int] = {}
+    for load in loads:
+        number = counts[load.at or load.link] = counts.get(load.at or load.link, 0) + 1
+        tail = f",{number}" if number > 1 else ""
+        yield (lettered(load.at) if load.force is not None else load.link) + tail
+
+
+def valued(name: str, value: str) -> Datum:
+    """A datum by the name of its symbol."""
+    return Datum(name=symbol(name), value=value)
+
+
+def forces_asked(drawing: Drawing) -> list[str]:
+    """The requests of a sheet of forces, in words."""
+    words, forces = drawing.words, drawing.scene.forces
+    assert forces is not None
+    found: list[str] = []
+    keys = (
+        ("ask.reactions", "ask.reactions_many", False),
+        ("ask.guide_reactions", "ask.guide_reactions_many", True),
+    )
+    for one, many, blocks in keys:
+        names = [e for e in forces.reactions if (e in drawing.scene.links) is blocks]
+        if names:
+            told = (escape(n) if blocks else symbol(lettered(n)) for n in names)
+            mentioned = words("list_mark").join(told)
+            found.append(words(many if len(names) > 1 else one, list=mentioned))
+    if forces.balance:
+        lever = isinstance(drawing, ForceDrawing) and drawing.lever_extent() is not None
+        found.append(words("ask.balance_lever" if lever else "ask.balance"))
+    return found
+
+
+def checked(drawing: Drawing) -> str:
+    """The line on the check of a sheet of forces."""
+    assert isinstance(drawing, ForceDrawing)
+    words = drawing.words
+    worst = words.significant(drawing.verdict.largest_difference, 2)
+    said = words("page.forces_verified", difference=worst)
+    for each in drawing.lever_balances():
+        difference = words.significant(each.difference(drawing), 2) if each.size(drawing) else "0"
+        said += "; " + words("page.lever_verified", difference=difference)
+    return said

@@ -1,0 +1,178 @@
+"""The sheets of forces: made where forces are asked, in every view and language, and checked."""
+
+from __future__ import annotations
+
+import re
+from pathlib import Path
+
+import pytest
+
+from graphkin.construction.core.kind import constructions
+from graphkin.construction.core.program import Part
+from graphkin.construction.forces.polygon import PolygonStart
+from graphkin.documents.force_sheets import force_drawing, traced
+from graphkin.documents.scaling import sheet_motion
+from graphkin.documents.sheet_documents import drawings_of, hand_out, proved
+from graphkin.drawing.marks import LineMark, Page, Text, style_class
+from graphkin.drawing.richtext import plain
+from graphkin.drawing.style import FORCES
+from graphkin.mechanism import Mechanism, load
+from graphkin.scene.read_scene import read_text
+from graphkin.text import LANGUAGES, words
+from graphkin.text.errors import StructureError
+from tests.chosen import FOLDER
+
+SCENES = Path(__file__).parents[1] / "scenes" / "forces"
+NAMES = ("four-bar", "ram", "shaper")
+
+
+def forces_of(name: str, language: str = "en"):
+    """The drawing of the forces of a scene."""
+    mechanism = load(SCENES / f"{name}.toml")
+    verdict = proved(mechanism, sheet_motion(mechanism))
+    return force_drawing(mechanism, drawings_of(mechanism, verdict, words(language)))
+
+
+def sheet_of(name: str, view: str, language: str | None = None) -> tuple[Page, ...]:
+    """The pages of the force sheet."""
+    found = hand_out(load(SCENES / f"{name}.toml"), view, language)
+    return next(each.pages for each in found if each.kind == "force")
+
+
+def texts(page: Page) -> list[Text]:
+    return [mark for mark in page.marks if isinstance(mark, Text)]
+
+
+@pytest.mark.parametrize("name", NAMES)
+@pytest.mark.parametrize("view", ["key", "task", "steps", "overlay"])
+def test_every_view_has_a_sheet_of_forces_that_fits(name, view):
+    for page in sheet_of(name, view):
+        page.check()
+
+
+@pytest.mark.parametrize("language", LANGUAGES)
+def test_no_gap_is_open_in_any_language(language):
+    for page in sheet_of("shaper", "key", language):
+        assert not [m.markup for m in texts(page) if re.search(r"None|nan\b|[{}]", plain(m.markup))]
+
+
+def test_scenes_without_forces_have_no_such_sheet():
+    kinds = [each.kind for each in hand_out(load(FOLDER / "shaper.toml"))]
+    assert kinds == ["velocity", "acceleration", "calculation"]
+
+
+@pytest.mark.parametrize("name", NAMES)
+def test_lever_and_polygons_agree_and_the_sheet_says_it(name):
+    drawing = forces_of(name)
+    (lever,) = drawing.lever_balances()
+    assert lever.difference(drawing) < 1e-12
+    (page,) = sheet_of(name, "key")
+    (said,) = (mark.markup for mark in texts(page) if mark.name == "witness")
+    assert "equations of equilibrium" in said and "lever and polygons" in said
+
+
+@pytest.mark.parametrize("name", NAMES)
+def test_a_pencil_s_error_moves_both_balances_by_little(name):
+    """Forces and arms of the paper, read to 0.1 mm, balance the lever within the pencil's error."""
+    drawing = forces_of(name)
+    (lever,) = drawing.lever_balances()
+    read = [(sign(m) * f * round(arm, 1), f * 0.05) for _, _, m, f, arm in lever.terms(drawing)]
+    couples = [m for _, _, m, force, _ in lever.terms(drawing) if not force]
+    scale = drawing.scales.k_lever / 1000
+    total = sum(value for value, _ in read) * scale + sum(couples)
+    allowed = sum(error for _, error in read) * scale
+    exact = sum(m for _, _, m, _, _ in lever.terms(drawing))
+    assert abs(total - exact) <= allowed
+
+
+def sign(value: float) -> int:
+    return 1 if value > 0 else -1
+
+
+@pytest.mark.parametrize("name", NAMES)
+def test_every_force_has_a_class_of_forces_and_a_name(name):
+    (page,) = sheet_of(name, "key")
+    own = [m for m in page.marks if isinstance(m, LineMark) and style_class(m) in FORCES]
+    assert own
+    assert all(mark.name and mark.step is not None for mark in own)
+
+
+@pytest.mark.parametrize("name", NAMES)
+def test_a_force_of_a_polygon_is_as_long_as_its_scale_says(name):
+    """Law: each side, measured on the sheet, times k_F is the force of the step behind it."""
+    drawing = forces_of(name)
+    (page,) = sheet_of(name, "key")
+    k, sides = drawing.scales.kF / 1000, 0
+    for kind in constructions(drawing.trace.program, PolygonStart):
+        field = drawing.fields.polygons[kind.polygon]
+        assert abs(field.mm * k - 1) < 1e-12
+    for mark in page.marks:
+        if not isinstance(mark, LineMark) or style_class(mark) not in ("load", "inertia"):
+            continue
+        step = drawing.trace.program.steps[mark.step]
+        if step.role == "corner":
+            force = drawing.trace.values[step.of.force]
+            length = abs(complex(mark.x2 - mark.x1, mark.y2 - mark.y1))
+            assert abs(length * k - abs(force)) < 1e-6 * abs(force)
+            sides += 1
+    assert sides
+
+
+@pytest.mark.parametrize("name", NAMES)
+def test_every_polygon_has_its_start_marked_and_its_links_named(name):
+    drawing = forces_of(name)
+    (page,) = sheet_of(name, "key")
+    starts = [*constructions(drawing.trace.program, PolygonStart)]
+    captions = [mark.markup for mark in texts(page) if mark.name == "field-caption"]
+    for start in starts:
+        assert any(said.startswith(f"{start.polygon}:") for said in captions)
+        assert any(mark.step == start.start for mark in page.marks)
+
+
+def test_each_step_page_adds_marks_and_the_last_is_the_key():
+    pages = sheet_of("four-bar", "steps")
+    counts = [sum(style_class(m) in FORCES for m in page.marks) for page in pages]
+    assert counts == sorted(counts)
+    (key,) = sheet_of("four-bar", "key")
+    assert counts[-1] == sum(style_class(m) in FORCES for m in key.marks)
+
+
+LOADED = """[[loads]]
+link = {link}
+moment = 10
+
+[[drivers]]"""
+
+
+@pytest.mark.parametrize(
+    ("name", "link", "said", "solved"),
+    [
+        ("cylinders-two", 3, "with driven cylinders", True),
+        ("stephenson-3-crank", 3, "class III", True),
+        ("gears-pair", 2, "link 2", False),
+        ("cam-roller", 2, "cam", False),
+    ],
+)
+def test_a_group_whose_forces_are_not_drawn_is_named(name, link, said, solved):
+    """The sheet refuses with one sentence; the numbers are there but for wheels and cams."""
+    text = (FOLDER / f"{name}.toml").read_text(encoding="utf-8")
+    text = text.replace("[[drivers]]", LOADED.format(link=link), 1)
+    text = text.replace("[ask]", "[ask]\nbalance = true", 1)
+    mechanism = Mechanism(read_text(text, name, None, {}))
+    with pytest.raises(StructureError) as caught:
+        hand_out(mechanism)
+    (problem,) = caught.value.problems
+    assert said in str(problem) and "not drawn yet" in str(problem)
+    assert ("graphkin solve" in str(problem)) is solved
+    if solved:
+        _, verdict = mechanism.forces()
+        assert verdict.agrees and not verdict.constructed
+
+
+def test_the_plan_of_forces_follows_the_motion():
+    """Its steps come after those of the motion, which are the same as without forces."""
+    mechanism = load(SCENES / "shaper.toml")
+    program = traced(mechanism).program
+    own = mechanism.program.steps
+    assert program.steps[: len(own)] == own
+    assert all(step.part is not Part.FORCE for step in own)

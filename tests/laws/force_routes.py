@@ -1,0 +1,82 @@
+"""Forces by several routes, and masses and loads at random on any mechanism."""
+
+from __future__ import annotations
+
+import random
+from collections.abc import Iterator
+
+from msgspec.structs import replace
+
+from graphkin.construction.core.kind import constructions
+from graphkin.construction.core.run import Trace
+from graphkin.construction.forces.lever import LeverBalance
+from graphkin.construction.forces.polygon import ClosedByLines, ClosingReaction
+from graphkin.construction.reactions import ForceSolution
+from graphkin.documents.force_sheets import traced
+from graphkin.mechanism import Mechanism
+from graphkin.scene.forces import Forces, Load, Mass
+from graphkin.scene.quantity import Quantity, exact
+
+
+def loaded(mechanism: Mechanism, rng: random.Random) -> Mechanism:
+    """The mechanism with a mass on most links, gravity, a force and a moment."""
+    scene = mechanism.scene
+    masses = {}
+    for name, link in scene.links.items():
+        if rng.random() < 0.8:
+            inertia = number(rng, 0.01, 2, "kg·m²") if rng.random() < 0.8 else None
+            centre = rng.choice(link.points)
+            masses[name] = Mass(number(rng, 0.1, 9, "kg"), centre, inertia)
+    on, turned = rng.choice([*scene.links.values()]), rng.choice([*scene.links])
+    force = number(rng, -900, 900, "N"), number(rng, -900, 900, "N")
+    loads = (
+        Load(on.name, rng.choice(on.points), force, None),
+        Load(turned, "", None, number(rng, -90, 90, "N·m")),
+    )
+    gravity = exact(0, "m/s²"), exact("-9.81", "m/s²")
+    return Mechanism(replace(scene, forces=Forces(masses, gravity, loads, balance=True)))
+
+
+def number(rng: random.Random, low: float, high: float, unit: str) -> Quantity:
+    """A quantity of three digits."""
+    return exact(f"{rng.uniform(low, high):.3f}", unit)
+
+
+def drawn(trace: Trace) -> Iterator[tuple[str, complex]]:
+    """The reactions of polygons by their symbols, such as R_03."""
+    values = trace.values
+    for each in constructions(trace.program, ClosingReaction):
+        yield each.name, values[each.force]
+    for each in constructions(trace.program, ClosedByLines):
+        yield each.first, values[each.start] - values[each.corner]
+        yield each.last, values[each.corner] - values[each.end]
+
+
+def on_links(found: ForceSolution) -> dict[str, complex]:
+    """The reactions in pairs of two links by their symbols."""
+    pairs: dict[str, list[tuple[str, complex]]] = {}
+    for each in found.reactions:
+        pairs.setdefault(each.name, []).append((each.link, each.force))
+    named = {}
+    for some in pairs.values():
+        if len(some) == 2:
+            (one, force), (other, back) = some
+            named |= {f"R_{other}{one}": force, f"R_{one}{other}": back}
+    return named
+
+
+def differences(mechanism: Mechanism) -> Iterator[float]:
+    """How far polygons and lever are from the solution, as shares of the largest force."""
+    found, verdict = mechanism.forces()
+    assert verdict.agrees
+    trace, expected = traced(mechanism), on_links(found)
+    largest = max(abs(each.force) for each in found.reactions)
+    compared = [abs(force - expected[n]) for n, force in drawn(trace) if n in expected]
+    assert compared
+    yield from (each / largest for each in compared)
+    values = trace.values
+    for lever in constructions(trace.program, LeverBalance):
+        balance = values[lever.force if lever.moment is None else lever.moment]
+        other = next(each for each in found.balance if each.link in lever.moment_name)
+        size = other.force if other.moment is None else other.moment
+        yield abs(balance - size) / max(abs(size), 1e-6 * largest)
