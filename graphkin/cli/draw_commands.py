@@ -37,11 +37,12 @@ if TYPE_CHECKING:
 @output_option
 @click.option(
     "--view",
-    type=click.Choice(["key", "task", "steps", "overlay"]),
+    type=click.Choice(["key", "task", "steps", "overlay", "positions"]),
     default="key",
     show_default=True,
     help="key: everything drawn; task: what the student is given; steps: pages that grow sentence"
-    " by sentence; overlay: the key alone, to lay over a drawing.",
+    " by sentence; overlay: the key alone, to lay over a drawing; positions: the mechanism and its"
+    " plans in all positions of [positions].",
 )
 @language_option
 @ink_option
@@ -69,6 +70,9 @@ def sheet(
     Writes A3 drawings (SVG and PDF) and A4 calculation pages (PDF), named after the scene and its
     settings: pump-n7-velocity-key.pdf. Existing files are kept unless you give --force.
 
+    With --view positions, draws the whole motion: pump-n7-mechanism-positions.pdf has the mechanism
+    in twelve positions, or as [positions] says, and two more files have the plans of all of them.
+
     With --format html, writes one page for a browser, pump-n7-key.html, with all drawings, every
     step and the results. The page needs no network.
 
@@ -77,6 +81,7 @@ def sheet(
       graphkin sheet pump --set n=7 -o sheets
       graphkin sheet pump --set n=7 -o sheets --format html
       graphkin sheet pump --set n=7 -o sheets --view task --lang en --format pdf
+      graphkin sheet pump --set n=7 -o sheets --view positions
     """
     kinds = option_words("--format", formats, ("svg", "pdf", "html", "dxf", "pmks"))
     from graphkin.classroom.sheet_files import sheet_files

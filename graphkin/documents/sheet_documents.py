@@ -31,6 +31,8 @@ from graphkin.scene.model import Scene
 from graphkin.text import LANGUAGES, Words, words
 from graphkin.text.errors import Problem, SceneError, Sought, WitnessError, either, message
 
+MOTION_VIEWS = ("positions",)
+"""The views of a whole motion."""
 CALCULATED = ("key", "task")
 """The views that come with calculation pages."""
 
@@ -57,6 +59,10 @@ def hand_out(
     from graphkin.documents.calculation import calculation
 
     spoken, mechanism = language_of(mechanism, language), mechanism.spoken(language)
+    if view in MOTION_VIEWS:
+        from graphkin.documents.motion_sheets import motion_sheets
+
+        return [SheetDocument(*part) for part in motion_sheets(mechanism, view, spoken)]
     if mechanism.scene.sheet.sheets != len(SHEETS):
         raise SceneError(
             Problem(
