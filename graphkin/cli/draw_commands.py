@@ -37,12 +37,13 @@ if TYPE_CHECKING:
 @output_option
 @click.option(
     "--view",
-    type=click.Choice(["key", "task", "steps", "overlay", "positions"]),
+    type=click.Choice(["key", "task", "steps", "overlay", "positions", "diagrams"]),
     default="key",
     show_default=True,
     help="key: everything drawn; task: what the student is given; steps: pages that grow sentence"
     " by sentence; overlay: the key alone, to lay over a drawing; positions: the mechanism and its"
-    " plans in all positions of [positions].",
+    " plans in all positions of [positions]; diagrams: their courses, differentiated and integrated"
+    " by chords, and hodographs.",
 )
 @language_option
 @ink_option

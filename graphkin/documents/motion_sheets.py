@@ -2,31 +2,57 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
+from functools import partial
 
 from graphkin.construction.core.quantities import SHEETS
 from graphkin.documents.positions import PositionSet, positions_of
-from graphkin.documents.positions_plans import plan_page
+from graphkin.documents.positions_plans import hodograph_page, hodographs, plan_page
 from graphkin.documents.positions_sheet import at_scale, positions_page
 from graphkin.drawing.marks import Page
 from graphkin.mechanism import Mechanism
 from graphkin.text import Words
 
-Part = tuple[str, tuple[Page, ...]]
-"""A kind of sheet and its pages."""
+Made = tuple[str, Callable[[str], Page]]
+"""A kind of sheet, and a page that waits for its number."""
 
 
-def motion_sheets(mechanism: Mechanism, view: str, words: Words) -> list[Part]:
-    """The sheets of a view of a whole motion. Raises as ``positions_of`` does."""
+def motion_sheets(
+    mechanism: Mechanism, view: str, words: Words
+) -> list[tuple[str, tuple[Page, ...]]]:
+    """The sheets of a view of a whole motion by kind. Raises as ``positions_of`` does."""
     found = positions_of(mechanism, words)
+    made = [*(position_sheets(found) if view == "positions" else diagram_sheets(found))]
+    pages: dict[str, tuple[Page, ...]] = {}
+    for number, (kind, page) in enumerate(made, 1):
+        pages[kind] = (*pages.get(kind, ()), page(f"{number}/{len(made)}"))
+    return [*pages.items()]
+
+
+def position_sheets(found: PositionSet) -> Iterator[Made]:
+    """The mechanism in all positions, and their plans."""
     kL = at_scale(found).alone.scales.kL
-    made: list[tuple[str, Callable[[str], Page]]] = [
-        ("mechanism", lambda number: positions_page(found, number))
-    ]
-    made += [(kind, plans(found, kind, kL)) for kind in SHEETS if found.planned(kind)]
-    return [(kind, (page(f"{i}/{len(made)}"),)) for i, (kind, page) in enumerate(made, 1)]
+    yield "mechanism", partial(positions_page, found)
+    for kind in SHEETS:
+        if found.planned(kind):
+            yield kind, partial(plan_page, found, kind, kL)
 
 
-def plans(found: PositionSet, kind: str, kL: float) -> Callable[[str], Page]:
-    """The sheet of the plans of one kind, which waits for its number."""
-    return lambda number: plan_page(found, kind, kL, number)
+def diagram_sheets(found: PositionSet) -> Iterator[Made]:
+    """Differentiation and integration by chords, all that is asked, and the hodographs."""
+    from graphkin.documents.diagram_numbers import motion_of
+    from graphkin.documents.diagrams_sheet import (
+        course_pages,
+        differentiation_page,
+        integration_page,
+    )
+
+    motion = motion_of(found)
+    yield "differentiation", partial(differentiation_page, motion)
+    yield "integration", partial(integration_page, motion)
+    for page in course_pages(found):
+        yield "courses", page
+    kL = at_scale(found).alone.scales.kL
+    for kind in SHEETS:
+        if found.planned(kind) and hodographs(found, kind):
+            yield "hodographs", partial(hodograph_page, found, kind, kL)

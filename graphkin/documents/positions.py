@@ -90,6 +90,14 @@ class PositionSet(Struct, frozen=True, dict=True):
         return [p for i in numbers if kind in (p := self.numbered[i]).plans]
 
     @cached_property
+    def planned_places(self) -> Reals:
+        """The places of the driver with plans; a turn ends at the place where it begins."""
+        places = [each.at for each in self.numbered if each.plans]
+        if is_whole(self.cycle):
+            places.append(places[0] + self.cycle.path.period)
+        return np.array(places)
+
+    @cached_property
     def moving(self) -> tuple[str, ...]:
         """The points of links that move, in the order of the scene."""
         places = np.array([[*each.alone.positions.values()] for each in self.numbered])

@@ -42,10 +42,14 @@ from graphkin.drawing.richtext import extent
 from graphkin.drawing.scale import Extent, Scales, extent_of, preferred
 from graphkin.drawing.style import BRIEF
 from graphkin.drawing.symbol_markup import symbol
+from graphkin.drawing.symbols import PIN
 from graphkin.motion.cycle import columns_at
+from graphkin.scene.link_points import lettered
 
 NAMES = {"velocity": "sheet.velocity_plans", "acceleration": "sheet.acceleration_plans"}
 """The keys of the names of these sheets."""
+HODOGRAPHS = {"velocity": "positions.hodographs_v", "acceleration": "positions.hodographs_a"}
+"""The keys of the captions of hodographs."""
 SIDE, ABOVE, BELOW = 8.0, 10.0, 6.0
 """Room around a plan in its cell for letters, and above it for its number, in mm."""
 LEAST = 28.0
@@ -312,3 +316,82 @@ def hodographs(found: PositionSet, kind: str) -> Mapping[str, tuple[complex, ...
     columns = columns_at(found.cycle.sweep, found.cycle.path, some, targets).columns
     rows = {name: columns[kind, name] for _, name in targets}
     return {name: tuple(complex(z) for z in r[np.isfinite(r)]) for name, r in rows.items()}
+
+
+# --- the hodograph of each asked point ------------------------------------------------------------
+
+
+def hodograph_page(found: PositionSet, kind: str, kL: float, number: str) -> Page:
+    """The hodographs of the asked points for one kind of vector, each from its own pole."""
+    some, curves = found.planned(kind), hodographs(found, kind)
+    tips = {
+        point: [(each, complex(each.plans[kind].trace.value(kind, point))) for each in some]
+        for point in curves
+    }
+    boxes = [extent_of([0j, *curves[point], *(z for _, z in tips[point])]) for point in curves]
+    grid = grid_for(boxes)
+    scales = fitted(found, kind, kL, grid.most)
+    drawing = replace(some[0].plans[kind], scales=scales)
+    words = drawing.words
+    marks: list[Mark] = [*lines(grid, len(curves))]
+    for index, ((point, curve), box) in enumerate(zip(curves.items(), boxes, strict=True)):
+        left, top, right, low = rect = grid.cell(index)
+        middle = (left + right) / 2, (top + ABOVE + low - BELOW) / 2
+        field = Field(rect, rates(scales, kind), box.middle, middle)
+        marks += hodograph(drawing, field, point, curve, tips[point])
+    name = words("sheet.hodographs")
+    whole: list[Mark] = [
+        *framed(drawing, number, "hodographs", caption_scale(drawing)),
+        *heading(found, drawing, name),
+        *hodograph_caption(drawing),
+        *marks,
+        LineMark(FIELD[0], FIELD[3], FIELD[2], FIELD[3], "panel"),
+        *places_table(found, found.numbered, []),
+        *proof(found),
+    ]
+    return Page(420, 297, tuple(whole), f"{name} – {title_of(drawing)}", words.language)
+
+
+def hodograph_caption(drawing: Drawing) -> Iterator[Mark]:
+    """The caption of the field: the scale of the vectors."""
+    k = figure(drawing, scale_of(drawing, drawing.plane) / 1000)
+    said = drawing.words(HODOGRAPHS[drawing.kind], k=k)
+    yield Text(FIELD[0] + 3, FIELD[1] - 2.2, said, "caption", 2.5, name="heading")
+
+
+def hodograph(
+    drawing: Drawing,
+    field: Field,
+    point: str,
+    curve: Sequence[complex],
+    tips: Sequence[tuple[Position, complex]],
+) -> Iterator[Mark]:
+    """The hodograph of one point: the curve, the vectors from the pole, numbers at their tips."""
+    kind, letter = drawing.kind, drawing.vector.letter
+    board = FieldContent(field.rect)
+    on_page = [field(place) for place in curve]
+    board.marks += clipped_path(on_page, field.rect, "trajectory", f"hodograph {point}")
+    pole, pins = field(0j), [(each, field(tip)) for each, tip in tips]
+    for each, at in pins:
+        name = at_position(f"{letter}_{lettered(point)}", each.name)
+        board.marks.append(LineMark(*pole, *at, f"{kind} {BRIEF}", name))
+        board.marks.append(CircleMark(*at, SMALL, f"point {kind}", name))
+    board.marks.append(CircleMark(*pole, PIN, f"pole {kind}", f"pole {point}"))
+    head = symbol(f"{letter}_{lettered(point)}")
+    board.marks.append(
+        Text(field.rect[0] + 3, field.rect[1] + 6, head, "caption", 3.5, name=f"hodograph {point}")
+    )
+    numbers = [
+        Label(
+            ", ".join(each.name for each, _ in group),
+            kind,
+            group[len(group) // 2][1],
+            1.8 if len(tips) >= MANY else 2.5,
+            " ".join(at_position(f"{letter}_{lettered(point)}", each.name) for each, _ in group),
+            away=way(pole, group[len(group) // 2][1]),
+            radius=SMALL,
+        )
+        for group in touching(pins, 2 * DOT)
+    ]
+    yield from board.marks
+    yield from placed(board, [], numbers)

@@ -31,7 +31,7 @@ from graphkin.scene.model import Scene
 from graphkin.text import LANGUAGES, Words, words
 from graphkin.text.errors import Problem, SceneError, Sought, WitnessError, either, message
 
-MOTION_VIEWS = ("positions",)
+MOTION_VIEWS = ("positions", "diagrams")
 """The views of a whole motion."""
 CALCULATED = ("key", "task")
 """The views that come with calculation pages."""

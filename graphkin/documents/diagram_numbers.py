@@ -1,0 +1,134 @@
+"""The numbers behind the diagrams of a motion: exact courses, and values at the positions."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from functools import cached_property
+
+import numpy as np
+from msgspec import Struct
+
+from graphkin.construction.core.program import Target
+from graphkin.construction.core.quantities import EPSILON, OMEGA
+from graphkin.documents.positions import PositionSet
+from graphkin.motion.course import Reals
+from graphkin.motion.cycle import columns_at
+from graphkin.motion.driving import stated_motion
+from graphkin.motion.follower_limits import Mover, followers, movers_of
+from graphkin.text.errors import Problem, SceneError, message
+
+FINE = 720
+"""Places of an exact course."""
+STEP = 1e-3
+"""Step of differences for the derivatives in a forecast, as a share of the interval."""
+CALM = 6.0
+"""The largest value drawn, in medians of the size; beyond it a rate grows without bound."""
+
+
+class Motion(Struct, frozen=True, dict=True):
+    """The motion of the follower of the diagrams: its place, speed and acceleration over u.
+
+    ``pace`` is the rate of u in its own unit per second, in rad/s, m/s or 1; ``push`` the rate of
+    that. Angles of a link are in radians.
+    """
+
+    found: PositionSet
+    mover: Mover
+    pace: float
+    push: float
+
+    @property
+    def is_link(self) -> bool:
+        """Whether the follower is a link that swings, not a block."""
+        return self.mover.line is not None
+
+    @property
+    def kinds(self) -> tuple[str, str, str]:
+        """The symbols of place, speed and acceleration."""
+        return ("ψ", "ω", "ε") if self.is_link else ("s", "v", "a")
+
+    @property
+    def at(self) -> Reals:
+        """The places u of the numbered positions with plans; a turn ends where it begins."""
+        return self.found.planned_places
+
+    @property
+    def step(self) -> float:
+        """The interval between positions, in rad, m or s."""
+        return float(self.at[1] - self.at[0]) * self.found.cycle.sweep.per_unit
+
+    def columns(
+        self, at: Reals, targets: Sequence[Target], *, geometric: bool = False
+    ) -> list[Reals]:
+        """Some targets at places u."""
+        cycle = self.found.cycle
+        found = columns_at(cycle.sweep, cycle.path, at, targets, geometric=geometric).columns
+        return [found[target] for target in targets]
+
+    def place(self, at: Reals) -> Reals:
+        """The coordinate (m), or the turned angle (rad), at places u in order."""
+        cycle = self.found.cycle
+        found = columns_at(cycle.sweep, cycle.path, at, self.mover.where, near=0.0).columns
+        own = self.mover.place(found)
+        return np.radians(own) if self.is_link else np.asarray(own)
+
+    def rates(self, at: Reals) -> list[Reals]:
+        """Speed and acceleration in SI at places u."""
+        return self.columns(at, self.targets)
+
+    def derivatives(self, at: Reals) -> list[Reals]:
+        """The first four derivatives of the place by u, in SI, the last two by differences."""
+        away = STEP * self.step / self.found.cycle.sweep.per_unit
+        first, second = self.columns(at, self.targets, geometric=True)
+        before, after = (
+            self.columns(at + side * away, self.targets, geometric=True)[1] for side in (-1, 1)
+        )
+        wide = STEP * self.step
+        return [
+            first,
+            second,
+            (after - before) / (2 * wide),
+            (after - 2 * second + before) / wide**2,
+        ]
+
+    @property
+    def targets(self) -> tuple[Target, Target]:
+        """The targets of speed and acceleration."""
+        name = self.mover.name
+        if self.is_link:
+            return (OMEGA, name), (EPSILON, name)
+        return ("slide speed", name), ("slide acceleration", name)
+
+    @cached_property
+    def fine(self) -> Reals:
+        """Many places u from the first position to the last."""
+        return np.linspace(self.at[0], self.at[-1], FINE + 1)
+
+
+def motion_of(found: PositionSet) -> Motion:
+    """The follower whose stroke the sheet of positions shows, or the last one that turns fully.
+
+    Raises SceneError where no link on the frame and no block follows.
+    """
+    movers = {mover.name: mover for mover in movers_of(found.cycle)}
+    named = found.follower or next(reversed(followers(found.cycle)), None)
+    if named is None or named.name not in movers:
+        raise SceneError(
+            Problem(
+                "--view diagrams",
+                message("nothing that follows the driver moves on the frame"),
+                message("a link that is pinned to the frame, or a block on it"),
+            )
+        )
+    sweep = found.cycle.sweep
+    pace, push = 1.0, 0.0
+    if sweep.driver is not None:
+        _, speed, rise = stated_motion(sweep.driver, sweep.original)
+        pace, push = float(speed), float(rise)
+    return Motion(found, movers[named.name], pace, push)
+
+
+def calm(values: Reals) -> float:
+    """The largest size of values that a diagram shows."""
+    sizes = np.abs(values[np.isfinite(values)])
+    return float(min(sizes.max(), CALM * np.median(sizes) or sizes.max()))
