@@ -15,12 +15,13 @@ from graphkin.motion.course import Reals
 from graphkin.motion.cycle import columns_at
 from graphkin.motion.driving import stated_motion
 from graphkin.motion.follower_limits import Mover, followers, movers_of
-from graphkin.text.errors import Problem, SceneError, message
 
 FINE = 720
 """Places of an exact course."""
 STEP = 1e-3
 """Step of differences for the derivatives in a forecast, as a share of the interval."""
+FEWEST = 4
+"""The fewest positions with plans from which a diagram is differentiated."""
 CALM = 6.0
 """The largest value drawn, in medians of the size; beyond it a rate grows without bound."""
 
@@ -105,30 +106,24 @@ class Motion(Struct, frozen=True, dict=True):
         return np.linspace(self.at[0], self.at[-1], FINE + 1)
 
 
-def motion_of(found: PositionSet) -> Motion:
+def motion_of(found: PositionSet) -> Motion | None:
     """The follower whose stroke the sheet of positions shows, or the last one that turns fully.
 
-    Raises SceneError where no link on the frame and no block follows.
+    None where no link on the frame and no block follows, and where the driver is at rest.
     """
     movers = {mover.name: mover for mover in movers_of(found.cycle)}
     named = found.follower or next(reversed(followers(found.cycle)), None)
-    if named is None or named.name not in movers:
-        raise SceneError(
-            Problem(
-                "--view diagrams",
-                message("nothing that follows the driver moves on the frame"),
-                message("a link that is pinned to the frame, or a block on it"),
-            )
-        )
-    sweep = found.cycle.sweep
-    pace, push = 1.0, 0.0
+    pace, push, sweep = 1.0, 0.0, found.cycle.sweep
     if sweep.driver is not None:
         _, speed, rise = stated_motion(sweep.driver, sweep.original)
         pace, push = float(speed), float(rise)
+    if named is None or named.name not in movers or pace == 0 or len(found.planned_places) < FEWEST:
+        return None
     return Motion(found, movers[named.name], pace, push)
 
 
-def calm(values: Reals) -> float:
-    """The largest size of values that a diagram shows."""
+def calm(found: PositionSet, values: Reals) -> float:
+    """The largest size of values that a diagram shows, in which rates may grow without bound."""
     sizes = np.abs(values[np.isfinite(values)])
-    return float(min(sizes.max(), CALM * np.median(sizes) or sizes.max()))
+    most = float(sizes.max(initial=0.0))
+    return most if found.is_bounded else min(most, CALM * float(np.median(sizes)))

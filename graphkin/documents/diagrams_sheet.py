@@ -40,7 +40,7 @@ from graphkin.documents.positions_sheet import (
 )
 from graphkin.documents.sheet import title_of
 from graphkin.drawing.field import A3_TITLE_BLOCK, AREA, XY, Rect
-from graphkin.drawing.marks import CircleMark, LineMark, Mark, Page, Text, box
+from graphkin.drawing.marks import Anchor, CircleMark, LineMark, Mark, Page, Text, box
 from graphkin.drawing.richtext import extent, flowed
 from graphkin.drawing.scale import preferred
 from graphkin.drawing.symbol_markup import escape, symbol
@@ -262,7 +262,7 @@ def construction(before: Axes, found: Derived, look: str) -> Iterator[Mark]:
     yield LineMark(*pole, foot, axes.zero, "centre-line", f"pole distance {name}")
     yield CircleMark(*pole, 1.1, f"pole {look}", f"P_{name}")
     aside = 2.0 if behind else -2.0
-    anchor = "start" if behind else "end"
+    anchor: Anchor = "start" if behind else "end"
     letter = f"*P*_{{*{name}*}}"
     yield Text(
         pole[0] + aside, pole[1] + 0.9, letter, f"label {look}", LETTERS, anchor, f"P_{name}"
@@ -298,7 +298,7 @@ def differentiation_page(motion: Motion, number: str) -> Page:
     units, kinds = units_of(motion), motion.kinds
     first = axes_for(motion, tops[0], tops[0] + height, exact[0] - low, np.inf)
     points = [first.place(float(u), float(v - low)) for u, v in zip(motion.at, where, strict=True)]
-    most = calm(exact[1]), calm(exact[2])
+    most = calm(motion.found, exact[1]), calm(motion.found, exact[2])
     rate = derive(motion, first, points, tops[1], tops[1] + height, kinds[1], most[0])
     again = derive(
         motion,
@@ -348,7 +348,7 @@ def integration_page(motion: Motion, number: str) -> Page:
     exact = values_at(motion, motion.fine)
     low = float(min(np.nanmin(exact[0]), np.nanmin(where)))
     units, kinds = units_of(motion), motion.kinds
-    first = axes_for(motion, tops[0], tops[0] + height, speed, calm(speed))
+    first = axes_for(motion, tops[0], tops[0] + height, speed, np.inf)
     points = [first.place(float(u), float(v)) for u, v in zip(motion.at, speed, strict=True)]
     means = mean_ordinates(points, closed=is_whole(motion.found.cycle))
     last = axes_for(motion, tops[1], tops[1] + height, exact[0] - low, np.inf)
@@ -417,6 +417,8 @@ def levels(first: Axes, found: Derived) -> Iterator[Mark]:
     pole = foot - found.distance, first.zero
     for i, each in enumerate(found.steps):
         height = first.zero - each.end[1]
+        if not first.rect[1] <= height <= first.rect[3]:
+            continue
         (x, _), (u, _) = first.on_page(each.first), first.on_page(each.last)
         yield LineMark(x, height, u, height, "construction", f"level {i}")
         yield LineMark(
@@ -425,12 +427,13 @@ def levels(first: Axes, found: Derived) -> Iterator[Mark]:
         yield LineMark(*pole, foot, height, "construction", f"ray {i}")
     yield LineMark(*pole, foot, first.zero, "centre-line", "pole distance")
     yield CircleMark(*pole, 1.1, "pole velocity", "P")
-    aside, anchor = (2.0, "start") if behind else (-2.0, "end")
+    aside = 2.0 if behind else -2.0
+    anchor: Anchor = "start" if behind else "end"
     yield Text(pole[0] + aside, pole[1] + 0.9, "*P*", "label velocity", LETTERS, anchor, "P")
     told = f"*H* = {abs(found.distance):g} mm"
     if abs(found.distance) > extent(told, SMALL)[0] + 3:
-        own = "caption", SMALL, "middle", "pole distance"
-        yield from cleared(Text((pole[0] + foot) / 2, first.zero + 3.2, told, *own))
+        at = (pole[0] + foot) / 2, first.zero + 3.2
+        yield from cleared(Text(*at, told, "caption", SMALL, "middle", "pole distance"))
 
 
 def strings_said(motion: Motion, first: Axes, found: Derived, where: Reals) -> list[str]:
@@ -573,7 +576,7 @@ def cost_of_rate(motion: Motion, rate: Derived) -> Cost:
     exact = values_at(motion, middles)[1]
     drawn = np.array([each.found[1] for each in rate.steps]) / rate.axes.high
     third = motion.derivatives(middles)[2]
-    size = largest(exact)
+    size = largest(motion, exact)
     forecast = CHORD * motion.step**2 * np.abs(motion.pace * third)
     interval = rate.axes.wide * float(motion.at[1] - motion.at[0])
     hand = sqrt(2) * mark() * abs(rate.distance) / interval / rate.axes.high
@@ -586,7 +589,7 @@ def cost_of_second(motion: Motion, rate: Derived, again: Derived) -> Cost:
     exact = values_at(motion, places)[2]
     drawn = np.array([each.found[1] for each in again.steps]) / again.axes.high
     fourth = motion.derivatives(places)[3]
-    size = largest(exact)
+    size = largest(motion, exact)
     forecast = SECOND * motion.step**2 * np.abs(motion.pace**2 * fourth)
     interval = rate.axes.wide * float(motion.at[1] - motion.at[0])
     lever = abs(rate.distance * again.distance) / interval**2
@@ -599,8 +602,8 @@ def mark() -> float:
     return STRAIGHT * Pencil().mark
 
 
-def largest(values: Reals) -> float:
-    return calm(values) or 1.0
+def largest(motion: Motion, values: Reals) -> float:
+    return calm(motion.found, values) or 1.0
 
 
 def worst(values: Reals) -> float:
@@ -706,7 +709,7 @@ def small_diagram(
 ) -> Iterator[Mark]:
     """One diagram: axes, the exact course, and the values of the plans."""
     left, top, right, low = rect
-    known = np.clip(each.fine[np.isfinite(each.fine)], *limits(each.fine))
+    known = np.clip(each.fine[np.isfinite(each.fine)], *limits(found, each.fine))
     least, most = min(float(known.min()), 0.0), max(float(known.max()), 0.0)
     high = FILLED * (low - top) / (most - least or 1.0)
     wide = (right - left) / float(at[-1] - at[0])
@@ -730,11 +733,11 @@ def small_diagram(
                 yield LineMark(*ends, f"centre {each.kind}", at_position(each.name, name))
         yield LineMark(x, zero - 0.8, x, zero + 0.8, "dimension", f"position {name}")
         if len(names) <= MANY or int(name) % 2 == 0:
-            own = "caption", SMALL, "middle", f"position {name}"
-            yield from cleared(Text(x, zero + 3.2, name, *own))
+            number = Text(x, zero + 3.2, name, "caption", SMALL, "middle", f"position {name}")
+            yield from cleared(number)
 
 
-def limits(values: Reals) -> tuple[float, float]:
+def limits(found: PositionSet, values: Reals) -> tuple[float, float]:
     """The values between which a diagram shows a course that may grow without bound."""
-    size = calm(values)
+    size = calm(found, values)
     return -size, size

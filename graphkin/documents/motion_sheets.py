@@ -12,6 +12,7 @@ from graphkin.documents.positions_sheet import at_scale, positions_page
 from graphkin.drawing.marks import Page
 from graphkin.mechanism import Mechanism
 from graphkin.text import Words
+from graphkin.text.errors import Problem, SceneError, message
 
 Made = tuple[str, Callable[[str], Page]]
 """A kind of sheet, and a page that waits for its number."""
@@ -23,6 +24,14 @@ def motion_sheets(
     """The sheets of a view of a whole motion by kind. Raises as ``positions_of`` does."""
     found = positions_of(mechanism, words)
     made = [*(position_sheets(found) if view == "positions" else diagram_sheets(found))]
+    if not made:
+        raise SceneError(
+            Problem(
+                f"--view {view}",
+                message("nothing follows the driver, and [ask] has no velocity or acceleration"),
+                message("a link on the frame, a block, or a point that is asked for"),
+            )
+        )
     pages: dict[str, tuple[Page, ...]] = {}
     for number, (kind, page) in enumerate(made, 1):
         pages[kind] = (*pages.get(kind, ()), page(f"{number}/{len(made)}"))
@@ -47,9 +56,9 @@ def diagram_sheets(found: PositionSet) -> Iterator[Made]:
         integration_page,
     )
 
-    motion = motion_of(found)
-    yield "differentiation", partial(differentiation_page, motion)
-    yield "integration", partial(integration_page, motion)
+    if motion := motion_of(found):
+        yield "differentiation", partial(differentiation_page, motion)
+        yield "integration", partial(integration_page, motion)
     for page in course_pages(found):
         yield "courses", page
     kL = at_scale(found).alone.scales.kL

@@ -14,20 +14,22 @@ from typing import Any
 import numpy as np
 from msgspec import Struct
 
+from graphkin.construction.core.component import as_drawn
 from graphkin.construction.core.drawn_scene import Drawing
 from graphkin.construction.core.program import PLACES, Target
 from graphkin.construction.core.quantities import QUANTITIES, SHEETS
 from graphkin.construction.core.run import Trace
 from graphkin.construction.core.solution import FAIR, Verdict
-from graphkin.documents.scaling import drawing, natural_seconds, targets_of, the_crank
+from graphkin.documents.scaling import natural_seconds, targets_of, the_crank
 from graphkin.drawing.scale import Scales
 from graphkin.mechanism import Mechanism
 from graphkin.motion.course import Reals
-from graphkin.motion.cycle import Cycle, columns_at, cycle
+from graphkin.motion.cycle import Cycle, columns_at, cycle_at
 from graphkin.motion.driving import TURN
 from graphkin.motion.equal_positions import Start, equal_places
 from graphkin.motion.follower_limits import Follower, followers
-from graphkin.motion.pieces import Piece
+from graphkin.motion.pieces import Piece, reachable_ranges
+from graphkin.motion.sweep import sweep_of
 from graphkin.scene.model import StatedPositions
 from graphkin.scene.quantity import Quantity
 from graphkin.text import Words
@@ -89,6 +91,12 @@ class PositionSet(Struct, frozen=True, dict=True):
         numbers = range(len(self.numbered)) if chosen is None else chosen
         return [p for i in numbers if kind in (p := self.numbered[i]).plans]
 
+    @property
+    def is_bounded(self) -> bool:
+        """Whether the driver has no dead point, next to which rates grow without bound."""
+        pieces = self.cycle.path.ranges[0]
+        return "dead" not in (pieces[0].low.kind, pieces[-1].high.kind)
+
     @cached_property
     def planned_places(self) -> Reals:
         """The places of the driver with plans; a turn ends at the place where it begins."""
@@ -138,7 +146,10 @@ def positions_of(mechanism: Mechanism, words: Words) -> PositionSet:
     wanted = mechanism.scene.positions
     targets = [t for t in mechanism.program.targets if t[0] in MOVED]
     targets += rates_of(mechanism)
-    moved = cycle(mechanism, steps=4, targets=targets)
+    sweep = sweep_of(mechanism.scene)
+    path = reachable_ranges(sweep)
+    middle = np.array([sum(path.spans[0]) / 2])
+    moved = cycle_at(mechanism, sweep, path, middle, tuple(targets))
     at = equal_places(moved, wanted.count, start_of(mechanism), "positions.start")
     refuse_numbers(wanted, len(at))
     few = moved.along(at)
@@ -297,14 +308,16 @@ def plans_at(moved: Cycle, place: float, seconds: float, words: Words) -> dict[s
     scales = Scales(1.0, seconds, of_crank=float(the_crank(moved.mechanism) > 0), triangles=False)
     nobody = Verdict(True, 0.0, "", 0.0, 0.0, 0.0)
     kinds = {kind: targets_of(mechanism, kind) for kind in SHEETS}
+    found: dict[str, Drawing] = {}
     try:
-        return {
-            kind: drawing(mechanism, kind, targets, scales, nobody, words)
-            for kind, targets in kinds.items()
-            if targets
-        }
+        for kind, targets in kinds.items():
+            if targets:
+                trace = mechanism.trace(targets, by_hand=True, seconds=seconds, aside=False)
+                own = as_drawn(trace, triangles=False)
+                found[kind] = Drawing(kind, mechanism.scene, own, scales, nobody, words)
     except GraphkinError:
         return {}
+    return found
 
 
 def numbers_of(found: PositionSet) -> list[str]:

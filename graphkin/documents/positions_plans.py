@@ -9,7 +9,7 @@ import numpy as np
 from msgspec import Struct
 from msgspec.structs import replace
 
-from graphkin.construction.bare_plan import bare_plan, is_point, plan_box
+from graphkin.construction.bare_plan import bare_plan, is_point
 from graphkin.construction.core.drawn_scene import Drawing
 from graphkin.construction.core.layout import centre
 from graphkin.construction.core.naming import scale_of
@@ -44,6 +44,7 @@ from graphkin.drawing.style import BRIEF
 from graphkin.drawing.symbol_markup import symbol
 from graphkin.drawing.symbols import PIN
 from graphkin.motion.cycle import columns_at
+from graphkin.numbers.plane import Vector
 from graphkin.scene.link_points import lettered
 
 NAMES = {"velocity": "sheet.velocity_plans", "acceleration": "sheet.acceleration_plans"}
@@ -142,6 +143,19 @@ FINER = (0.01, 0.005, 0.002, 0.001)
 """Further factors for plans with very long vectors."""
 
 
+def box_of_plan(drawing: Drawing) -> Extent:
+    """The box of a plan in its own unit, pole included, without auxiliary plans."""
+    points, aside = [0j], drawing.auxiliary
+    for number, step, value in drawing.steps(drawing.plane):
+        if number in aside or step.aside is not None:
+            continue
+        if isinstance(value, Vector) and step.arrow:
+            points += [value.tail, value.tip]
+        elif is_point(step) and isinstance(value, complex):
+            points.append(value)
+    return extent_of(points)
+
+
 # --- each plan from its own pole ------------------------------------------------------------------
 
 
@@ -185,7 +199,7 @@ def from_own_poles(
     found: PositionSet, some: Sequence[Position], kind: str, kL: float
 ) -> tuple[Scales, list[Mark]]:
     """The plans in a grid, each from its own pole with the letters of its points."""
-    boxes = [plan_box(each.plans[kind]) for each in some]
+    boxes = [box_of_plan(each.plans[kind]) for each in some]
     grid = grid_for(boxes)
     scales = fitted(found, kind, kL, grid.most)
     numbers = dict(zip((e.name for e in found.every), numbers_of(found), strict=True))
@@ -246,7 +260,7 @@ def from_one_pole(
     strong = next((each for each in some if each.name == found.shown.name), some[0])
     points = {each.name: points_of(each.plans[kind]) for each in some}
     curves = hodographs(found, kind)
-    boxes = [plan_box(each.plans[kind]) for each in some]
+    boxes = [box_of_plan(each.plans[kind]) for each in some]
     box = extent_of([corner for each in boxes for corner in corners(each)])
     wide, high = FIELD[2] - FIELD[0] - 4 * SIDE, FIELD[3] - FIELD[1] - 2 * ABOVE
     scales = fitted(found, kind, kL, min(wide / (box.width or 1), high / (box.height or 1)))
