@@ -26,7 +26,7 @@ CALM = 6.0
 """The largest value drawn, in medians of the size; beyond it a rate grows without bound."""
 
 
-class Motion(Struct, frozen=True, dict=True):
+class FollowerMotion(Struct, frozen=True, dict=True):
     """The motion of the follower of the diagrams: its place, speed and acceleration over u.
 
     ``pace`` is the rate of u in its own unit per second, in rad/s, m/s or 1; ``push`` the rate of
@@ -106,7 +106,7 @@ class Motion(Struct, frozen=True, dict=True):
         return np.linspace(self.at[0], self.at[-1], FINE + 1)
 
 
-def motion_of(found: PositionSet) -> Motion | None:
+def motion_of(found: PositionSet) -> FollowerMotion | None:
     """The follower whose stroke the sheet of positions shows, or the last one that turns fully.
 
     None where no link on the frame and no block follows, and where the driver is at rest.
@@ -119,7 +119,7 @@ def motion_of(found: PositionSet) -> Motion | None:
         pace, push = float(speed), float(rise)
     if named is None or named.name not in movers or pace == 0 or len(found.planned_places) < FEWEST:
         return None
-    return Motion(found, movers[named.name], pace, push)
+    return FollowerMotion(found, movers[named.name], pace, push)
 
 
 def calm(found: PositionSet, values: Reals) -> float:

@@ -27,7 +27,7 @@ from graphkin.construction.diagram_steps import (
     integrated,
     smooth,
 )
-from graphkin.documents.diagram_numbers import FINE, Motion, calm
+from graphkin.documents.diagram_numbers import FINE, FollowerMotion, calm
 from graphkin.documents.positions import PositionSet, at_position, is_whole
 from graphkin.documents.positions_sheet import (
     AIR,
@@ -94,7 +94,7 @@ class Axes(Struct, frozen=True):
         return (u - self.start) * self.wide, value * self.high
 
 
-def axes_for(motion: Motion, top: float, low: float, values: Reals, most: float) -> Axes:
+def axes_for(motion: FollowerMotion, top: float, low: float, values: Reals, most: float) -> Axes:
     """The frame of a diagram for some values, which may not exceed a size."""
     known = np.clip(values[np.isfinite(values)], -most, most)
     least, largest = min(float(known.min()), 0.0), max(float(known.max()), 0.0)
@@ -105,7 +105,7 @@ def axes_for(motion: Motion, top: float, low: float, values: Reals, most: float)
     return Axes((left, top, right, low), middle, wide, high, float(motion.at[0]))
 
 
-def sides(motion: Motion) -> tuple[float, float]:
+def sides(motion: FollowerMotion) -> tuple[float, float]:
     """The left and right ends of the diagrams: room for poles before them, or behind."""
     return (LEFT, RIGHT) if motion.pace > 0 else BEHIND
 
@@ -113,7 +113,9 @@ def sides(motion: Motion) -> tuple[float, float]:
 # --- one diagram: axes, curves, points ------------------------------------------------------------
 
 
-def frame_of(motion: Motion, axes: Axes, name: str, unit: str, factor: float) -> Iterator[Mark]:
+def frame_of(
+    motion: FollowerMotion, axes: Axes, name: str, unit: str, factor: float
+) -> Iterator[Mark]:
     """The axes of a diagram, its numbers, and the lines at the positions.
 
     ``factor`` is the number of printed units in one SI unit.
@@ -158,7 +160,7 @@ def cleared(text: Text) -> Iterator[Mark]:
     yield text
 
 
-def u_symbol(motion: Motion) -> str:
+def u_symbol(motion: FollowerMotion) -> str:
     """The letter of the driver's coordinate."""
     return {"phi": "φ"}.get(motion.found.cycle.sweep.symbol, motion.found.cycle.sweep.symbol)
 
@@ -182,13 +184,17 @@ def curve(axes: Axes, points: Sequence[XY], cls: str, name: str) -> Iterator[Mar
         run = []
 
 
-def course(motion: Motion, axes: Axes, values: Reals, cls: str, name: str) -> Iterator[Mark]:
+def course(
+    motion: FollowerMotion, axes: Axes, values: Reals, cls: str, name: str
+) -> Iterator[Mark]:
     """An exact course over the fine places."""
     both = zip(motion.fine, values, strict=True)
     yield from curve(axes, [axes.place(float(u), float(v)) for u, v in both], cls, name)
 
 
-def crosses(motion: Motion, axes: Axes, values: Reals, look: str, name: str) -> Iterator[Mark]:
+def crosses(
+    motion: FollowerMotion, axes: Axes, values: Reals, look: str, name: str
+) -> Iterator[Mark]:
     """The values of the plans at the positions."""
     names = position_names(motion.found, motion.at)
     for i, (u, value) in enumerate(zip(motion.at, values, strict=True)):
@@ -221,7 +227,13 @@ class Derived(Struct, frozen=True):
 
 
 def derive(
-    motion: Motion, axes: Axes, points: Sequence[XY], top: float, low: float, name: str, most: float
+    motion: FollowerMotion,
+    axes: Axes,
+    points: Sequence[XY],
+    top: float,
+    low: float,
+    name: str,
+    most: float,
 ) -> Derived:
     """The diagram of the rate, drawn from some points of another with the largest pole distance.
 
@@ -278,7 +290,9 @@ def construction(before: Axes, found: Derived, look: str) -> Iterator[Mark]:
 # --- the sheet of differentiation -----------------------------------------------------------------
 
 
-def units_of(motion: Motion) -> tuple[tuple[str, float], tuple[str, float], tuple[str, float]]:
+def units_of(
+    motion: FollowerMotion,
+) -> tuple[tuple[str, float], tuple[str, float], tuple[str, float]]:
     """The printed unit of place, speed and acceleration, with its number in one SI unit."""
     if motion.is_link:
         return ("°", degrees(1.0)), ("rad/s", 1.0), ("rad/s²", 1.0)
@@ -287,7 +301,7 @@ def units_of(motion: Motion) -> tuple[tuple[str, float], tuple[str, float], tupl
     return (unit, drawing.length(1.0)), ("m/s", 1.0), ("m/s²", 1.0)
 
 
-def differentiation_page(motion: Motion, number: str) -> Page:
+def differentiation_page(motion: FollowerMotion, number: str) -> Page:
     """The sheet of place, speed and acceleration, each from the one before by chords."""
     drawing, words = motion.found.shown.alone, motion.found.shown.alone.words
     height = (FIELD[3] - TOP - 3 - 2 * GAP) / 3
@@ -310,7 +324,7 @@ def differentiation_page(motion: Motion, number: str) -> Page:
         most[1],
     )
     marks: list[Mark] = [
-        *framed(drawing, number, "diagrams", "–"),
+        *framed(drawing, number, words("sheet.document_diagrams"), "–"),
         *heading(motion.found, drawing, words("sheet.differentiation")),
         *field_caption(motion),
         *construction(first, rate, "velocity"),
@@ -339,7 +353,7 @@ def differentiation_page(motion: Motion, number: str) -> Page:
 # --- the sheet of integration ---------------------------------------------------------------------
 
 
-def integration_page(motion: Motion, number: str) -> Page:
+def integration_page(motion: FollowerMotion, number: str) -> Page:
     """The sheet of the speed from the plans, and of the place by a string polygon."""
     drawing, words = motion.found.shown.alone, motion.found.shown.alone.words
     height = (FIELD[3] - TOP - 3 - GAP) / 2
@@ -357,7 +371,7 @@ def integration_page(motion: Motion, number: str) -> Page:
     strings = integrated([x for x, _ in points], means, distance, begun)
     found = Derived(strings, second, distance, kinds[0])
     marks: list[Mark] = [
-        *framed(drawing, number, "diagrams", "–"),
+        *framed(drawing, number, words("sheet.document_diagrams"), "–"),
         *heading(motion.found, drawing, words("sheet.integration")),
         *field_caption(motion, "diagrams.strings"),
         *levels(first, found),
@@ -391,7 +405,7 @@ def mean_ordinates(points: Sequence[XY], *, closed: bool) -> list[float]:
 
 
 def string_scale(
-    motion: Motion, first: Axes, last: Axes, means: Sequence[float]
+    motion: FollowerMotion, first: Axes, last: Axes, means: Sequence[float]
 ) -> tuple[float, Axes]:
     """The pole distance with which the strings fill their diagram, and the frame at its scale."""
     left, right = sides(motion)
@@ -436,7 +450,7 @@ def levels(first: Axes, found: Derived) -> Iterator[Mark]:
         yield from cleared(Text(*at, told, "caption", SMALL, "middle", "pole distance"))
 
 
-def strings_said(motion: Motion, first: Axes, found: Derived, where: Reals) -> list[str]:
+def strings_said(motion: FollowerMotion, first: Axes, found: Derived, where: Reals) -> list[str]:
     """The steps of the integration, the scale that follows, and its errors."""
     drawing, words = motion.found.shown.alone, motion.found.shown.alone.words
     s, v, _ = motion.kinds
@@ -472,13 +486,13 @@ def strings_said(motion: Motion, first: Axes, found: Derived, where: Reals) -> l
 # --- values and points ----------------------------------------------------------------------------
 
 
-def values_at(motion: Motion, at: Reals) -> list[Reals]:
+def values_at(motion: FollowerMotion, at: Reals) -> list[Reals]:
     """The place, the speed, and what differentiating the speed by u gives, at places u."""
     speed, acceleration = motion.rates(at)
     return [motion.place(at), speed, acceleration - motion.push / motion.pace * speed]
 
 
-def closed_round(motion: Motion, rate: Derived) -> list[XY]:
+def closed_round(motion: FollowerMotion, rate: Derived) -> list[XY]:
     """The points of a derived diagram; over a whole turn with the last of the turn before."""
     points = [each.found for each in rate.steps]
     if not is_whole(motion.found.cycle):
@@ -488,7 +502,7 @@ def closed_round(motion: Motion, rate: Derived) -> list[XY]:
     return [(x - turn, y), *points, (u + turn, v)][: len(points) + 1]
 
 
-def through(motion: Motion, found: Derived, look: str) -> Iterator[Mark]:
+def through(motion: FollowerMotion, found: Derived, look: str) -> Iterator[Mark]:
     """The smooth curve through the points that the chords give."""
     points = [each.found for each in found.steps]
     if is_whole(motion.found.cycle):
@@ -500,7 +514,7 @@ def through(motion: Motion, found: Derived, look: str) -> Iterator[Mark]:
         yield from curve(found.axes, smooth(points), look, found.name)
 
 
-def field_caption(motion: Motion, signs: str = "diagrams.signs") -> Iterator[Mark]:
+def field_caption(motion: FollowerMotion, signs: str = "diagrams.signs") -> Iterator[Mark]:
     """The caption of the field: whose motion it is, and what the kinds of points are."""
     words = motion.found.shown.alone.words
     key = "diagrams.link" if motion.is_link else "diagrams.block"
@@ -509,7 +523,7 @@ def field_caption(motion: Motion, signs: str = "diagrams.signs") -> Iterator[Mar
     yield Text(FIELD[0] + 3, FIELD[1] - 2.2, text, "caption", LETTERS, name="heading")
 
 
-def sentences(motion: Motion, said: Sequence[str]) -> Iterator[Mark]:
+def sentences(motion: FollowerMotion, said: Sequence[str]) -> Iterator[Mark]:
     """Sentences below the field, left of the title block."""
     left, right = AREA[0] + 4, A3_TITLE_BLOCK[0] - 4
     y = A3_TITLE_BLOCK[1] + 4.2
@@ -524,7 +538,7 @@ def sentences(motion: Motion, said: Sequence[str]) -> Iterator[Mark]:
 # --- scales and errors ----------------------------------------------------------------------------
 
 
-def scales_said(motion: Motion, first: Axes, rate: Derived, again: Derived) -> list[str]:
+def scales_said(motion: FollowerMotion, first: Axes, rate: Derived, again: Derived) -> list[str]:
     """The scale factors, and how those of the derived diagrams follow from the pole distances."""
     drawing, words = motion.found.shown.alone, motion.found.shown.alone.words
     s, v, a = motion.kinds
@@ -553,7 +567,7 @@ def scales_said(motion: Motion, first: Axes, rate: Derived, again: Derived) -> l
     ]
 
 
-def rates_units(motion: Motion) -> tuple[str, str]:
+def rates_units(motion: FollowerMotion) -> tuple[str, str]:
     """The units of speed and acceleration in brackets where they are fractions."""
     return ("(rad/s)", "(rad/s^2)") if motion.is_link else ("(m/s)", "(m/s^2)")
 
@@ -570,7 +584,7 @@ class Cost(Struct, frozen=True):
     pencil: float
 
 
-def cost_of_rate(motion: Motion, rate: Derived) -> Cost:
+def cost_of_rate(motion: FollowerMotion, rate: Derived) -> Cost:
     """The error of the speed: h²/24 of the third derivative."""
     middles = (motion.at[1:] + motion.at[:-1]) / 2
     exact = values_at(motion, middles)[1]
@@ -583,7 +597,7 @@ def cost_of_rate(motion: Motion, rate: Derived) -> Cost:
     return Cost(worst(drawn - exact) / size, worst(forecast) / size, hand / size)
 
 
-def cost_of_second(motion: Motion, rate: Derived, again: Derived) -> Cost:
+def cost_of_second(motion: FollowerMotion, rate: Derived, again: Derived) -> Cost:
     """The error of the acceleration: h²/12 of the fourth derivative."""
     places = np.array([each.found[0] for each in again.steps]) / again.axes.wide + again.axes.start
     exact = values_at(motion, places)[2]
@@ -602,7 +616,7 @@ def mark() -> float:
     return STRAIGHT * Pencil().mark
 
 
-def largest(motion: Motion, values: Reals) -> float:
+def largest(motion: FollowerMotion, values: Reals) -> float:
     return calm(motion.found, values) or 1.0
 
 
@@ -611,7 +625,7 @@ def worst(values: Reals) -> float:
     return float(known.max(initial=0.0))
 
 
-def costs(motion: Motion, rate: Derived, again: Derived) -> list[str]:
+def costs(motion: FollowerMotion, rate: Derived, again: Derived) -> list[str]:
     """What the method costs in accuracy: chords against the exact course, and the pencil."""
     words = motion.found.shown.alone.words
     found = []
@@ -689,7 +703,7 @@ def course_page(
         rect = left, top, left + wide - 24, top + high - 10
         marks += small_diagram(found, at, fine, each, rect)
     whole: list[Mark] = [
-        *framed(drawing, number, "diagrams", "–"),
+        *framed(drawing, number, words("sheet.document_diagrams"), "–"),
         *heading(found, drawing, words("sheet.courses")),
         Text(
             *(FIELD[0] + 3, FIELD[1] - 2.2, words("diagrams.crosses"), "caption", LETTERS),

@@ -27,6 +27,7 @@ from graphkin.documents.positions import (
 from graphkin.documents.positions_sheet import (
     FIELD,
     MANY,
+    document,
     framed,
     heading,
     placed,
@@ -69,7 +70,7 @@ def plan_page(found: PositionSet, kind: str, kL: float, number: str) -> Page:
     words = drawing.words
     name = words(NAMES[kind])
     whole: list[Mark] = [
-        *framed(drawing, number, kind, caption_scale(drawing)),
+        *framed(drawing, number, document(drawing, kind), caption_scale(drawing)),
         *heading(found, drawing, name),
         *caption(drawing, one=one),
         *marks,
@@ -355,7 +356,7 @@ def hodograph_page(found: PositionSet, kind: str, kL: float, number: str) -> Pag
         marks += hodograph(drawing, field, point, curve, tips[point])
     name = words("sheet.hodographs")
     whole: list[Mark] = [
-        *framed(drawing, number, "hodographs", caption_scale(drawing)),
+        *framed(drawing, number, words("sheet.hodographs"), caption_scale(drawing)),
         *heading(found, drawing, name),
         *hodograph_caption(drawing),
         *marks,

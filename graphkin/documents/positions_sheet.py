@@ -95,7 +95,9 @@ def positions_page(found: PositionSet, number: str) -> Page:
     letters = [*placed(board, [], board.labels)]
     numerals = [*placed(board, letters, numbers)]
     marks: list[Mark] = [
-        *framed(drawing, number, "mechanism", words.decimal(drawing.scales.words)),
+        *framed(
+            drawing, number, document(drawing, "mechanism"), words.decimal(drawing.scales.words)
+        ),
         *heading(found, drawing, words("sheet.positions")),
         *caption(found, drawing),
         *board.marks,
@@ -109,11 +111,15 @@ def positions_page(found: PositionSet, number: str) -> Page:
     return Page(420, 297, tuple(marks), title, words.language)
 
 
-def framed(drawing: Drawing, number: str, kind: str, scale: str) -> Sequence[Mark]:
-    """The frame with the title block of a sheet of positions."""
+def framed(drawing: Drawing, number: str, document: str, scale: str) -> Sequence[Mark]:
+    """The frame of a sheet, with the type of document and the scale in its title block."""
     block = title_block(drawing, "positions", number)
-    said = drawing.words(f"sheet.document_{kind}", view=drawing.words("sheet.positions_view"))
-    return sheet_frame(replace(block, document_type=said, scale=scale))
+    return sheet_frame(replace(block, document_type=document, scale=scale))
+
+
+def document(drawing: Drawing, kind: str) -> str:
+    """The type of document of a sheet of positions: the mechanism, or a kind of plan."""
+    return drawing.words(f"sheet.document_{kind}", view=drawing.words("sheet.positions_view"))
 
 
 def heading(found: PositionSet, drawing: Drawing, name: str) -> list[Mark]:

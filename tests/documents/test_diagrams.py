@@ -11,7 +11,7 @@ import pytest
 from msgspec.structs import replace
 
 from graphkin.construction.diagram_steps import CHORD, differentiated, integrated, smooth
-from graphkin.documents.diagram_numbers import Motion, motion_of
+from graphkin.documents.diagram_numbers import FollowerMotion, motion_of
 from graphkin.documents.diagrams_sheet import (
     Axes,
     axes_for,
@@ -156,13 +156,13 @@ def test_a_driver_that_runs_backwards_has_its_pole_behind_the_diagram():
 # --- what it costs --------------------------------------------------------------------------------
 
 
-def motion(mechanism: Mechanism, count: int) -> Motion:
+def motion(mechanism: Mechanism, count: int) -> FollowerMotion:
     found = motion_of(positions_of(posed(mechanism, count=count), words("en")))
     assert found is not None
     return found
 
 
-def costs(moved: Motion):
+def costs(moved: FollowerMotion):
     where = moved.place(moved.at)
     axes = axes_for(moved, 0.0, 60.0, where, np.inf)
     points = [axes.place(float(u), float(v)) for u, v in zip(moved.at, where, strict=True)]
