@@ -4,7 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Collection
 
-from graphkin.documents.sheet_documents import MOTION_VIEWS, language_of
+from graphkin.documents.sheet_documents import language_of
+from graphkin.documents.view_names import PAPER_VIEWS
 from graphkin.drawing.style import Ink
 from graphkin.mechanism import Mechanism
 from graphkin.scene import scene_files
@@ -66,7 +67,7 @@ def hand_out_page(
     receives notes on what is asked for but cannot be read off. The task of a lab contains the form
     for answers. Raises as hand_out does, and SceneError for views that are for paper.
     """
-    if view == "overlay" or view in MOTION_VIEWS:
+    if view in PAPER_VIEWS:
         found = (
             message("is laid over a drawing on paper, and html is a page for a screen")
             if view == "overlay"

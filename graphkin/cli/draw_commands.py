@@ -24,6 +24,7 @@ from graphkin.cli.options import (
     scene_argument,
     tell,
 )
+from graphkin.documents.view_names import VIEWS
 
 if TYPE_CHECKING:
     from graphkin.drawing.scale import Scales
@@ -37,7 +38,7 @@ if TYPE_CHECKING:
 @output_option
 @click.option(
     "--view",
-    type=click.Choice(["key", "task", "steps", "overlay", "positions", "diagrams"]),
+    type=click.Choice(VIEWS),
     default="key",
     show_default=True,
     help="key: everything drawn; task: what the student is given; steps: pages that grow sentence"

@@ -19,6 +19,7 @@ from graphkin.diagnosis.assembly_failure import beside_dead_point
 from graphkin.documents.detail import with_detail
 from graphkin.documents.scaling import drawing, scales, sheet_motion, targets_of
 from graphkin.documents.sheet import boards, sheet_heading, title_of
+from graphkin.documents.view_names import MOTION_VIEWS
 from graphkin.drawing.field import A3_AREA, Rect
 from graphkin.drawing.frame import fitting
 from graphkin.drawing.marks import LineMark, Mark, Page, Text
@@ -31,8 +32,6 @@ from graphkin.scene.model import Scene
 from graphkin.text import LANGUAGES, Words, words
 from graphkin.text.errors import Problem, SceneError, Sought, WitnessError, either, message
 
-MOTION_VIEWS = ("positions", "diagrams")
-"""The views of a whole motion."""
 CALCULATED = ("key", "task")
 """The views that come with calculation pages."""
 

@@ -1,0 +1,8 @@
+"""The views of sheets, by the names that commands and pages use."""
+
+MOTION_VIEWS = ("positions", "diagrams")
+"""The views of a whole motion."""
+PAPER_VIEWS = ("overlay", *MOTION_VIEWS)
+"""The views without a page for a screen."""
+VIEWS = ("key", "task", "steps", *PAPER_VIEWS)
+"""All views of a mechanism's sheets."""
