@@ -20,6 +20,8 @@ FINE = 720
 """Places of an exact course."""
 STEP = 1e-3
 """Step of differences for the derivatives in a forecast, as a share of the interval."""
+AGREE = 0.02
+"""Share of a third derivative within which both of its differences must agree."""
 FEWEST = 4
 """The fewest positions with plans from which a diagram is differentiated."""
 CALM = 6.0
@@ -91,6 +93,31 @@ class FollowerMotion(Struct, frozen=True, dict=True):
             (after - before) / (2 * wide),
             (after - 2 * second + before) / wide**2,
         ]
+
+    def third(self, at: Reals) -> Reals:
+        """The third derivative of the place by time, in SI, NaN where the acceleration jumps.
+
+        It is the difference of s″, and must agree with the second difference of s′.
+        """
+        away = STEP * self.step / self.found.cycle.sweep.per_unit
+        before, here, after = (
+            self.columns(at + side * away, self.targets, geometric=True) for side in (-1, 0, 1)
+        )
+        wide = STEP * self.step
+        by_second = (after[1] - before[1]) / (2 * wide)
+        by_first = (after[0] - 2 * here[0] + before[0]) / wide**2
+        size = np.nanmax(np.abs(by_second), initial=0.0)
+        agree = np.abs(by_second - by_first) <= AGREE * np.maximum(np.abs(by_second), AGREE * size)
+        own = np.where(agree, by_second, np.nan)
+        return np.asarray(own * self.pace**3 + 3 * self.pace * self.push * here[1])
+
+    def advantage(self, at: Reals) -> Reals:
+        """The mechanical advantage: the rate of the driver over that of the follower, without loss.
+
+        For a block and a turning driver it is the force in N that 1 N·m moves.
+        """
+        with np.errstate(divide="ignore"):
+            return np.asarray(np.abs(self.pace / self.rates(at)[0]))
 
     @property
     def targets(self) -> tuple[Target, Target]:

@@ -69,6 +69,8 @@ CROSS = 1.1
 """Half the size of a cross that shows a value of a plan, in mm."""
 POINT = 0.7
 """Radius of a point in mm."""
+GROWN = 4.0
+"""The largest mechanical advantage that is drawn, in medians."""
 TICKS = 6
 """The most numbers along an axis of ordinates."""
 
@@ -658,6 +660,25 @@ class Asked(Struct, frozen=True):
     kind: str
     at_positions: Reals
     fine: Reals
+    most: float | None = None
+
+
+def of_follower(motion: FollowerMotion, at: Reals, fine: Reals) -> list[Asked]:
+    """The jerk of the follower, and its mechanical advantage, which grows at dead points."""
+    k, driver = escape(motion.mover.name), motion.found.cycle.sweep.driver
+    letter = "ε" if motion.is_link else "a"
+    unit = "rad/s³" if motion.is_link else "m/s³"
+    jerk = f"d*{letter}*_{{{k}}}/d*t*"
+    nothing = np.full(len(at), np.nan)
+    made = [Asked(jerk, unit, f"jerk {k}", "acceleration", nothing, motion.third(fine))]
+    if driver is not None:
+        rate = "ω" if driver.kind == "turn" else "v"
+        ratio = f"|*{rate}*_{{{escape(driver.link)}}}/*{motion.kinds[1]}*_{{{k}}}|"
+        per = {(False, "ω"): "1/m", (True, "v"): "m"}.get((motion.is_link, rate), "1")
+        values = motion.advantage(at), motion.advantage(fine)
+        most = GROWN * float(np.nanmedian(values[1]))
+        made.append(Asked(ratio, per, f"advantage {k}", "velocity", *values, most))
+    return made
 
 
 def asked_courses(found: PositionSet, at: Reals, fine: Reals) -> list[Asked]:
@@ -671,18 +692,19 @@ def asked_courses(found: PositionSet, at: Reals, fine: Reals) -> list[Asked]:
         quantity = BY_TARGET[each.targets[0][0]]
         letter = symbol(f"{quantity.letter}_{lettered(each.of)}")
         size = quantity.sort == "vector"
-        values = [each.value(columns) for columns in both]
+        here, between = (each.value(columns) for columns in both)
         text = f"|{letter}|" if size else letter
         name = f"{quantity.letter}_{each.of}"
-        made.append(Asked(text, each.unit, name, quantity.kind, *values))
+        made.append(Asked(text, each.unit, name, quantity.kind, here, between))
     return made
 
 
-def course_pages(found: PositionSet) -> list[Callable[[str], Page]]:
+def course_pages(found: PositionSet, motion: FollowerMotion | None) -> list[Callable[[str], Page]]:
     """The sheets of all that the scene asks for, each waiting for its number."""
     at = found.planned_places
     fine = np.linspace(at[0], at[-1], FINE + 1)
     every = asked_courses(found, at, fine)
+    every += of_follower(motion, at, fine) if motion else []
     per = COLUMNS * ROWS
     parts = [every[i : i + per] for i in range(0, len(every), per)]
     return [partial(course_page, found, at, fine, part) for part in parts]
@@ -711,11 +733,17 @@ def course_page(
         ),
         *marks,
         LineMark(FIELD[0], FIELD[3], FIELD[2], FIELD[3], "panel"),
-        *places_table(found, found.numbered, []),
+        *places_table(found, found.numbered, advantage_said(words, some)),
         *proof(found),
     ]
     title = f"{words('sheet.courses')} – {title_of(drawing)}"
     return Page(420, 297, tuple(whole), title, words.language)
+
+
+def advantage_said(words: Words, some: Sequence[Asked]) -> list[str]:
+    """The sentence on the mechanical advantage, if a sheet shows it."""
+    shown = [each for each in some if each.most is not None]
+    return [words("diagrams.advantage", ratio=each.symbol) for each in shown]
 
 
 def small_diagram(
@@ -723,17 +751,18 @@ def small_diagram(
 ) -> Iterator[Mark]:
     """One diagram: axes, the exact course, and the values of the plans."""
     left, top, right, low = rect
-    known = np.clip(each.fine[np.isfinite(each.fine)], *limits(found, each.fine))
-    least, most = min(float(known.min()), 0.0), max(float(known.max()), 0.0)
-    high = FILLED * (low - top) / (most - least or 1.0)
+    most = each.most or calm(found, each.fine)
+    known = np.clip(each.fine[np.isfinite(each.fine)], -most, most)
+    least, highest = min(float(known.min()), 0.0), max(float(known.max()), 0.0)
+    high = FILLED * (low - top) / (highest - least or 1.0)
     wide = (right - left) / float(at[-1] - at[0])
-    zero = (top + low) / 2 + (most + least) / 2 * high
+    zero = (top + low) / 2 + (highest + least) / 2 * high
     axes = Axes(rect, zero, wide, high, float(at[0]))
     yield LineMark(left, zero, right + ARROW, zero, "dimension", f"axis {each.name}")
     yield head((left, zero), (right + ARROW, zero), "dimension", f"axis {each.name}")
     yield LineMark(left, low, left, top - ARROW / 2, "dimension", f"axis {each.name}")
     yield head((left, low), (left, top - ARROW / 2), "dimension", f"axis {each.name}")
-    unit = each.unit.replace("²", "^2")
+    unit = each.unit.replace("²", "^2").replace("³", "^3")
     yield Text(left + 1.8, top - 0.6, f"{each.symbol}, {unit}", "caption", LETTERS, name=each.name)
     yield from numbers_along(found.shown.alone.words, axes, each.name, 1.0, 4)
     both = zip(fine, each.fine, strict=True)
@@ -741,7 +770,7 @@ def small_diagram(
     names = position_names(found, at)
     for name, u, value in zip(names, at, each.at_positions, strict=True):
         x, y = axes.on_page(axes.place(float(u), float(value)))
-        if top <= y <= low:
+        if isfinite(y) and top <= y <= low:
             for way in (1, -1):
                 ends = (x - CROSS, y - way * CROSS, x + CROSS, y + way * CROSS)
                 yield LineMark(*ends, f"centre {each.kind}", at_position(each.name, name))
@@ -749,9 +778,3 @@ def small_diagram(
         if len(names) <= MANY or int(name) % 2 == 0:
             number = Text(x, zero + 3.2, name, "caption", SMALL, "middle", f"position {name}")
             yield from cleared(number)
-
-
-def limits(found: PositionSet, values: Reals) -> tuple[float, float]:
-    """The values between which a diagram shows a course that may grow without bound."""
-    size = calm(found, values)
-    return -size, size

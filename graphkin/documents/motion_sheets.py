@@ -56,10 +56,11 @@ def diagram_sheets(found: PositionSet) -> Iterator[Made]:
         integration_page,
     )
 
-    if motion := motion_of(found):
+    motion = motion_of(found)
+    if motion is not None:
         yield "differentiation", partial(differentiation_page, motion)
         yield "integration", partial(integration_page, motion)
-    for page in course_pages(found):
+    for page in course_pages(found, motion):
         yield "courses", page
     kL = at_scale(found).alone.scales.kL
     for kind in SHEETS:

@@ -55,7 +55,7 @@ from graphkin.drawing.richtext import flowed
 from graphkin.drawing.scale import Extent, Scales, preferred_scales
 from graphkin.drawing.shapes import Array, struck
 from graphkin.drawing.symbol_markup import escape, symbol
-from graphkin.drawing.symbols import PIN, across, distance, head
+from graphkin.drawing.symbols import PIN, across, distance, head, toward
 from graphkin.motion.follower_limits import Follower
 from graphkin.scene.model import FRAME
 from graphkin.text.errors import PageError
@@ -196,7 +196,10 @@ def drawn(found: PositionSet, strong: Position, field: Field) -> tuple[FieldCont
     for each in found.dead:
         board.marks += outlines(each, field, DEAD)
     draw_strong(board, found, strong, field)
-    numbers = number_pins(board, found, strong, field)
+    numbers = [
+        *number_pins(board, found, strong, field),
+        *turn_followers_back(board, found, strong, field),
+    ]
     draw_stroke(board, found, field)
     return board, numbers
 
@@ -323,6 +326,30 @@ def number_pins(
             away = outward(found, path, at, each)
             numbers.append(Label(text, "", at, height, name, away=away, radius=radius))
     return numbers
+
+
+def turn_followers_back(
+    board: FieldContent, found: PositionSet, strong: Position, field: Field
+) -> Iterator[Label]:
+    """Draw the tips of cam followers on the cam as it is drawn; the labels with their numbers.
+
+    The cam is held, and the frame turns back with the follower: as cams are drawn.
+    """
+    for follower, cam in found.cycle.scene.cams.items():
+        own = strong.alone.standing.axis(cam.on)
+        if cam.slides or cam.carrier != FRAME or own is None:
+            continue
+        for each in found.every:
+            axis, place = each.alone.standing.axis(cam.on), each.alone.positions.get(cam.point)
+            pivot = each.alone.positions.get(cam.pivot)
+            if axis is None or place is None or pivot is None or each.name == strong.name:
+                continue
+            at, name = field(pivot + (place - pivot) * own / axis), f"reversed {follower}"
+            name = at_position(name, each.name)
+            board.marks.append(CircleMark(*at, FINE_DOT, "pin", name))
+            board.marks.append(LineMark(*field(pivot), *at, "construction", name))
+            away = toward(field(pivot), at)[1]
+            yield Label(each.name, "", at, 1.8, name, away=away, radius=FINE_DOT)
 
 
 def touching(pins: Sequence[tuple[Position, XY]], least: float) -> list[list[tuple[Position, XY]]]:
@@ -520,10 +547,17 @@ def places_table(
         yield Text(LEFT, low + 4.2 * i, line, "caption", 2.5, name="legend")
 
 
+def mark_on_cam(found: PositionSet) -> Iterator[bool]:
+    """For each cam, whether its follower is drawn turned back on it."""
+    return (not cam.slides and cam.carrier == FRAME for cam in found.cycle.scene.cams.values())
+
+
 def legend(found: PositionSet, *, whole: bool) -> list[str]:
     """What the kinds of lines and the letters of the sheet mean; not ``whole`` lacks numbers."""
     words, travel = found.shown.alone.words, found.follower
     said: list[str] = [words("positions.paths")]
+    if any(mark_on_cam(found)):
+        said.append(words("positions.reversed"))
     dead = [*(each.name for each in found.dead), *(e.also for e in found.numbered if e.also)]
     if dead:
         said.append(words("positions.dead", list=words("list_mark").join(sorted(dead))))

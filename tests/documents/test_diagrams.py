@@ -210,6 +210,35 @@ def test_an_accelerating_driver_is_compared_with_its_own_share_left_out():
     assert moved.rates(moved.at)[1] == pytest.approx(9 * second + 5 * first, rel=1e-9, abs=1e-9)
 
 
+# --- jerk and mechanical advantage ----------------------------------------------------------------
+
+
+def test_the_jerk_of_a_cam_is_that_of_its_law():
+    """A cycloidal rise of 20 mm to 120°: ω³·h·4π²/β³·cos(2πθ/β); in the dwell after it, none."""
+    moved = motion(mechanism_named("cam-roller"), 12)
+    pace, beta = 300 * pi / 30, radians(120)
+    at = np.array([15.0, 55.0, 100.0])
+    law = pace**3 * 0.02 * 4 * pi**2 / beta**3 * np.cos(2 * pi * np.radians(at) / beta)
+    assert moved.third(at) == pytest.approx(law, rel=1e-4)
+    assert moved.third(np.array([150.0])) == pytest.approx(0.0, abs=1e-3 * law.max())
+
+
+def test_no_jerk_is_told_where_the_acceleration_jumps():
+    """A harmonic rise begins with a jump of the acceleration."""
+    moved = motion(mechanism_named("cam-rocker"), 12)
+    assert np.isnan(moved.third(np.array([0.0, 140.0]))).all()
+    assert np.isfinite(moved.third(np.array([70.0, 170.0]))).all()
+
+
+def test_the_mechanical_advantage_balances_the_power():
+    """Of a slider-crank: torque ω equals force v, with v by the closed form."""
+    moved = motion(slider_crank(2, 5, 0, speed=3), 12)
+    at = np.array([40.0, 100.0])
+    phi = np.radians(at)
+    v = -2 * np.sin(phi) - 4 * np.sin(phi) * np.cos(phi) / np.sqrt(25 - 4 * np.sin(phi) ** 2)
+    assert moved.advantage(at) == pytest.approx(np.abs(1 / v), rel=1e-9)
+
+
 # --- all kinds of mechanisms ----------------------------------------------------------------------
 
 

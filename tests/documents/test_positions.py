@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from cmath import rect
 from collections.abc import Iterator
 from functools import cache
 from math import cos, hypot, radians, sin, sqrt
@@ -20,7 +21,7 @@ from tests.documents.sheet_tools import mechanism_named
 from tests.mechanisms import mechanism_of
 from tests.motion.linkages import slider_crank
 
-DRAWN = ("crank-rocker", "shaper", "cam-roller", "gears-planet", "geared-five-bar", "five-bar")
+DRAWN = ("crank-rocker", "shaper", "cam-roller", "cam-lever", "gears-planet", "five-bar")
 
 
 def posed(mechanism: Mechanism, **ways: object) -> Mechanism:
@@ -170,6 +171,22 @@ def test_a_sheet_stays_within_its_frame_in_every_language(name: str, language: s
     for page in pages(mechanism_named(name), language).values():
         page.check()
         assert page.lang == language
+
+
+def test_followers_are_turned_back_on_the_cam_by_its_angle():
+    at = circles(sheets("cam-roller")["mechanism"])
+    own = at["B"] - at["O"]
+    for i in range(1, 12):
+        tip, back = at[f"B_{i}"] - at["O"], at[f"reversed 2_{i}"] - at["O"]
+        assert abs(back) == pytest.approx(abs(tip), abs=1e-6)
+        assert back / tip == pytest.approx(rect(1, -radians(30 * i)), abs=1e-6)
+    assert abs(own) > 0
+
+
+def test_the_stroke_of_a_cam_is_that_of_its_follower():
+    """Not of the block of its equivalent linkage."""
+    texts = list(said(sheets("cam-lever")["mechanism"]))
+    assert any(text.startswith("*ψ* = 16.00°") for text in texts)
 
 
 def test_every_mark_of_a_position_has_a_name_and_a_class():
