@@ -138,6 +138,12 @@ def sheet(
     help="Count these positions from the scene's own one, or from a dead point: of the driver, or"
     " of the last link or block that reverses.",
 )
+@click.option(
+    "--advantage",
+    is_flag=True,
+    help="Also tell the extremes of every follower's speed over the driver's: 1 over its mechanical"
+    " advantage without friction.",
+)
 @language_option
 @formats_option(
     "csv,xlsx,svg,png,gif,html",
@@ -157,6 +163,7 @@ def cycle(
     high: float | None,
     positions: int | None,
     begin: Start,
+    advantage: bool,
     lang: str | None,
     formats: str,
     force: bool,
@@ -178,6 +185,7 @@ def cycle(
       graphkin cycle mine.toml -o cycles --steps 720 --format png
       graphkin cycle pump --set n=7 -o cycles --format gif,html
       graphkin cycle offset-slider-crank -o cycles --positions 12 --positions-from dead --format csv
+      graphkin cycle offset-slider-crank -o cycles --advantage --format csv
     """
     kinds = option_words("--format", formats, ("csv", "xlsx", "svg", "png", "gif", "html"))
     from graphkin.cli.report.cycle_report import (
@@ -210,7 +218,7 @@ def cycle(
     say("checking every row")
     leaps = jumps(found)
     say("looking for extremes")
-    reached = () if leaps else all_extremes(found)
+    reached = () if leaps else all_extremes(found, ratios=advantage)
     few = equal_positions(found, positions, begin) if positions else None
     lines = [*cycle_lines(found, leaps, reached)]
     say("")
