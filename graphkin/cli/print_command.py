@@ -22,7 +22,7 @@ from graphkin.cli.options import (
     say,
     say_aside,
 )
-from graphkin.documents.view_names import MOTION_VIEWS, VIEWS
+from graphkin.documents.view_names import MOTION_VIEWS, PRINTED_VIEWS
 
 if TYPE_CHECKING:
     from graphkin.classroom.printing.print_run import Outcome, Tell
@@ -100,7 +100,7 @@ def print_sheets(
     from graphkin.classroom.printing.print_run import Means, PrintRequest, print_class
     from graphkin.classroom.printing.workers import CLUSTER, cores
 
-    chosen = option_words("--view", views, VIEWS)
+    chosen = option_words("--view", views, PRINTED_VIEWS)
     kinds = option_words("--format", formats, ("pdf", "svg", "html"))
     if "html" in kinds and "overlay" in chosen:
         raise click.UsageError("--view overlay is laid on paper: not with --format html", context)
