@@ -220,18 +220,20 @@ class Mechanism(Struct, frozen=True, dict=True):
         by_hand: bool = False,
         seconds: float | None = None,
         kind: Kind = FLOAT,
+        aside: bool = True,
     ) -> Trace:
         """Every value that the targets need (all targets if None), for this one scene.
 
         ``by_hand`` runs the drawn steps too, with velocities drawn on the mechanism at the scale
-        ``seconds`` = kL/kv. ``kind`` is the kind of numbers (see kinds). Raises ClosureError for a
-        step that cannot be drawn.
+        ``seconds`` = kL/kv. Auxiliary plans that nobody sees (not ``aside``) have any trial rates.
+        ``kind`` is the kind of numbers (see kinds). Raises ClosureError for a step that cannot be
+        drawn.
         """
         program = self.program
         wanted = program.answers if targets is None else tuple(targets)
         needed = self.steps_of(wanted, by_hand)
         overrides = {} if seconds is None or program.seconds is None else {program.seconds: seconds}
-        overrides |= self.trial_rates if by_hand else {}
+        overrides |= self.trial_rates if by_hand and aside else {}
         try:
             if kind is FLOAT:
                 trace = self.in_doubles(needed, overrides, by_hand)

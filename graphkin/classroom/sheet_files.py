@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Collection
 
 from graphkin.documents.sheet_documents import language_of
+from graphkin.documents.view_names import PAPER_VIEWS
 from graphkin.drawing.style import Ink
 from graphkin.mechanism import Mechanism
 from graphkin.scene import scene_files
@@ -67,13 +68,18 @@ def hand_out_page(
 
     ``name`` is the name of its lab or file, ``stem`` begins the names of its files. ``tell``
     receives notes on what is asked for but cannot be read off. The task of a lab contains the form
-    for answers. Raises as hand_out does, and SceneError for an overlay, which is for paper.
+    for answers. Raises as hand_out does, and SceneError for views that are for paper.
     """
-    if view == "overlay":
+    if view in PAPER_VIEWS:
+        found = (
+            message("is laid over a drawing on paper, and html is a page for a screen")
+            if view == "overlay"
+            else message("is drawn on paper, and html is a page for a screen")
+        )
         raise SceneError(
             Problem(
-                "--view overlay",
-                message("is laid over a drawing on paper, and html is a page for a screen"),
+                f"--view {view}",
+                found,
                 message("--format svg, pdf or dxf"),
                 message("leave html out of --format, or write another --view; nothing is written"),
             )

@@ -24,6 +24,7 @@ from graphkin.cli.options import (
     scene_argument,
     tell,
 )
+from graphkin.documents.view_names import VIEWS
 
 if TYPE_CHECKING:
     from graphkin.drawing.scale import Scales
@@ -37,11 +38,13 @@ if TYPE_CHECKING:
 @output_option
 @click.option(
     "--view",
-    type=click.Choice(["key", "task", "steps", "overlay"]),
+    type=click.Choice(VIEWS),
     default="key",
     show_default=True,
     help="key: everything drawn; task: what the student is given; steps: pages that grow sentence"
-    " by sentence; overlay: the key alone, to lay over a drawing.",
+    " by sentence; overlay: the key alone, to lay over a drawing; positions: the mechanism and its"
+    " plans in all positions of [positions]; diagrams: their courses, differentiated and integrated"
+    " by chords, and hodographs.",
 )
 @language_option
 @ink_option
@@ -70,6 +73,9 @@ def sheet(
     settings: pump-n7-velocity-key.pdf. Existing files are kept unless you give --force. The force
     sheet is drawn if [ask] has reactions or balance.
 
+    With --view positions, draws the whole motion: pump-n7-mechanism-positions.pdf has the mechanism
+    in twelve positions, or as [positions] says, and two more files have the plans of all of them.
+
     With --format html, writes one page for a browser, pump-n7-key.html, with both plans, every step
     and the results. The page needs no network. It does not show forces.
 
@@ -78,6 +84,7 @@ def sheet(
       graphkin sheet pump --set n=7 -o sheets
       graphkin sheet pump --set n=7 -o sheets --format html
       graphkin sheet pump --set n=7 -o sheets --view task --lang en --format pdf
+      graphkin sheet pump --set n=7 -o sheets --view positions
     """
     kinds = option_words("--format", formats, ("svg", "pdf", "html", "dxf", "pmks"))
     from graphkin.classroom.sheet_files import sheet_files
@@ -132,6 +139,12 @@ def sheet(
     help="Count these positions from the scene's own one, or from a dead point: of the driver, or"
     " of the last link or block that reverses.",
 )
+@click.option(
+    "--advantage",
+    is_flag=True,
+    help="Also tell the extremes of every follower's speed over the driver's: 1 over its mechanical"
+    " advantage without friction.",
+)
 @language_option
 @formats_option(
     "csv,xlsx,svg,png,gif,html",
@@ -151,6 +164,7 @@ def cycle(
     high: float | None,
     positions: int | None,
     begin: Start,
+    advantage: bool,
     lang: str | None,
     formats: str,
     force: bool,
@@ -172,6 +186,7 @@ def cycle(
       graphkin cycle mine.toml -o cycles --steps 720 --format png
       graphkin cycle pump --set n=7 -o cycles --format gif,html
       graphkin cycle offset-slider-crank -o cycles --positions 12 --positions-from dead --format csv
+      graphkin cycle offset-slider-crank -o cycles --advantage --format csv
     """
     kinds = option_words("--format", formats, ("csv", "xlsx", "svg", "png", "gif", "html"))
     from graphkin.cli.report.cycle_report import (
@@ -204,7 +219,7 @@ def cycle(
     say("checking every row")
     leaps = jumps(found)
     say("looking for extremes")
-    reached = () if leaps else all_extremes(found)
+    reached = () if leaps else all_extremes(found, ratios=advantage)
     few = equal_positions(found, positions, begin) if positions else None
     lines = [*cycle_lines(found, leaps, reached)]
     say("")

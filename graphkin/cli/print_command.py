@@ -23,6 +23,7 @@ from graphkin.cli.options import (
     say_aside,
 )
 from graphkin.cli.studio_command import refuse_without
+from graphkin.documents.view_names import MOTION_VIEWS, PRINTED_VIEWS
 
 if TYPE_CHECKING:
     from graphkin.classroom.printing.print_run import Outcome, Tell
@@ -38,7 +39,7 @@ TENTHS = 10
 @click.option(
     "--view",
     "views",
-    metavar="task,key,overlay,steps",
+    metavar="task,key,overlay,steps,positions,diagrams",
     default="task,key",
     show_default=True,
     help="Views to print for each student; a task includes its A4 form.",
@@ -98,15 +99,16 @@ def print_sheets(
     """
     from graphkin.classroom.printing.edition import keep_language, read_edition
     from graphkin.classroom.printing.print_run import Means, PrintRequest, print_class
-    from graphkin.classroom.printing.print_work import VIEWS
     from graphkin.classroom.printing.workers import CLUSTER, cores
 
-    chosen = option_words("--view", views, VIEWS)
+    chosen = option_words("--view", views, PRINTED_VIEWS)
     kinds = option_words("--format", formats, ("pdf", "svg", "html"))
     if "pdf" in kinds:
         refuse_without("print", "class", [("pikepdf", "pikepdf")])
     if "html" in kinds and "overlay" in chosen:
         raise click.UsageError("--view overlay is laid on paper: not with --format html", context)
+    if "html" in kinds and (paper := [view for view in chosen if view in MOTION_VIEWS]):
+        raise click.UsageError(f"--view {paper[0]} is for paper: not with --format html", context)
     if cluster and not cluster.startswith(CLUSTER):
         raise click.UsageError(f"--engine {cluster}: write {CLUSTER}HOST:PORT", context)
     wishes = PrintRequest(chosen, kinds, lang, ink, force)

@@ -507,17 +507,21 @@ def spare_above(drawing: Drawing) -> float:
     return max(min(spare_height(drawing), min(drawn, default=AREA[3]) - CUT - AREA[1]), 0.0)
 
 
-def title_line(drawing: Drawing, remark: str = "") -> tuple[list[Mark], float, float]:
+def title_line(
+    drawing: Drawing, remark: str = "", named: str = ""
+) -> tuple[list[Mark], float, float]:
     """The sheet's title, the bar that checks the print, and the place where the data may begin.
 
     Velocity and acceleration sheets have titles of one height with equally many lines. A title has
     one line, or two of small lettering that stay clear of the frame and the data. A continuation
-    sheet, with a ``remark``, has room for two lines of larger lettering.
+    sheet, with a ``remark``, has room for two lines of larger lettering. A sheet may be ``named``
+    otherwise than after its plan.
     """
     words = drawing.words
     left, top = AREA[0] + 2, A3_AREA[1]
     kinds = dict.fromkeys((name_of_sheet(drawing), "velocity", "acceleration"))
-    name, *others = (f"{words('sheet.' + k)} – {title_of(drawing)}{remark}" for k in kinds)
+    called = [named] if named else [words(f"sheet.{kind}") for kind in kinds]
+    name, *others = (f"{each} – {title_of(drawing)}{remark}" for each in called)
     lines, height, rows = [escape(name)], 5.0, 1
     longest = max((name, *others), key=lambda each: extent(escape(each), height)[0])
     if extent(escape(longest), height)[0] > TITLE:

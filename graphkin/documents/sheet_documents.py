@@ -19,6 +19,7 @@ from graphkin.diagnosis.assembly_failure import beside_dead_point
 from graphkin.documents.detail import with_detail
 from graphkin.documents.scaling import drawing, scales, sheet_motion, targets_of
 from graphkin.documents.sheet import boards, sheet_heading, title_of
+from graphkin.documents.view_names import MOTION_VIEWS
 from graphkin.drawing.field import A3_AREA, Rect
 from graphkin.drawing.frame import fitting
 from graphkin.drawing.marks import LineMark, Mark, Page, Text
@@ -57,6 +58,10 @@ def hand_out(
     from graphkin.documents.calculation import calculation
 
     spoken, mechanism = language_of(mechanism, language), mechanism.spoken(language)
+    if view in MOTION_VIEWS:
+        from graphkin.documents.motion_sheets import motion_sheets
+
+        return [SheetDocument(*part) for part in motion_sheets(mechanism, view, spoken)]
     if mechanism.scene.sheet.sheets != len(SHEETS):
         raise SceneError(
             Problem(

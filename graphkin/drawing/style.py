@@ -148,6 +148,8 @@ STYLES: dict[str, Style] = {
     "angle": Style(0.25),
     "sense": Style(0.35, NEXT),
     "locus": Style(0.18, GREY, DASHED),
+    "weak-link": Style(0.25, BODY, round=True),
+    "dead-link": Style(0.35, BODY, DASHED, round=True),
     "trajectory": Style(0.25, GREY, DOUBLE_CHAIN),
     "centre-line": Style(0.25, GREY, CHAIN),
     # construction

@@ -21,24 +21,36 @@ def equal_positions(cycle: Cycle, count: int, start: Start = "scene") -> Cycle:
     """The cycle at ``count`` equal steps of the driver in the range of the scene.
 
     A driver that turns fully takes ``count`` positions. In a range, only positions inside it have a
-    row. ``dead`` starts at the dead point that begins the range, or where the last follower that
-    reverses has its low limit. Raises SceneError if there is neither.
+    row. Raises SceneError as ``equal_places`` does.
+    """
+    return cycle.along(equal_places(cycle, count, start))
+
+
+def equal_places(
+    cycle: Cycle, count: int, start: Start | float, place: str = "--positions-from"
+) -> Reals:
+    """The places u (N,) of ``count`` equal steps in the range of the scene, with its ends.
+
+    ``start`` may be a u itself. ``dead`` starts at the dead point that begins the range, or where
+    the last follower that reverses has its low limit. Raises SceneError, about ``place``, if there
+    is neither.
     """
     low, high = cycle.ranges[0]
     whole = cycle.path.whole and cycle.path.returns
     step = (cycle.path.period if whole else high - low) / count
-    first = cycle.sweep.stands if start == "scene" else dead_point(cycle)
-    if whole:
-        at = first + step * np.arange(count)
+    if start == "dead":
+        first = dead_point(cycle, place)
     else:
-        first = cycle.path.found_at(first, low, high)
-        numbers = np.arange(-count, count + 1)
-        at = first + step * numbers
-        at = at[(at >= low - ALIKE * step) & (at <= high + ALIKE * step)]
-    return cycle.along(np.asarray(at, float))
+        first = cycle.sweep.stands if start == "scene" else float(start)
+    if whole:
+        return np.asarray(first + step * np.arange(count), float)
+    first = cycle.path.found_at(first, low, high)
+    numbers = np.arange(-count, count + 1)
+    at = first + step * numbers
+    return np.asarray(at[(at >= low - ALIKE * step) & (at <= high + ALIKE * step)], float)
 
 
-def dead_point(cycle: Cycle) -> float:
+def dead_point(cycle: Cycle, place: str) -> float:
     """The dead point that begins the range, or a dead point of the last follower that reverses."""
     low = cycle.path.ranges[0][0].low
     if low.kind == "dead":
@@ -47,7 +59,7 @@ def dead_point(cycle: Cycle) -> float:
     if not found:
         raise SceneError(
             Problem(
-                "--positions-from",
+                place,
                 message("neither the driver nor a follower has a dead point"),
                 message("the position of the scene"),
             )

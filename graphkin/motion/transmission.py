@@ -4,7 +4,7 @@ The limits are rules of thumb. R. L. Norton, Design of Machinery, keeps the tran
 40 degrees. His Cam Design and Manufacturing Handbook, figure 7-2, keeps the pressure angle below 30
 degrees for a translating follower, and below 35 degrees for one on a pivoted arm. The pressure
 angle of a block is the complement of the transmission angle between its rod and the normal of its
-guide.
+guide. The speed of a follower over the driver's is the reciprocal of the mechanical advantage.
 """
 
 from __future__ import annotations
@@ -17,7 +17,16 @@ from graphkin.construction.core.cam_profiles import CamProfile
 from graphkin.construction.core.program import Target
 from graphkin.motion.course import Reals
 from graphkin.motion.cycle import Cycle
-from graphkin.motion.extremes import SAME, Columns, Extremes, Measure, asked_measures, extremes
+from graphkin.motion.extremes import (
+    RATE_OF,
+    SAME,
+    Columns,
+    Extremes,
+    Measure,
+    asked_measures,
+    extremes,
+)
+from graphkin.motion.follower_limits import movers_of
 from graphkin.scene.model import FRAME, Scene
 from graphkin.structure.groups import Dyad
 from graphkin.structure.link_axes import guide_line
@@ -47,9 +56,48 @@ def angle_measures(cycle: Cycle) -> Iterator[Measure]:
         yield from of_cam(cycle.scene, follower, course.program.targets)
 
 
-def all_extremes(cycle: Cycle) -> tuple[tuple[Extremes, ...], ...]:
-    """The extremes of what the scene asks for and of these angles, range by range."""
+def ratio_measures(cycle: Cycle) -> Iterator[Measure]:
+    """The speed of every follower over that of a single driver, without friction and sign.
+
+    It is the reciprocal of the mechanical advantage: where it is largest, a force on the driver
+    moves the least load, and at a dead point of the follower it is zero.
+    """
+    driver = cycle.sweep.driver
+    pace = 0.0 if driver is None else abs(float(driver.speed.si(cycle.scene.values)))
+    if driver is None or not pace:
+        return
+    over = f"{'ω' if driver.kind == 'turn' else 'v'}_{driver.link}"
+    for mover in movers_of(cycle):
+        letter = "v" if mover.line is None else "ω"
+        unit = {("v", "turn"): "m", ("ω", "slide"): "1/m"}.get((letter, driver.kind), "")
+        label = f"|{letter}_{mover.name}/{over}|, 1 over the mechanical advantage"
+        rate = RATE_OF[mover.speed[0]], mover.name
+        yield speed_ratio(mover.name, label, unit, mover.speed, rate, pace)
+
+
+def speed_ratio(
+    name: str, label: str, unit: str, speed: Target, rate: Target, pace: float
+) -> Measure:
+    """The size of the speed of one follower over the speed (SI) of the driver."""
+
+    def value(columns: Columns) -> Reals:
+        return np.asarray(np.abs(columns[speed]) / pace)
+
+    def slope(columns: Columns) -> Reals:
+        return np.asarray(columns[speed] * columns[rate])
+
+    return Measure(
+        "speed ratio", name, label, unit, (speed,), value, (speed, rate), slope, np.square, 1.0
+    )
+
+
+def all_extremes(cycle: Cycle, *, ratios: bool = False) -> tuple[tuple[Extremes, ...], ...]:
+    """The extremes of what the scene asks for and of these angles, range by range.
+
+    With ``ratios``, also those of the followers' speeds over the driver's.
+    """
     measures = (*asked_measures(cycle), *angle_measures(cycle))
+    measures += tuple(ratio_measures(cycle)) if ratios else ()
     return tuple(extremes(cycle, measures, i) for i in range(len(cycle.path.ranges)))
 
 

@@ -536,6 +536,23 @@ class Sheet(Struct, frozen=True):
     plan: str = "images"
 
 
+class StatedPositions(Struct, frozen=True):
+    """The positions that a sheet of the whole motion shows.
+
+    ``count`` are the equal steps of the driver. ``start`` is "scene", "dead" for a dead point, or a
+    position of the driver. ``strong`` is the number of the position that is drawn strongly, None
+    for the one nearest to the scene's own. With ``one_pole`` all plans of a kind have one pole;
+    otherwise each has its own. ``accelerations`` are the numbers of the positions with an
+    acceleration plan, None for all.
+    """
+
+    count: int = 12
+    start: Literal["scene", "dead"] | Quantity = "scene"
+    strong: int | None = None
+    one_pole: bool = False
+    accelerations: tuple[int, ...] | None = None
+
+
 def quantities_within(part: object) -> Iterator[Quantity]:
     """The quantities that occur in a part of a scene, in order."""
     if isinstance(part, Quantity):
@@ -576,6 +593,7 @@ class Scene(Struct, frozen=True, dict=True):
     values: Mapping[str, Any] = field(default_factory=dict)
     source: str | None = None
     forces: Forces | None = None
+    positions: StatedPositions = field(default_factory=StatedPositions)
 
     @property
     def every_link(self) -> tuple[Link, ...]:

@@ -21,7 +21,13 @@ from graphkin.scene.phrases import FRAME_WORD, LONGEST_NAME, is_link_name, line_
 from graphkin.scene.placing import read_shape
 from graphkin.scene.quantity import LENGTHS, TURNS, Quantity, exact
 from graphkin.scene.read_joints import read_profiles, read_slides
-from graphkin.scene.requests import read_ask, read_branches, read_languages, read_sheet
+from graphkin.scene.requests import (
+    read_ask,
+    read_branches,
+    read_languages,
+    read_positions,
+    read_sheet,
+)
 from graphkin.scene.wheels import read_drums, read_tracks, read_wheels
 from graphkin.text import paths
 from graphkin.text.errors import (
@@ -210,6 +216,7 @@ def assembled(
         branches=read_branches(top.table("branches"), frame, links, findings),
         ask=Ask(),
         sheet=read_sheet(top.table("sheet"), measures),
+        positions=read_positions(top.table("positions"), drivers, measures),
         time=time,
         titles=read_languages(top.table("titles")),
         names=read_names(top.table("names"), findings),

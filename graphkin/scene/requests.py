@@ -6,12 +6,24 @@ from collections.abc import Iterator, Mapping
 from datetime import date, datetime
 from fractions import Fraction
 from itertools import combinations
+from typing import Literal
 
-from graphkin.scene.findings import Findings, Table, numbered, plain_text, shown
+from graphkin.scene.expression import TIME
+from graphkin.scene.findings import Findings, Table, nearest, numbered, plain_text, shown
 from graphkin.scene.known_names import THE_MECHANISM, known_link, known_point
 from graphkin.scene.link_points import ends_of
 from graphkin.scene.measures import Measures
-from graphkin.scene.model import FRAME, POINTS_ASKED, Ask, Branch, Link, Scene, Sheet
+from graphkin.scene.model import (
+    FRAME,
+    POINTS_ASKED,
+    Ask,
+    Branch,
+    Driver,
+    Link,
+    Scene,
+    Sheet,
+    StatedPositions,
+)
 from graphkin.scene.phrases import (
     CLOSURE,
     SIDES,
@@ -42,6 +54,10 @@ METHODS = ("triangles", KLEIN)
 PLANS = ("images", "kutzbach")
 RULES = ("largest", "lab")
 """How the sizes of plans are chosen."""
+FEWEST_STEPS, MOST_STEPS, USUAL_STEPS = 4, 48, 12
+"""The least, the largest and the usual number of positions."""
+POLES = ("own", "one")
+"""Whether each plan of a position has its own pole, or all have one."""
 MOST = 500
 
 
@@ -212,6 +228,60 @@ def read_sheet(table: Table, measures: Measures) -> Sheet:
     )
     table.finish()
     return sheet
+
+
+def read_positions(
+    table: Table, drivers: tuple[Driver, ...], measures: Measures
+) -> StatedPositions:
+    """The positions that a sheet of the whole motion shows."""
+    count = whole_number(table, table.at("count"), table.take("count"), FEWEST_STEPS, MOST_STEPS)
+    numbers = 0, MOST_STEPS
+    strong = whole_number(table, table.at("strong"), table.take("strong"), *numbers)
+    one_pole = table.choice("poles", POLES, POLES[0]) == POLES[1]
+    raw = table.take("accelerations")
+    accelerations: tuple[int, ...] | None = None
+    if isinstance(raw, list) and len(raw) <= MOST:
+        some = (
+            whole_number(table, f"{table.at('accelerations')}[{i}]", each, *numbers)
+            for i, each in enumerate(raw)
+        )
+        accelerations = tuple(sorted({each for each in some if each is not None}))
+    elif raw is not None and raw != ALL:
+        expected = message('numbers of positions, such as [0, 3], or "all"')
+        table.findings.add(table.at("accelerations"), shown(raw), expected)
+    start = read_start(table, drivers, measures)
+    table.finish()
+    return StatedPositions(count or USUAL_STEPS, start, strong, one_pole, accelerations)
+
+
+def whole_number(table: Table, place: str, raw: object, least: int, most: int) -> int | None:
+    """A whole number between two others; None, with a problem noted, for anything else."""
+    if raw is None:
+        return None
+    if isinstance(raw, int) and not isinstance(raw, bool) and least <= raw <= most:
+        return raw
+    expected = message("a whole number from {least} to {most}", least=least, most=most)
+    table.findings.add(place, shown(raw), expected)
+    return None
+
+
+def read_start(
+    table: Table, drivers: tuple[Driver, ...], measures: Measures
+) -> Literal["scene", "dead"] | Quantity:
+    """The place from which positions are counted: a word, or a position of the driver."""
+    raw, place = table.take("start"), table.at("start")
+    if raw is None or raw == "scene":
+        return "scene"
+    if raw == "dead":
+        return "dead"
+    if isinstance(raw, str) and (hint := nearest(raw, ("scene", "dead"))):
+        expected = message('"scene", "dead", or a position of the driver')
+        table.findings.add(place, shown(raw), expected, hint)
+        return "scene"
+    unit = "s"
+    if len(drivers) == 1 and TIME not in drivers[0].position.uses():
+        unit = measures.units["angle" if drivers[0].kind == "turn" else "length"]
+    return measures.number(place, raw, unit)
 
 
 def lenient_text(table: Table, key: str) -> str:

@@ -14,6 +14,7 @@ from urllib.parse import urlencode
 from msgspec import Struct
 
 from graphkin import __version__
+from graphkin.documents.view_names import VIEWS
 from graphkin.scene import scene_files
 from graphkin.studio.guard import FRAMED, Guard, new_token
 from graphkin.studio.local_pages import JSON, KINDS, answer, answering, new_application
@@ -38,6 +39,7 @@ def page(opened: Opened, words: Words) -> str:
         said=said[words.language],
         spoken=spoken,
         language=words.language,
+        views=VIEWS,
         version=__version__,
         name=opened.name,
         mark=opened.mark,

@@ -20,6 +20,7 @@ from graphkin.classroom.lab.new_lab import START, rules_for
 from graphkin.classroom.lab.rules import exact_text
 from graphkin.classroom.sheet_files import hand_out_page, sheet_files
 from graphkin.construction.core.quantities import SHEETS
+from graphkin.documents.view_names import VIEWS
 from graphkin.mechanism import Mechanism
 from graphkin.scene import scene_files
 from graphkin.scene.expression import TIME
@@ -64,7 +65,6 @@ from graphkin.text.errors import GraphkinError, SceneError
 from graphkin.text.markup import as_text
 from graphkin.writers.files import file_stem, write_all
 
-VIEWS = ("key", "task", "steps", "overlay")
 PAGE = "html"
 FORMATS = ("svg", "pdf", PAGE, "dxf", "pmks")
 MOST_LINES = 12

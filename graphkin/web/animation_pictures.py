@@ -9,37 +9,30 @@ from math import ceil
 from msgspec import Struct
 from msgspec.structs import replace
 
+from graphkin.construction.bare_plan import Free, is_point, is_shown, plan_box
 from graphkin.construction.core.drawn_scene import METRES, Drawing
 from graphkin.construction.core.layout import Layout
-from graphkin.construction.core.link_poses import Touch
 from graphkin.construction.core.naming import angle_symbol
 from graphkin.construction.core.paper_canvas import Plot
-from graphkin.construction.core.program import Step
 from graphkin.construction.core.quantities import MOTION, points_asked
 from graphkin.construction.drivers.driver_symbols import draw_drivers
-from graphkin.construction.guides.rails import REACH, Rail, rails_of
-from graphkin.construction.guides.slide_symbols import STROKE, draw_frame_guides, merged, within
+from graphkin.construction.frame_over_motion import standing, travelling
 from graphkin.construction.links.mechanism_symbols import (
     draw_bars,
     draw_ground,
     draw_pins,
     draw_plates,
 )
-from graphkin.construction.links.wheel_symbols import track, track_ends
 from graphkin.construction.step_marks import draw_plan_steps
 from graphkin.documents.sheet import title_of
 from graphkin.drawing.field import Field, Rect, clipped
 from graphkin.drawing.labels import FieldContent
-from graphkin.drawing.marks import CircleMark, LineMark, Mark, Polyline, Text, reach, style_class
+from graphkin.drawing.marks import CircleMark, LineMark, Mark, Polyline, Text, reach
 from graphkin.drawing.richtext import extent
 from graphkin.drawing.scale import Extent, extent_of, preferred
-from graphkin.drawing.style import VECTORS
 from graphkin.drawing.symbol_markup import escape, symbol
-from graphkin.drawing.symbols import across, hatched, rails, slot, slot_ground
 from graphkin.motion.driving import TURN
 from graphkin.numbers.arithmetic import np
-from graphkin.numbers.plane import Vector, dot
-from graphkin.scene.model import FRAME
 from graphkin.text import Words
 from graphkin.web.frames import Frame, FrameSequence, goes_round
 from graphkin.web.moving_labels import (
@@ -193,80 +186,9 @@ def leaves(field: Field, box: Extent) -> bool:
     return not all(field.holds(corner) for corner in corners)
 
 
-# --- the part of the frame that is the same in every picture --------------------------------------
-
-
-STILL = ("guide", "ground", "slot")
-"""The classes of marks that are drawn once for a whole motion."""
-
-
-def travelling(drawing: Drawing, field: Field) -> set[Mark]:
-    """The marks of the frame that a sheet draws around a block or a wheel."""
-    board = FieldContent(field.rect)
-    draw_frame_guides(board, drawing, field)
-    for touch in lines_of(drawing):
-        board.marks += within(track(drawing, field, touch), field.rect)
-    return {mark for mark in board.marks if mark.cls in STILL}
-
-
-def standing(drawings: Sequence[Drawing], field: Field) -> Iterator[Mark]:
-    """The guides, slots and tracks of the frame, as long as the whole motion needs them."""
-    for rail, others in alike(drawings):
-        yield from guide(rail, others, field)
-    for place, touch in enumerate(lines_of(drawings[0])):
-        yield from line(drawings, place, touch, field)
-
-
-def alike(drawings: Sequence[Drawing]) -> Iterator[tuple[Rail, list[Rail]]]:
-    """Each line of the frame on which blocks and pins slide, with the same line at all moments."""
-    every = [[rail for rail in rails_of(each) if rail.owner == FRAME] for each in drawings]
-    for place, rail in enumerate(every[0]):
-        yield rail, [found[place] for found in every if len(found) == len(every[0])]
-
-
-def guide(rail: Rail, others: Sequence[Rail], field: Field) -> Iterator[Mark]:
-    """One guide with its slots, over the full travel of its blocks and pins."""
-    at, way = field(rail.zero), field.way(rail.along)
-
-    def span(places: list[complex], beyond: float) -> tuple[float, float]:
-        along = [rail.along_of(place) * field.mm for place in places]
-        return min(along) - beyond, max(along) + beyond
-
-    parts = [
-        span([other.at(other.marks[i]) for other in others], REACH) for i in range(len(rail.marks))
-    ]
-    for low, high in merged(parts):
-        yield from within(rails(at, way, low, high), field.rect)
-    for i, (_, name) in enumerate(rail.slots):
-        low, high = span([other.at(other.slots[i][0]) for other in others], STROKE)
-        yield from within(slot_ground(at, way, low, high), field.rect)
-        yield slot(at, way, low, high, name)
-
-
-def lines_of(drawing: Drawing) -> list[Touch]:
-    """The contacts of toothless wheels with straight tracks of the frame."""
-    touches = drawing.standing.touches
-    return [t for t in touches if t.zero is not None and t.on == FRAME and not t.disc.module]
-
-
-def line(drawings: Sequence[Drawing], place: int, touch: Touch, field: Field) -> Iterator[Mark]:
-    """One track, over the full travel of its wheel."""
-    ends: list[float] = []
-    for drawing in drawings:
-        here = lines_of(drawing)[place]
-        moved = float(dot(here.at - touch.at, touch.along)) * field.mm
-        ends += [moved + end for end in track_ends(drawing, field, here)]
-    at, way = field(touch.at), field.way(touch.along)
-    start, end = across(at, way, min(ends), 0), across(at, way, max(ends), 0)
-    both = (start, end) if touch.side > 0 else (end, start)
-    yield from within(hatched(*both), field.rect)
-
-
 # --- the marks of one moment of a motion ----------------------------------------------------------
 
 
-SHOWN = (*VECTORS, "relative-acceleration", "arrowhead", "point", "pole")
-"""The first classes of the marks of a plan that are shown; construction lines are not."""
 MOST = 4
 """Largest number of points that may guide the letter of another point."""
 
@@ -326,36 +248,6 @@ def joined(drawing: Drawing, name: str, letters: dict[str, PointLetter]) -> tupl
     ends = [(steps[tail].name, steps[tip].name) for tail, tip in drawing.joins]
     found = {a if b == name else b for a, b in ends if name in (a, b)} & letters.keys()
     return tuple(sorted(found - {name}, key=lambda each: (each != drawing.pole, each))[:MOST])
-
-
-class Free(dict[int, tuple[float, float]]):
-    """Spans of construction lines that are not shown: zero for each line."""
-
-    def __missing__(self, number: int) -> tuple[float, float]:
-        return 0.0, 0.0
-
-
-def is_point(step: Step) -> bool:
-    """Whether a step gives a point of the plan itself, not a point drawn aside."""
-    return bool(step.name) and step.aside is None
-
-
-def is_shown(drawing: Drawing, mark: Mark) -> bool:
-    """Whether a mark of a plan is a vector or a point of the plan itself."""
-    steps = drawing.trace.program.steps
-    aside = mark.step is not None and steps[mark.step].aside is not None
-    return style_class(mark) in SHOWN and not aside
-
-
-def plan_box(drawing: Drawing) -> Extent:
-    """The box of a plan in its own unit, pole included."""
-    points = [0j]
-    for _, step, value in drawing.steps(drawing.plane):
-        if isinstance(value, Vector) and step.arrow:
-            points += [value.tail, value.tip]
-        elif is_point(step) and isinstance(value, complex):
-            points.append(value)
-    return extent_of(points)
 
 
 def cut(marks: Sequence[Mark], rect: Rect) -> Iterator[Mark]:

@@ -30,6 +30,7 @@ from graphkin.documents.sheet_documents import (
     proved,
     with_forces,
 )
+from graphkin.documents.view_names import VIEWS
 from graphkin.drawing.marks import Page, Text
 from graphkin.drawing.richtext import plain
 from graphkin.mechanism import Mechanism, load
@@ -246,7 +247,7 @@ def test_every_sentence_is_used():
     )
     waiting -= {f"page.{each.value}" for each in Moved} | {f"desk.{key}" for key in SAID}
     waiting -= {f"page.motion_{name.replace(' ', '_')}" for name in MOTIONS}
-    waiting -= {f"studio.limit_{limit}" for limit in LIMITS}
+    waiting -= {f"studio.limit_{limit}" for limit in LIMITS} | {f"studio.{view}" for view in VIEWS}
     waiting -= {f"screen.{kind}" for kind in WIDTHS}
     waiting -= {f"animation.{kind}" for kind in ("dead", "change")}
     waiting -= {f"legend.{each.target}" for each in CENTRES}

@@ -13,7 +13,7 @@ import pytest
 from graphkin.mechanism import Mechanism, load
 from graphkin.motion.cycle import cycle
 from graphkin.motion.extremes import Extremes, asked_measures, extremes
-from graphkin.motion.transmission import all_extremes
+from graphkin.motion.transmission import all_extremes, ratio_measures
 from graphkin.scene.read_scene import read_text
 
 SCENES = Path(__file__).resolve().parents[2] / "examples" / "scenes"
@@ -256,3 +256,30 @@ acceleration = ["P", "B"]
         assert found[label].least.value == pytest.approx(0, abs=1e-9)
         assert [each.at for each in found[label].largest.places] == pytest.approx(most, abs=1e-4)
         assert [each.at for each in found[label].least.places] == pytest.approx(least, abs=1e-4)
+
+
+# --- mechanical advantage -------------------------------------------------------------------------
+
+
+def test_the_least_mechanical_advantage_is_where_the_piston_is_fastest():
+    """|v_3/ω_1| is the first derivative of the place by the crank's angle, and 0 at both ends."""
+    moved = cycle(load(str(SCENES / "offset-slider-crank.toml"), n=1), steps=12)
+    measures = [*ratio_measures(moved)]
+    (found,) = extremes(moved, measures)
+    r, rod, off = 0.06, 0.2, 0.02
+
+    def place(at: float) -> float:
+        q = radians(at)
+        return r * cos(q) + sqrt(rod**2 - (off - r * sin(q)) ** 2)
+
+    first = differences(place, 1)
+    at, most = golden(lambda u: abs(first(u)), 1)
+    assert found.largest.value == pytest.approx(most, rel=1e-8)
+    assert found.largest.places[0].at % 360 == pytest.approx(at, abs=1e-4)
+    assert found.least.value == pytest.approx(0, abs=1e-9)
+    assert len(found.least.places) == 2
+    assert found.measure.unit == "m"
+
+
+def test_a_driver_at_rest_and_several_drivers_have_no_mechanical_advantage():
+    assert not [*ratio_measures(cycle(load(str(SCENES / "five-bar.toml")), steps=4))]

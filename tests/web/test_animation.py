@@ -14,6 +14,8 @@ from hypothesis import given
 from hypothesis import strategies as st
 from msgspec.structs import astuple
 
+from graphkin.construction.bare_plan import plan_box
+from graphkin.construction.frame_over_motion import STILL
 from graphkin.drawing.marks import Text, reach
 from graphkin.drawing.scale import Extent
 from graphkin.mechanism import load
@@ -30,7 +32,6 @@ from graphkin.web.animation_pictures import (
     PICTURE,
     SMALL,
     STEEPEST,
-    STILL,
     WAYS,
     Stage,
     aside,
@@ -38,7 +39,6 @@ from graphkin.web.animation_pictures import (
     leaves,
     mechanism_seen,
     paths_of,
-    plan_box,
     plan_pane,
     room_in,
     scale_bar,

@@ -19,6 +19,7 @@ from graphkin.drawing.frame import STUDENT, STUDENTS, fitting, room_in
 from graphkin.drawing.marks import LineMark, Mark, Page, Point, Polyline, Text, box, reach
 from graphkin.drawing.richtext import known, measures
 from graphkin.drawing.symbol_markup import escape
+from graphkin.scene.model import Scene
 from graphkin.text.errors import PageError
 
 SIDE = 20.0
@@ -197,9 +198,14 @@ def fits(text: str) -> bool:
 
 def owned(drawing: Drawing, whose: Owner) -> Drawing:
     """A drawing with the student's name and code in the title block."""
-    number = drawing.scene.sheet.number
+    return replace(drawing, scene=with_owner(drawing.scene, whose))
+
+
+def with_owner(scene: Scene, whose: Owner) -> Scene:
+    """A scene whose sheets have a student's name and code in the title block."""
+    number = scene.sheet.number
     both = f"{number} / {whose.code}" if number else whose.code
-    return with_sheet(drawing, student=whose.name, number=both)
+    return replace(scene, sheet=replace(scene.sheet, student=whose.name, number=both))
 
 
 def owned_pages(drawings: Sequence[Drawing], whose: Owner) -> list[Drawing]:

@@ -13,7 +13,15 @@ from msgspec.structs import replace
 from graphkin.classroom.lab.items import asked_of, items
 from graphkin.classroom.lab.lab_model import Item, Lab
 from graphkin.classroom.printing.answer_form import form, quantity_of, why
-from graphkin.classroom.printing.personal import Owner, crossed, owned, owned_pages, owner, signed
+from graphkin.classroom.printing.personal import (
+    Owner,
+    crossed,
+    owned,
+    owned_pages,
+    owner,
+    signed,
+    with_owner,
+)
 from graphkin.classroom.roster.taker import Taker
 from graphkin.construction.core.drawn_scene import Drawing
 from graphkin.construction.core.given_data import parameters
@@ -27,6 +35,7 @@ from graphkin.documents.sheet_documents import (
     language_of,
     proved,
 )
+from graphkin.documents.view_names import MOTION_VIEWS
 from graphkin.drawing.marks import Page
 from graphkin.drawing.style import Ink
 from graphkin.drawing.symbol_markup import escape
@@ -35,8 +44,6 @@ from graphkin.scene.read_scene import read_text
 from graphkin.text import Words
 from graphkin.text.errors import Problem, problems_of
 
-VIEWS = ("task", "key", "overlay", "steps")
-"""The views that can be printed for each student."""
 ALONE = Lock()
 """Held while PDF files are made: the threads of a process share their fonts (Dask uses threads)."""
 FORM = "form"
@@ -114,6 +121,14 @@ class Sheets:
 
     def draw(self, view: str) -> Iterator[SheetDocument]:
         """Draw the sheets of a view, each page with its student's name and code."""
+        if view in MOTION_VIEWS:
+            from graphkin.documents.motion_sheets import motion_sheets
+
+            spoken = self.mechanism.spoken(self.words.language)
+            scene = with_owner(spoken.scene, self.whose)
+            for part in motion_sheets(Mechanism(scene), view, self.words):
+                yield SheetDocument(*part)
+            return
         own = [replace(owned(each, self.whose), computed=self.computed) for each in self.drawings]
         for sheet in drawn_sheets(own, view):
             first, *more = signed(sheet.pages, view, self.whose)

@@ -466,7 +466,7 @@ def extreme_words(cycle: Cycle, found: Extreme, unit: str) -> str:
 
 def in_unit(value: float, unit: str) -> str:
     """A value with its unit."""
-    return f"{value:.3f}°" if unit == "°" else f"{short(value)} {unit}"
+    return f"{value:.3f}°" if unit == "°" else f"{short(value)} {unit}".rstrip()
 
 
 def place_words(cycle: Cycle, found: Reached) -> str:

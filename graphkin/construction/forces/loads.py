@@ -357,7 +357,7 @@ def of_mass(
         rests = point in pen.scene.frame.points
         turns = mass.inertia is not None and not mass.inertia.is_zero() and pen.turns(link)
         epsilon = omega_of(pen, link, EPSILON) if turns else None
-        turns = epsilon is not None and not pen.is_nought(epsilon)
+        turns = epsilon is not None and not pen.is_zero(epsilon)
         inertia = moment = None
         if turns and epsilon is not None:
             inertia = pen.given("number", mass.inertia, name=f"inertia {link}")

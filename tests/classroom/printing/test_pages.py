@@ -30,10 +30,11 @@ from graphkin.classroom.printing.personal import (
     shortened,
     without_crosses,
 )
-from graphkin.classroom.printing.print_work import VIEWS, PrintOrder, Sheets, StudentSheets
+from graphkin.classroom.printing.print_work import PrintOrder, Sheets, StudentSheets
 from graphkin.classroom.printing.print_work import make as made
 from graphkin.classroom.roster.student import Student
 from graphkin.classroom.roster.taker import Taker
+from graphkin.documents.view_names import VIEWS
 from graphkin.drawing.marks import Page, Text
 from graphkin.drawing.richtext import measures, plain
 from graphkin.text import LANGUAGES, words

@@ -1,0 +1,780 @@
+"""The diagrams of a motion as a hand draws them: differentiated and integrated by chords.
+
+The place is taken from the positions. Chords and a pole give the speed, and again the
+acceleration; crosses show what the plans give at the positions. The speed of the plans, summed by a
+string polygon, gives the place again.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Sequence
+from functools import partial
+from itertools import pairwise
+from math import ceil, degrees, floor, isfinite, sqrt
+
+import numpy as np
+from msgspec import Struct
+
+from graphkin.accuracy.pencil.pencil import STRAIGHT, Pencil
+from graphkin.construction.core.paper_canvas import clipped_path
+from graphkin.construction.core.quantities import BY_TARGET
+from graphkin.construction.core.relation import figure
+from graphkin.construction.diagram_steps import (
+    CHORD,
+    SECOND,
+    ChordRay,
+    differentiated,
+    integrated,
+    smooth,
+)
+from graphkin.documents.diagram_numbers import FINE, FollowerMotion, calm
+from graphkin.documents.positions import PositionSet, at_position, is_whole
+from graphkin.documents.positions_sheet import (
+    AIR,
+    FIELD,
+    MANY,
+    framed,
+    heading,
+    places_table,
+    proof,
+)
+from graphkin.documents.sheet import title_of
+from graphkin.drawing.field import A3_TITLE_BLOCK, AREA, XY, Rect
+from graphkin.drawing.marks import Anchor, CircleMark, LineMark, Mark, Page, Text, box
+from graphkin.drawing.richtext import extent, flowed
+from graphkin.drawing.scale import preferred
+from graphkin.drawing.symbol_markup import escape, symbol
+from graphkin.drawing.symbols import head
+from graphkin.motion.course import Reals
+from graphkin.motion.cycle import columns_at
+from graphkin.motion.extremes import asked_measures
+from graphkin.scene.link_points import lettered
+from graphkin.text import Words
+
+LEFT, RIGHT = 118.0, 396.0
+"""The axis of ordinates and the right end of the diagrams, in mm; poles lie left of the axis."""
+BEHIND = (130.0, 310.0)
+"""The same where the driver runs backwards and poles lie right of the diagrams."""
+TOP, GAP = FIELD[1] + 6.0, 7.0
+"""The upper edge of the first diagram, and the room between two, in mm."""
+ARROW = 5.0
+"""Length of an axis beyond the diagram, in mm."""
+LETTERS, SMALL = 2.5, 1.8
+"""Heights of letters in mm."""
+POLES = (80.0, 60.0, 50.0, 40.0, 30.0, 25.0, 20.0, 15.0, 12.0, 10.0, 8.0, 6.0, 5.0, 4.0, 3.0, 2.0)
+"""Possible distances of a pole from its axis, in mm."""
+FILLED = 0.92
+"""The part of a diagram's height that its values fill."""
+CROSS = 1.1
+"""Half the size of a cross that shows a value of a plan, in mm."""
+POINT = 0.7
+"""Radius of a point in mm."""
+GROWN = 4.0
+"""The largest mechanical advantage that is drawn, in medians."""
+TICKS = 6
+"""The most numbers along an axis of ordinates."""
+
+
+class Axes(Struct, frozen=True):
+    """A diagram's frame: its rectangle, the height of its zero line, and its scales.
+
+    ``wide`` and ``high`` are mm for one unit of u and of the ordinate; ``start`` is u at the axis.
+    """
+
+    rect: Rect
+    zero: float
+    wide: float
+    high: float
+    start: float
+
+    def on_page(self, at: XY) -> XY:
+        """A place in mm from the diagram's own origin, y upwards, on the page."""
+        return self.rect[0] + at[0], self.zero - at[1]
+
+    def place(self, u: float, value: float) -> XY:
+        """A point of the diagram in mm from its own origin, y upwards."""
+        return (u - self.start) * self.wide, value * self.high
+
+
+def axes_for(motion: FollowerMotion, top: float, low: float, values: Reals, most: float) -> Axes:
+    """The frame of a diagram for some values, which may not exceed a size."""
+    known = np.clip(values[np.isfinite(values)], -most, most)
+    least, largest = min(float(known.min()), 0.0), max(float(known.max()), 0.0)
+    high = FILLED * (low - top) / (largest - least or 1.0)
+    left, right = sides(motion)
+    wide = (right - left) / float(motion.at[-1] - motion.at[0])
+    middle = (top + low) / 2 + (largest + least) / 2 * high
+    return Axes((left, top, right, low), middle, wide, high, float(motion.at[0]))
+
+
+def sides(motion: FollowerMotion) -> tuple[float, float]:
+    """The left and right ends of the diagrams: room for poles before them, or behind."""
+    return (LEFT, RIGHT) if motion.pace > 0 else BEHIND
+
+
+# --- one diagram: axes, curves, points ------------------------------------------------------------
+
+
+def frame_of(
+    motion: FollowerMotion, axes: Axes, name: str, unit: str, factor: float
+) -> Iterator[Mark]:
+    """The axes of a diagram, its numbers, and the lines at the positions.
+
+    ``factor`` is the number of printed units in one SI unit.
+    """
+    left, top, right, low = axes.rect
+    words = motion.found.shown.alone.words
+    yield LineMark(left, axes.zero, right + ARROW, axes.zero, "dimension", f"axis {name}")
+    yield head((left, axes.zero), (right + ARROW, axes.zero), "dimension", f"axis {name}")
+    yield LineMark(left, low, left, top - ARROW / 2, "dimension", f"axis {name}")
+    yield head((left, low), (left, top - ARROW / 2), "dimension", f"axis {name}")
+    said = f"*{name}*, {escape(unit).replace('²', '^2')}"
+    yield Text(left + 1.8, top - 0.6, said, "caption", LETTERS, name=f"axis {name}")
+    at = right + ARROW + 1, axes.zero + 0.9
+    yield Text(*at, f"*{u_symbol(motion)}*", "caption", LETTERS, name="axis")
+    names = position_names(motion.found, motion.at)
+    for i, u in enumerate(motion.at):
+        x, _ = axes.on_page(axes.place(float(u), 0.0))
+        yield LineMark(x, top, x, low, "register", f"position {i}")
+        yield Text(x + 0.7, axes.zero + 2.6, names[i], "caption", SMALL, name=f"position {i}")
+    yield from numbers_along(words, axes, name, factor, TICKS)
+
+
+def numbers_along(words: Words, axes: Axes, name: str, factor: float, count: int) -> Iterator[Mark]:
+    """The round numbers along an axis of ordinates."""
+    left, top, _, low = axes.rect
+    pace = next(preferred((low - top) / axes.high * factor / count))
+    lowest = (axes.zero - low) / axes.high * factor
+    first, last = ceil(lowest / pace), floor((axes.zero - top) / axes.high * factor / pace)
+    for k in range(first, last + 1):
+        y = axes.zero - k * pace / factor * axes.high
+        yield LineMark(left - 1.2, y, left + 1.2, y, "dimension", f"axis {name}")
+        if k:
+            number = words.decimal(f"{k * pace:.6g}")
+            yield from cleared(Text(left - 2, y + 0.7, number, "caption", SMALL, "end", "axis"))
+
+
+def cleared(text: Text) -> Iterator[Mark]:
+    """A text with the lines below it left out."""
+    xs, ys = zip(*text.corners(), strict=True)
+    left, top, wide, high = min(xs), min(ys), max(xs) - min(xs), max(ys) - min(ys)
+    yield box(left - AIR, top - AIR, wide + 2 * AIR, high + 2 * AIR, "white")
+    yield text
+
+
+def u_symbol(motion: FollowerMotion) -> str:
+    """The letter of the driver's coordinate."""
+    return {"phi": "φ"}.get(motion.found.cycle.sweep.symbol, motion.found.cycle.sweep.symbol)
+
+
+def position_names(found: PositionSet, at: Reals) -> list[str]:
+    """The numbers of the positions at some places; a whole turn ends at its first position."""
+    if is_whole(found.cycle):
+        return [found.numbered[i % len(found.numbered)].name for i in range(len(at))]
+    places = [each.at for each in found.numbered]
+    return [found.numbered[int(np.abs(np.array(places) - u).argmin())].name for u in at]
+
+
+def curve(axes: Axes, points: Sequence[XY], cls: str, name: str) -> Iterator[Mark]:
+    """A curve through points, as far as it lies in its diagram."""
+    run: list[XY] = []
+    for point in (*points, (float("nan"), 0.0)):
+        if all(map(isfinite, point)):
+            run.append(axes.on_page(point))
+            continue
+        yield from clipped_path(run, axes.rect, cls, name)
+        run = []
+
+
+def course(
+    motion: FollowerMotion, axes: Axes, values: Reals, cls: str, name: str
+) -> Iterator[Mark]:
+    """An exact course over the fine places."""
+    both = zip(motion.fine, values, strict=True)
+    yield from curve(axes, [axes.place(float(u), float(v)) for u, v in both], cls, name)
+
+
+def crosses(
+    motion: FollowerMotion, axes: Axes, values: Reals, look: str, name: str
+) -> Iterator[Mark]:
+    """The values of the plans at the positions."""
+    names = position_names(motion.found, motion.at)
+    for i, (u, value) in enumerate(zip(motion.at, values, strict=True)):
+        if isfinite(value):
+            x, y = axes.on_page(axes.place(float(u), float(value)))
+            if axes.rect[1] <= y <= axes.rect[3]:
+                for way in (1, -1):
+                    ends = (x - CROSS, y - way * CROSS, x + CROSS, y + way * CROSS)
+                    yield LineMark(*ends, f"centre {look}", at_position(name, names[i]))
+
+
+def dots(axes: Axes, points: Sequence[XY], look: str, name: str) -> Iterator[Mark]:
+    """The points that the construction finds."""
+    for i, point in enumerate(points):
+        x, y = axes.on_page(point)
+        if axes.rect[1] <= y <= axes.rect[3]:
+            yield CircleMark(x, y, POINT, f"point {look}", f"{name}_{i}")
+
+
+# --- the construction: chords, pole, rays ---------------------------------------------------------
+
+
+class Derived(Struct, frozen=True):
+    """A diagram differentiated: the steps, the frame of the result, and the pole's distance."""
+
+    steps: list[ChordRay]
+    axes: Axes
+    distance: float
+    name: str
+
+
+def derive(
+    motion: FollowerMotion,
+    axes: Axes,
+    points: Sequence[XY],
+    top: float,
+    low: float,
+    name: str,
+    most: float,
+) -> Derived:
+    """The diagram of the rate, drawn from some points of another with the largest pole distance.
+
+    The distance is a round number of mm at which the values fit; the scale follows from it. Where
+    the driver runs backwards, the pole lies behind the diagram.
+    """
+    left, right = sides(motion)
+    sign = 1.0 if motion.pace > 0 else -1.0
+    room = left - FIELD[0] - 8 if sign > 0 else FIELD[2] - right - 14
+    unit = differentiated(points, sign)
+    heights = np.array([each.found[1] for each in unit])
+    cap = most * axes.high / axes.wide / abs(motion.pace) * motion.found.cycle.sweep.per_unit
+    heights = np.clip(heights, -cap, cap)
+    least, largest = min(float(heights.min()), 0.0), max(float(heights.max()), 0.0)
+    fits = [h for h in POLES if h <= room and h * (largest - least) <= FILLED * (low - top)]
+    distance = sign * (fits[0] if fits else POLES[-1])
+    high = abs(distance) * axes.high / axes.wide * motion.found.cycle.sweep.per_unit
+    high /= abs(motion.pace)
+    middle = (top + low) / 2 + (largest + least) / 2 * abs(distance)
+    own = Axes((left, top, right, low), middle, axes.wide, high, axes.start)
+    return Derived(differentiated(points, distance), own, distance, name)
+
+
+def construction(before: Axes, found: Derived, look: str) -> Iterator[Mark]:
+    """The chords in the first diagram, and in the second the pole, its rays and the points."""
+    axes, name = found.axes, found.name
+    behind = found.distance < 0
+    foot = axes.rect[2] if behind else axes.rect[0]
+    pole = foot - found.distance, axes.zero
+    for i, each in enumerate(found.steps):
+        start, end = before.on_page(each.first), before.on_page(each.last)
+        yield LineMark(*start, *end, "construction", f"chord {name}_{i}")
+        height = axes.zero - each.end[1]
+        x, y = axes.on_page(each.found)
+        if axes.rect[1] <= height <= axes.rect[3]:
+            yield LineMark(*pole, foot, height, "construction", f"ray {name}_{i}")
+            yield LineMark(foot, height, x, y, "ray", f"carried {name}_{i}")
+    yield LineMark(*pole, foot, axes.zero, "centre-line", f"pole distance {name}")
+    yield CircleMark(*pole, 1.1, f"pole {look}", f"P_{name}")
+    aside = 2.0 if behind else -2.0
+    anchor: Anchor = "start" if behind else "end"
+    letter = f"*P*_{{*{name}*}}"
+    yield Text(
+        pole[0] + aside, pole[1] + 0.9, letter, f"label {look}", LETTERS, anchor, f"P_{name}"
+    )
+    told = f"*H* = {abs(found.distance):g} mm"
+    if abs(found.distance) > extent(told, SMALL)[0] + 3:
+        middle = (pole[0] + foot) / 2
+        yield Text(
+            middle, axes.zero + 3.2, told, "caption", SMALL, "middle", f"pole distance {name}"
+        )
+
+
+# --- the sheet of differentiation -----------------------------------------------------------------
+
+
+def units_of(
+    motion: FollowerMotion,
+) -> tuple[tuple[str, float], tuple[str, float], tuple[str, float]]:
+    """The printed unit of place, speed and acceleration, with its number in one SI unit."""
+    if motion.is_link:
+        return ("°", degrees(1.0)), ("rad/s", 1.0), ("rad/s²", 1.0)
+    drawing = motion.found.shown.alone
+    unit = drawing.scene.units["length"]
+    return (unit, drawing.length(1.0)), ("m/s", 1.0), ("m/s²", 1.0)
+
+
+def differentiation_page(motion: FollowerMotion, number: str) -> Page:
+    """The sheet of place, speed and acceleration, each from the one before by chords."""
+    drawing, words = motion.found.shown.alone, motion.found.shown.alone.words
+    height = (FIELD[3] - TOP - 3 - 2 * GAP) / 3
+    tops = [TOP + i * (height + GAP) for i in range(3)]
+    where, speed, push = values_at(motion, motion.at)
+    exact = values_at(motion, motion.fine)
+    low = float(min(np.nanmin(exact[0]), np.nanmin(where)))
+    units, kinds = units_of(motion), motion.kinds
+    first = axes_for(motion, tops[0], tops[0] + height, exact[0] - low, np.inf)
+    points = [first.place(float(u), float(v - low)) for u, v in zip(motion.at, where, strict=True)]
+    most = calm(motion.found, exact[1]), calm(motion.found, exact[2])
+    rate = derive(motion, first, points, tops[1], tops[1] + height, kinds[1], most[0])
+    again = derive(
+        motion,
+        rate.axes,
+        closed_round(motion, rate),
+        tops[2],
+        tops[2] + height,
+        kinds[2],
+        most[1],
+    )
+    marks: list[Mark] = [
+        *framed(drawing, number, words("sheet.document_diagrams"), "–"),
+        *heading(motion.found, drawing, words("sheet.differentiation")),
+        *field_caption(motion),
+        *construction(first, rate, "velocity"),
+        *construction(rate.axes, again, "acceleration"),
+        *frame_of(motion, first, kinds[0], *units[0]),
+        *frame_of(motion, rate.axes, kinds[1], *units[1]),
+        *frame_of(motion, again.axes, kinds[2], *units[2]),
+        *course(motion, first, exact[0] - low, "profile", kinds[0]),
+        *course(motion, rate.axes, exact[1], "trajectory", f"exact {kinds[1]}"),
+        *course(motion, again.axes, exact[2], "trajectory", f"exact {kinds[2]}"),
+        *through(motion, rate, "velocity"),
+        *through(motion, again, "acceleration"),
+        *dots(first, points, "construction", kinds[0]),
+        *dots(rate.axes, [each.found for each in rate.steps], "velocity", kinds[1]),
+        *dots(again.axes, [each.found for each in again.steps], "acceleration", kinds[2]),
+        *crosses(motion, rate.axes, speed, "velocity", kinds[1]),
+        *crosses(motion, again.axes, push, "acceleration", kinds[2]),
+        LineMark(FIELD[0], FIELD[3], FIELD[2], FIELD[3], "panel"),
+        *sentences(motion, [*scales_said(motion, first, rate, again), *costs(motion, rate, again)]),
+        *proof(motion.found),
+    ]
+    title = f"{words('sheet.differentiation')} – {title_of(drawing)}"
+    return Page(420, 297, tuple(marks), title, words.language)
+
+
+# --- the sheet of integration ---------------------------------------------------------------------
+
+
+def integration_page(motion: FollowerMotion, number: str) -> Page:
+    """The sheet of the speed from the plans, and of the place by a string polygon."""
+    drawing, words = motion.found.shown.alone, motion.found.shown.alone.words
+    height = (FIELD[3] - TOP - 3 - GAP) / 2
+    tops = [TOP, TOP + height + GAP]
+    where, speed, _ = values_at(motion, motion.at)
+    exact = values_at(motion, motion.fine)
+    low = float(min(np.nanmin(exact[0]), np.nanmin(where)))
+    units, kinds = units_of(motion), motion.kinds
+    first = axes_for(motion, tops[0], tops[0] + height, speed, np.inf)
+    points = [first.place(float(u), float(v)) for u, v in zip(motion.at, speed, strict=True)]
+    means = mean_ordinates(points, closed=is_whole(motion.found.cycle))
+    last = axes_for(motion, tops[1], tops[1] + height, exact[0] - low, np.inf)
+    distance, second = string_scale(motion, first, last, means)
+    begun = second.place(float(motion.at[0]), float(where[0] - low))[1]
+    strings = integrated([x for x, _ in points], means, distance, begun)
+    found = Derived(strings, second, distance, kinds[0])
+    marks: list[Mark] = [
+        *framed(drawing, number, words("sheet.document_diagrams"), "–"),
+        *heading(motion.found, drawing, words("sheet.integration")),
+        *field_caption(motion, "diagrams.strings"),
+        *levels(first, found),
+        *frame_of(motion, first, kinds[1], *units[1]),
+        *frame_of(motion, second, kinds[0], *units[0]),
+        *curve(first, smooth(points), "velocity", kinds[1]),
+        *crosses(motion, first, speed, "velocity", kinds[1]),
+        *course(motion, second, exact[0] - low, "trajectory", f"exact {kinds[0]}"),
+        *curve(second, [strings[0].first, *(s.last for s in strings)], "profile", kinds[0]),
+        *dots(second, [strings[0].first, *(s.last for s in strings)], "construction", kinds[0]),
+        *crosses(motion, second, where - low, "construction", kinds[0]),
+        LineMark(FIELD[0], FIELD[3], FIELD[2], FIELD[3], "panel"),
+        *sentences(motion, strings_said(motion, first, found, where - low)),
+        *proof(motion.found),
+    ]
+    title = f"{words('sheet.integration')} – {title_of(drawing)}"
+    return Page(420, 297, tuple(marks), title, words.language)
+
+
+def mean_ordinates(points: Sequence[XY], *, closed: bool) -> list[float]:
+    """The level in each interval that leaves equal areas below and above the smooth curve."""
+    turn = points[-1][0] - points[0][0]
+    before = [(points[-2][0] - turn, points[-2][1])] if closed else points[:1]
+    after = [(points[1][0] + turn, points[1][1])] if closed else points[-1:]
+    around = [*before, *points, *after]
+    slopes = [(v - y) / (u - x) for (x, y), (u, v) in zip(around, around[2:], strict=False)]
+    return [
+        (y + v) / 2 + (u - x) / 12 * (slopes[i] - slopes[i + 1])
+        for i, ((x, y), (u, v)) in enumerate(pairwise(points))
+    ]
+
+
+def string_scale(
+    motion: FollowerMotion, first: Axes, last: Axes, means: Sequence[float]
+) -> tuple[float, Axes]:
+    """The pole distance with which the strings fill their diagram, and the frame at its scale."""
+    left, right = sides(motion)
+    sign = 1.0 if motion.pace > 0 else -1.0
+    room = left - FIELD[0] - 8 if sign > 0 else FIELD[2] - right - 14
+    per_unit = motion.found.cycle.sweep.per_unit
+
+    def high(distance: float) -> float:
+        return abs(motion.pace) * first.high * first.wide / per_unit / distance
+
+    fits = [h for h in reversed(POLES) if h <= room and high(h) <= last.high]
+    distance = fits[0] if fits else POLES[0]
+    factor = high(distance)
+    grown = (last.rect[3] - last.zero) * factor / last.high
+    lowered = last.rect[3] - grown
+    return sign * distance, Axes(last.rect, lowered, last.wide, factor, last.start)
+
+
+def levels(first: Axes, found: Derived) -> Iterator[Mark]:
+    """The level of each interval, its ray to the pole, and the string parallel to the ray."""
+    behind = found.distance < 0
+    foot = first.rect[2] if behind else first.rect[0]
+    pole = foot - found.distance, first.zero
+    for i, each in enumerate(found.steps):
+        height = first.zero - each.end[1]
+        if not first.rect[1] <= height <= first.rect[3]:
+            continue
+        (x, _), (u, _) = first.on_page(each.first), first.on_page(each.last)
+        yield LineMark(x, height, u, height, "construction", f"level {i}")
+        yield LineMark(
+            foot, height, *((u, height) if behind else (x, height)), "ray", f"carried {i}"
+        )
+        yield LineMark(*pole, foot, height, "construction", f"ray {i}")
+    yield LineMark(*pole, foot, first.zero, "centre-line", "pole distance")
+    yield CircleMark(*pole, 1.1, "pole velocity", "P")
+    aside = 2.0 if behind else -2.0
+    anchor: Anchor = "start" if behind else "end"
+    yield Text(pole[0] + aside, pole[1] + 0.9, "*P*", "label velocity", LETTERS, anchor, "P")
+    told = f"*H* = {abs(found.distance):g} mm"
+    if abs(found.distance) > extent(told, SMALL)[0] + 3:
+        at = (pole[0] + foot) / 2, first.zero + 3.2
+        yield from cleared(Text(*at, told, "caption", SMALL, "middle", "pole distance"))
+
+
+def strings_said(motion: FollowerMotion, first: Axes, found: Derived, where: Reals) -> list[str]:
+    """The steps of the integration, the scale that follows, and its errors."""
+    drawing, words = motion.found.shown.alone, motion.found.shown.alone.words
+    s, v, _ = motion.kinds
+    sweep = motion.found.cycle.sweep
+    unit = "rad" if motion.is_link else "m"
+    pace = {"turn": "/*ω*", "slide": "/*v*"}.get(sweep.what, "")
+    drawn = np.array([each.last[1] for each in found.steps]) / found.axes.high
+    off = worst(drawn - where[1:]) / (float(np.ptp(where)) or 1.0)
+    count = len(found.steps)
+    interval = first.wide * float(motion.at[1] - motion.at[0])
+    hand = mark() * sqrt(count) * interval / abs(found.distance) / found.axes.high
+    rule = f"*k*_{{*{s}*}} = *k*_{{*{v}*}}·*k*_{{*{u_symbol(motion)}*}}·*H*{pace}"
+    said = [
+        words("diagrams.levels", v=v),
+        words("diagrams.polygon", s=s),
+        f"{rule} = {figure(drawing, 1 / found.axes.high)} {unit}/mm; "
+        f"*k*_{{*{v}*}} = {figure(drawing, 1 / first.high)} {rates_units(motion)[0]}/mm.",
+        words(
+            "diagrams.summed",
+            s=s,
+            off=words.significant(100 * off, 2),
+            pencil=words.significant(100 * hand / (float(np.ptp(where)) or 1.0), 2),
+        ),
+    ]
+    if is_whole(motion.found.cycle):
+        gap = abs(drawn[-1] - where[-1]) * found.axes.high
+        said.append(
+            words("diagrams.gap", gap=words.significant(float(gap), 2) if gap > 5e-3 else "0")
+        )
+    return said
+
+
+# --- values and points ----------------------------------------------------------------------------
+
+
+def values_at(motion: FollowerMotion, at: Reals) -> list[Reals]:
+    """The place, the speed, and what differentiating the speed by u gives, at places u."""
+    speed, acceleration = motion.rates(at)
+    return [motion.place(at), speed, acceleration - motion.push / motion.pace * speed]
+
+
+def closed_round(motion: FollowerMotion, rate: Derived) -> list[XY]:
+    """The points of a derived diagram; over a whole turn with the last of the turn before."""
+    points = [each.found for each in rate.steps]
+    if not is_whole(motion.found.cycle):
+        return points
+    turn = rate.axes.wide * float(motion.at[-1] - motion.at[0])
+    (x, y), (u, v) = points[-1], points[0]
+    return [(x - turn, y), *points, (u + turn, v)][: len(points) + 1]
+
+
+def through(motion: FollowerMotion, found: Derived, look: str) -> Iterator[Mark]:
+    """The smooth curve through the points that the chords give."""
+    points = [each.found for each in found.steps]
+    if is_whole(motion.found.cycle):
+        turn = found.axes.wide * float(motion.at[-1] - motion.at[0])
+        before = [(x - turn, y) for x, y in points[-2:]]
+        after = [(x + turn, y) for x, y in points[:2]]
+        points = [*before, *points, *after]
+    if len(points) > 2:
+        yield from curve(found.axes, smooth(points), look, found.name)
+
+
+def field_caption(motion: FollowerMotion, signs: str = "diagrams.signs") -> Iterator[Mark]:
+    """The caption of the field: whose motion it is, and what the kinds of points are."""
+    words = motion.found.shown.alone.words
+    key = "diagrams.link" if motion.is_link else "diagrams.block"
+    said = words(key, k=escape(motion.mover.name))
+    text = f"{said};  {words(signs)}"
+    yield Text(FIELD[0] + 3, FIELD[1] - 2.2, text, "caption", LETTERS, name="heading")
+
+
+def sentences(motion: FollowerMotion, said: Sequence[str]) -> Iterator[Mark]:
+    """Sentences below the field, left of the title block."""
+    left, right = AREA[0] + 4, A3_TITLE_BLOCK[0] - 4
+    y = A3_TITLE_BLOCK[1] + 4.2
+    for number, sentence in enumerate(said, 1):
+        for i, line in enumerate(flowed(sentence.split(" "), " ", right - left - 5, 2.2)):
+            if not i:
+                yield Text(left, y, f"{number}.", "caption", 2.2, name="sentence")
+            yield Text(left + 5, y, line, "caption", 2.2, name="sentence")
+            y += 3.75
+
+
+# --- scales and errors ----------------------------------------------------------------------------
+
+
+def scales_said(motion: FollowerMotion, first: Axes, rate: Derived, again: Derived) -> list[str]:
+    """The scale factors, and how those of the derived diagrams follow from the pole distances."""
+    drawing, words = motion.found.shown.alone, motion.found.shown.alone.words
+    s, v, a = motion.kinds
+    sweep = motion.found.cycle.sweep
+    k_u = sweep.per_unit / first.wide
+    unit_u = {"turn": "rad/mm", "slide": "m/mm", "time": "s/mm"}.get(sweep.what, "m/mm")
+    units = [f"{unit}/mm" for unit in (("rad" if motion.is_link else "m"), *rates_units(motion))]
+    pace = "" if sweep.what == "time" else ("*ω*·" if sweep.what == "turn" else "*v*·")
+    u = u_symbol(motion)
+    return [
+        words(
+            "diagrams.scales",
+            u=u,
+            s=s,
+            ku=f"{figure(drawing, k_u)} {unit_u}",
+            ks=f"{figure(drawing, 1 / first.high)} {units[0]}",
+        ),
+        words(
+            "diagrams.derived",
+            rate=f"*k*_{{*{v}*}} = {pace}*k*_{{*{s}*}}/(*k*_{{*{u}*}}·*H*)",
+            k=f"{figure(drawing, 1 / rate.axes.high)} {units[1]}",
+            again=f"*k*_{{*{a}*}} = {pace}*k*_{{*{v}*}}/(*k*_{{*{u}*}}·*H*)",
+            more=f"{figure(drawing, 1 / again.axes.high)} {units[2]}",
+        ),
+        words("diagrams.steps", s=s, v=v),
+    ]
+
+
+def rates_units(motion: FollowerMotion) -> tuple[str, str]:
+    """The units of speed and acceleration in brackets where they are fractions."""
+    return ("(rad/s)", "(rad/s^2)") if motion.is_link else ("(m/s)", "(m/s^2)")
+
+
+class Cost(Struct, frozen=True):
+    """The errors of a derived diagram, as shares of its largest value.
+
+    ``chord`` is that of the exact chords, ``forecast`` what the derivatives predict for it, and
+    ``pencil`` what the marks of a hand add for 95 of 100 points.
+    """
+
+    chord: float
+    forecast: float
+    pencil: float
+
+
+def cost_of_rate(motion: FollowerMotion, rate: Derived) -> Cost:
+    """The error of the speed: h²/24 of the third derivative."""
+    middles = (motion.at[1:] + motion.at[:-1]) / 2
+    exact = values_at(motion, middles)[1]
+    drawn = np.array([each.found[1] for each in rate.steps]) / rate.axes.high
+    third = motion.derivatives(middles)[2]
+    size = largest(motion, exact)
+    forecast = CHORD * motion.step**2 * np.abs(motion.pace * third)
+    interval = rate.axes.wide * float(motion.at[1] - motion.at[0])
+    hand = sqrt(2) * mark() * abs(rate.distance) / interval / rate.axes.high
+    return Cost(worst(drawn - exact) / size, worst(forecast) / size, hand / size)
+
+
+def cost_of_second(motion: FollowerMotion, rate: Derived, again: Derived) -> Cost:
+    """The error of the acceleration: h²/12 of the fourth derivative."""
+    places = np.array([each.found[0] for each in again.steps]) / again.axes.wide + again.axes.start
+    exact = values_at(motion, places)[2]
+    drawn = np.array([each.found[1] for each in again.steps]) / again.axes.high
+    fourth = motion.derivatives(places)[3]
+    size = largest(motion, exact)
+    forecast = SECOND * motion.step**2 * np.abs(motion.pace**2 * fourth)
+    interval = rate.axes.wide * float(motion.at[1] - motion.at[0])
+    lever = abs(rate.distance * again.distance) / interval**2
+    hand = sqrt(6) * mark() * lever / again.axes.high
+    return Cost(worst(drawn - exact) / size, worst(forecast) / size, hand / size)
+
+
+def mark() -> float:
+    """The error in mm of a mark along one axis that 95 of 100 marks keep."""
+    return STRAIGHT * Pencil().mark
+
+
+def largest(motion: FollowerMotion, values: Reals) -> float:
+    return calm(motion.found, values) or 1.0
+
+
+def worst(values: Reals) -> float:
+    known = np.abs(values[np.isfinite(values)])
+    return float(known.max(initial=0.0))
+
+
+def costs(motion: FollowerMotion, rate: Derived, again: Derived) -> list[str]:
+    """What the method costs in accuracy: chords against the exact course, and the pencil."""
+    words = motion.found.shown.alone.words
+    found = []
+    for name, cost in (
+        (motion.kinds[1], cost_of_rate(motion, rate)),
+        (motion.kinds[2], cost_of_second(motion, rate, again)),
+    ):
+        shares = {
+            key: words.significant(100 * getattr(cost, key), 2)
+            for key in ("chord", "forecast", "pencil")
+        }
+        found.append(words("diagrams.cost", v=name, **shares))
+    limit = words.significant(mark(), 1)
+    return [*found, words("diagrams.plans", mark=limit)]
+
+
+# --- the sheets of everything asked over the positions --------------------------------------------
+
+
+COLUMNS, ROWS = 3, 4
+"""The most diagrams side by side, and one above the other, on a sheet."""
+
+
+class Asked(Struct, frozen=True):
+    """A velocity or acceleration that the scene asks for: its symbol and unit, and its values."""
+
+    symbol: str
+    unit: str
+    name: str
+    kind: str
+    at_positions: Reals
+    fine: Reals
+    most: float | None = None
+
+
+def of_follower(motion: FollowerMotion, at: Reals, fine: Reals) -> list[Asked]:
+    """The jerk of the follower, and its mechanical advantage, which grows at dead points."""
+    k, driver = escape(motion.mover.name), motion.found.cycle.sweep.driver
+    letter = "ε" if motion.is_link else "a"
+    unit = "rad/s³" if motion.is_link else "m/s³"
+    jerk = f"d*{letter}*_{{{k}}}/d*t*"
+    nothing = np.full(len(at), np.nan)
+    made = [Asked(jerk, unit, f"jerk {k}", "acceleration", nothing, motion.third(fine))]
+    if driver is not None:
+        rate = "ω" if driver.kind == "turn" else "v"
+        ratio = f"|*{rate}*_{{{escape(driver.link)}}}/*{motion.kinds[1]}*_{{{k}}}|"
+        per = {(False, "ω"): "1/m", (True, "v"): "m"}.get((motion.is_link, rate), "1")
+        values = motion.advantage(at), motion.advantage(fine)
+        most = GROWN * float(np.nanmedian(values[1]))
+        made.append(Asked(ratio, per, f"advantage {k}", "velocity", *values, most))
+    return made
+
+
+def asked_courses(found: PositionSet, at: Reals, fine: Reals) -> list[Asked]:
+    """What the scene asks for at the positions and between them."""
+    measures = [*asked_measures(found.cycle)]
+    targets = list(dict.fromkeys(target for each in measures for target in each.targets))
+    cycle = found.cycle
+    both = [columns_at(cycle.sweep, cycle.path, u, targets).columns for u in (at, fine)]
+    made = []
+    for each in measures:
+        quantity = BY_TARGET[each.targets[0][0]]
+        letter = symbol(f"{quantity.letter}_{lettered(each.of)}")
+        size = quantity.sort == "vector"
+        here, between = (each.value(columns) for columns in both)
+        text = f"|{letter}|" if size else letter
+        name = f"{quantity.letter}_{each.of}"
+        made.append(Asked(text, each.unit, name, quantity.kind, here, between))
+    return made
+
+
+def course_pages(found: PositionSet, motion: FollowerMotion | None) -> list[Callable[[str], Page]]:
+    """The sheets of all that the scene asks for, each waiting for its number."""
+    at = found.planned_places
+    fine = np.linspace(at[0], at[-1], FINE + 1)
+    every = asked_courses(found, at, fine)
+    every += of_follower(motion, at, fine) if motion else []
+    per = COLUMNS * ROWS
+    parts = [every[i : i + per] for i in range(0, len(every), per)]
+    return [partial(course_page, found, at, fine, part) for part in parts]
+
+
+def course_page(
+    found: PositionSet, at: Reals, fine: Reals, some: Sequence[Asked], number: str
+) -> Page:
+    """A sheet of diagrams from the plans: crosses at the positions on the exact courses."""
+    drawing, words = found.shown.alone, found.shown.alone.words
+    columns = min(COLUMNS, len(some))
+    rows = ceil(len(some) / columns)
+    wide, high = (FIELD[2] - FIELD[0]) / columns, (FIELD[3] - TOP) / rows
+    marks: list[Mark] = []
+    for index, each in enumerate(some):
+        row, column = divmod(index, columns)
+        left, top = FIELD[0] + column * wide + 12, TOP + row * high + 3
+        rect = left, top, left + wide - 24, top + high - 10
+        marks += small_diagram(found, at, fine, each, rect)
+    whole: list[Mark] = [
+        *framed(drawing, number, words("sheet.document_diagrams"), "–"),
+        *heading(found, drawing, words("sheet.courses")),
+        Text(
+            *(FIELD[0] + 3, FIELD[1] - 2.2, words("diagrams.crosses"), "caption", LETTERS),
+            name="heading",
+        ),
+        *marks,
+        LineMark(FIELD[0], FIELD[3], FIELD[2], FIELD[3], "panel"),
+        *places_table(found, found.numbered, advantage_said(words, some)),
+        *proof(found),
+    ]
+    title = f"{words('sheet.courses')} – {title_of(drawing)}"
+    return Page(420, 297, tuple(whole), title, words.language)
+
+
+def advantage_said(words: Words, some: Sequence[Asked]) -> list[str]:
+    """The sentence on the mechanical advantage, if a sheet shows it."""
+    shown = [each for each in some if each.most is not None]
+    return [words("diagrams.advantage", ratio=each.symbol) for each in shown]
+
+
+def small_diagram(
+    found: PositionSet, at: Reals, fine: Reals, each: Asked, rect: Rect
+) -> Iterator[Mark]:
+    """One diagram: axes, the exact course, and the values of the plans."""
+    left, top, right, low = rect
+    most = each.most or calm(found, each.fine)
+    known = np.clip(each.fine[np.isfinite(each.fine)], -most, most)
+    least, highest = min(float(known.min()), 0.0), max(float(known.max()), 0.0)
+    high = FILLED * (low - top) / (highest - least or 1.0)
+    wide = (right - left) / float(at[-1] - at[0])
+    zero = (top + low) / 2 + (highest + least) / 2 * high
+    axes = Axes(rect, zero, wide, high, float(at[0]))
+    yield LineMark(left, zero, right + ARROW, zero, "dimension", f"axis {each.name}")
+    yield head((left, zero), (right + ARROW, zero), "dimension", f"axis {each.name}")
+    yield LineMark(left, low, left, top - ARROW / 2, "dimension", f"axis {each.name}")
+    yield head((left, low), (left, top - ARROW / 2), "dimension", f"axis {each.name}")
+    unit = each.unit.replace("²", "^2").replace("³", "^3")
+    yield Text(left + 1.8, top - 0.6, f"{each.symbol}, {unit}", "caption", LETTERS, name=each.name)
+    yield from numbers_along(found.shown.alone.words, axes, each.name, 1.0, 4)
+    both = zip(fine, each.fine, strict=True)
+    yield from curve(axes, [axes.place(float(u), float(v)) for u, v in both], each.kind, each.name)
+    names = position_names(found, at)
+    for name, u, value in zip(names, at, each.at_positions, strict=True):
+        x, y = axes.on_page(axes.place(float(u), float(value)))
+        if isfinite(y) and top <= y <= low:
+            for way in (1, -1):
+                ends = (x - CROSS, y - way * CROSS, x + CROSS, y + way * CROSS)
+                yield LineMark(*ends, f"centre {each.kind}", at_position(each.name, name))
+        yield LineMark(x, zero - 0.8, x, zero + 0.8, "dimension", f"position {name}")
+        if len(names) <= MANY or int(name) % 2 == 0:
+            number = Text(x, zero + 3.2, name, "caption", SMALL, "middle", f"position {name}")
+            yield from cleared(number)

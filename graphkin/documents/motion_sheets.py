@@ -1,0 +1,68 @@
+"""The sheets of a whole motion: the mechanism in its positions, their plans, and diagrams."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from functools import partial
+
+from graphkin.construction.core.quantities import SHEETS
+from graphkin.documents.positions import PositionSet, positions_of
+from graphkin.documents.positions_plans import hodograph_page, hodographs, plan_page
+from graphkin.documents.positions_sheet import at_scale, positions_page
+from graphkin.drawing.marks import Page
+from graphkin.mechanism import Mechanism
+from graphkin.text import Words
+from graphkin.text.errors import Problem, SceneError, message
+
+Made = tuple[str, Callable[[str], Page]]
+"""A kind of sheet, and a page that waits for its number."""
+
+
+def motion_sheets(
+    mechanism: Mechanism, view: str, words: Words
+) -> list[tuple[str, tuple[Page, ...]]]:
+    """The sheets of a view of a whole motion by kind. Raises as ``positions_of`` does."""
+    found = positions_of(mechanism, words)
+    made = [*(position_sheets(found) if view == "positions" else diagram_sheets(found))]
+    if not made:
+        raise SceneError(
+            Problem(
+                f"--view {view}",
+                message("nothing follows the driver, and [ask] has no velocity or acceleration"),
+                message("a link on the frame, a block, or a point that is asked for"),
+            )
+        )
+    pages: dict[str, tuple[Page, ...]] = {}
+    for number, (kind, page) in enumerate(made, 1):
+        pages[kind] = (*pages.get(kind, ()), page(f"{number}/{len(made)}"))
+    return [*pages.items()]
+
+
+def position_sheets(found: PositionSet) -> Iterator[Made]:
+    """The mechanism in all positions, and their plans."""
+    kL = at_scale(found).alone.scales.kL
+    yield "mechanism", partial(positions_page, found)
+    for kind in SHEETS:
+        if found.planned(kind):
+            yield kind, partial(plan_page, found, kind, kL)
+
+
+def diagram_sheets(found: PositionSet) -> Iterator[Made]:
+    """Differentiation and integration by chords, all that is asked, and the hodographs."""
+    from graphkin.documents.diagram_numbers import motion_of
+    from graphkin.documents.diagrams_sheet import (
+        course_pages,
+        differentiation_page,
+        integration_page,
+    )
+
+    motion = motion_of(found)
+    if motion is not None:
+        yield "differentiation", partial(differentiation_page, motion)
+        yield "integration", partial(integration_page, motion)
+    for page in course_pages(found, motion):
+        yield "courses", page
+    kL = at_scale(found).alone.scales.kL
+    for kind in SHEETS:
+        if found.planned(kind) and hodographs(found, kind):
+            yield "hodographs", partial(hodograph_page, found, kind, kL)

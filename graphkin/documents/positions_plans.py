@@ -1,0 +1,412 @@
+"""The plans of all positions at one scale: each from its own pole, or all from one."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping, Sequence
+from math import ceil
+
+import numpy as np
+from msgspec import Struct
+from msgspec.structs import replace
+
+from graphkin.construction.bare_plan import bare_plan, is_point
+from graphkin.construction.core.drawn_scene import Drawing
+from graphkin.construction.core.layout import centre
+from graphkin.construction.core.naming import scale_of
+from graphkin.construction.core.paper_canvas import clipped_path
+from graphkin.construction.core.relation import figure
+from graphkin.documents.composing import STILL_LARGER
+from graphkin.documents.positions import (
+    SAMPLES,
+    Position,
+    PositionSet,
+    at_position,
+    is_whole,
+    numbers_of,
+)
+from graphkin.documents.positions_sheet import (
+    FIELD,
+    MANY,
+    document,
+    framed,
+    heading,
+    placed,
+    places_table,
+    proof,
+    touching,
+)
+from graphkin.documents.sheet import title_of
+from graphkin.drawing.field import Field, Rect
+from graphkin.drawing.labels import FieldContent, Label
+from graphkin.drawing.marks import CircleMark, LineMark, Mark, Page, SharedLetter, Text
+from graphkin.drawing.richtext import extent
+from graphkin.drawing.scale import Extent, Scales, extent_of, preferred
+from graphkin.drawing.style import BRIEF
+from graphkin.drawing.symbol_markup import symbol
+from graphkin.drawing.symbols import PIN
+from graphkin.motion.cycle import columns_at
+from graphkin.numbers.plane import Vector
+from graphkin.scene.link_points import lettered
+
+NAMES = {"velocity": "sheet.velocity_plans", "acceleration": "sheet.acceleration_plans"}
+"""The keys of the names of these sheets."""
+HODOGRAPHS = {"velocity": "positions.hodographs_v", "acceleration": "positions.hodographs_a"}
+"""The keys of the captions of hodographs."""
+SIDE, ABOVE, BELOW = 8.0, 10.0, 6.0
+"""Room around a plan in its cell for letters, and above it for its number, in mm."""
+LEAST = 28.0
+"""Least width and height of a cell in mm."""
+DOT, SMALL = 0.7, 0.5
+"""Radius of a point of a plan, and of a numbered one, in mm."""
+
+
+def plan_page(found: PositionSet, kind: str, kL: float, number: str) -> Page:
+    """The sheet of the plans of one kind, which some positions have."""
+    some = found.planned(kind)
+    one = found.wanted.one_pole
+    make = from_one_pole if one else from_own_poles
+    scales, marks = make(found, some, kind, kL)
+    drawing = replace(some[0].plans[kind], scales=scales)
+    words = drawing.words
+    name = words(NAMES[kind])
+    whole: list[Mark] = [
+        *framed(drawing, number, document(drawing, kind), caption_scale(drawing)),
+        *heading(found, drawing, name),
+        *caption(drawing, one=one),
+        *marks,
+        LineMark(FIELD[0], FIELD[3], FIELD[2], FIELD[3], "panel"),
+        *places_table(found, found.numbered, told(found, kind)),
+        *proof(found),
+    ]
+    return Page(420, 297, tuple(whole), f"{name} – {title_of(drawing)}", words.language)
+
+
+def caption_scale(drawing: Drawing) -> str:
+    """The entry of the title block for the scale: that of the plan."""
+    unit = "(m/s)/mm" if drawing.kind == "velocity" else "(m/s^2)/mm"
+    return f"{figure(drawing, scale_of(drawing, drawing.plane) / 1000)} {unit}"
+
+
+def caption(drawing: Drawing, *, one: bool) -> Iterator[Mark]:
+    """The caption of the field: the scale of all plans, and where their poles are."""
+    words = drawing.words
+    k = figure(drawing, scale_of(drawing, drawing.plane) / 1000)
+    said = words(f"page.{drawing.kind}_heading", k=k)
+    pole = words("positions.one_pole" if one else "positions.own_poles")
+    yield Text(FIELD[0] + 3, FIELD[1] - 2.2, f"{said};  {pole}", "caption", 2.5, name="heading")
+
+
+def told(found: PositionSet, kind: str) -> list[str]:
+    """What the sheet says below its table: positions without a plan, kinds of components."""
+    words = found.shown.alone.words
+    some = {each.name for each in found.planned(kind)}
+    without = [e.name for e in found.numbered if not e.plans]
+    asked = [e.name for e in found.numbered if e.plans and e.name not in some]
+    said: list[str] = []
+    if without:
+        said.append(words("positions.without", list=words("list_mark").join(without)))
+    if asked:
+        said.append(words("positions.not_asked", list=words("list_mark").join(asked)))
+    if kind == "acceleration":
+        said.append(words("positions.components"))
+    return said
+
+
+# --- the scale of all plans -----------------------------------------------------------------------
+
+
+def rates(scales: Scales, kind: str) -> float:
+    """Millimetres for one unit of a plan."""
+    return 1000 / scales.kL * scales.metres(kind)
+
+
+def fitted(found: PositionSet, kind: str, kL: float, most: float) -> Scales:
+    """The scale factors of the largest plans, of at most some mm for one unit of the plan.
+
+    With a crank the plans follow its rule; otherwise the factor is a round number.
+    """
+    base = found.planned(kind)[0].plans[kind].scales
+    if base.of_crank:
+        alone = rates(replace(base, kL=kL), kind)
+        times = next(
+            (m for m in sorted({*STILL_LARGER, *FINER}, reverse=True) if m * alone <= most),
+            most / alone,
+        )
+        larger = {"larger": times} if kind == "velocity" else {"larger_still": times}
+        return replace(base, kL=kL, **larger)
+    factor = next(preferred(1 / most))
+    seconds = kL / (1000 * factor)
+    own = seconds if kind == "velocity" else seconds**0.5
+    return Scales(kL, own, triangles=False)
+
+
+FINER = (0.01, 0.005, 0.002, 0.001)
+"""Further factors for plans with very long vectors."""
+
+
+def box_of_plan(drawing: Drawing) -> Extent:
+    """The box of a plan in its own unit, pole included, without auxiliary plans."""
+    points, aside = [0j], drawing.auxiliary
+    for number, step, value in drawing.steps(drawing.plane):
+        if number in aside or step.aside is not None:
+            continue
+        if isinstance(value, Vector) and step.arrow:
+            points += [value.tail, value.tip]
+        elif is_point(step) and isinstance(value, complex):
+            points.append(value)
+    return extent_of(points)
+
+
+# --- each plan from its own pole ------------------------------------------------------------------
+
+
+class PlanGrid(Struct, frozen=True):
+    """A division of the field into cells: columns, rows, and mm for one unit of the plans."""
+
+    columns: int
+    rows: int
+    most: float
+
+    def cell(self, index: int) -> Rect:
+        """The cell of a plan, row by row."""
+        row, column = divmod(index, self.columns)
+        wide, high = (FIELD[2] - FIELD[0]) / self.columns, (FIELD[3] - FIELD[1]) / self.rows
+        left, top = FIELD[0] + column * wide, FIELD[1] + row * high
+        return left, top, left + wide, top + high
+
+
+def grid_for(boxes: Sequence[Extent]) -> PlanGrid:
+    """The division in which the largest of the plans is drawn largest."""
+    found = []
+    for columns in range(1, len(boxes) + 1):
+        rows = ceil(len(boxes) / columns)
+        wide, high = (FIELD[2] - FIELD[0]) / columns, (FIELD[3] - FIELD[1]) / rows
+        if min(wide, high) < LEAST:
+            continue
+        sides = [
+            room / size
+            for box in boxes
+            for room, size in (
+                (wide - 2 * SIDE, box.width),
+                (high - ABOVE - BELOW, box.height),
+            )
+            if size > 0
+        ]
+        found.append(PlanGrid(columns, rows, min(sides, default=1.0)))
+    return max(found, key=lambda grid: grid.most)
+
+
+def from_own_poles(
+    found: PositionSet, some: Sequence[Position], kind: str, kL: float
+) -> tuple[Scales, list[Mark]]:
+    """The plans in a grid, each from its own pole with the letters of its points."""
+    boxes = [box_of_plan(each.plans[kind]) for each in some]
+    grid = grid_for(boxes)
+    scales = fitted(found, kind, kL, grid.most)
+    numbers = dict(zip((e.name for e in found.every), numbers_of(found), strict=True))
+    marks: list[Mark] = [*lines(grid, len(some))]
+    for index, (each, box) in enumerate(zip(some, boxes, strict=True)):
+        left, top, right, low = rect = grid.cell(index)
+        middle = (left + right) / 2, (top + ABOVE + low - BELOW) / 2
+        field = Field(rect, rates(scales, kind), box.middle, middle)
+        board = bare_plan(replace(each.plans[kind], scales=scales), field)
+        board.labels = [replace(label, height=2.5) for label in board.labels]
+        board.marks += number_of(found, each, rect, numbers[each.name])
+        marks += (
+            replace(mark, name=" ".join(at_position(n, each.name) for n in mark.name.split()))
+            for mark in board.finish()
+        )
+    return scales, marks
+
+
+def lines(grid: PlanGrid, count: int) -> Iterator[Mark]:
+    """The lines between the cells that hold a plan."""
+    for index in range(count):
+        left, top, right, low = grid.cell(index)
+        if (index + 1) % grid.columns and index + 1 < count:
+            yield LineMark(right, top + 1, right, low - 1, "panel")
+        if index >= grid.columns:
+            yield LineMark(left + 1, top, right - 1, top, "panel")
+
+
+def number_of(found: PositionSet, each: Position, rect: Rect, place: str) -> Iterator[Mark]:
+    """The number of a plan's position, with the place of the driver."""
+    sweep = found.cycle.sweep
+    unit = "°" if sweep.what == "turn" else " " + (sweep.original.units["length"])
+    unit = " s" if sweep.driver is None else unit
+    yield Text(rect[0] + 3, rect[1] + 6, each.name, "caption", 3.5, name="number")
+    beside = rect[0] + 5 + extent(each.name, 3.5)[0]
+    yield Text(beside, rect[1] + 6, f"{place}{unit}", "caption", 2.5, name="place")
+
+
+# --- all plans from one pole ----------------------------------------------------------------------
+
+
+def points_of(drawing: Drawing) -> dict[str, complex]:
+    """The points of a plan by their letters, without the pole."""
+    return {
+        step.name: complex(value)
+        for _, step, value in drawing.steps(drawing.plane)
+        if is_point(step) and isinstance(value, complex) and step.name != drawing.pole
+    }
+
+
+def from_one_pole(
+    found: PositionSet, some: Sequence[Position], kind: str, kL: float
+) -> tuple[Scales, list[Mark]]:
+    """The plans from one pole: the strong one whole, of the others the vectors to their points.
+
+    The numbered tips lie on the hodographs.
+    """
+    strong = next((each for each in some if each.name == found.shown.name), some[0])
+    points = {each.name: points_of(each.plans[kind]) for each in some}
+    curves = hodographs(found, kind)
+    boxes = [box_of_plan(each.plans[kind]) for each in some]
+    box = extent_of([corner for each in boxes for corner in corners(each)])
+    wide, high = FIELD[2] - FIELD[0] - 4 * SIDE, FIELD[3] - FIELD[1] - 2 * ABOVE
+    scales = fitted(found, kind, kL, min(wide / (box.width or 1), high / (box.height or 1)))
+    field = Field(FIELD, rates(scales, kind), box.middle, centre(FIELD))
+    board = FieldContent(FIELD)
+    for name, curve in curves.items():
+        on_page = [field(place) for place in curve]
+        board.marks += clipped_path(on_page, FIELD, "trajectory", f"hodograph {name}")
+    pole = field(0j)
+    for each in some:
+        for name, tip in points[each.name].items():
+            if each.name != strong.name:
+                line = LineMark(*pole, *field(tip), f"{kind} {BRIEF}", at_position(name, each.name))
+                board.marks.append(line)
+    whole = bare_plan(replace(strong.plans[kind], scales=scales), field)
+    board.marks += whole.marks
+    pole_name = strong.plans[kind].pole
+    board.labels += [numbered(label, strong.name, pole_name) for label in whole.labels]
+    height = 1.8 if len(some) >= MANY else 2.5
+    others = [each for each in some if each.name != strong.name]
+    numbers: list[Label] = []
+    for name in points[strong.name]:
+        pins = [(e, field(points[e.name][name])) for e in others if name in points[e.name]]
+        look = f"point {kind}"
+        board.marks += [CircleMark(*at, SMALL, look, at_position(name, e.name)) for e, at in pins]
+        for group in touching(pins, 2 * DOT):
+            each, at = group[len(group) // 2]
+            text = ", ".join(e.name for e, _ in group)
+            named = " ".join(at_position(name, e.name) for e, _ in group)
+            away = way(pole, at)
+            numbers.append(Label(text, kind, at, height, named, away=away, radius=SMALL))
+    letters = [*placed(board, [], board.labels)]
+    return scales, [*board.marks, *letters, *placed(board, letters, numbers)]
+
+
+def corners(box: Extent) -> tuple[complex, complex]:
+    return complex(box.left, box.bottom), complex(box.right, box.top)
+
+
+def numbered(label: Label, number: str, pole: str) -> Label:
+    """The label of the strong plan's points with their number; the pole has none."""
+    letters = tuple(
+        each
+        if each.name == pole
+        else SharedLetter(name := at_position(each.name, number), symbol(name), each.joint)
+        for each in label.letters
+    )
+    return replace(label.of_letters(letters), priority=3)
+
+
+def way(start: tuple[float, float], end: tuple[float, float]) -> tuple[float, float] | None:
+    """The unit direction from one place to another; None if they are one."""
+    far = ((end[0] - start[0]) ** 2 + (end[1] - start[1]) ** 2) ** 0.5
+    return None if far < DOT else ((end[0] - start[0]) / far, (end[1] - start[1]) / far)
+
+
+def hodographs(found: PositionSet, kind: str) -> Mapping[str, tuple[complex, ...]]:
+    """The hodographs of the asked points: the tips of their vectors from one pole."""
+    asked = getattr(found.cycle.scene.ask, kind)
+    known = found.cycle.path.ranges[0][0].course.program.targets
+    targets = [(kind, name) for name in asked if (kind, name) in known]
+    if not targets:
+        return {}
+    at = [each.at for each in found.planned(kind)]
+    low, high = found.cycle.ranges[0] if is_whole(found.cycle) else (min(at), max(at))
+    some = np.linspace(low, high, 2 * SAMPLES + 1)
+    columns = columns_at(found.cycle.sweep, found.cycle.path, some, targets).columns
+    rows = {name: columns[kind, name] for _, name in targets}
+    return {name: tuple(complex(z) for z in r[np.isfinite(r)]) for name, r in rows.items()}
+
+
+# --- the hodograph of each asked point ------------------------------------------------------------
+
+
+def hodograph_page(found: PositionSet, kind: str, kL: float, number: str) -> Page:
+    """The hodographs of the asked points for one kind of vector, each from its own pole."""
+    some, curves = found.planned(kind), hodographs(found, kind)
+    tips = {
+        point: [(each, complex(each.plans[kind].trace.value(kind, point))) for each in some]
+        for point in curves
+    }
+    boxes = [extent_of([0j, *curves[point], *(z for _, z in tips[point])]) for point in curves]
+    grid = grid_for(boxes)
+    scales = fitted(found, kind, kL, grid.most)
+    drawing = replace(some[0].plans[kind], scales=scales)
+    words = drawing.words
+    marks: list[Mark] = [*lines(grid, len(curves))]
+    for index, ((point, curve), box) in enumerate(zip(curves.items(), boxes, strict=True)):
+        left, top, right, low = rect = grid.cell(index)
+        middle = (left + right) / 2, (top + ABOVE + low - BELOW) / 2
+        field = Field(rect, rates(scales, kind), box.middle, middle)
+        marks += hodograph(drawing, field, point, curve, tips[point])
+    name = words("sheet.hodographs")
+    whole: list[Mark] = [
+        *framed(drawing, number, words("sheet.hodographs"), caption_scale(drawing)),
+        *heading(found, drawing, name),
+        *hodograph_caption(drawing),
+        *marks,
+        LineMark(FIELD[0], FIELD[3], FIELD[2], FIELD[3], "panel"),
+        *places_table(found, found.numbered, []),
+        *proof(found),
+    ]
+    return Page(420, 297, tuple(whole), f"{name} – {title_of(drawing)}", words.language)
+
+
+def hodograph_caption(drawing: Drawing) -> Iterator[Mark]:
+    """The caption of the field: the scale of the vectors."""
+    k = figure(drawing, scale_of(drawing, drawing.plane) / 1000)
+    said = drawing.words(HODOGRAPHS[drawing.kind], k=k)
+    yield Text(FIELD[0] + 3, FIELD[1] - 2.2, said, "caption", 2.5, name="heading")
+
+
+def hodograph(
+    drawing: Drawing,
+    field: Field,
+    point: str,
+    curve: Sequence[complex],
+    tips: Sequence[tuple[Position, complex]],
+) -> Iterator[Mark]:
+    """The hodograph of one point: the curve, the vectors from the pole, numbers at their tips."""
+    kind, letter = drawing.kind, drawing.vector.letter
+    board = FieldContent(field.rect)
+    on_page = [field(place) for place in curve]
+    board.marks += clipped_path(on_page, field.rect, "trajectory", f"hodograph {point}")
+    pole, pins = field(0j), [(each, field(tip)) for each, tip in tips]
+    for each, at in pins:
+        name = at_position(f"{letter}_{lettered(point)}", each.name)
+        board.marks.append(LineMark(*pole, *at, f"{kind} {BRIEF}", name))
+        board.marks.append(CircleMark(*at, SMALL, f"point {kind}", name))
+    board.marks.append(CircleMark(*pole, PIN, f"pole {kind}", f"pole {point}"))
+    head = symbol(f"{letter}_{lettered(point)}")
+    board.marks.append(
+        Text(field.rect[0] + 3, field.rect[1] + 6, head, "caption", 3.5, name=f"hodograph {point}")
+    )
+    numbers = [
+        Label(
+            ", ".join(each.name for each, _ in group),
+            kind,
+            group[len(group) // 2][1],
+            1.8 if len(tips) >= MANY else 2.5,
+            " ".join(at_position(f"{letter}_{lettered(point)}", each.name) for each, _ in group),
+            away=way(pole, group[len(group) // 2][1]),
+            radius=SMALL,
+        )
+        for group in touching(pins, 2 * DOT)
+    ]
+    yield from board.marks
+    yield from placed(board, [], numbers)

@@ -1,0 +1,567 @@
+"""The sheet of positions: the mechanism in all of them, paths of points, dead points, the stroke.
+
+One position is drawn strongly, with all its symbols. The others are thin, with numbered pins.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from functools import reduce
+from itertools import pairwise
+from math import acos, cos, degrees, dist, hypot, inf, pi, radians, sin
+
+import numpy as np
+from msgspec.structs import replace
+
+from graphkin.construction.core.drawn_scene import Drawing
+from graphkin.construction.core.given_data import data
+from graphkin.construction.core.layout import centre
+from graphkin.construction.core.naming import angle_symbol, length_scale
+from graphkin.construction.core.paper_canvas import above_foot, clipped_path
+from graphkin.construction.frame_over_motion import standing, travelling
+from graphkin.construction.guides.rails import places_of, rails_of
+from graphkin.construction.links.link_numbers import settle_in_plates
+from graphkin.construction.links.link_shapes import corners_of, farthest, is_all_wheel
+from graphkin.construction.links.mechanism_symbols import (
+    draw_bars,
+    draw_ground,
+    draw_pins,
+    draw_plates,
+)
+from graphkin.documents.positions import (
+    Position,
+    PositionSet,
+    at_position,
+    is_whole,
+    numbers_of,
+)
+from graphkin.documents.sheet import in_lines, in_table, title_block, title_line, title_of
+from graphkin.drawing.clearance import pieces_of
+from graphkin.drawing.field import A3_TITLE_BLOCK, AREA, XY, Field, Rect
+from graphkin.drawing.frame import sheet_frame
+from graphkin.drawing.labels import FieldContent, Label
+from graphkin.drawing.marks import (
+    Arc,
+    CircleMark,
+    LineMark,
+    Mark,
+    Page,
+    Text,
+    box,
+    polygon,
+    style_class,
+)
+from graphkin.drawing.richtext import flowed
+from graphkin.drawing.scale import Extent, Scales, preferred_scales
+from graphkin.drawing.shapes import Array, struck
+from graphkin.drawing.symbol_markup import escape, symbol
+from graphkin.drawing.symbols import PIN, across, distance, head, toward
+from graphkin.motion.follower_limits import Follower
+from graphkin.scene.model import FRAME
+from graphkin.text.errors import PageError
+
+FIELD: Rect = (AREA[0], AREA[1], AREA[2], A3_TITLE_BLOCK[1] - 2)
+"""The field of the mechanism in all positions, in mm."""
+AROUND, OVER = 22.0, 17.0
+"""Room at the sides of the drawing, and above and below it, for numbers and the stroke, in mm."""
+DOT, FINE_DOT = 0.7, 0.5
+"""Radius of a numbered pin in mm, and where many are drawn."""
+CROWD = 80
+"""Number of labels from which none gets a leader."""
+MANY = 16
+"""Number of positions from which numbers are as small as lettering allows."""
+ASIDE, BEYOND = 13.0, 1.5
+"""Distance of the stroke's dimension from the path, and length of extension lines beyond it, mm."""
+SHARE = 0.45
+"""Radius of the arc of a swing, as a share of the link."""
+TRIES = 18
+"""Number of places tried for a dimension on each side of its path."""
+WEAK, DEAD = "weak-link", "dead-link"
+"""Classes of the links in the other positions, and at dead points."""
+LIGHT = (WEAK, DEAD, "trajectory", "centre-line")
+"""Classes of thin lines that a letter may interrupt."""
+AIR = 0.3
+"""Room around a letter that interrupts lines, in mm."""
+LEVEL = 1e-3
+"""Breadth of a path, as a share of its length squared, below which it is run to and fro."""
+
+
+def positions_page(found: PositionSet, number: str) -> Page:
+    """The sheet of the mechanism in all positions."""
+    strong = at_scale(found)
+    drawing, words = strong.alone, strong.alone.words
+    field = field_of(found, drawing)
+    board, numbers = drawn(found, strong, field)
+    letters = [*placed(board, [], board.labels)]
+    numerals = [*placed(board, letters, numbers)]
+    marks: list[Mark] = [
+        *framed(
+            drawing, number, document(drawing, "mechanism"), words.decimal(drawing.scales.words)
+        ),
+        *heading(found, drawing, words("sheet.positions")),
+        *caption(found, drawing),
+        *board.marks,
+        *letters,
+        *numerals,
+        LineMark(FIELD[0], FIELD[3], FIELD[2], FIELD[3], "panel"),
+        *places_table(found, found.every, legend(found, whole=is_whole_set(numbers, numerals))),
+        *proof(found),
+    ]
+    title = f"{title_of(drawing)} – {words('sheet.positions')}"
+    return Page(420, 297, tuple(marks), title, words.language)
+
+
+def framed(drawing: Drawing, number: str, document: str, scale: str) -> Sequence[Mark]:
+    """The frame of a sheet, with the type of document and the scale in its title block."""
+    block = title_block(drawing, "positions", number)
+    return sheet_frame(replace(block, document_type=document, scale=scale))
+
+
+def document(drawing: Drawing, kind: str) -> str:
+    """The type of document of a sheet of positions: the mechanism, or a kind of plan."""
+    return drawing.words(f"sheet.document_{kind}", view=drawing.words("sheet.positions_view"))
+
+
+def heading(found: PositionSet, drawing: Drawing, name: str) -> list[Mark]:
+    """The title of a sheet and the data of the mechanism, as far as they have room."""
+    own = replace(drawing, scene=found.cycle.scene)
+    marks, x, y = title_line(own, named=name)
+    given = data(own, solved=False, laws=True)
+    try:
+        return [*marks, *(in_table(given, x, y) or in_lines(own, given, x, y, float))]
+    except PageError:
+        return marks
+
+
+def proof(found: PositionSet) -> Iterator[Mark]:
+    """The sentence of the residual check at the foot of a sheet."""
+    words = found.shown.alone.words
+    text = words("page.verified", difference=words.significant(found.difference, 2))
+    yield Text(AREA[0] + 2, A3_TITLE_BLOCK[3] - 1.2, text, "caption", 1.8, name="witness")
+
+
+# --- scale and field ------------------------------------------------------------------------------
+
+
+def box_of(found: PositionSet) -> Extent:
+    """The box of the mechanism in all positions with the paths of its points."""
+    boxes = [each.alone.bare_extent() for each in found.every]
+    places = [place for path in found.paths.values() for place in path]
+    return reduce(Extent.joined, boxes).grown(places)
+
+
+def at_scale(found: PositionSet) -> Position:
+    """The strong position at the largest preferred scale at which all positions fit."""
+    whole = box_of(found)
+    wide, high = FIELD[2] - FIELD[0] - 2 * AROUND, FIELD[3] - FIELD[1] - 2 * OVER
+    least = 1000 * max(whole.width / wide, whole.height / high)
+    kL = next(preferred_scales(least))
+    stated = found.cycle.scene.sheet.scale
+    own = float(stated.number(found.cycle.scene.values)) if stated is not None else 0.0
+    scales = Scales(own if own >= least else kL, 1.0)
+    return replace(found.shown, alone=replace(found.shown.alone, scales=scales))
+
+
+def field_of(found: PositionSet, drawing: Drawing) -> Field:
+    """The field of the mechanism, with all positions in its middle."""
+    return Field(FIELD, 1000 / drawing.scales.kL, box_of(found).middle, centre(FIELD))
+
+
+def caption(found: PositionSet, drawing: Drawing) -> Iterator[Mark]:
+    """The caption of the field: the scale, and what is drawn how."""
+    words = drawing.words
+    count = len(found.numbered) if is_whole(found.cycle) else len(found.numbered) - 1
+    scale, kL = words.decimal(drawing.scales.words), f"{length_scale(drawing)} m/mm"
+    said = words("page.mechanism_heading", scale=scale, kL=kL)
+    more = words("positions.strong", number=found.shown.name, count=count)
+    text = f"{said};  {more}"
+    yield Text(FIELD[0] + 3, FIELD[1] - 2.2, text, "caption", 2.5, name="heading")
+
+
+# --- the mechanism in all positions ---------------------------------------------------------------
+
+
+def drawn(found: PositionSet, strong: Position, field: Field) -> tuple[FieldContent, list[Label]]:
+    """The field with all but the numbers of pins, and these numbers.
+
+    It holds paths, thin positions, dead points, the strong position and the stroke.
+    """
+    board = FieldContent(field.rect)
+    board.marks += paths(found, field)
+    draw_plates(board, strong.alone, field)
+    board.marks += over_motion(found, field)
+    for each in found.numbered:
+        if each.name != strong.name:
+            board.marks += outlines(each, field, WEAK)
+    for each in found.dead:
+        board.marks += outlines(each, field, DEAD)
+    draw_strong(board, found, strong, field)
+    numbers = [
+        *number_pins(board, found, strong, field),
+        *turn_followers_back(board, found, strong, field),
+    ]
+    draw_stroke(board, found, field)
+    return board, numbers
+
+
+def placed(board: FieldContent, shown: Sequence[Mark], labels: Sequence[Label]) -> Iterator[Mark]:
+    """Labels at free places of a field, clear of its marks and of some already ``shown``.
+
+    A label without such a place interrupts thin lines, as a hand leaves them out there. Of many
+    labels none has a leader, and those for which this leaves no room either are left out.
+    """
+    many = len(labels) > CROWD
+    some = [replace(label, optional=many) for label in labels]
+    spots = board.spots(shown, some)
+    marks = [m for k, spot in zip(some, spots, strict=True) if spot.free for m in k.marks(spot)]
+    yield from marks
+    lost = [label for label, spot in zip(some, spots, strict=True) if not spot.free]
+    if not lost:
+        return
+    heavy = replace(board, marks=[m for m in board.marks if style_class(m) not in LIGHT])
+    for label, spot in zip(lost, heavy.spots([*shown, *marks], lost), strict=True):
+        if spot.free:
+            left_of, top, right, low = label.area(spot)
+            yield box(
+                left_of - AIR, top - AIR, right - left_of + 2 * AIR, low - top + 2 * AIR, "white"
+            )
+            yield from label.marks(spot)
+
+
+def is_whole_set(numbers: Sequence[Label], marks: Sequence[Mark]) -> bool:
+    """Whether every number has found a place."""
+    return len(numbers) == sum(isinstance(mark, Text) for mark in marks)
+
+
+def paths(found: PositionSet, field: Field) -> Iterator[Mark]:
+    """The paths of the moving points."""
+    for point, path in found.paths.items():
+        on_page = [field(place) for place in path]
+        yield from clipped_path(on_page, above_foot(field.rect), "trajectory", f"path {point}")
+
+
+def over_motion(found: PositionSet, field: Field) -> Iterator[Mark]:
+    """The guides, slots and tracks of the frame, as long as all positions need them."""
+    left, top, right, low = field.rect
+    inner = replace(field, rect=(left + 3, top + 3, right - 3, low - 3))
+    yield from standing([each.alone for each in found.every], inner)
+
+
+def outlines(position: Position, field: Field, look: str) -> Iterator[Mark]:
+    """The links at one position as thin lines: bars, plates, guides, wheels that travel."""
+    drawing = position.alone
+    centres = {*drawing.scene.cam_centres}
+    for link in drawing.scene.links.values():
+        name = at_position(link.name, position.name)
+        unseen = link.name in drawing.scene.unseen or not centres.isdisjoint(link.points)
+        if unseen or is_all_wheel(drawing, link.name):
+            continue
+        places, corners = places_of(drawing, link.name), corners_of(drawing, link)
+        if corners is not None:
+            yield polygon(tuple(field(place) for place in corners), look, name)
+        elif len(places) > 1:
+            first, last = farthest(places)
+            if abs(last - first) * field.mm > 0.1:
+                yield LineMark(*field(first), *field(last), look, name)
+    for rail in rails_of(drawing):
+        if rail.owner != FRAME and rail.marks:
+            along = [rail.along_of(place) for place in places_of(drawing, rail.owner)]
+            ends = [*rail.marks, *along]
+            low, high = field(rail.at(min(ends))), field(rail.at(max(ends)))
+            if distance(low, high) > 0.1:
+                yield LineMark(*low, *high, look, at_position(rail.owner, position.name))
+    for disc in drawing.standing.discs:
+        own = drawing.scene.link(disc.link)
+        if disc.link != FRAME and disc.wheel.centre not in drawing.scene.fixed_points:
+            name, at = at_position(disc.link, position.name), field(disc.centre)
+            yield CircleMark(*at, disc.radius * field.mm, look, name)
+            for place in (drawing.positions.get(point) for point in own.points):
+                if place is not None and abs(place - disc.centre) * field.mm > DOT:
+                    yield LineMark(*at, *field(place), look, name)
+
+
+def draw_strong(board: FieldContent, found: PositionSet, strong: Position, field: Field) -> None:
+    """Draw the strong position above its plates, its letters numbered like its pins."""
+    drawing, own = strong.alone, FieldContent(field.rect)
+    same = travelling(drawing, field)
+    draw_ground(own, drawing, field)
+    draw_bars(own, drawing, field)
+    draw_pins(own, drawing, field)
+    settle_in_plates(own)
+    board.marks += [mark for mark in own.marks if mark not in same]
+    board.taken += own.taken
+    names = {name: at_position(name, strong.name) for name in found.moving}
+    for label in own.labels:
+        name = "" if label.ring else names.get(label.name, "")
+        numbered = replace(label, markup=symbol(name), name=name, priority=4)
+        board.labels.append(numbered if name else label)
+
+
+def number_pins(
+    board: FieldContent, found: PositionSet, strong: Position, field: Field
+) -> list[Label]:
+    """Draw the pins of the other positions, each with the number of its position.
+
+    Pins of one point that touch each other share a label.
+    """
+    many = len(found.numbered) >= MANY
+    radius, height = (FINE_DOT, 1.8) if many else (DOT, 2.5)
+    numbers: list[Label] = []
+    for point in found.moving:
+        path = [field(place) for place in found.paths[point]]
+        pins = [(each, field(each.alone.positions[point])) for each in found.every]
+        others = [(each, at) for each, at in pins if each.name != strong.name]
+        board.marks += [
+            CircleMark(*at, radius, "pin", at_position(point, e.name)) for e, at in others
+        ]
+        own = field(strong.alone.positions[point])
+        if strong.also:
+            away = outward(found, path, own, strong)
+            name = at_position(point, strong.also)
+            board.labels.append(Label(strong.also, "", own, height, name, away=away, radius=PIN))
+        for group in touching(others, 2 * radius):
+            each, at = group[len(group) // 2]
+            text = ", ".join(" ≡ ".join(filter(None, (e.name, e.also))) for e, _ in group)
+            name = " ".join(at_position(point, e.name) for e, _ in group)
+            away = outward(found, path, at, each)
+            numbers.append(Label(text, "", at, height, name, away=away, radius=radius))
+    return numbers
+
+
+def turn_followers_back(
+    board: FieldContent, found: PositionSet, strong: Position, field: Field
+) -> Iterator[Label]:
+    """Draw the tips of cam followers on the cam as it is drawn; the labels with their numbers.
+
+    The cam is held, and the frame turns back with the follower: as cams are drawn.
+    """
+    for follower, cam in found.cycle.scene.cams.items():
+        own = strong.alone.standing.axis(cam.on)
+        if cam.slides or cam.carrier != FRAME or own is None:
+            continue
+        for each in found.every:
+            axis, place = each.alone.standing.axis(cam.on), each.alone.positions.get(cam.point)
+            pivot = each.alone.positions.get(cam.pivot)
+            if axis is None or place is None or pivot is None or each.name == strong.name:
+                continue
+            at, name = field(pivot + (place - pivot) * own / axis), f"reversed {follower}"
+            name = at_position(name, each.name)
+            board.marks.append(CircleMark(*at, FINE_DOT, "pin", name))
+            board.marks.append(LineMark(*field(pivot), *at, "construction", name))
+            away = toward(field(pivot), at)[1]
+            yield Label(each.name, "", at, 1.8, name, away=away, radius=FINE_DOT)
+
+
+def touching(pins: Sequence[tuple[Position, XY]], least: float) -> list[list[tuple[Position, XY]]]:
+    """The pins of one point in groups whose circles touch, each in the order of the motion."""
+    left, found = list(pins), []
+    while left:
+        group = [left.pop(0)]
+        while near := [one for one in left if any(dist(one[1], at) < least for _, at in group)]:
+            group += near
+            left = [one for one in left if one not in near]
+        found.append(sorted(group, key=lambda one: (not one[0].name.isdigit(), one[0].at)))
+    return found
+
+
+def outward(found: PositionSet, path: Sequence[XY], at: XY, each: Position) -> XY | None:
+    """The side of a path on which a number is written: outside a loop.
+
+    Beside a path that is run to and fro, it is the right of the motion, so that the numbers of both
+    ways lie on different sides.
+    """
+    near = min(range(len(path)), key=lambda i: dist(path[i], at))
+    if area(path) == 0:
+        near = place_on(found, each, len(path))
+    first, last = path[max(near - 1, 0)], path[min(near + 1, len(path) - 1)]
+    length = hypot(last[0] - first[0], last[1] - first[1])
+    if length < 1e-6:
+        return None
+    u, v = (last[0] - first[0]) / length, (last[1] - first[1]) / length
+    side = -1.0 if area(path) > 0 else 1.0
+    return -side * v, side * u
+
+
+def place_on(found: PositionSet, each: Position, count: int) -> int:
+    """The index of a position on the path of a point."""
+    low, high = found.cycle.ranges[0]
+    shifts = found.cycle.path.shifts(each.at)
+    at = next((each.at + s for s in shifts if low <= each.at + s <= high), low)
+    share = min(max((at - low) / (high - low), 0.0), 1.0)
+    share = share if is_whole(found.cycle) else acos(1 - 2 * share) / pi
+    return round(share * (count - 1))
+
+
+def area(path: Sequence[XY]) -> float:
+    """Twice the signed area of a closed path, positive clockwise on the page; 0 for a line."""
+    pairs = [*pairwise((*path, path[0]))]
+    twice = sum(x * v - u * y for (x, y), (u, v) in pairs)
+    long = sum(hypot(u - x, v - y) for (x, y), (u, v) in pairs)
+    return 0.0 if abs(twice) < LEVEL * long**2 else twice
+
+
+# --- the stroke -----------------------------------------------------------------------------------
+
+
+def draw_stroke(board: FieldContent, found: PositionSet, field: Field) -> None:
+    """Dimension the stroke of a block between its limits, or the swing of a link."""
+    travel, drawing = found.follower, found.shown.alone
+    if travel is None:
+        return
+    name, words = f"stroke {travel.name}", drawing.words
+    if travel.line is not None:
+        text = f"*ψ* = {words.fixed(travel.extent, 2)}°"
+        draw_swing(board, travel, [field(drawing.positions[p]) for p in travel.line], name, text)
+    elif ends := block_ends(board, found, field):
+        size = words.significant(drawing.length(travel.extent), 4)
+        text = f"*H* = {size} {drawing.scene.units['length']}"
+        board.marks += dimension(*ends, name)
+        board.labels.append(Label(text, "", ends[2:], 2.5, name, priority=3))
+
+
+def draw_swing(
+    board: FieldContent, travel: Follower, line: Sequence[XY], name: str, text: str
+) -> None:
+    """Draw the arc between the limits of a link, with the lines of the link there."""
+    pivot, radius = line[0], SHARE * dist(*line)
+    low, high = travel.low.value, travel.high.value
+    board.marks.append(Arc(*pivot, radius, low, high, "drive", name))
+    for angle, inward in ((low, 1), (high, -1)):
+        tip = across(pivot, direction(angle), radius, 0)
+        board.marks.append(
+            LineMark(*pivot, *across(pivot, direction(angle), radius + 4, 0), "drive", name)
+        )
+        back = min(degrees(4 / radius), (high - low) / 2)
+        tail = across(pivot, direction(angle + inward * back), radius, 0)
+        board.marks.append(head(tail, tip, "sense", name))
+    away = direction((low + high) / 2)
+    at = across(pivot, away, radius, 0)
+    board.labels.append(Label(text, "", at, 2.5, name, away=away, priority=3))
+
+
+def direction(angle: float) -> XY:
+    """The unit vector on the page for an angle in degrees."""
+    return cos(radians(angle)), -sin(radians(angle))
+
+
+def block_ends(
+    board: FieldContent, found: PositionSet, field: Field
+) -> tuple[XY, XY, XY, XY] | None:
+    """The ends of a block's stroke on its path, and those of its dimension line beside it."""
+    travel, drawing = found.follower, found.shown.alone
+    assert travel is not None
+    way = next((w for w in drawing.standing.guideways if w.block == travel.name), None)
+    if way is None or way.slide.on != FRAME:
+        return None
+    start = way.at + (travel.low.value - way.coordinate) * way.along
+    end = way.at + (travel.high.value - way.coordinate) * way.along
+    first, last, along = field(start), field(end), field.way(way.along)
+    lines = struck_lines(board)
+    sides = [side * (ASIDE + 6 * i) for i in range(TRIES) for side in (1, -1)]
+
+    def cost(aside: float) -> float:
+        low, high = across(first, along, 0, aside), across(last, along, 0, aside)
+        if not all(inside(end, field.rect) for end in (low, high)):
+            return inf
+        return float(struck(np.array([[low, high]]).reshape(-1, 4), lines)[0]) + abs(aside) / 8
+
+    aside = min(sides, key=cost)
+    return first, last, across(first, along, 0, aside), across(last, along, 0, aside)
+
+
+def struck_lines(board: FieldContent) -> Array:
+    """The lines of the field that a dimension should not cross, without the paths of points."""
+    return pieces_of(
+        [m for m in board.marks if style_class(m) not in ("trajectory", "centre-line")]
+    )
+
+
+def inside(at: XY, rect: Rect) -> bool:
+    """Whether a place is in a field, clear of its edges."""
+    return rect[0] + 5 < at[0] < rect[2] - 5 and rect[1] + 5 < at[1] < rect[3] - 5
+
+
+def dimension(
+    first: XY,
+    last: XY,
+    low: XY,
+    high: XY,
+    name: str,
+) -> Iterator[Mark]:
+    """The extension lines and the dimension line with its two arrowheads."""
+    for start, end in ((first, low), (last, high)):
+        far = distance(start, end)
+        u, v = (end[0] - start[0]) / far, (end[1] - start[1]) / far
+        yield LineMark(*start, end[0] + BEYOND * u, end[1] + BEYOND * v, "drive", name)
+    yield LineMark(*low, *high, "drive", name)
+    if distance(low, high) > 4:
+        yield head(low, high, "sense", name)
+        yield head(high, low, "sense", name)
+
+
+# --- the places of the driver in a table ----------------------------------------------------------
+
+
+ROW, FIRST, LEFT = 4.6, 26.0, AREA[0] + 4
+"""Height of a row, width of its head, and the left end of the table, in mm."""
+RIGHT, TOP = A3_TITLE_BLOCK[0] - 4, A3_TITLE_BLOCK[1] + 4
+"""The right end of the table and its upper end, in mm."""
+IN_ROW = 16
+"""The most positions in one row of the table."""
+
+
+def places_table(
+    found: PositionSet, some: Sequence[Position], said: Sequence[str]
+) -> Iterator[Mark]:
+    """The numbers of some positions above the places of the driver there, and sentences below."""
+    words, sweep = found.shown.alone.words, found.cycle.sweep
+    unit = "°" if sweep.what == "turn" else sweep.original.units["length"]
+    if sweep.driver is None:
+        head_of = "*t* (s)"
+    else:
+        name = angle_symbol(sweep.original, sweep.driver)
+        head_of = f"{name} ({unit})"
+    names, values = [each.name for each in some], numbers_of(found)
+    count = -(-len(names) // IN_ROW)
+    per = -(-len(names) // count)
+    width = (RIGHT - LEFT - FIRST) / per
+    for k in range(count):
+        row = slice(k * per, (k + 1) * per)
+        top = TOP + k * (2 * ROW + 1.5)
+        rows = ((words("positions.number"), names[row]), (head_of, values[row]))
+        right = LEFT + FIRST + width * len(names[row])
+        yield box(LEFT, top, right - LEFT, ROW, "shade")
+        for i, (first, texts) in enumerate(rows):
+            base = top + i * ROW + ROW - 1.3
+            yield Text(LEFT + 1.5, base, first, "table", 2.5, name="positions")
+            for j, text in enumerate(texts):
+                x = LEFT + FIRST + width * (j + 0.5)
+                height = 2.5 if width > 11 else 1.8
+                yield Text(x, base, text, "table", height, "middle", "positions")
+        for i in range(3):
+            yield LineMark(LEFT, top + i * ROW, right, top + i * ROW, "panel")
+        for x in (LEFT, *(LEFT + FIRST + width * j for j in range(len(names[row]) + 1))):
+            yield LineMark(x, top, x, top + 2 * ROW, "panel")
+    low = TOP + count * (2 * ROW + 1.5) + 3.5
+    for i, line in enumerate(flowed(said, "; ", RIGHT - LEFT, 2.5)):
+        yield Text(LEFT, low + 4.2 * i, line, "caption", 2.5, name="legend")
+
+
+def mark_on_cam(found: PositionSet) -> Iterator[bool]:
+    """For each cam, whether its follower is drawn turned back on it."""
+    return (not cam.slides and cam.carrier == FRAME for cam in found.cycle.scene.cams.values())
+
+
+def legend(found: PositionSet, *, whole: bool) -> list[str]:
+    """What the kinds of lines and the letters of the sheet mean; not ``whole`` lacks numbers."""
+    words, travel = found.shown.alone.words, found.follower
+    said: list[str] = [words("positions.paths")]
+    if any(mark_on_cam(found)):
+        said.append(words("positions.reversed"))
+    dead = [*(each.name for each in found.dead), *(e.also for e in found.numbered if e.also)]
+    if dead:
+        said.append(words("positions.dead", list=words("list_mark").join(sorted(dead))))
+    if travel is not None:
+        key = "positions.stroke" if travel.line is None else "positions.swing"
+        said.append(words(key, k=escape(travel.name)))
+    return said if whole else [*said, words("positions.no_room")]

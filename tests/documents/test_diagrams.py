@@ -1,0 +1,306 @@
+"""Diagrams by chords and strings, on paper and against closed forms and the exact course."""
+
+from __future__ import annotations
+
+from functools import cache
+from itertools import pairwise
+from math import cos, pi, radians, sin, sqrt
+
+import numpy as np
+import pytest
+from msgspec.structs import replace
+
+from graphkin.construction.diagram_steps import CHORD, differentiated, integrated, smooth
+from graphkin.documents.diagram_numbers import FollowerMotion, motion_of
+from graphkin.documents.diagrams_sheet import (
+    Axes,
+    axes_for,
+    cost_of_rate,
+    cost_of_second,
+    derive,
+    mean_ordinates,
+    values_at,
+)
+from graphkin.documents.positions import positions_of
+from graphkin.documents.sheet_documents import hand_out
+from graphkin.drawing.marks import CircleMark, LineMark, Page, Text
+from graphkin.mechanism import Mechanism, load
+from graphkin.scene.model import StatedPositions
+from graphkin.text import LANGUAGES, words
+from graphkin.text.errors import SceneError
+from tests.documents.sheet_tools import mechanism_named
+from tests.mechanisms import mechanism_of
+from tests.motion.linkages import slider_crank
+
+DRAWN = ("crank-rocker", "shaper", "cam-roller", "gears-planet", "five-bar", "jumper")
+
+
+def posed(mechanism: Mechanism, **ways: object) -> Mechanism:
+    return Mechanism(replace(mechanism.scene, positions=StatedPositions(**ways)))
+
+
+def sheets_of(mechanism: Mechanism, language: str = "en") -> dict[str, tuple[Page, ...]]:
+    return {part.kind: part.pages for part in hand_out(mechanism, "diagrams", language)}
+
+
+@cache
+def sheets(name: str, language: str = "en") -> dict[str, tuple[Page, ...]]:
+    return sheets_of(mechanism_named(name), language)
+
+
+def named(page: Page, start: str) -> dict[str, LineMark]:
+    return {m.name: m for m in page.marks if isinstance(m, LineMark) and m.name.startswith(start)}
+
+
+def slope(line: LineMark) -> float:
+    return -(line.y2 - line.y1) / (line.x2 - line.x1)
+
+
+# --- the steps ------------------------------------------------------------------------------------
+
+
+def test_chords_of_a_parabola_have_its_slope_in_the_middle():
+    points = [(x, 2 + 3 * x - 0.5 * x * x) for x in (0.0, 1.0, 2.5, 4.0)]
+    for step in differentiated(points, 7.0):
+        x, height = step.found
+        assert height == pytest.approx(7 * (3 - x))
+        assert step.end == (0.0, height)
+
+
+def test_the_error_of_a_chord_is_a_twenty_fourth_of_the_third_derivative():
+    """Of x³ over steps h it is exactly h²/24 · 6."""
+    h = 0.7
+    points = [(h * i, (h * i) ** 3) for i in range(6)]
+    for step in differentiated(points, 1.0):
+        x, height = step.found
+        assert height - 3 * x * x == pytest.approx(CHORD * h * h * 6)
+
+
+def test_integration_takes_back_what_differentiation_gives():
+    points = [(x, sin(x)) for x in np.linspace(0, 3, 8)]
+    heights = [step.found[1] for step in differentiated(points, 12.0)]
+    strings = integrated([x for x, _ in points], heights, 12.0, points[0][1])
+    assert [step.last for step in strings] == [pytest.approx(p) for p in points[1:]]
+
+
+def test_levels_leave_equal_areas_below_and_above_a_curve():
+    points = [(x, sin(x) + 0.2 * x * x) for x in np.linspace(0, 3, 7)]
+    levels = mean_ordinates(points, closed=False)
+    through = np.array(smooth(points, chords=400))
+    for level, ((x, _), (u, _)) in zip(levels, pairwise(points), strict=True):
+        part = through[(through[:, 0] >= x - 1e-9) & (through[:, 0] <= u + 1e-9)]
+        assert np.trapezoid(part[:, 1], part[:, 0]) == pytest.approx(level * (u - x), rel=1e-4)
+
+
+def test_a_smooth_curve_runs_through_its_points():
+    points = [(0.0, 1.0), (1.0, 3.0), (2.5, -1.0), (3.0, 0.0)]
+    assert smooth(points, chords=5)[::5] == [pytest.approx(p) for p in points]
+
+
+# --- on paper -------------------------------------------------------------------------------------
+
+
+def test_every_ray_is_parallel_to_its_chord():
+    (page,) = sheets("crank-rocker")["differentiation"]
+    for letter, count in (("ω", 12), ("ε", 12)):
+        chords, rays = named(page, f"chord {letter}"), named(page, f"ray {letter}")
+        assert len(rays) == count
+        for i in range(count):
+            chord, ray = chords[f"chord {letter}_{i}"], rays[f"ray {letter}_{i}"]
+            assert slope(chord) == pytest.approx(slope(ray), abs=1e-9)
+
+
+def test_every_string_is_parallel_to_its_ray():
+    (page,) = sheets_of(slider_crank(2, 5, 1))["integration"]
+    rays = named(page, "ray ")
+    nodes = [m for m in page.marks if isinstance(m, CircleMark) and m.cls == "point construction"]
+    for i, (one, other) in enumerate(pairwise(nodes)):
+        string = -(other.cy - one.cy) / (other.cx - one.cx)
+        assert string == pytest.approx(slope(rays[f"ray {i}"]), abs=1e-9)
+
+
+def test_the_derived_scale_gives_the_mean_speed_of_each_interval():
+    """Measured with the printed factors, a point is Δs·ω/Δφ by the closed form."""
+    r, rod, e, pace = 2.0, 5.0, 1.0, 3.0
+    (page,) = sheets_of(slider_crank(r, rod, e, speed=pace))["differentiation"]
+    text = next(m.markup for m in page.marks if isinstance(m, Text) and "(m/s)/mm" in m.markup)
+    k = float(text.partition(" (m/s)/mm")[0].rpartition("= ")[2])
+    points = {m.name: m for m in page.marks if isinstance(m, CircleMark) and "point" in m.cls}
+    zero = next(m.y1 for m in page.marks if isinstance(m, LineMark) and m.name == "axis v")
+    scene = slider_crank(r, rod, e, speed=pace).scene
+    first = float(scene.drivers[0].position.number(scene.values))
+
+    def place(i: int) -> float:
+        phi = radians(first + 30 * i)
+        return r * cos(phi) + sqrt(rod**2 - (e - r * sin(phi)) ** 2)
+
+    for i in range(12):
+        mean = (place(i + 1) - place(i)) / (pi / 6) * pace
+        assert (zero - points[f"v_{i}"].cy) * k == pytest.approx(mean, abs=2e-3 * pace * r)
+
+
+def test_a_driver_that_runs_backwards_has_its_pole_behind_the_diagram():
+    """Chords and plans still agree in sign."""
+    (page,) = sheets_of(slider_crank(2, 5, 1, speed=-3))["differentiation"]
+    pole = next(m for m in page.marks if isinstance(m, CircleMark) and m.name == "P_v")
+    ends = [m.x2 for m in named(page, "ray v").values()]
+    assert all(pole.cx > x for x in ends)
+    points = [m for m in page.marks if isinstance(m, CircleMark) and m.name.startswith("v_")]
+    crosses = [m for m in page.marks if isinstance(m, LineMark) and m.name.startswith("v_")]
+    by_x = sorted({((m.x1 + m.x2) / 2, (m.y1 + m.y2) / 2) for m in crosses})
+    for point in points:
+        near = np.interp(point.cx, [x for x, _ in by_x], [y for _, y in by_x])
+        assert point.cy == pytest.approx(near, abs=6.0)
+
+
+# --- what it costs --------------------------------------------------------------------------------
+
+
+def motion(mechanism: Mechanism, count: int) -> FollowerMotion:
+    found = motion_of(positions_of(posed(mechanism, count=count), words("en")))
+    assert found is not None
+    return found
+
+
+def costs(moved: FollowerMotion):
+    where = moved.place(moved.at)
+    axes = axes_for(moved, 0.0, 60.0, where, np.inf)
+    points = [axes.place(float(u), float(v)) for u, v in zip(moved.at, where, strict=True)]
+    rate = derive(moved, axes, points, 70.0, 130.0, "v", np.inf)
+    again = derive(moved, rate.axes, [p.found for p in rate.steps], 140.0, 200.0, "a", np.inf)
+    return cost_of_rate(moved, rate), cost_of_second(moved, rate, again)
+
+
+@pytest.mark.parametrize("name", ["crank-rocker", "shaper"])
+def test_the_forecast_of_the_chords_is_their_error(name: str):
+    coarse, fine = (costs(motion(mechanism_named(name), count)) for count in (24, 48))
+    for cost in fine:
+        assert cost.chord == pytest.approx(cost.forecast, rel=0.05)
+    for one, other in zip(coarse, fine, strict=True):
+        assert one.chord == pytest.approx(one.forecast, rel=0.2)
+        assert one.chord > 2.5 * other.chord
+        assert other.pencil > one.pencil
+
+
+def test_derivatives_by_the_driver_are_those_of_the_closed_form():
+    """The trammel-like s = r cos φ + sqrt(l² - r² sin² φ) by central differences of its own."""
+    moved = motion(slider_crank(2, 5, 0), 12)
+    at = np.array([40.0, 75.0, 200.0])
+
+    def place(degrees: np.ndarray) -> np.ndarray:
+        phi = np.radians(degrees)
+        return 2 * np.cos(phi) + np.sqrt(25 - 4 * np.sin(phi) ** 2)
+
+    h = np.degrees(0.02)
+    ways = np.arange(-3, 4)
+    rows = np.array([place(at + k * h) for k in ways])
+    third = (rows[5] - 2 * rows[4] + 2 * rows[2] - rows[1]) / (2 * 0.02**3)
+    fourth = (rows[5] - 4 * rows[4] + 6 * rows[3] - 4 * rows[2] + rows[1]) / 0.02**4
+    found = moved.derivatives(at)
+    assert found[2] == pytest.approx(third, rel=2e-3, abs=2e-3)
+    assert found[3] == pytest.approx(fourth, rel=2e-2, abs=2e-2)
+
+
+def test_an_accelerating_driver_is_compared_with_its_own_share_left_out():
+    """a = ω²·s″ + ε·s′, and differentiating v by φ gives the first term alone."""
+    scene = SCENE.replace("speed = 3", "speed = 3\nacceleration = 5")
+    moved = motion(mechanism_of(scene), 12)
+    first, second = moved.derivatives(moved.at)[:2]
+    assert values_at(moved, moved.at)[2] == pytest.approx(9 * second, rel=1e-9, abs=1e-9)
+    assert moved.rates(moved.at)[1] == pytest.approx(9 * second + 5 * first, rel=1e-9, abs=1e-9)
+
+
+# --- jerk and mechanical advantage ----------------------------------------------------------------
+
+
+def test_the_jerk_of_a_cam_is_that_of_its_law():
+    """A cycloidal rise of 20 mm to 120°: ω³·h·4π²/β³·cos(2πθ/β); in the dwell after it, none."""
+    moved = motion(mechanism_named("cam-roller"), 12)
+    pace, beta = 300 * pi / 30, radians(120)
+    at = np.array([15.0, 55.0, 100.0])
+    law = pace**3 * 0.02 * 4 * pi**2 / beta**3 * np.cos(2 * pi * np.radians(at) / beta)
+    assert moved.third(at) == pytest.approx(law, rel=1e-4)
+    assert moved.third(np.array([150.0])) == pytest.approx(0.0, abs=1e-3 * law.max())
+
+
+def test_no_jerk_is_told_where_the_acceleration_jumps():
+    """A harmonic rise begins with a jump of the acceleration."""
+    moved = motion(mechanism_named("cam-rocker"), 12)
+    assert np.isnan(moved.third(np.array([0.0, 140.0]))).all()
+    assert np.isfinite(moved.third(np.array([70.0, 170.0]))).all()
+
+
+def test_the_mechanical_advantage_balances_the_power():
+    """Of a slider-crank: torque ω equals force v, with v by the closed form."""
+    moved = motion(slider_crank(2, 5, 0, speed=3), 12)
+    at = np.array([40.0, 100.0])
+    phi = np.radians(at)
+    v = -2 * np.sin(phi) - 4 * np.sin(phi) * np.cos(phi) / np.sqrt(25 - 4 * np.sin(phi) ** 2)
+    assert moved.advantage(at) == pytest.approx(np.abs(1 / v), rel=1e-9)
+
+
+# --- all kinds of mechanisms ----------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("name", DRAWN)
+@pytest.mark.parametrize("language", LANGUAGES)
+def test_diagrams_stay_on_the_page_in_every_language(name: str, language: str):
+    found = sheets(name, language)
+    assert "courses" in found
+    for page in (page for pages in found.values() for page in pages):
+        page.check()
+        assert page.lang == language
+
+
+def test_hodographs_have_the_velocities_of_the_positions():
+    page, _ = sheets("crank-rocker")["hodographs"]
+    text = next(m.markup for m in page.marks if isinstance(m, Text) and "*k*_v =" in m.markup)
+    k = float(text.partition("*k*_v = ")[2].split()[0])
+    circles = {m.name: complex(m.cx, -m.cy) for m in page.marks if isinstance(m, CircleMark)}
+    for i in range(12):
+        solved = load(str(mechanism_named("crank-rocker").scene.source), n=(4 + 2 * i) % 24).solve()
+        for point in ("B", "P"):
+            drawn = circles[f"v_{point},{i}"] - circles[f"pole {point}"]
+            assert drawn * k == pytest.approx(solved.points[point].velocity, rel=1e-3, abs=1e-4)
+
+
+def test_a_mechanism_without_followers_and_requests_is_refused():
+    scene = """
+[frame]
+O = [0, 0]
+[links.1]
+O-A = 2
+[[drivers]]
+turn = 1
+angle = 40
+speed = 3
+[ask]
+poles = [1]
+"""
+    with pytest.raises(SceneError, match="nothing follows the driver"):
+        hand_out(mechanism_of(scene), "diagrams", "en")
+
+
+def test_axes_put_zero_where_it_belongs():
+    axes = Axes((10.0, 0.0, 110.0, 60.0), 30.0, 2.0, 5.0, 1.0)
+    assert axes.on_page(axes.place(1.0, 0.0)) == (10.0, 30.0)
+    assert axes.on_page(axes.place(2.0, 1.0)) == (12.0, 25.0)
+
+
+SCENE = """
+[frame]
+O = [0, 0]
+[links.1]
+O-A = 2
+[links.2]
+A-B = 5
+[links.3]
+B = [0, 0]
+slides = { on = 0, through = "O", angle = 0 }
+[[drivers]]
+turn = 1
+angle = 40
+speed = 3
+[branches]
+3 = "forward"
+"""

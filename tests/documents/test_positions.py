@@ -1,0 +1,262 @@
+"""The sheets of positions, measured on the paper: places, plans, dead points, the stroke."""
+
+from __future__ import annotations
+
+from cmath import rect
+from collections.abc import Iterator
+from functools import cache
+from math import cos, hypot, radians, sin, sqrt
+
+import pytest
+from msgspec.structs import replace
+
+from graphkin.documents.sheet_documents import hand_out
+from graphkin.drawing.marks import CircleMark, LineMark, Mark, Page, Text, style_class
+from graphkin.mechanism import Mechanism, load
+from graphkin.scene.model import StatedPositions
+from graphkin.text import LANGUAGES
+from graphkin.text.errors import SceneError
+from tests.chosen import FOLDER
+from tests.documents.sheet_tools import mechanism_named
+from tests.mechanisms import mechanism_of
+from tests.motion.linkages import slider_crank
+
+DRAWN = ("crank-rocker", "shaper", "cam-roller", "cam-lever", "gears-planet", "five-bar")
+
+
+def posed(mechanism: Mechanism, **ways: object) -> Mechanism:
+    """The mechanism with other positions of its sheets."""
+    return Mechanism(replace(mechanism.scene, positions=StatedPositions(**ways)))
+
+
+def pages(mechanism: Mechanism, language: str = "en") -> dict[str, Page]:
+    """The sheets of positions by their kind."""
+    return {part.kind: part.pages[0] for part in hand_out(mechanism, "positions", language)}
+
+
+@cache
+def sheets(name: str) -> dict[str, Page]:
+    return pages(mechanism_named(name))
+
+
+def circles(page: Page) -> dict[str, complex]:
+    """The places on paper of pins and points of plans, by name; y upwards."""
+    return {
+        mark.name: complex(mark.cx, -mark.cy)
+        for mark in page.marks
+        if isinstance(mark, CircleMark) and style_class(mark) in ("pin", "point", "pole")
+    }
+
+
+def said(page: Page) -> Iterator[str]:
+    return (mark.markup for mark in page.marks if isinstance(mark, Text))
+
+
+def number_in(text: str, before: str) -> float:
+    return float(text.partition(before)[2].split()[0].rstrip(");°"))
+
+
+def test_pins_lie_where_the_closed_form_of_a_slider_crank_puts_them():
+    """x = r cos φ + sqrt(l² - (e - r sin φ)²)."""
+    r, rod, e = 2.0, 5.0, 1.0
+    page = pages(slider_crank(r, rod, e, angle=17))["mechanism"]
+    kL = number_in(next(text for text in said(page) if "*k*_L" in text), "= ")
+    at = circles(page)
+    for i in range(12):
+        phi = radians(17 + 30 * i)
+        x = r * cos(phi) + sqrt(rod**2 - (e - r * sin(phi)) ** 2)
+        name = "B_0" if "B_0" in at else "B"
+        pin = at[f"B_{i}"] if i else at.get(name, at["B"])
+        assert (pin - at["O"]) * kL == pytest.approx(complex(x, e), abs=1e-6)
+        crank = at[f"A_{i}"] if i else at["A"]
+        assert (crank - at["O"]) * kL == pytest.approx(r * complex(cos(phi), sin(phi)), abs=1e-6)
+
+
+def test_the_stroke_is_the_difference_of_both_positions_in_line():
+    """sqrt((l+r)² - e²) - sqrt((l-r)² - e²)."""
+    page = pages(slider_crank(2, 5, 1))["mechanism"]
+    text = next(text for text in said(page) if text.startswith("*H*"))
+    assert number_in(text, "= ") == pytest.approx(sqrt(48) - sqrt(8), abs=1e-3)
+    ends = [
+        mark
+        for mark in page.marks
+        if isinstance(mark, LineMark) and mark.name == "stroke 3" and mark.y1 == mark.y2
+    ]
+    (line,) = ends
+    at = circles(page)
+    limits = sorted(at[name].real for name in ("B_I", "B_II"))
+    assert sorted((line.x1, line.x2)) == pytest.approx(limits, abs=1e-6)
+
+
+@pytest.mark.parametrize("kind", ["velocity", "acceleration"])
+def test_every_plan_gives_what_the_mechanism_set_there_gives(kind: str):
+    """The scene is set to each position by its own parameter and solved by itself."""
+    page = sheets("crank-rocker")[kind]
+    k = number_in(next(text for text in said(page) if "*k*" in text and "mm)" in text), "= ")
+    at = circles(page)
+    prime = "′" if kind == "acceleration" else ""
+    for i in range(12):
+        solved = load(str(FOLDER / "crank-rocker.toml"), n=(4 + 2 * i) % 24).solve()
+        for point in ("A", "B", "P"):
+            drawn = at[f"{point.lower()}{prime}_{i}"] - at[f"o{prime}_{i}"]
+            true = getattr(solved.points[point], kind)
+            assert drawn * k == pytest.approx(true, rel=1e-4, abs=1e-4 * abs(true))
+
+
+def test_plans_from_one_pole_have_the_same_vectors_as_from_their_own():
+    own = pages(posed(mechanism_named("shaper")))["velocity"]
+    one = pages(posed(mechanism_named("shaper"), one_pole=True))["velocity"]
+    scales = [
+        number_in(next(t for t in said(page) if "*k*_v =" in t and "mm)" in t), "= ")
+        for page in (own, one)
+    ]
+    first, second = circles(own), circles(one)
+    for name in ("c", "b", "a"):
+        for i in range(1, 12):
+            alone = (first[f"{name}_{i}"] - first[f"o_{i}"]) * scales[0]
+            together = (second[f"{name}_{i}"] - second["o"]) * scales[1]
+            assert together == pytest.approx(alone, rel=1e-3, abs=1e-3)
+
+
+def test_a_dead_point_of_the_driver_is_drawn_and_has_no_plan():
+    found = pages(posed(load("pump", n=7), count=8, start="dead"))
+    at = circles(found["mechanism"])
+    assert {"A_0", "A_8", "D_0", "D_8"} <= at.keys()
+    plans = {name for name in circles(found["velocity"]) if name.startswith("o_")}
+    assert plans == {f"o_{i}" for i in range(1, 8)}
+    assert any(text.endswith("0, 8") for text in said(found["velocity"]))
+
+
+def test_only_the_asked_accelerations_are_drawn():
+    found = pages(posed(mechanism_named("shaper"), accelerations=(2, 7)))
+    names = {name for name in circles(found["acceleration"]) if name.startswith("o′")}
+    assert names == {"o′_2", "o′_7"}
+    assert "acceleration" not in pages(posed(mechanism_named("shaper"), accelerations=()))
+
+
+@pytest.mark.parametrize("name", DRAWN)
+def test_labels_are_clear_of_each_other_and_of_the_other_pins(name: str):
+    for page in sheets(name).values():
+        labels = [m for m in page.marks if isinstance(m, Text) and style_class(m) == "label"]
+        boxes = [(box_of(label), label) for label in labels]
+        for i, (one, label) in enumerate(boxes):
+            for other, second in boxes[i + 1 :]:
+                apart = (
+                    one[2] <= other[0] + 0.05
+                    or other[2] <= one[0] + 0.05
+                    or one[3] <= other[1] + 0.05
+                    or other[3] <= one[1] + 0.05
+                )
+                assert apart, (label.markup, second.markup)
+
+
+def box_of(text: Text) -> tuple[float, float, float, float]:
+    xs, ys = zip(*text.corners(), strict=True)
+    return min(xs), min(ys), max(xs), max(ys)
+
+
+@pytest.mark.parametrize("name", ["shaper", "crank-rocker"])
+def test_every_moving_pin_has_its_number_at_every_position(name: str):
+    page = sheets(name)["mechanism"]
+    labels = [m for m in page.marks if isinstance(m, Text) and style_class(m) == "label"]
+    told = [each for label in labels for each in label.name.split() if "_" in each]
+    assert len(told) == len({*told})
+    pins = {each for each in circles(page) if "_" in each}
+    assert pins <= {*told}
+
+
+@pytest.mark.parametrize("name", DRAWN)
+@pytest.mark.parametrize("language", LANGUAGES)
+def test_a_sheet_stays_within_its_frame_in_every_language(name: str, language: str):
+    for page in pages(mechanism_named(name), language).values():
+        page.check()
+        assert page.lang == language
+
+
+def test_followers_are_turned_back_on_the_cam_by_its_angle():
+    at = circles(sheets("cam-roller")["mechanism"])
+    own = at["B"] - at["O"]
+    for i in range(1, 12):
+        tip, back = at[f"B_{i}"] - at["O"], at[f"reversed 2_{i}"] - at["O"]
+        assert abs(back) == pytest.approx(abs(tip), abs=1e-6)
+        assert back / tip == pytest.approx(rect(1, -radians(30 * i)), abs=1e-6)
+    assert abs(own) > 0
+
+
+def test_the_stroke_of_a_cam_is_that_of_its_follower():
+    """Not of the block of its equivalent linkage."""
+    texts = list(said(sheets("cam-lever")["mechanism"]))
+    assert any(text.startswith("*ψ* = 16.00°") for text in texts)
+
+
+def test_every_mark_of_a_position_has_a_name_and_a_class():
+    for page in sheets("shaper").values():
+        for mark in page.marks:
+            assert mark.cls
+            if style_class(mark) in ("weak-link", "dead-link", "pin", "velocity", "trajectory"):
+                assert mark.name, mark
+
+
+def test_the_longest_plan_decides_one_scale_for_all():
+    """The crank's pin has one speed, so its vector has one length in all plans."""
+    at = circles(sheets("shaper")["velocity"])
+    lengths = [abs(at[f"a_{i}"] - at[f"o_{i}"]) for i in range(12)]
+    assert lengths == pytest.approx([lengths[0]] * 12, rel=1e-9)
+
+
+SCENE = """
+[frame]
+O = [0, 0]
+[links.1]
+O-A = 2
+[links.2]
+A-B = 5
+[links.3]
+B = [0, 0]
+slides = { on = 0, through = "O", angle = 0 }
+[[drivers]]
+turn = 1
+angle = 40
+speed = 3
+[branches]
+3 = "forward"
+[positions]
+"""
+
+
+def test_all_mistakes_of_positions_are_told_at_once():
+    wrong = 'count = 2\nstart = "deed"\nstrong = "x"\npoles = "two"\naccelerations = [0, 99]\n'
+    with pytest.raises(SceneError) as told:
+        mechanism_of(SCENE + wrong)
+    places = {problem.place for problem in told.value.problems}
+    expected = {"count", "start", "strong", "poles", "accelerations[1]"}
+    assert places == {f"positions.{key}" for key in expected}
+    assert "dead" in str(told.value)
+
+
+def test_a_position_that_does_not_exist_is_refused():
+    with pytest.raises(SceneError, match="there is no position 12") as told:
+        pages(mechanism_of(SCENE + "strong = 12\naccelerations = [3, 40]\n"))
+    assert len(told.value.problems) == 2
+
+
+def test_positions_start_where_the_scene_says():
+    page = pages(mechanism_of(SCENE + "start = 90\ncount = 4\n"))["mechanism"]
+    at = circles(page)
+    up = [name for name in ("A_0", "A") if name in at and abs(at[name].real - at["O"].real) < 1e-6]
+    assert up
+    texts = [m.markup for m in page.marks if isinstance(m, Text) and m.name == "positions"]
+    assert {"90.0", "180.0", "270.0", "0"} <= {*texts}
+
+
+def lines_of(marks: tuple[Mark, ...], name: str) -> float:
+    return sum(
+        hypot(m.x2 - m.x1, m.y2 - m.y1) for m in marks if isinstance(m, LineMark) and m.name == name
+    )
+
+
+def test_bars_keep_their_length_in_all_positions():
+    marks = sheets("crank-rocker")["mechanism"].marks
+    for link in ("1", "3"):
+        lengths = [lines_of(marks, f"{link}_{i}") for i in range(1, 12)]
+        assert lengths == pytest.approx([lengths[0]] * 11, rel=1e-9)
