@@ -33,7 +33,6 @@ from graphkin.drawing.marks import CircleMark, LineMark, Mark, Text, box, moved,
 from graphkin.drawing.placement import Spot
 from graphkin.drawing.scale import Scales, extent_of, preferred
 from graphkin.drawing.style import VECTORS
-from graphkin.drawing.symbol_markup import symbol
 from graphkin.drawing.symbols import SHORT, head
 
 SHOWN = (*VECTORS, "construction", "link")
@@ -368,8 +367,8 @@ def pictured(drawing: Drawing, kind: Centre, centre: complex, field: Field) -> F
         Text(right - 1.5, bottom - 1.5, scale, "caption", 2.5, "end"),
     ]
     names = {name: end for line in lines for name, end in line.items()}
-    board.labels = [Label(symbol(name), "", field(end), 2.5) for name, end in names.items()]
-    name = " = ".join(symbol(each) for each in names_of(drawing, kind))
+    board.labels = [Label(drawing.symbol(name), "", field(end), 2.5) for name, end in names.items()]
+    name = " = ".join(drawing.symbol(each) for each in names_of(drawing, kind))
     board.labels.append(Label(name, drawing.kind, far, 2.5, radius=0.9))
     return board
 

@@ -279,7 +279,7 @@ def data_line(drawing: Drawing, *, solved: bool) -> Relation:
 def read_off(drawing: Drawing) -> Iterator[Relation]:
     """Each vector that is read off the plan: scale factor times drawn length."""
     scale = scale_of(drawing, drawing.plane)
-    k = f"*k*_{drawing.vector.letter}"
+    k = drawing.in_signs(f"*k*_{drawing.vector.letter}")
     unit = drawing.vector.caret_unit
     for _, step, value in drawing.steps(drawing.plane):
         vector = plan_vector(step)
@@ -292,7 +292,7 @@ def read_off(drawing: Drawing) -> Iterator[Relation]:
             continue
         read = as_read(drawing, drawn_in(drawing, drawing.plane, size), scale / 1000)
         symbols = f"{k}·{segment_of(drawing, step)}"
-        yield Relation(symbol(vector.symbol), symbols, *read, unit)
+        yield Relation(drawing.symbol(vector.symbol), symbols, *read, unit)
 
 
 def of_laid_off(drawing: Drawing) -> Iterator[Relation]:
@@ -310,7 +310,7 @@ def laid_off_length(drawing: Drawing, step: Step, value: Vector) -> Relation:
     drawn = length_laid_off(drawing, drawn_in(drawing, drawing.plane, size))
     return Relation(
         segment_of(drawing, step),
-        f"{symbol(vector.symbol)}/*k*_{drawing.vector.letter}",
+        drawing.in_signs(f"{drawing.symbol(vector.symbol)}/*k*_{drawing.vector.letter}"),
         "/".join(put_in(drawing, drawn, truediv, size, scale, told=length_laid_off)),
         drawn,
         "mm",
@@ -372,11 +372,11 @@ def of_centres(drawing: Drawing, whose: Whose = "links") -> Iterator[Relation]:
             key, equals = ("everywhere", "=") if everywhere else ("at_infinity", "")
             key, equals = ("no_curvature", "") if whose == "points" else (key, equals)
             said = drawing.words(f"calculation.{key}")
-            yield Relation(symbol(step.name), result=said, equals=equals, blank=blank)
+            yield Relation(drawing.symbol(step.name), result=said, equals=equals, blank=blank)
         else:
             kind = construction(step)
             yield from kind.equations(drawing, step.role) if kind is not None else ()
-            yield replace(of_place(drawing, symbol(step.name), point), blank=blank)
+            yield replace(of_place(drawing, drawing.symbol(step.name), point), blank=blank)
 
 
 def owners_of(drawing: Drawing) -> dict[int, Whose]:

@@ -314,7 +314,7 @@ def members(drawing: Drawing) -> str:
     told = [f"{escape(name)} = {of_link(words, link)}" for name, link in scene.links.items()]
     for centre, follower in scene.cam_centres.items():
         cam = escape(scene.cams[follower].on)
-        told.append(words("page.member_centre", point=symbol(centre), g=cam))
+        told.append(words("page.member_centre", point=drawing.symbol(centre), g=cam))
     return words("page.members", list=words("list_mark").join(told))
 
 
@@ -351,7 +351,7 @@ def rules(drawing: Drawing) -> Iterator[str]:
     if first and scales.of_crank:
         for p, q in islice(driven_bars(drawing, drawing.scene.drivers[0]), 1):
             times = "" if m == "1" else f"{m}·"
-            yield f"{segment(drawing, q)} = {times}{bar(p, q)}/*k*_L"
+            yield drawing.in_signs(f"{segment(drawing, q)} = {times}{bar(p, q)}/*k*_L")
 
 
 def segment(drawing: Drawing, pin: str) -> str:
@@ -359,7 +359,7 @@ def segment(drawing: Drawing, pin: str) -> str:
     for _, step, _ in drawing.steps(Plane.VELOCITIES):
         kind = construction(step)
         if isinstance(kind, TurnedVelocity) and kind.q == pin:
-            return symbol(drawing.pole) + symbol(step.name)
+            return drawing.symbol(drawing.pole) + drawing.symbol(step.name)
     raise KeyError(pin)
 
 

@@ -119,7 +119,7 @@ def by_itself(drawing: Drawing, view: str, number: str) -> tuple[Page, ...]:
 
 
 def language_of(mechanism: Mechanism, language: str | None) -> Words:
-    """The words of a language. Raises SceneError for an unknown language."""
+    """The words of a language with the scene's signs. Raises SceneError if it is unknown."""
     code = language or mechanism.scene.sheet.language
     if code not in LANGUAGES:
         raise SceneError(
@@ -129,7 +129,7 @@ def language_of(mechanism: Mechanism, language: str | None) -> Words:
                 either(LANGUAGES),
             )
         )
-    return words(code)
+    return words(code, mechanism.scene.sheet.signs)
 
 
 def proved(mechanism: Mechanism, solution: Solution) -> Verdict:

@@ -30,7 +30,6 @@ from graphkin.drawing.labels import BETWEEN, NOTE
 from graphkin.drawing.marks import CircleMark, LineMark, Mark, Page, Text, style_class
 from graphkin.drawing.richtext import extent, flowed, flowed_pieces, words_of
 from graphkin.drawing.style import NOW
-from graphkin.drawing.symbol_markup import symbol
 from graphkin.scene.link_points import lettered
 
 AT_LAST = ("detail", "note")
@@ -183,7 +182,7 @@ def when_told(drawing: Drawing, staged: Mapping[int, int]) -> dict[str, int]:
     for number, step in enumerate(drawing.trace.program.steps):
         if number in staged:
             vector = plan_vector(step)
-            name = symbol(vector.symbol if vector else step.name)
+            name = drawing.symbol(vector.symbol if vector else step.name)
             found.setdefault(name, staged[number])
             if vector and vector.foot:
                 found.setdefault(vector.foot, staged[number])

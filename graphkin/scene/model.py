@@ -17,6 +17,7 @@ from graphkin.numbers.arithmetic import FLOAT, Kind, Point
 from graphkin.scene.expression import TIME
 from graphkin.scene.quantity import Quantity
 from graphkin.text.errors import Message, message
+from graphkin.text.school_signs import USUAL, SchoolSigns
 from graphkin.text.tables import listed
 
 if TYPE_CHECKING:
@@ -534,6 +535,7 @@ class Sheet(Struct, frozen=True):
     ka: Quantity | None = None
     method: str = "triangles"
     plan: str = "images"
+    signs: SchoolSigns = USUAL
 
 
 def quantities_within(part: object) -> Iterator[Quantity]:

@@ -199,6 +199,8 @@ def assembled(
         from graphkin.scene.keepers import with_keepers
 
         frame, links = with_keepers(frame, links, drivers, measures)
+    sheet = read_sheet(top.table("sheet"), measures)
+    points = tuple(point for link in (frame, *links.values()) for point in link.points)
     return Scene(
         name=name,
         title=title,
@@ -209,7 +211,7 @@ def assembled(
         drivers=drivers,
         branches=read_branches(top.table("branches"), frame, links, findings),
         ask=Ask(),
-        sheet=read_sheet(top.table("sheet"), measures),
+        sheet=replace(sheet, signs=sheet.signs.beside(points)),
         time=time,
         titles=read_languages(top.table("titles")),
         names=read_names(top.table("names"), findings),

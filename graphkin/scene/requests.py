@@ -8,6 +8,7 @@ from fractions import Fraction
 from itertools import combinations
 
 from graphkin.scene.findings import Findings, Table, numbered, plain_text, shown
+from graphkin.scene.house import read_signs
 from graphkin.scene.known_names import THE_MECHANISM, known_link, known_point
 from graphkin.scene.link_points import ends_of
 from graphkin.scene.measures import Measures
@@ -209,6 +210,7 @@ def read_sheet(table: Table, measures: Measures) -> Sheet:
         ka=None if ka is None else measures.number(table.at("ka"), ka, positive=True),
         method=table.choice("method", METHODS, METHODS[0]),
         plan=table.choice("plan", PLANS, PLANS[0]),
+        signs=read_signs(table, "signs"),
     )
     table.finish()
     return sheet

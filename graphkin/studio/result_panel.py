@@ -46,7 +46,7 @@ def results(drawings: Sequence[Drawing], solution: Solution) -> str:
 
     The notes say what is asked for but cannot be read off.
     """
-    notes = [note for drawing in drawings for note in unread(drawing, symbol)]
+    notes = [note for drawing in drawings for note in unread(drawing, drawing.symbol)]
     said = from_template("studio/web/notes.html", notes=notes)
     found = [table for drawing in drawings for table in read_off(drawing, solution)]
     found += places(drawings[0].scene, solution, drawings[0].words)
@@ -137,7 +137,7 @@ def margin_row(crossing: Crossing, words: Words) -> Row:
     factor = words.significant(crossing.factor, 2)
     flat = f" ({words('studio.flat')})" if look_of(crossing) == "flat" else ""
     where = words(WHERE.get(crossing.part, "studio.in_mechanism"))
-    return Row((symbol(crossing.name), where, f"{angle}°{flat}", f"{factor} mm"))
+    return Row((symbol(crossing.name, signs=words.signs), where, f"{angle}°{flat}", f"{factor} mm"))
 
 
 def look_of(crossing: Crossing) -> str:

@@ -10,6 +10,7 @@ from string import Formatter
 from typing import Any
 
 from graphkin.text.markup import Markup, names_in, saying
+from graphkin.text.school_signs import USUAL, SchoolSigns
 
 LANGUAGES = ("en", "it", "ro")
 MINUS = "\N{MINUS SIGN}"
@@ -19,10 +20,15 @@ EUPHONIC = r"(?<!\S)([ae]) (?=\*?(?i:\1))"
 
 
 class Words:
-    """The sentences of one language, and its number format."""
+    """The sentences of one language with the signs of a school, and its number format."""
 
-    def __init__(self, language: str) -> None:
+    def __init__(self, language: str, signs: SchoolSigns = USUAL) -> None:
         self.language = language
+        self.signs = signs
+
+    def in_language(self, language: str) -> Words:
+        """The sentences of another language with the same signs."""
+        return words(language, self.signs)
 
     @cached_property
     def sentences(self) -> Mapping[str, str]:
@@ -31,7 +37,10 @@ class Words:
         from pathlib import Path
 
         text = (Path(__file__).parent / f"{self.language}.toml").read_text(encoding="utf-8")
-        return dict(flattened(tomllib.loads(text)))
+        found = dict(flattened(tomllib.loads(text)))
+        if self.signs is USUAL:
+            return found
+        return {key: self.signs.in_sentence(said) for key, said in found.items()}
 
     def __call__(self, key: str, **fields: object) -> Markup:
         """The sentence under a key, with its fields filled in. Raises KeyError if it is missing."""
@@ -88,11 +97,11 @@ def gaps_of(sentence: str) -> frozenset[str]:
 
 
 @lru_cache(maxsize=8)
-def words(language: str) -> Words:
+def words(language: str, signs: SchoolSigns = USUAL) -> Words:
     """The sentences of a language by its code. Raises KeyError for an unknown language."""
     if language not in LANGUAGES:
         raise KeyError(language)
-    return Words(language)
+    return Words(language, USUAL if signs == USUAL else signs)
 
 
 def flattened(tree: Mapping[str, Any], prefix: str = "") -> list[tuple[str, str]]:

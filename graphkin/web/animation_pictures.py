@@ -34,7 +34,7 @@ from graphkin.drawing.marks import CircleMark, LineMark, Mark, Polyline, Text, r
 from graphkin.drawing.richtext import extent
 from graphkin.drawing.scale import Extent, extent_of, preferred
 from graphkin.drawing.style import VECTORS
-from graphkin.drawing.symbol_markup import escape, symbol
+from graphkin.drawing.symbol_markup import escape
 from graphkin.drawing.symbols import across, hatched, rails, slot, slot_ground
 from graphkin.motion.driving import TURN
 from graphkin.numbers.arithmetic import np
@@ -280,7 +280,7 @@ def mechanism_seen(drawing: Drawing, field: Field) -> FrameView:
     draw_pins(board, drawing, field)
     marks = [mark for mark in board.marks if mark not in away_with]
     places = {name: field(place) for name, place in drawing.positions.items()}
-    letters = {name: PointLetter(symbol(name)) for name in places}
+    letters = {name: PointLetter(drawing.symbol(name)) for name in places}
     return FrameView(letters, places, marks, {name: linked(drawing, name) for name in places})
 
 
@@ -313,7 +313,7 @@ def plan_seen(drawing: Drawing, field: Field) -> FrameView:
     for number, step, value in drawing.steps(drawing.plane):
         if is_point(step) and isinstance(value, complex):
             own = number, parts.get(number, 0)
-            letters[step.name] = PointLetter(symbol(step.name), drawing.kind, *own)
+            letters[step.name] = PointLetter(drawing.symbol(step.name), drawing.kind, *own)
             places[step.name] = field(value)
     return FrameView(
         letters, places, marks, {name: joined(drawing, name, letters) for name in letters}

@@ -29,6 +29,7 @@ from graphkin.drawing.symbol_markup import symbol
 from graphkin.numbers.plane import Circle, Line, Ratio, Vector, cross
 from graphkin.scene.model import FRAME, Scene, Slide
 from graphkin.text import Words
+from graphkin.text.markup import Markup
 
 if TYPE_CHECKING:
     from graphkin.drawing.field import Field
@@ -221,9 +222,17 @@ class Drawing(Struct, frozen=True, dict=True):
             if (hand := steps[number].by_hand) is not None
         }
 
+    def symbol(self, name: str, short: str = "") -> Markup:
+        """The symbol of a name with the signs of this sheet."""
+        return symbol(name, short, self.words.signs)
+
+    def in_signs(self, markup: str) -> str:
+        """Markup written with the usual signs of scale factors and rates, with this sheet's."""
+        return self.words.signs.in_sentence(markup)
+
     def lettered(self, number: int) -> str:
         """The letter of a step, as markup."""
-        return symbol(self.trace.program.steps[number].name)
+        return self.symbol(self.trace.program.steps[number].name)
 
     def number_of(self, step: Step) -> int:
         return self.numbers[id(step)]

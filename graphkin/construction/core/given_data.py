@@ -292,7 +292,12 @@ def which_way(drawing: Drawing, link: Link, slide: Slide) -> str:
         fields = {"side": words(f"page.{nearest_side(line[1] * branch.way)}")}
         if found.name == link.points[0]:
             return words("page.way", pivot=symbol(found.centre), **fields)
-        return words("page.way_of", pin=symbol(found.name), pivot=symbol(found.centre), **fields)
+        return words(
+            "page.way_of",
+            pin=symbol(found.name),
+            pivot=symbol(found.centre),
+            **fields,
+        )
     if is_led(drawing, link, slide):
         p, q = (symbol(point) for point in slide.along or ())
         key = "half_line" if branch.way > 0 else "half_line_back"
@@ -608,7 +613,10 @@ def cams(drawing: Drawing) -> Iterator[str]:
         if cam.carrier != FRAME and not cam.slides:
             yield words("page.cam_seen", g=fields["g"], c=escape(cam.carrier))
         if cam.conjugate:
-            radius, at = quantity_text(scene, words, cam.conjugate.roller), symbol(cam.conjugate.at)
+            radius, at = (
+                quantity_text(scene, words, cam.conjugate.roller),
+                symbol(cam.conjugate.at),
+            )
             yield words("page.cam_conjugate", radius=radius, p=at, **fields)
         if cam.slopes:
             points = cam_points(scene, words, cam)
@@ -673,7 +681,7 @@ def of_driver(
     steady = driver.acceleration.is_zero()
     rates = [(speed_symbol(driver), driver.speed, words("page.constant") if steady else "")]
     if not steady:
-        rate = "*ε*" if driver.kind == "turn" else "*a*"
+        rate = words.signs.in_sentence("*ε*") if driver.kind == "turn" else "*a*"
         rates.append((f"{rate}_{{{driver_index(driver)}}}", driver.acceleration, ""))
     for name, quantity, constant in rates:
         if not solved and is_derived(quantity):

@@ -67,7 +67,7 @@ def vector_of(drawing: Drawing, tail: int, tip: int, default: str = "") -> str:
     """The vector between two points of a plan, as markup."""
     arrow = arrow_of(drawing, tail, tip)
     found = plan_vector(arrow) if arrow else None
-    return symbol(found.symbol) if found else default
+    return drawing.symbol(found.symbol) if found else default
 
 
 def scale_of(drawing: Drawing, plane: Plane) -> float:
@@ -102,10 +102,14 @@ def rate_symbol(drawing: Drawing, number: int, letter: str = "ω", link: str = "
     """The symbol of an angular velocity or acceleration, by its step or its link, as markup."""
     step = drawing.trace.program.steps[number]
     if step.name in drawing.scene.links:
-        return symbol(f"{letter}_{turning_with(drawing, step.name)}")
+        return drawing.symbol(f"{letter}_{turning_with(drawing, step.name)}")
     if isinstance(step.of, Drive):
-        return symbol(f"{letter}_{drawing.scene.drivers[step.of.driver].link}")
-    return symbol(f"{letter}_{turning_with(drawing, link)}") if link else f"*{letter}*"
+        return drawing.symbol(f"{letter}_{drawing.scene.drivers[step.of.driver].link}")
+    return (
+        drawing.symbol(f"{letter}_{turning_with(drawing, link)}")
+        if link
+        else drawing.symbol(letter)
+    )
 
 
 def turning_with(drawing: Drawing, link: str) -> str:
@@ -199,7 +203,7 @@ def place(
     The coordinates are printed as the scene gives them or, ``on_paper``, as drawn.
     """
     if isinstance(through, str):
-        return symbol(through)
+        return drawing.symbol(through)
     words, link = drawing.words, drawing.scene.link(on)
     lean, away, pin = leaning(drawing, link), metres(drawing, through), ""
     if lean is not None and link.points:
