@@ -39,10 +39,18 @@ from graphkin.documents.listing import first_part, listed
 from graphkin.documents.scheme import scheme
 from graphkin.documents.sentences import sentences
 from graphkin.documents.signs import mechanism_signs, plan_signs
-from graphkin.drawing.field import A3_AREA, AREA, BELOW, SCHEME, TABLES, Rect
-from graphkin.drawing.frame import CELLS, STUDENT, TitleBlock, check_bar, sheet_frame, wrapped
+from graphkin.drawing.field import A3_AREA, A3_TITLE_BLOCK, AREA, BELOW, SCHEME, TABLES, Rect
+from graphkin.drawing.frame import (
+    CELLS,
+    STUDENT,
+    TitleBlock,
+    check_bar,
+    logo_box,
+    sheet_frame,
+    wrapped,
+)
 from graphkin.drawing.labels import FieldContent, FootNote, Label, at_bare_stretches, segment_of
-from graphkin.drawing.marks import LineMark, Mark, Page, Text, box, reach, style_class
+from graphkin.drawing.marks import LineMark, Mark, Page, Picture, Text, box, reach, style_class
 from graphkin.drawing.richtext import are_clear, extent, flowed, words_of
 from graphkin.drawing.style import VECTORS
 from graphkin.drawing.symbol_markup import bar, escape, symbol
@@ -420,14 +428,21 @@ def sheet(
         detail += insets(drawing, layout.mechanism, [*left, *detail])
         detail += mechanism_signs(drawing, layout.mechanism, [*left, *detail])
         other += plan_signs(drawing, layout.plan, [*right, *other])
+    block = title_block(drawing, view, number)
     marks: list[Mark] = [
-        *sheet_frame(title_block(drawing, view, number)),
+        *sheet_frame(block),
         *written.head,
         *(*left, *detail, *right, *other),
         *panels(layout),
         *written.foot,
     ]
-    return Page(420, 297, tuple(marks), page_title(drawing), drawing.words.language)
+    return a3_page(drawing, block, marks)
+
+
+def a3_page(drawing: Drawing, block: TitleBlock, marks: Iterable[Mark]) -> Page:
+    """An A3 page of a sheet, with the logo of the school in its title block."""
+    title, shown = page_title(drawing), pictures(drawing, block)
+    return Page(420, 297, tuple(marks), title, drawing.words.language, shown)
 
 
 def page_title(drawing: Drawing) -> str:
@@ -451,7 +466,8 @@ def title_of(drawing: Drawing) -> str:
 def title_block(drawing: Drawing, view: str, number: str) -> TitleBlock:
     """The fields of the title block."""
     words, sheet = drawing.words, drawing.scene.sheet
-    labels = {name: words(f"block.{name}") for name, _, _ in CELLS}
+    house = drawing.scene.house
+    labels = {name: house.labels.get(name) or words(f"block.{name}") for name, _, _ in CELLS}
     if view == "task" or sheet.student:
         labels[STUDENT] = words("task.person")
     return TitleBlock(
@@ -469,7 +485,18 @@ def title_block(drawing: Drawing, view: str, number: str) -> TitleBlock:
         language=words.language,
         scale=words.decimal(drawing.scales.words),
         labels=labels,
+        logo=house.logo.aspect if house.logo else 0.0,
     )
+
+
+def pictures(drawing: Drawing, block: TitleBlock) -> tuple[Picture, ...]:
+    """The logo of the school in the title block of a sheet."""
+    logo = drawing.scene.house.logo
+    if logo is None:
+        return ()
+    left, top, right, bottom = logo_box(block)
+    x, y = A3_TITLE_BLOCK[:2]
+    return (Picture(x + left, y + top, right - left, bottom - top, logo.data, logo.kind),)
 
 
 def sheet_heading(drawing: Drawing, view: str = "key") -> tuple[list[Mark], set[Moved], float]:

@@ -22,7 +22,14 @@ from graphkin.documents.flattest import crossings_on, group_closed, is_gap, name
 from graphkin.documents.listing import written
 from graphkin.documents.mark_dependencies import Target, ground_of, rests_on
 from graphkin.documents.sentences import SET_ON, sentences
-from graphkin.documents.sheet import boards, page_title, panels, sheet_heading, title_block
+from graphkin.documents.sheet import (
+    boards,
+    page_title,
+    panels,
+    pictures,
+    sheet_heading,
+    title_block,
+)
 from graphkin.documents.signs import mechanism_signs, plan_signs
 from graphkin.drawing.field import A3_TITLE_BLOCK, BELOW, MARKED, Field
 from graphkin.drawing.frame import sheet_frame
@@ -288,6 +295,7 @@ def growing(drawing: Drawing, number: str) -> tuple[Page, ...]:
         title_block(drawing, "steps", number),
         [*head, *panels(layout)],
     )
+    logo = pictures(drawing, block)
     lines = [
         (stage_of_crossing(drawing, each, staged), each)
         for each in crossings_on(drawing)
@@ -309,6 +317,7 @@ def growing(drawing: Drawing, number: str) -> tuple[Page, ...]:
             ),
             f"{title}, {stage + 1}/{len(said)}",
             drawing.words.language,
+            logo,
         )
         for first, stage in spans(fields, lambda first, last: to_do(said, first, last).is_held)
     )

@@ -15,6 +15,7 @@ from msgspec.structs import astuple, replace
 
 from graphkin.numbers.arithmetic import FLOAT, Kind, Point
 from graphkin.scene.expression import TIME
+from graphkin.scene.house import PLAIN, House
 from graphkin.scene.quantity import Quantity
 from graphkin.text.errors import Message, message
 from graphkin.text.school_signs import USUAL, SchoolSigns
@@ -557,7 +558,8 @@ class Scene(Struct, frozen=True, dict=True):
     ``near`` gives angles within half a turn of which links' angles are taken, where a motion says
     more than the ``start`` of a rolling. Scenes do not state them; sweeps do. ``titles`` and
     ``notes`` hold texts per language, and ``names`` the links' names in each. ``values`` holds the
-    parameters as set, exact. ``forces`` are its masses and loads, None if it has none.
+    parameters as set, exact. ``forces`` are its masses and loads, None if it has none. ``house``
+    are the conventions of its school.
     """
 
     name: str
@@ -578,6 +580,7 @@ class Scene(Struct, frozen=True, dict=True):
     values: Mapping[str, Any] = field(default_factory=dict)
     source: str | None = None
     forces: Forces | None = None
+    house: House = PLAIN
 
     @property
     def every_link(self) -> tuple[Link, ...]:

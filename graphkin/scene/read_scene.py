@@ -13,6 +13,7 @@ from graphkin.scene.check import check_scene
 from graphkin.scene.expression import TIME, UnreadableError
 from graphkin.scene.file_limits import decoded, read_bytes, tables_of
 from graphkin.scene.findings import Findings, Table, listed, nearest, shown
+from graphkin.scene.house import PLAIN, House, house_beside
 from graphkin.scene.link_names import read_names
 from graphkin.scene.measures import Measures, quantity
 from graphkin.scene.model import FRAME, MASS_KEYS, Ask, Driver, DriverKind, Link, Scene
@@ -56,22 +57,30 @@ UNITS = {"length": tuple(LENGTHS), "angle": tuple(TURNS), "speed": ("rev/min", "
 NO_SETTINGS: Mapping[str, object] = {}
 
 
-def read_scene(path: paths.Named, settings: Mapping[str, object] = NO_SETTINGS) -> Scene:
+def read_scene(
+    path: paths.Named, settings: Mapping[str, object] = NO_SETTINGS, house: House | None = None
+) -> Scene:
     """The scene in a file with its parameters set. Raises SceneError with all problems found.
 
-    The scene is named after its file, or after its folder when the file is ``scene.toml``.
+    The scene is named after its file, or after its folder when the file is ``scene.toml``. It has
+    the conventions of the house.toml beside the file unless others are given.
     """
     name = paths.stem(path)
     if name == "scene":
         name = paths.name_of(paths.folder_of(path)) or name
-    return read_text(decoded(read_bytes(path)), name, str(path), settings)
+    house = house_beside(path) if house is None else house
+    return read_text(decoded(read_bytes(path)), name, str(path), settings, house)
 
 
 def read_text(
-    text: str, name: str, source: str | None = None, settings: Mapping[str, object] = NO_SETTINGS
+    text: str,
+    name: str,
+    source: str | None = None,
+    settings: Mapping[str, object] = NO_SETTINGS,
+    house: House = PLAIN,
 ) -> Scene:
     """The scene in a TOML text with its parameters set. Raises SceneError with all problems."""
-    return read_into(Findings(), text, name, source, settings)
+    return read_into(Findings(), text, name, source, settings, house)
 
 
 def known_keys(text: str, name: str) -> dict[str, list[str]]:
@@ -91,6 +100,7 @@ def read_into(
     name: str,
     source: str | None = None,
     settings: Mapping[str, object] = NO_SETTINGS,
+    house: House = PLAIN,
 ) -> Scene:
     """The scene in a text, with its problems noted. Raises SceneError if there are any."""
     top = Table("", tables_of(text, findings), findings)
@@ -106,7 +116,7 @@ def read_into(
             )
         )
     check_version(top, findings)
-    scene = assembled(top, name, source, settings, findings)
+    scene = assembled(top, name, source, settings, findings, house)
     asked = top.table("ask")
     if has_forces(top, asked):
         from graphkin.scene.read_forces import read_forces
@@ -183,6 +193,7 @@ def assembled(
     source: str | None,
     settings: Mapping[str, object],
     findings: Findings,
+    house: House,
 ) -> Scene:
     """The scene without its requests; an unreadable part is noted and replaced by a default."""
     units = read_units(top.table("units"), findings)
@@ -199,7 +210,7 @@ def assembled(
         from graphkin.scene.keepers import with_keepers
 
         frame, links = with_keepers(frame, links, drivers, measures)
-    sheet = read_sheet(top.table("sheet"), measures)
+    sheet = read_sheet(top.table("sheet"), measures, house)
     points = tuple(point for link in (frame, *links.values()) for point in link.points)
     return Scene(
         name=name,
@@ -218,6 +229,7 @@ def assembled(
         notes=read_languages(top.table("notes")),
         values=values,
         source=source,
+        house=house,
     )
 
 

@@ -424,6 +424,7 @@ def feedback_pages(
                 *page_frame(
                     (fitting(escape(safe(title))), words("feedback.title")),
                     (fitting(name), f"{number}/{len(bodies)}"),
+                    scene.house.header if scene else (),
                 ),
                 *marks,
             ),

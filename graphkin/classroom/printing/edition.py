@@ -23,6 +23,7 @@ from graphkin.classroom.variants.manifest import COPY, FORMAT, MANIFEST, TABLE, 
 from graphkin.documents.sheet_documents import language_of
 from graphkin.mechanism import Mechanism
 from graphkin.scene.file_limits import whole_file
+from graphkin.scene.house import HOUSE
 from graphkin.scene.read_scene import read_text
 from graphkin.text import LANGUAGES, Words
 from graphkin.text.errors import NO_WORDS, Problem, SceneError, either, message
@@ -74,7 +75,7 @@ class Edition(Struct, frozen=True, dict=True):
 
         Raises SceneError for a language that does not exist.
         """
-        mechanism = Mechanism(read_text(self.scene, self.lab.name))
+        mechanism = Mechanism(read_text(self.scene, self.lab.name, house=self.lab.house))
         return language_of(mechanism, language or self.language or None)
 
 
@@ -157,7 +158,8 @@ def refuse_changed(folder: Path, hashes: object) -> None:
     A run that was killed, or a person, changed one file and not the other.
     """
     problems = []
-    for name in FILES:
+    copied = [name for name in hashes if name == HOUSE] if isinstance(hashes, dict) else []
+    for name in (*FILES, *copied):
         path = folder / COPY / name
         try:
             found = sha256(whole_file(path)).hexdigest()
