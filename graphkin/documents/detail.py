@@ -338,7 +338,9 @@ def inset(
     around = ring(circle[1]) if (circle := kind.around(drawing)) else []
     extent = extent_of([*drawing.positions.values(), *spots_of(drawing, kind), centre, *around])
     inner = [size - 2 * EDGE for size in LARGEST]
-    scales = preferred(1000 * max(extent.width / inner[0], extent.height / inner[1]))
+    metre = drawing.scales.metre
+    first = 1000 * max(extent.width / inner[0], extent.height / inner[1]) * metre
+    scales = (kL / metre for kL in preferred(first))
     least = 1000 * max(extent.width, extent.height) / (SMALLEST - 2 * EDGE)
     for kL in takewhile(lambda kL: kL <= least, scales):
         width, height = (1000 * size / kL + 2 * EDGE for size in (extent.width, extent.height))
@@ -355,7 +357,7 @@ def pictured(drawing: Drawing, kind: Centre, centre: complex, field: Field) -> F
     left, top, right, bottom = field.rect
     lines, far = kind.lines_to(drawing), field(centre)
     firsts = [field(next(iter(line.values()))) for line in lines]
-    scale = Scales(1000 / field.mm, 1.0).words
+    scale = Scales(1000 / field.mm, 1.0, metre=drawing.scales.metre).words
     board = FieldContent(field.rect)
     board.marks = [
         box(left, top, right - left, bottom - top, "panel"),

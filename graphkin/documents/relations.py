@@ -153,7 +153,14 @@ def relations(drawings: Sequence[Drawing], *, solved: bool = True) -> list[Secti
     ]
     used = dict.fromkeys(ends for _, found in own for each in found for ends in each.over)
     lengths = of_lengths(first, [ends for ends in used if ends not in after])
-    return [*sections, ("turned", list(of_rolled_turns(first))), *lengths, *own]
+    found = [*sections, ("turned", list(of_rolled_turns(first))), *lengths, *own]
+    return [(name, [in_results(first, each) for each in some]) for name, some in found]
+
+
+def in_results(drawing: Drawing, relation: Relation) -> Relation:
+    """A relation with its unit of length that of the results."""
+    unit = drawing.words.unit(relation.unit)
+    return relation if unit == relation.unit else replace(relation, unit=unit)
 
 
 def of_lengths(drawing: Drawing, bars: Sequence[Bar]) -> tuple[Section, Section]:

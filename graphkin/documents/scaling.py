@@ -18,7 +18,7 @@ from graphkin.drawing.scale import Extent, Scales, digits, extent_of, preferred
 from graphkin.mechanism import Mechanism
 from graphkin.numbers.arithmetic import np
 from graphkin.scene.model import Sheet
-from graphkin.scene.quantity import Quantity
+from graphkin.scene.quantity import LENGTHS, Quantity
 from graphkin.text import Words, words
 from graphkin.text.errors import Message, PageError, Problem, SceneError, message
 
@@ -59,6 +59,10 @@ def scales(mechanism: Mechanism, curves: tuple[Curve, ...] | None = None) -> Sca
     Optional triangles are dropped where they leave no room for a larger mechanism. Raises PageError
     where the factors stated in the scene leave no room for the drawings, or shrink them to nothing.
     """
+    if mechanism.scene.base != "m":
+        metre = float(LENGTHS[mechanism.scene.base])
+        found_in_metres = scales(Mechanism(mechanism.scene.computed_in("m")))
+        return replace(found_in_metres, kL=found_in_metres.kL / metre, metre=metre)
     curves = curves_drawn(mechanism) if curves is None else curves
     said = stated(mechanism)
     crank, gives_way = the_crank(mechanism), may_give_way(mechanism.program)

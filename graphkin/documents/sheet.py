@@ -103,7 +103,9 @@ def said_above(drawing: Drawing, kind: str, view: str) -> tuple[str, str]:
     """The captions of a mechanism and of a kind of plan next to it, which may be missing."""
     words, scales, task = drawing.words, drawing.scales, view == "task"
     beside = beside_plan(drawing, kind) if kind else ""
-    kL = f"{BLANK if task else length_scale(drawing)} m/mm" + (f"; {beside}" if beside else "")
+    kL = f"{BLANK if task else length_scale(drawing)} {words.unit('m/mm')}" + (
+        f"; {beside}" if beside else ""
+    )
     mechanism = words("page.mechanism_heading", scale=words.decimal(scales.words), kL=kL)
     if not kind:
         return mechanism, ""
@@ -355,7 +357,7 @@ def rules(drawing: Drawing) -> Iterator[str]:
     kv, ka = plan_scales(drawing)
     rule = kv if first else ka
     m = figure(drawing, scales.of_bar(drawing.kind))
-    yield f"{rule.left} = {rule.symbols or f'{rule.result} {rule.unit}'}"
+    yield f"{rule.left} = {rule.symbols or f'{rule.result} {drawing.words.unit(rule.unit)}'}"
     if first and scales.of_crank:
         for p, q in islice(driven_bars(drawing, drawing.scene.drivers[0]), 1):
             times = "" if m == "1" else f"{m}·"

@@ -56,7 +56,8 @@ def hand_out(
     """
     from graphkin.documents.calculation import calculation
 
-    spoken, mechanism = language_of(mechanism, language), mechanism.spoken(language)
+    mechanism = mechanism.spoken(language).measured
+    spoken = language_of(mechanism, language)
     if mechanism.scene.sheet.sheets != len(SHEETS):
         raise SceneError(
             Problem(
@@ -129,7 +130,7 @@ def language_of(mechanism: Mechanism, language: str | None) -> Words:
                 either(LANGUAGES),
             )
         )
-    return words(code, mechanism.scene.sheet.signs)
+    return words(code, mechanism.scene.sheet.signs, mechanism.scene.base)
 
 
 def proved(mechanism: Mechanism, solution: Solution) -> Verdict:

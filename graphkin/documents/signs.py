@@ -242,7 +242,7 @@ def plan_scale(drawing: Drawing, space: Space) -> Iterator[Mark]:
     """The bar of a plan's scale in a free corner, with a round value at its end."""
     words, k = drawing.words, scale_of(drawing, drawing.plane) / 1000
     value, first = round_below(LONGEST * k)
-    length, unit = value / k, escape(drawing.vector.unit)
+    length, unit = value / k, escape(words.unit(drawing.vector.unit))
     beyond = extent(unit, HEIGHT)[0] + 3
     half = (length + beyond) / 2 + 1, 3.0
     at = space.first(corners(space.rect, *half), half, APART)

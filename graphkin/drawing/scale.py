@@ -34,6 +34,7 @@ class Scales(Struct, frozen=True):
       acceleration plan.
     - ``of_crank``: the length of the crank pin's velocity on the mechanism, in lengths of the
       crank; 0 where no crank gives it.
+    - ``metre``: the unit of lengths in metres; kL, kv and ka are in this unit.
     - ``triangles``: optional triangles are drawn; they are computed instead where the space is
       needed for a larger mechanism.
     """
@@ -44,6 +45,7 @@ class Scales(Struct, frozen=True):
     larger_still: float = 1.0
     of_crank: float = 0.0
     triangles: bool = True
+    metre: float = 1.0
 
     @property
     def kv(self) -> float:
@@ -77,7 +79,7 @@ class Scales(Struct, frozen=True):
     @property
     def words(self) -> str:
         """The scale as a drawing writes it, 1:5 or 2:1."""
-        return ratio(self.kL)
+        return ratio(self.kL * self.metre)
 
 
 def ratio(kL: float) -> str:

@@ -31,6 +31,8 @@ MOST_LINES, LARGEST_LOGO, MOST_PIXELS = 2, 2 << 20, 16_000_000
 """The most lines of a header, bytes of a logo, and pixels of a picture."""
 PNG = b"\x89PNG\r\n\x1a\n"
 INKS = ("colour", "black")
+RESULTS = ("SI", "scene", "mm", "cm", "m", "in", "ft")
+"""The units of results: metres, the unit of the scene, or a unit of length."""
 CELLS = (
     *("title", "creator", "legal_owner", "document_type", "approved_by", "scale"),
     *("identification", "revision", "date_of_issue", "language", "sheet"),
@@ -62,6 +64,7 @@ class House(Struct, frozen=True):
     language: str = "en"
     ink: Literal["colour", "black"] = "colour"
     signs: SchoolSigns = USUAL
+    results: str = ""
     text: str = ""
 
     @property
@@ -125,6 +128,11 @@ def labels(table: Table, key: str, folder: str) -> dict[str, str]:
 def choice(*words: str) -> Callable[[Table, str, str], str]:
     """The reader of one of some words, the first by default."""
     return lambda table, key, folder: table.choice(key, words, words[0])
+
+
+def results(table: Table, key: str, folder: str) -> str:
+    """The unit of results; empty where none is stated."""
+    return table.choice(key, RESULTS, RESULTS[0]) if key in table else ""
 
 
 def logo(table: Table, key: str, folder: str) -> Logo | None:
@@ -242,6 +250,15 @@ HOUSE_KEYS = (
         "ink",
     ),
     HouseKey(
+        "units",
+        "results",
+        results,
+        f"the unit of lengths in results: {quoted(RESULTS)}; speeds are per s. By default inches"
+        " for a scene in inches, feet for one in feet, else metres",
+        '"scene"',
+        "results",
+    ),
+    HouseKey(
         "signs",
         SET,
         text,
@@ -255,6 +272,7 @@ HEADINGS: Mapping[str, str] = {
     "header": "who hands the sheets out",
     "title": "the title block",
     "pages": "all pages",
+    "units": "units of results",
     "signs": "signs of quantities: a school's set, then single signs that differ from it",
 }
 """What each table of house.toml is about."""

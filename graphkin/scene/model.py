@@ -16,7 +16,7 @@ from msgspec.structs import astuple, replace
 from graphkin.numbers.arithmetic import FLOAT, Kind, Point
 from graphkin.scene.expression import TIME
 from graphkin.scene.house import PLAIN, House
-from graphkin.scene.quantity import Quantity
+from graphkin.scene.quantity import LENGTHS, Quantity, in_unit
 from graphkin.text.errors import Message, message
 from graphkin.text.school_signs import USUAL, SchoolSigns
 from graphkin.text.tables import listed
@@ -552,6 +552,29 @@ def quantities_within(part: object) -> Iterator[Quantity]:
             yield from quantities_within(each)
 
 
+IMPERIAL = ("in", "ft")
+"""The units of length whose results are printed in them, unless others are stated."""
+LENGTHY = ("frame", "links", "drivers", "near")
+"""The parts of a scene that have lengths."""
+
+
+def rebased(part: Any, base: str) -> Any:
+    """A part of a scene with its lengths computed in another unit."""
+    if isinstance(part, Quantity):
+        unit = in_unit(part.unit, base)
+        return part if unit == part.unit else replace(part, unit=unit)
+    if isinstance(part, Struct):
+        own = {name: getattr(part, name) for name in part.__struct_fields__}
+        new = {name: rebased(each, base) for name, each in own.items()}
+        changed = {name: each for name, each in new.items() if each is not own[name]}
+        return replace(part, **changed) if changed else part
+    if isinstance(part, Mapping):
+        return {name: rebased(each, base) for name, each in part.items()}
+    if isinstance(part, tuple | list):
+        return type(part)(rebased(each, base) for each in part)
+    return part
+
+
 class Scene(Struct, frozen=True, dict=True):
     """A planar mechanism in one position, with the requested quantities.
 
@@ -559,7 +582,8 @@ class Scene(Struct, frozen=True, dict=True):
     more than the ``start`` of a rolling. Scenes do not state them; sweeps do. ``titles`` and
     ``notes`` hold texts per language, and ``names`` the links' names in each. ``values`` holds the
     parameters as set, exact. ``forces`` are its masses and loads, None if it has none. ``house``
-    are the conventions of its school.
+    are the conventions of its school. ``results`` names the unit of results, "" for the usual one.
+    ``base`` is the unit in which its lengths are computed.
     """
 
     name: str
@@ -581,6 +605,27 @@ class Scene(Struct, frozen=True, dict=True):
     source: str | None = None
     forces: Forces | None = None
     house: House = PLAIN
+    results: str = ""
+    base: str = "m"
+
+    @property
+    def unit_of_results(self) -> str:
+        """The unit of length in which results are printed: as stated, else inches of inches."""
+        own = self.units["length"]
+        usual = own if own in IMPERIAL else "m"
+        return {"": usual, "SI": "m", "scene": own}.get(self.results, self.results)
+
+    def computed_in(self, base: str) -> Scene:
+        """The same scene with its lengths computed in another unit; without its forces."""
+        if base == self.base:
+            return self
+        parts = {name: rebased(getattr(self, name), base) for name in LENGTHY}
+        return replace(self, **parts, base=base, forces=None)
+
+    @property
+    def unit_length(self) -> float:
+        """The unit of its lengths, in the unit in which lengths are computed."""
+        return float(LENGTHS[self.units["length"]] / LENGTHS[self.base])
 
     @property
     def every_link(self) -> tuple[Link, ...]:

@@ -13,7 +13,7 @@ from graphkin.scene.check import check_scene
 from graphkin.scene.expression import TIME, UnreadableError
 from graphkin.scene.file_limits import decoded, read_bytes, tables_of
 from graphkin.scene.findings import Findings, Table, listed, nearest, shown
-from graphkin.scene.house import PLAIN, House, house_beside
+from graphkin.scene.house import PLAIN, RESULTS, House, house_beside
 from graphkin.scene.link_names import read_names
 from graphkin.scene.measures import Measures, quantity
 from graphkin.scene.model import FRAME, MASS_KEYS, Ask, Driver, DriverKind, Link, Scene
@@ -51,6 +51,7 @@ SPELLINGS = {
     **dict.fromkeys(("centimetre", "centimetres", "centimeter", "centimeters"), "cm"),
     **dict.fromkeys(("metre", "metres", "meter", "meters"), "m"),
     **dict.fromkeys(("inch", "inches", '"'), "in"),
+    **dict.fromkeys(("foot", "feet", "'"), "ft"),
 }
 """Other spellings of units, for hints; a unit that is merely spelt alike is not included."""
 UNITS = {"length": tuple(LENGTHS), "angle": tuple(TURNS), "speed": ("rev/min", "rad/s")}
@@ -196,7 +197,7 @@ def assembled(
     house: House,
 ) -> Scene:
     """The scene without its requests; an unreadable part is noted and replaced by a default."""
-    units = read_units(top.table("units"), findings)
+    units, results = read_units(top.table("units"), findings, house)
     parameters = read_parameters(top.table("parameters"), findings)
     values = set_values(parameters, settings, findings)
     time = read_time(top, Measures(findings, units, values), values)
@@ -230,11 +231,15 @@ def assembled(
         values=values,
         source=source,
         house=house,
+        results=results,
     )
 
 
-def read_units(table: Table, findings: Findings) -> dict[str, str]:
-    """The units of lengths, angles and turning speeds; each must be written."""
+def read_units(table: Table, findings: Findings, house: House) -> tuple[dict[str, str], str]:
+    """The units of lengths, angles and turning speeds, each of which must be written.
+
+    The unit of results is the house's where none is stated, and "" for the usual one.
+    """
     units = {}
     lost = findings.inside(table.place)
     for key, choices in UNITS.items():
@@ -247,8 +252,10 @@ def read_units(table: Table, findings: Findings) -> dict[str, str]:
             meant = SPELLINGS.get(spelt, spelt)
             hint = Mend(str(raw), meant) if meant in choices else NO_WORDS
             findings.add(table.at(key), shown(raw), listed(choices), hint)
+    stated = "results" in table
+    results = table.choice("results", RESULTS, RESULTS[0])
     table.finish()
-    return units
+    return units, results if stated else house.results
 
 
 def read_time(top: Table, measures: Measures, values: dict[str, Fraction]) -> Quantity | None:

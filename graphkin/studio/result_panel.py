@@ -11,7 +11,7 @@ from typing import Any
 from msgspec.structs import replace
 
 from graphkin.construction.core.crossings import Crossing
-from graphkin.construction.core.drawn_scene import METRES, Drawing
+from graphkin.construction.core.drawn_scene import Drawing
 from graphkin.construction.core.program import Part
 from graphkin.construction.core.quantities import CENTRES, Whose, motion_value, names_asked
 from graphkin.construction.core.solution import Solution, Verdict
@@ -107,7 +107,7 @@ def places(scene: Scene, solution: Solution, words: Words) -> Iterator[CellTable
         if at is not None and isnan(at):
             cells = ("–", "–")
         elif at is not None:
-            metre, least = METRES[unit], NOISE * breadth
+            metre, least = scene.unit_length, NOISE * breadth
             x, y = (0.0 if abs(part) < least else part / metre for part in (at.real, at.imag))
             cells = (words.significant(x, 5), words.significant(y, 5))
         elif whose == "points":

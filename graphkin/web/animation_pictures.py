@@ -9,7 +9,7 @@ from math import ceil
 from msgspec import Struct
 from msgspec.structs import replace
 
-from graphkin.construction.core.drawn_scene import METRES, Drawing
+from graphkin.construction.core.drawn_scene import Drawing
 from graphkin.construction.core.layout import Layout
 from graphkin.construction.core.link_poses import Touch
 from graphkin.construction.core.naming import angle_symbol
@@ -470,10 +470,15 @@ class Stage(Struct, frozen=True, dict=True):
     @property
     def captions(self) -> Iterator[tuple[Field, str, str, float]]:
         """Each field with its name, the unit of its scale, and that unit in SI."""
-        words, length = self.words, self.motion.cycle.scene.units["length"]
-        yield self.mechanism, escape(words("animation.mechanism")), length, METRES[length]
+        words, scene = self.words, self.motion.cycle.scene
+        yield (
+            self.mechanism,
+            escape(words("animation.mechanism")),
+            scene.units["length"],
+            scene.unit_length,
+        )
         for kind, field in self.plans.items():
-            yield field, escape(words(f"sheet.{kind}")), MOTION[kind].unit, 1.0
+            yield field, escape(words(f"sheet.{kind}")), words.unit(MOTION[kind].unit), 1.0
 
     @property
     def ground(self) -> Iterator[Mark]:
@@ -497,8 +502,9 @@ class Stage(Struct, frozen=True, dict=True):
                 angle = moment.at % circle if goes_round(self.motion.cycle) else moment.at
                 text = f"{name} = {words.fixed(angle, 1)}°"
             else:
-                unit = sweep.original.units["length"]
-                text = f"{name} = {words.significant(moment.at / METRES[unit], 4)} {unit}"
+                scene = sweep.original
+                place = words.significant(moment.at / scene.unit_length, 4)
+                text = f"{name} = {place} {scene.units['length']}"
         yield Text(PICTURE[0] - 45, 7.5, text, "caption", LETTER)
 
 

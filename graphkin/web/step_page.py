@@ -225,7 +225,7 @@ def step_page(
     notes on quantities that are asked for but cannot be read off the page. Raises WitnessError when
     the independent route disagrees, and PageError where a drawing does not fit.
     """
-    mechanism = mechanism.spoken(language)
+    mechanism = mechanism.spoken(language).measured
     sheets = screen_sheets(mechanism, language)
     tell_unread(sheets, tell)
     told = telling(sheets)
@@ -283,7 +283,8 @@ def task_page(
 
     ``tell`` receives notes on quantities that are asked for but cannot be read off a drawing.
     """
-    mechanism = mechanism if form else mechanism.spoken(language)  # answers use the scene's names
+    own = mechanism if form else mechanism.spoken(language)  # answers use the scene's names
+    mechanism = own.measured
     sheets = screen_sheets(mechanism, language, "task")
     tell_unread(sheets, tell)
     body = from_template(

@@ -34,7 +34,7 @@ from graphkin.text.markup import Markup
 if TYPE_CHECKING:
     from graphkin.drawing.field import Field
 
-METRES = {"mm": 0.001, "cm": 0.01, "m": 1.0, "in": 0.0254}
+METRES = {"mm": 0.001, "cm": 0.01, "m": 1.0, "in": 0.0254, "ft": 0.3048}
 """Metres in each unit in which a scene may write lengths."""
 ENDLESS = 1e9
 """A centre this many times the mechanism's size away counts as at infinity."""
@@ -339,7 +339,7 @@ class Drawing(Struct, frozen=True, dict=True):
 
     def length(self, metres: float) -> float:
         """A length in the scene's own unit."""
-        return metres / METRES[self.scene.units["length"]]
+        return metres / self.scene.unit_length
 
     def on_paper(self, metres: float) -> OnPaper:
         """The drawn length of a length of the mechanism."""

@@ -76,8 +76,10 @@ def scale_of(drawing: Drawing, plane: Plane) -> float:
 
 
 def length_scale(drawing: Drawing) -> str:
-    """kL in metres per millimetre of paper, the unit in which lengths and scales are printed."""
-    return drawing.words.decimal(digits(drawing.scales.kL / 1000))
+    """kL in lengths of results per millimetre of paper, with six digits where it is not round."""
+    scale = drawing.scales.kL / 1000
+    exact = drawing.scales.metre == 1
+    return drawing.words.decimal(digits(scale) if exact else f"{scale:.6g}")
 
 
 def drawn_in(drawing: Drawing, plane: Plane, size: float) -> OnPaper:
@@ -209,7 +211,7 @@ def place(
     if lean is not None and link.points:
         start = next(p for p in link.placings if isinstance(p, At) and p.point == link.points[0])
         away, pin = (away - metres(drawing, (start.x, start.y))) * lean, start.point
-    unit = "mm" if on_paper else through[0].unit
+    unit = "mm" if on_paper else through[0].written_unit
     if on_paper:
         x, y = (in_mm(words, drawing.on_paper(part)) for part in (away.real, away.imag))
     elif pin:
