@@ -162,3 +162,29 @@ def test_solve_prints_inches_and_its_json_si(run: Run, tmp_path) -> None:
     )
     assert si["scales"]["kL"] == own["scales"]["kL"]
     assert si["scales"]["kv"] == pytest.approx(INCH * own["scales"]["kv"])
+
+
+def test_a_class_in_inches_is_marked_in_inches(run: Run, tmp_path) -> None:
+    """A number without a unit has that of its field; the feedback shows values in it."""
+    lab, folder = tmp_path / "lab", tmp_path / "class"
+    lab.mkdir()
+    scene = INCHES.replace("[frame]", "[parameters]\nn = { value = 1, min = 1, max = 9 }\n[frame]")
+    (lab / "scene.toml").write_text(scene.replace("angle = 40", 'angle = "39 + n"'), "utf-8")
+    rule = 'graphkin = 1\n[variants]\nset = { n = "number" }\n[marks]\nv_B = 1\na_B = 1\n'
+    (lab / "lab.toml").write_text(rule, encoding="utf-8")
+    (tmp_path / "class.csv").write_text("id,number\none,1\ntwo,1\n", encoding="utf-8")
+    given = "id,v_B,a_B\none,18.70,278.5\ntwo,0.4749 m/s,400\n"
+    (tmp_path / "answers.csv").write_text(given, encoding="utf-8")
+    assert run("variants", lab, tmp_path / "class.csv", "-o", folder).exit_code in (0, 1)
+    done = run("grade", folder, tmp_path / "answers.csv")
+    assert done.exit_code in (0, 1), done.output
+    marks = (folder / "report" / "marks.csv").read_text(encoding="utf-8-sig")
+    rows = [line.split(",") for line in marks.splitlines()]
+    right = {row[rows[0].index("id")]: row for row in rows[1:]}
+    assert right["one"][rows[0].index("v_B")] == right["two"][rows[0].index("v_B")] == "1"
+    assert right["one"][rows[0].index("a_B")] == "1"
+    assert right["two"][rows[0].index("a_B")] != "1"
+    tolerances = (folder / "report" / "tolerances.csv").read_text(encoding="utf-8-sig")
+    assert "one,v_B,in/s,18.6977," in tolerances
+    page = next((folder / "report").rglob("*one*.html")).read_text(encoding="utf-8")
+    assert "18.70" in page and "in/s" in page and "m/s" not in re.sub("[a-z]m/s", "", page)

@@ -134,13 +134,13 @@ def tolerances_table(graded: Sequence[Graded], expected: Sequence[Expectation]) 
             key, item = form.key[name], form.item[name]
             share = 100 * allowed.value / abs(key) if key and item.what != "place" else None
             amounts = (allowed.value, allowed.pencil, allowed.ruler)
-            value, pencil, ruler = (f"{amount:.4g}" for amount in amounts)
+            value, pencil, ruler = (f"{amount / item.one:.4g}" for amount in amounts)
             lines.append(
                 (
                     who,
                     name,
                     item.unit,
-                    f"{key:.6g}",
+                    f"{key / item.one:.6g}",
                     value,
                     "" if share is None else f"{share:.2f}",
                     pencil,

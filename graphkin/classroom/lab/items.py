@@ -30,6 +30,7 @@ from graphkin.construction.core.quantities import (
 from graphkin.drawing.symbol_markup import escape, symbol
 from graphkin.mechanism import Mechanism
 from graphkin.scene.link_points import lettered, point_of
+from graphkin.text import words
 from graphkin.text.school_signs import USUAL, SchoolSigns
 
 GREEK = {"ν": "nu", "τ": "tau", "c": "cor"}
@@ -47,18 +48,21 @@ def items(mechanism: Mechanism, lab: Lab) -> tuple[Item, ...]:
 
 def asked_fields(mechanism: Mechanism) -> dict[str, Item]:
     """The fields that the scene asks for, in the order of its [ask]."""
-    return named(asked(mechanism))
+    return named(printed(mechanism, asked(mechanism)))
 
 
 def all_fields(mechanism: Mechanism) -> dict[str, Item]:
     """Every field that a rubric may name: what is asked, all motions, and each arrow of a plan."""
-    return named(
-        [
-            *asked(mechanism),
-            *moving(mechanism),
-            *arrows(mechanism.program, mechanism.scene.sheet.signs),
-        ]
-    )
+    shown = arrows(mechanism.program, mechanism.scene.sheet.signs)
+    return named(printed(mechanism, [*asked(mechanism), *moving(mechanism), *shown]))
+
+
+def printed(mechanism: Mechanism, found: Iterable[Item]) -> Iterator[Item]:
+    """Items with their units as the sheets print them: in/s for a scene in inches."""
+    unit = words("en", length=mechanism.scene.unit_of_results).unit
+    for item in found:
+        own = item.unit if item.unit == "mm" else unit(item.unit)
+        yield item if own == item.unit else replace(item, unit=own)
 
 
 def named(found: Iterable[Item]) -> dict[str, Item]:

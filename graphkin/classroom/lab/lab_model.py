@@ -14,7 +14,7 @@ from graphkin.classroom.lab.cause_names import GRADES, SHARES
 from graphkin.construction.core.plan_vector import PlanVector
 from graphkin.mechanism import Mechanism
 from graphkin.scene.house import PLAIN, House
-from graphkin.scene.quantity import Quantity
+from graphkin.scene.quantity import LENGTHS, Quantity
 from graphkin.scene.read_scene import read_scene
 
 NUMBER = "number"
@@ -183,6 +183,12 @@ class Item(Struct, frozen=True, dict=True):
     def field(self) -> str:
         """The name of the field in files."""
         return self.beside(self.what)
+
+    @cached_property
+    def one(self) -> float:
+        """One of its unit as it is marked: in SI, but lengths on paper in mm."""
+        length, per, _ = self.unit.partition("/")
+        return float(LENGTHS[length]) if per and length in LENGTHS else 1.0
 
     def beside(self, what: What, axis: str = "") -> str:
         """The name of another field of the same quantity."""

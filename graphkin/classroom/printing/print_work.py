@@ -101,7 +101,7 @@ class Sheets:
         scene = read_text(
             order.scene, order.lab.name, settings=dict(taker.settings), house=order.lab.house
         )
-        self.mechanism = Mechanism(scene)
+        self.mechanism = Mechanism(scene).measured
         self.whose: Owner = owner(taker)
         self.words: Words = language_of(self.mechanism, taker.spoken or order.language)
         verdict = proved(self.mechanism, sheet_motion(self.mechanism))
