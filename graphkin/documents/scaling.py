@@ -106,7 +106,9 @@ def stated_of(sheet: Sheet, values: Mapping[str, Any], count: int, *kind: Any) -
     once = [[1.0 if sheet.rule == "lab" else 0.0] * count]
     times = [numbers(each) for each in sheet.enlarge] or once
     columns = zip(numbers(sheet.scale), numbers(sheet.ka), times[0], times[-1], strict=True)
-    return [Stated(kL, {SHEETS[0]: m, SHEETS[1]: n}, 1000 * ka) for kL, ka, m, n in columns]
+    return [
+        Stated(kL, {SHEETS[0]: m, SHEETS[1]: n}, 1000 * ka, sheet.steps) for kL, ka, m, n in columns
+    ]
 
 
 def found(

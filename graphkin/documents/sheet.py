@@ -54,6 +54,7 @@ from graphkin.drawing.marks import LineMark, Mark, Page, Picture, Text, box, rea
 from graphkin.drawing.richtext import are_clear, extent, flowed, words_of
 from graphkin.drawing.style import VECTORS
 from graphkin.drawing.symbol_markup import bar, escape, symbol
+from graphkin.scene.house import THICK
 from graphkin.scene.link_points import lettered
 from graphkin.scene.model import Link
 from graphkin.text import Words
@@ -444,7 +445,12 @@ def sheet(
 def a3_page(drawing: Drawing, block: TitleBlock, marks: Iterable[Mark]) -> Page:
     """An A3 page of a sheet, with the logo of the school in its title block."""
     title, shown = page_title(drawing), pictures(drawing, block)
-    return Page(420, 297, tuple(marks), title, drawing.words.language, shown)
+    return Page(420, 297, tuple(marks), title, drawing.words.language, shown, weight_of(drawing))
+
+
+def weight_of(drawing: Drawing) -> float:
+    """The factor of a school on the widths of lines."""
+    return drawing.scene.house.thick / THICK
 
 
 def page_title(drawing: Drawing) -> str:

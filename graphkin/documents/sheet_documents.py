@@ -18,7 +18,7 @@ from graphkin.construction.result_tables import unread
 from graphkin.diagnosis.assembly_failure import beside_dead_point
 from graphkin.documents.detail import with_detail
 from graphkin.documents.scaling import drawing, scales, sheet_motion, targets_of
-from graphkin.documents.sheet import boards, sheet_heading, title_of
+from graphkin.documents.sheet import boards, sheet_heading, title_of, weight_of
 from graphkin.drawing.field import A3_AREA, Rect
 from graphkin.drawing.frame import fitting
 from graphkin.drawing.marks import LineMark, Mark, Page, Text
@@ -257,7 +257,7 @@ def overlay(drawing: Drawing, number: str) -> Page:
         *crop_marks(A3_AREA),
         Text(A3_AREA[0] + 12, A3_AREA[3] - FOOT, first + rest, "caption", height, name="title"),
     )
-    return Page(420, 297, marks, name, words.language)
+    return Page(420, 297, marks, name, words.language, weight=weight_of(drawing))
 
 
 def untinted(mark: Mark) -> Mark:

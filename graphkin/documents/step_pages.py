@@ -29,6 +29,7 @@ from graphkin.documents.sheet import (
     pictures,
     sheet_heading,
     title_block,
+    weight_of,
 )
 from graphkin.documents.signs import mechanism_signs, plan_signs
 from graphkin.drawing.field import A3_TITLE_BLOCK, BELOW, MARKED, Field
@@ -318,6 +319,7 @@ def growing(drawing: Drawing, number: str) -> tuple[Page, ...]:
             f"{title}, {stage + 1}/{len(said)}",
             drawing.words.language,
             logo,
+            weight_of(drawing),
         )
         for first, stage in spans(fields, lambda first, last: to_do(said, first, last).is_held)
     )

@@ -317,7 +317,7 @@ class Picture(Struct, frozen=True):
 class Page(Struct, frozen=True):
     """One page: its size in mm, its marks in painting order, its title and language code.
 
-    ``pictures`` lie above its marks.
+    ``pictures`` lie above its marks. ``weight`` is a factor on the widths of all lines.
     """
 
     width: float
@@ -326,6 +326,7 @@ class Page(Struct, frozen=True):
     title: str = ""
     lang: str = "en"
     pictures: tuple[Picture, ...] = ()
+    weight: float = 1.0
 
     def check(self) -> None:
         """Raise PageError, naming each mark that is not finite or leaves the page."""

@@ -160,8 +160,16 @@ def extent_of(points: Sequence[complex]) -> Extent:
     return Extent(min(xs), min(ys), max(xs), max(ys))
 
 
-def preferred_scales(smallest: float) -> Iterator[float]:
-    """The kL of preferred scales in increasing order, from the first not below ``smallest``."""
+def preferred_scales(smallest: float, steps: Sequence[float] = ()) -> Iterator[float]:
+    """The kL of preferred scales in increasing order, from the first not below ``smallest``.
+
+    ``steps`` are the first digits n of a school's scales 1:n and n:1.
+    """
+    if steps:
+        enlarged = sorted(1.0 if step == 1 else 10 / step for step in steps)
+        yield from takewhile(lambda kL: kL < 1 - 1e-9, preferred(smallest, enlarged))
+        yield from preferred(max(smallest, 1.0), sorted(steps))
+        return
     yield from takewhile(lambda kL: kL < TWICE, preferred(smallest, ENLARGED))
     yield from preferred(max(smallest, TWICE), REDUCED)
 

@@ -16,6 +16,7 @@ from msgspec.structs import replace
 
 from graphkin.scene.file_limits import LARGEST, decoded, tables_of, whole_file
 from graphkin.scene.findings import Findings, Table, listed, nearest, plain_text, shown
+from graphkin.scene.measures import FloatText
 from graphkin.text import LANGUAGES, paths
 from graphkin.text.errors import NO_WORDS, HouseError, Message, Problem, SceneError, message
 from graphkin.text.school_signs import MEANINGS, NAMES, SCHOOLS, USUAL, SchoolSigns
@@ -31,6 +32,8 @@ MOST_LINES, LARGEST_LOGO, MOST_PIXELS = 2, 2 << 20, 16_000_000
 """The most lines of a header, bytes of a logo, and pixels of a picture."""
 PNG = b"\x89PNG\r\n\x1a\n"
 INKS = ("colour", "black")
+THICK, GROUPS = 0.5, (0.25, 0.35, 0.5, 0.7)
+"""The usual width of thick lines in mm, and the line groups of ISO 128."""
 RESULTS = ("SI", "scene", "mm", "cm", "m", "in", "ft")
 """The units of results: metres, the unit of the scene, or a unit of length."""
 CELLS = (
@@ -65,6 +68,8 @@ class House(Struct, frozen=True):
     ink: Literal["colour", "black"] = "colour"
     signs: SchoolSigns = USUAL
     results: str = ""
+    steps: tuple[float, ...] = ()
+    thick: float = THICK
     text: str = ""
 
     @property
@@ -133,6 +138,35 @@ def choice(*words: str) -> Callable[[Table, str, str], str]:
 def results(table: Table, key: str, folder: str) -> str:
     """The unit of results; empty where none is stated."""
     return table.choice(key, RESULTS, RESULTS[0]) if key in table else ""
+
+
+def steps(table: Table, key: str, folder: str) -> tuple[float, ...]:
+    """The first digits of scales: numbers from 1 to below 10."""
+    raw, place = table.take(key), table.at(key)
+    if raw is None:
+        return ()
+    found = [number_of(each) for each in raw] if isinstance(raw, list) else [None]
+    kept = sorted({each for each in found if each is not None and 1 <= each < 10})
+    if not kept or len(kept) < len(found):
+        expected = message("a list of numbers from 1 to below 10, each once, such as [1, 2, 5]")
+        table.findings.add(place, shown(raw), expected)
+    return tuple(kept)
+
+
+def thick(table: Table, key: str, folder: str) -> float:
+    """The width of thick lines in mm: a line group of ISO 128."""
+    raw = table.take(key)
+    found = THICK if raw is None else number_of(raw)
+    if found not in GROUPS:
+        expected = message("one of {names}", names=", ".join(f"{each:g}" for each in GROUPS))
+        table.findings.add(table.at(key), shown(raw), expected)
+        return THICK
+    return found
+
+
+def number_of(raw: object) -> float | None:
+    """A plain number of a file; None for anything else."""
+    return float(raw) if isinstance(raw, int | FloatText) and not isinstance(raw, bool) else None
 
 
 def logo(table: Table, key: str, folder: str) -> Logo | None:
@@ -259,6 +293,22 @@ HOUSE_KEYS = (
         "results",
     ),
     HouseKey(
+        "scales",
+        "steps",
+        steps,
+        "the first digits n of the scales 1:n and n:1 among which the program chooses",
+        "[1, 2, 5]",
+        "steps",
+    ),
+    HouseKey(
+        "lines",
+        "thick",
+        thick,
+        "the width of thick lines in mm, with which all others change: 0.25, 0.35, 0.5 or 0.7",
+        "0.35",
+        "thick",
+    ),
+    HouseKey(
         "signs",
         SET,
         text,
@@ -273,6 +323,8 @@ HEADINGS: Mapping[str, str] = {
     "title": "the title block",
     "pages": "all pages",
     "units": "units of results",
+    "scales": "rules of scales",
+    "lines": "drawing rules",
     "signs": "signs of quantities: a school's set, then single signs that differ from it",
 }
 """What each table of house.toml is about."""

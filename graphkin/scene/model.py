@@ -519,7 +519,7 @@ class Sheet(Struct, frozen=True):
     train with them. ``rule`` sets the size of plans: as large as possible, or as in the lab, with
     vectors of the crank's pin as long as the crank. ``enlarge`` is the factor on that length, one
     number for each plan or one for both. ``student`` is the owner of the sheet, set by a class, not
-    by a scene.
+    by a scene. ``steps`` are the first digits of a school's scales, () for the usual ones.
     """
 
     owner: str = ""
@@ -537,6 +537,7 @@ class Sheet(Struct, frozen=True):
     method: str = "triangles"
     plan: str = "images"
     signs: SchoolSigns = USUAL
+    steps: tuple[float, ...] = ()
 
 
 def quantities_within(part: object) -> Iterator[Quantity]:

@@ -214,6 +214,7 @@ def read_sheet(table: Table, measures: Measures, house: House) -> Sheet:
         method=table.choice("method", METHODS, METHODS[0]),
         plan=table.choice("plan", PLANS, PLANS[0]),
         signs=read_signs(table, "signs", house.signs),
+        steps=house.steps,
     )
     table.finish()
     return sheet

@@ -117,7 +117,7 @@ class PdfPen:
 
     def __init__(self, canvas: Canvas, page: Page, ink: Ink) -> None:
         self.document = canvas._doc  # type: ignore[attr-defined]
-        self.ink = ink
+        self.ink, self.weight = ink, page.weight
         self.top = page.height
         self.line = self.filling = ""
         self.code: list[str] = []
@@ -125,7 +125,7 @@ class PdfPen:
 
     def draw(self, mark: Mark) -> None:
         """Write one mark."""
-        style = style_of(mark.cls, self.ink)
+        style = style_of(mark.cls, self.ink, self.weight)
         if isinstance(mark, Text):
             self.text(mark, style)
         else:

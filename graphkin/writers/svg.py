@@ -145,15 +145,17 @@ def tag(mark: Mark) -> str:
     return TAGS[type(mark)]
 
 
-def rules(marks: Iterable[Mark], ink: Ink) -> list[str]:
+def rules(marks: Iterable[Mark], ink: Ink, weight: float = 1.0) -> list[str]:
     """Write one rule for each element and class used, in order of first use."""
-    return [rule(*kind, ink) for kind in dict.fromkeys((tag(mark), mark.cls) for mark in marks)]
+    return [
+        rule(*kind, ink, weight) for kind in dict.fromkeys((tag(mark), mark.cls) for mark in marks)
+    ]
 
 
 @lru_cache(maxsize=1024)
-def rule(name: str, cls: str, ink: Ink) -> str:
+def rule(name: str, cls: str, ink: Ink, weight: float = 1.0) -> str:
     """Write the rule for elements of a name and class; circles and polygons have an interior."""
-    style = style_of(cls, ink)
+    style = style_of(cls, ink, weight)
     open_only = name not in ("circle", "polygon")
     body = f"fill:{style.colour}" if name == "text" else line_rule(style, open_only)
     return f"{name}{selector(cls)}{{{body}}}"
@@ -163,7 +165,9 @@ def style_sheet(page: Page, ink: Ink = "colour") -> str:
     """Write the style sheet of a page, with the fonts it uses."""
     markups = {(mark.markup, mark.height) for mark in page.marks if isinstance(mark, Text)}
     slants = {run.italic for markup in markups for run in spaced_runs(*markup)}
-    return "\n".join((*map(font_face, sorted(slants)), LETTERING, *rules(page.marks, ink)))
+    return "\n".join(
+        (*map(font_face, sorted(slants)), LETTERING, *rules(page.marks, ink, page.weight))
+    )
 
 
 def write_svg(page: Page, ink: Ink = "colour") -> str:

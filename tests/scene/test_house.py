@@ -5,20 +5,23 @@ from __future__ import annotations
 import base64
 import re
 from io import BytesIO
+from itertools import islice
 from pathlib import Path
 
 import pytest
-from msgspec.structs import fields
+from msgspec.structs import fields, replace
 from PIL import Image
 
 from graphkin.classroom.lab.read_lab import read_lab
 from graphkin.classroom.printing.edition import read_edition
+from graphkin.documents.scaling import scales
 from graphkin.documents.sheet_documents import hand_out
 from graphkin.drawing.frame import CELLS as DRAWN
 from graphkin.drawing.frame import STUDENT
 from graphkin.drawing.marks import Page, Text
 from graphkin.drawing.richtext import plain
-from graphkin.mechanism import Mechanism
+from graphkin.drawing.scale import preferred_scales, ratio
+from graphkin.mechanism import Mechanism, load
 from graphkin.scene import scene_files
 from graphkin.scene.house import CELLS, HOUSE, HOUSE_KEYS, PLAIN, House, house_of, template
 from graphkin.scene.read_scene import read_scene, read_text
@@ -112,6 +115,10 @@ labels = { student = "Me" }
 language = "xx"
 ink = "blue"
 paper = 3
+[scales]
+steps = [1, 10]
+[lines]
+thick = "0.5"
 [signs]
 set = "englich"
 normal = "n_t_t"
@@ -122,7 +129,15 @@ normal = "n_t_t"
     places = [str(problem.place) for problem in error.value.problems]
     assert places == [
         *("graphkin", "header.lines", "header.logo", "title.labels.student", "pages.language"),
-        *("pages.ink", "pages.paper", "signs.set", "signs.normal", "hedder"),
+        *(
+            "pages.ink",
+            "scales.steps",
+            "lines.thick",
+            "pages.paper",
+            "signs.set",
+            "signs.normal",
+            "hedder",
+        ),
     ]
 
 
@@ -209,6 +224,26 @@ def test_without_a_house_there_is_no_picture_and_no_header() -> None:
     pages = [page for part in hand_out(Mechanism(scene)) for page in part.pages]
     assert not any(page.pictures for page in pages)
     assert not any(mark.name == "school" for page in pages for mark in page.marks)
+
+
+def test_the_program_chooses_among_the_scales_of_the_school() -> None:
+    scene = load("pump").scene
+    chosen = {}
+    for steps in ((), (1.0, 2.0), (1.0, 3.0)):
+        own = replace(scene, sheet=replace(scene.sheet, steps=steps))
+        chosen[steps] = scales(Mechanism(own)).words
+    assert chosen == {(): "1:5", (1.0, 2.0): "1:10", (1.0, 3.0): "1:10"}
+    small = islice(preferred_scales(0.03, (1.0, 2.0, 5.0)), 6)
+    assert [ratio(kL) for kL in small] == ["20:1", "10:1", "5:1", "2:1", "1:1", "1:2"]
+
+
+def test_all_lines_have_the_width_of_the_school() -> None:
+    page = hand_out(Mechanism(read_text(SCENE, "x", house=House(thick=0.25))))[0].pages[0]
+    assert "stroke-width:0.35;" in write_svg(page)  # the frame, 0.7 as a rule
+    assert "stroke-width:0.7;" not in write_svg(page)
+    usual = hand_out(Mechanism(read_text(SCENE, "x")))[0].pages[0]
+    assert write_svg(usual) == write_svg(replace(page, weight=1.0))
+    assert write_pdf([usual]) != write_pdf([page])
 
 
 # --- where it is found ----------------------------------------------------------------------------
