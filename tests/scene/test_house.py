@@ -295,6 +295,9 @@ def test_a_class_keeps_the_conventions_it_was_made_with(
     (folder / "lab" / HOUSE).write_text("graphkin = 1\n", encoding="utf-8")
     with pytest.raises(SceneError, match=rf"{HOUSE}: was changed since"):
         read_edition(folder)
+    (school / HOUSE).unlink()
+    assert run("variants", school, roster, "-o", folder, "--force").exit_code in (0, 1)
+    assert read_edition(folder).lab.house == PLAIN
 
 
 def test_the_shipped_labs_have_no_house() -> None:

@@ -26,7 +26,6 @@ from graphkin.classroom.roster.student import Student
 from graphkin.classroom.variants.assign import Assigned, held_against
 from graphkin.classroom.variants.manifest import COPY, MANIFEST, TABLE, as_text, code, manifest
 from graphkin.scene.file_limits import whole_file
-from graphkin.scene.house import HOUSE
 from graphkin.text import words
 from graphkin.text.tables import csv_text, labelled, table
 from graphkin.writers.commit import settle
@@ -60,14 +59,14 @@ def write_class(
     table = csv_text(table_rows(students, salt)).encode("utf-8")
     hashes = {"scene.toml": digest(scene), "lab.toml": digest(rule), TABLE: digest(table)}
     hashes["roster"] = digest(whole_file(roster))
-    house = lab.house.files
-    hashes |= {name: digest(house[name]) for name in house if name == HOUSE}
+    house = {f"{COPY}/{name}": data for name, data in lab.house.files.items()}
+    hashes |= {name: digest(data) for name, data in house.items()}
     record = manifest(lab, students, hashes, roster.name, salt, language)
     files = {
         TABLE: table,
         f"{COPY}/scene.toml": scene,
         f"{COPY}/lab.toml": rule,
-        **{f"{COPY}/{name}": data for name, data in house.items()},
+        **house,
         MANIFEST: as_text(record).encode("utf-8"),
     }
     return write_all(folder, files, force)
