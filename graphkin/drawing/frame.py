@@ -87,10 +87,11 @@ STUDENTS: tuple[tuple[str, Rect, float], ...] = (
 
 HEADED = {OWNER: (0.0, 104.0), "document_type": (104.0, 146.0), "approved_by": (146.0, 180.0)}
 """The sides of cells beside the wider cell of a school's header."""
-CROWDED = HEADED | {
-    "document_type": (104.0, 134.0),
-    "creator": (134.0, 157.0),
-    "approved_by": (157.0, 180.0),
+CROWDED = {
+    OWNER: (0.0, 98.0),
+    "document_type": (98.0, 136.0),
+    "creator": (136.0, 158.0),
+    "approved_by": (158.0, 180.0),
 }
 """The same on a student's sheet that has an author."""
 

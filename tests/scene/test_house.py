@@ -25,6 +25,8 @@ from graphkin.mechanism import Mechanism, load
 from graphkin.scene import scene_files
 from graphkin.scene.house import CELLS, HOUSE, HOUSE_KEYS, PLAIN, House, house_of, template
 from graphkin.scene.read_scene import read_scene, read_text
+from graphkin.studio.look import Sight, look
+from graphkin.studio.panels import Memory
 from graphkin.text.errors import SceneError
 from graphkin.text.school_signs import SCHOOLS
 from graphkin.writers.pdf import write_pdf
@@ -302,3 +304,18 @@ def test_a_class_keeps_the_conventions_it_was_made_with(
 
 def test_the_shipped_labs_have_no_house() -> None:
     assert not [*scene_files.shelf().rglob(HOUSE)]
+
+
+def test_the_studio_takes_the_house_of_its_folder(tmp_path: Path) -> None:
+    memory = Memory()
+    usual = look(Sight(SCENE, "x", "en", folder=str(tmp_path)), memory, lambda: None)
+    stated = 'graphkin = 1\n[signs]\nset = "german"\n[units]\nresults = "cm"\n'
+    (tmp_path / HOUSE).write_text(stated, encoding="utf-8")
+    own = look(Sight(SCENE, "x", "en", folder=str(tmp_path)), memory, lambda: None)
+    assert not (usual["problems"] or own["problems"])
+    assert "cm/s" not in usual["results"] and "cm/s" in own["results"]
+    panels = [each["panels"][-1]["svg"] for each in (usual, own)]
+    assert [re.search(">P<", panel) is not None for panel in panels] == [False, True]
+    (tmp_path / HOUSE).write_text("graphkin = 2\n", encoding="utf-8")
+    wrong = look(Sight(SCENE, "x", "en", folder=str(tmp_path)), memory, lambda: None)
+    assert [each["place"] for each in wrong["problems"]] == ["graphkin"]
