@@ -187,6 +187,12 @@ class Mechanism(Struct, frozen=True, dict=True):
         scene = in_language(self.scene, language or self.scene.sheet.language)
         return self if scene is self.scene else Mechanism(scene)
 
+    @cached_property
+    def measured(self) -> Mechanism:
+        """The mechanism computed in the unit of its results, such as inches; its own in metres."""
+        scene = self.scene.computed_in(self.scene.unit_of_results)
+        return self if scene is self.scene else Mechanism(scene)
+
     def asked(self) -> tuple[Target, ...]:
         """The targets that the scene asks for; all targets if it asks for nothing.
 

@@ -97,6 +97,7 @@ def answer_form(mechanism: Mechanism, name: str, stem: str, language: str | None
     from graphkin.classroom import form_page
     from graphkin.classroom.lab.read_lab import read_lab
 
+    lab = read_lab(folder, house=mechanism.scene.house)
     words = language_of(mechanism, language)
     whose = form_page.Identity(stem=stem, memory=f"{stem} {words.language}")
-    return form_page.lab_form(mechanism, read_lab(folder), words, whose)
+    return form_page.lab_form(mechanism, lab, words, whose)

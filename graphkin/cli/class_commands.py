@@ -16,7 +16,9 @@ from graphkin.cli.options import (
     current,
     folder_option,
     force_option,
+    house_option,
     jobs_option,
+    lab_of_command,
     lang_option,
     language_option,
     leave,
@@ -36,12 +38,13 @@ if TYPE_CHECKING:
 @click.group(invoke_without_command=True)
 @click.pass_context
 def new(context: click.Context) -> None:
-    """Make a lab to start from, or an empty table of answers.
+    """Make a lab, a school's conventions, or an empty table of answers, to start from.
 
     \b
     Examples:
       graphkin new lab crank-lab
       graphkin new answers crank-2026 -o answers.csv
+      graphkin new house
     """
     if context.invoked_subcommand is None:
         click.echo(context.get_help())
@@ -128,11 +131,34 @@ def new_answers(folder: Path, output: Path | None, force: bool) -> None:
         tell([str(write_apart(output, table, folder, force))])
 
 
+@new.command("house")
+@folder_option("Folder to write it into; the current one by default.", default=Path())
+@click.option("--own", is_flag=True, help="Write your own, for all scenes without one beside them.")
+@force_option
+def new_house(folder: Path, own: bool, force: bool) -> None:
+    """Make a house.toml: the conventions of a school.
+
+    The file has a comment at each key: header, logo, title block, language, ink, signs. Beside a
+    scene or a lab it holds for these; --own writes the one that holds for all others.
+
+    \b
+    Examples:
+      graphkin new house -o my-lab
+      graphkin new house --own
+    """
+    from graphkin.scene.house import HOUSE, template
+    from graphkin.writers.files import write_all
+
+    place = Path(click.get_app_dir("graphkin")) if own else folder
+    tell(map(str, write_all(place, {HOUSE: template().encode()}, force)))
+
+
 @click.command()
 @click.argument("name", metavar="LAB")
 @click.argument("roster", metavar="ROSTER", type=click.Path(path_type=Path))
 @folder_option("Folder of the class, made if it is missing.", required=True)
 @lang_option("Language of the class, kept for print, read and grade; the scene's by default.")
+@house_option
 @click.option("--force", is_flag=True, help="Replace an existing class; it keeps its codes.")
 def variants(name: str, roster: Path, folder: Path, lang: str | None, force: bool) -> None:
     """Give each student of a class data of their own.
@@ -142,19 +168,19 @@ def variants(name: str, roster: Path, folder: Path, lang: str | None, force: boo
     an id for each student, and a number if the lab's formula uses one; name and group are optional.
 
     Reports how fair the data are. Writes variants.csv, manifest.json, from which every sheet can be
-    derived again, and a copy of the lab. Unfair data from a formula are reported and still written,
-    and the exit status is 1. Unfair data from ranges are drawn again until they are fair.
+    derived again, and a copy of the lab with its house.toml. Unfair data from a formula are
+    reported and still written, and the exit status is 1. Unfair data from ranges are drawn again
+    until they are fair.
 
     \b
     Example:
       graphkin variants pump class.csv -o pump-2026 --lang en
     """
-    from graphkin.classroom.lab.read_lab import read_lab
     from graphkin.classroom.roster.read_roster import read_roster
     from graphkin.classroom.variants.assign import assigned, check_of
     from graphkin.classroom.variants.class_files import class_lines, write_class
 
-    lab = read_lab(name)
+    lab = lab_of_command(name)
     students = read_roster(roster, numbered=lab.rule.counts, check=check_of(lab), tell=complain)
     found = assigned(lab, students, roster.name)
     written = write_class(folder, lab, found, roster, force=force, language=lang)
@@ -188,10 +214,9 @@ def check_lab(name: str) -> None:
     """
     from graphkin.classroom.lab.fairness_words import trial_lines
     from graphkin.classroom.lab.lab_trial import tried
-    from graphkin.classroom.lab.read_lab import read_lab
 
     click.get_current_context().meta.pop(READING, None)
-    outcome = tried(read_lab(name))
+    outcome = tried(lab_of_command(name))
     tell(["", *trial_lines(outcome)])
     if outcome.unasked:
         complain(f"drawn on no sheet: {', '.join(outcome.unasked)}")
@@ -226,6 +251,7 @@ SHOWN = 5
     help="Largest number of variants.",
 )
 @jobs_option()
+@house_option
 @force_option
 @click.pass_context
 def quiz(
@@ -252,7 +278,6 @@ def quiz(
     Example:
       graphkin quiz pump -o out --lang en
     """
-    from graphkin.classroom.lab.read_lab import read_lab
     from graphkin.classroom.printing.edition import read_edition
     from graphkin.classroom.printing.print_work import PrintOrder
     from graphkin.classroom.printing.workers import cores
@@ -265,7 +290,7 @@ def quiz(
     from graphkin.writers.files import refuse_folder, write_all
 
     whole = read_edition(Path(name)) if (Path(name) / MANIFEST).is_file() else None
-    lab = whole.lab if whole else read_lab(name)
+    lab = whole.lab if whole else lab_of_command(name)
     lang = lang or (whole.language if whole else "")
     refuse_folder(folder, [f"{lab.name}-moodle.xml"], force=force)
     if not lab.rubric.points:
@@ -282,7 +307,7 @@ def quiz(
     if not fair:
         raise SceneError(Problem(lab.name, message("no variant is fair"), message("one at least")))
     scene = lab.scene.read_text(encoding="utf-8-sig")
-    words = language_of(Mechanism(read_text(scene, lab.name)), lang)
+    words = language_of(Mechanism(read_text(scene, lab.name, house=lab.house)), lang)
     order = PrintOrder(lab, scene, words.language, "colour")
     found = questions(order, fair, jobs or cores())
     file = {f"{lab.name}-moodle.xml": bank(lab.name, found)}
@@ -297,6 +322,7 @@ def quiz(
 @click.command()
 @click.argument("name", metavar="LAB")
 @click.option("-o", "--output", "folder", metavar="DIR", type=FolderType(path_type=Path))
+@house_option
 @force_option
 def ranges(name: str, folder: Path | None, force: bool) -> None:
     """Find the parameter ranges in which every variant is fair.
@@ -314,11 +340,10 @@ def ranges(name: str, folder: Path | None, force: bool) -> None:
     """
     from graphkin.classroom.lab.fair_ranges import fair_ranges
     from graphkin.classroom.lab.proposed_ranges import range_lines
-    from graphkin.classroom.lab.read_lab import read_lab
     from graphkin.text.tables import labelled
     from graphkin.writers.files import refuse_folder, write_all
 
-    lab = read_lab(name)
+    lab = lab_of_command(name)
     if folder is not None:
         refuse_folder(folder)
     found = fair_ranges(lab)

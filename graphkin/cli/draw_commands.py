@@ -63,7 +63,7 @@ def sheet(
     folder: Path,
     view: str,
     lang: str | None,
-    ink: Ink,
+    ink: Ink | None,
     formats: str,
     force: bool,
 ) -> None:
@@ -93,6 +93,7 @@ def sheet(
     mechanism = mechanism_of(name, settings)
     refuse_folder(folder)
     stem = file_stem(mechanism.scene.name, pairs_of(settings))
+    ink = ink or mechanism.scene.house.ink
     files, notes = sheet_files(mechanism, name, stem, view, lang, kinds, ink)
     tell(str(path) for path in write_all(folder, files, force))
     for note in notes:

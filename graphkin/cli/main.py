@@ -179,6 +179,12 @@ def explain(name: str, settings: tuple[str, ...], as_json: bool) -> None:
 )
 @click.option("--json", "as_json", is_flag=True, help="Print JSON, full precision, SI units.")
 @click.option(
+    "--units",
+    type=click.Choice(["SI", "scene"]),
+    help="Units of lengths, speeds and accelerations: SI, or the scene's. Default: SI for JSON,"
+    " else what the scene or the school says; inches for a scene in inches, feet for one in feet.",
+)
+@click.option(
     "--pencil",
     metavar="MM",
     type=click.FloatRange(0, 100),
@@ -195,14 +201,18 @@ def solve(
     settings: tuple[str, ...],
     asked: bool,
     as_json: bool,
+    units: str | None,
     pencil: float | None,
     digits: int | None,
 ) -> None:
     """Compute positions, velocities and accelerations, and check them.
 
-    Units are m, s and rad; x points right, y up; counter-clockwise is positive. With --asked, the
-    construction and the check run only the steps that [ask] needs, and the scales of a drawing are
-    computed only for --json or --pencil.
+    Units are m, s and rad, or those of --units; x points right, y up; counter-clockwise is
+    positive. With --asked, the construction and the check run only the steps that [ask] needs, and
+    the scales of a drawing are computed only for --json or --pencil.
+
+    --json --units scene prints the units with the numbers. Certified digits, forces and the errors
+    of a pencil are in SI units.
 
     With --digits, every printed digit is proved by ball arithmetic of sufficient precision. Where
     no ball decides, such as whether a number is zero, the command says so, and the exit status is
@@ -223,8 +233,12 @@ def solve(
     from graphkin.cli.report.solution_record import record
     from graphkin.construction.core.solution import gathered
     from graphkin.loops.witness import sure_of
+    from graphkin.mechanism import Mechanism
 
     mechanism = mechanism_of(name, settings)
+    stated = mechanism.scene
+    if digits is None:
+        mechanism = computed_in(mechanism, units, as_json=as_json)
     targets = mechanism.asked() if asked else None
     trace, drawable = traced(mechanism, targets, digits)
     solution = gathered(trace)
@@ -238,8 +252,8 @@ def solve(
 
         found = certify(mechanism, found, digits, targets)
     lines: tuple[str, ...] = ()
-    given = mechanism.scene.forces
-    by_forces = mechanism.forces() if given is not None and given.asked else None
+    given = stated.forces
+    by_forces = Mechanism(stated).forces() if given is not None and given.asked else None
     if given is not None and by_forces is None:
         complain("masses and loads are left aside: [ask] has neither reactions nor balance")
     if given is not None and by_forces is not None:
@@ -253,11 +267,14 @@ def solve(
         found |= held
         lines = tuple(force_lines(held))
     if pencil is not None and drawn_at is not None:
-        found["pencil"], errors = by_pencil(mechanism, drawn_at, pencil)
+        own = mechanism if mechanism.scene.base == "m" else Mechanism(stated)
+        found["pencil"], errors = by_pencil(own, scales_of(own), pencil)
         lines += errors
     if as_json:
         import json
 
+        if units == "scene":
+            found = {"units": units_of(mechanism), **found}
         say(json.dumps(found, indent=2, ensure_ascii=False, allow_nan=False))
     else:
         say(motion_words(mechanism.scene, solution, found, verdict))
@@ -267,6 +284,24 @@ def solve(
     doubtful |= by_forces is not None and not by_forces[1].agrees
     if doubtful or uncertain:
         leave(FAILED)
+
+
+def computed_in(mechanism: Mechanism, units: str | None, *, as_json: bool) -> Mechanism:
+    """The mechanism computed in the units of an option; by default SI for JSON, else of results."""
+    from graphkin.mechanism import Mechanism
+
+    scene = mechanism.scene
+    usual = "m" if as_json else scene.unit_of_results
+    base = {"SI": "m", "scene": scene.units["length"]}.get(units or "", usual)
+    measured = scene.computed_in(base)
+    return mechanism if measured is scene else Mechanism(measured)
+
+
+def units_of(mechanism: Mechanism) -> dict[str, str]:
+    """The units of the numbers of a mechanism's motion."""
+    base = mechanism.scene.base
+    rates = {"turning": "rad/s", "turning acceleration": "rad/s²"}
+    return {"length": base, "speed": f"{base}/s", "acceleration": f"{base}/s²", **rates}
 
 
 def traced(

@@ -18,11 +18,13 @@ from click.exceptions import Exit
 from msgspec.structs import replace
 
 from graphkin.scene.findings import near_name
+from graphkin.text import paths
 from graphkin.text.errors import (
     PLAIN_TRACEBACK,
     ClosureError,
     FileError,
     GraphkinError,
+    HouseError,
     PageError,
     Problem,
     SceneError,
@@ -33,8 +35,10 @@ from graphkin.text.errors import (
 )
 
 if TYPE_CHECKING:
+    from graphkin.classroom.lab.lab_model import Lab
     from graphkin.drawing.scale import Scales
     from graphkin.mechanism import Mechanism
+    from graphkin.scene.house import House
 
 FAILED = 1
 """The exit status when the independent check disagrees or something asked is unfair."""
@@ -47,6 +51,8 @@ OBEYED = "[\x00-\x08\x0b-\x1f\x7f-\x9f\xad\u061c\u200b-\u200f\u2028-\u202e\u2060
 OF_SCENES = (SceneError, StructureError, ClosureError, PageError)
 MOST_KEYS = 3
 """Keys that are named under the problems of a scene."""
+HOUSE = "graphkin.house"
+"""The key under which a command's context keeps the file of --house."""
 READING = "graphkin.scene"
 """The key under which a command's context keeps the name of its scene."""
 
@@ -113,7 +119,7 @@ class CommandGroup(Command, click.Group):
             cut_short()
         except (SceneError, StructureError, ClosureError, PageError) as error:
             scene = ctx.meta.get(READING)
-            if scene is None or isinstance(error, FileError):
+            if scene is None or isinstance(error, FileError | HouseError):
                 raise
             raise type(error)([of_scene(scene, problem) for problem in error.problems]) from error
 
@@ -281,8 +287,44 @@ class Option(Protocol):
         """Return the command with the option."""
 
 
+def keep_house(context: click.Context, _: click.Parameter, given: Path | None) -> None:
+    """Keep the file of --house for the reading of a scene or a lab."""
+    context.meta[HOUSE] = given
+
+
+house_option = click.option(
+    "--house",
+    metavar="FILE",
+    type=click.Path(path_type=Path),
+    expose_value=False,
+    callback=keep_house,
+    help="Conventions of a school; by default house.toml beside the scene, else your own.",
+)
+"""The option --house; house_of_command reads it."""
+
+
+def house_of_command(path: str | Path) -> House:
+    """The conventions for a scene's file: those of --house, beside it, or the user's own."""
+    from graphkin.scene.house import HOUSE as FILE
+    from graphkin.scene.house import house_beside, read_house
+
+    given = current().meta.get(HOUSE)
+    if given is None and not paths.is_file(paths.within(paths.folder_of(path), FILE)):
+        own = Path(click.get_app_dir("graphkin"), FILE)
+        given = own if own.is_file() else None
+    return house_beside(path) if given is None else read_house(given)
+
+
+def lab_of_command(name: str) -> Lab:
+    """The lab of a name or a folder, with the conventions of the command."""
+    from graphkin.classroom.lab.read_lab import LAB, find, read_lab
+
+    return read_lab(name, house=house_of_command(find(name) / LAB))
+
+
 def scene_argument(command: Any) -> Any:
-    """Add SCENE and --set, which every command for a scene takes."""
+    """Add SCENE, --set and --house, which every command for a scene takes."""
+    command = house_option(command)
     command = click.option(
         "--set",
         "settings",
@@ -317,9 +359,8 @@ language_option = lang_option("Language of the pages; the scene's by default.")
 ink_option = click.option(
     "--ink",
     type=click.Choice(["colour", "black"]),
-    default="colour",
-    show_default=True,
-    help="black: for printers without colour; line styles distinguish the vectors.",
+    help="black: for printers without colour; line styles distinguish the vectors. Default: that of"
+    " the school's conventions, else colour.",
 )
 force_option = click.option("--force", is_flag=True, help="Replace existing files.")
 
@@ -340,11 +381,10 @@ def mechanism_of(name: str, settings: tuple[str, ...]) -> Mechanism:
     from graphkin.mechanism import Mechanism
     from graphkin.scene import scene_files
     from graphkin.scene.read_scene import read_scene
-    from graphkin.text import paths
 
     path, pairs = scene_files.find(name), pairs_of(settings)
     current().meta[READING] = path if paths.is_folder(name) else name
-    return Mechanism(read_scene(path, pairs))
+    return Mechanism(read_scene(path, pairs, house_of_command(path)))
 
 
 def scales_of(mechanism: Mechanism) -> Scales:

@@ -70,7 +70,7 @@ def print_sheets(
     folder: Path,
     views: str,
     lang: str | None,
-    ink: Ink,
+    ink: Ink | None,
     formats: str,
     jobs: int | None,
     cluster: str,
@@ -111,9 +111,10 @@ def print_sheets(
         raise click.UsageError(f"--view {paper[0]} is for paper: not with --format html", context)
     if cluster and not cluster.startswith(CLUSTER):
         raise click.UsageError(f"--engine {cluster}: write {CLUSTER}HOST:PORT", context)
-    wishes = PrintRequest(chosen, kinds, lang, ink, force)
     with progress() as tell:
         edition = read_edition(folder)
+        ink = ink or edition.lab.house.ink
+        wishes = PrintRequest(chosen, kinds, lang, ink, force)
         outcome = print_class(edition, wishes, Means(jobs or cores(), cluster), tell)
     report(outcome)
     if lang and lang != edition.language and (force or not edition.language):

@@ -266,7 +266,7 @@ class CoriolisComponent(TriangleComponent, frozen=True, kw_only=True):
         segment = NOTHING.join(drawing.lettered(end) for end in (self.tail, self.tip))
         speed = symbol(self.speed(drawing))
         return {
-            "a": self.symbol,
+            "a": self.symbol(drawing),
             "v": speed,
             "two": saying(f"2·{speed}", speed),
             "segment": twice_set(drawing, segment),
@@ -394,7 +394,7 @@ class CoriolisComponent(TriangleComponent, frozen=True, kw_only=True):
         result = answer(drawing, size)
         figures = put_in(drawing, result, lambda w, v: 2 * w * v, omega, speed)
         return Relation(
-            self.symbol,
+            self.symbol(drawing),
             f"2·{rate}·{v}",
             f"2·{'·'.join(figures)}",
             result,

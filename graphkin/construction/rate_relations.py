@@ -16,7 +16,7 @@ from graphkin.construction.core.relation import FINE, Relation, answer, figure
 from graphkin.construction.links.rolled_turn import willis
 from graphkin.construction.result_tables import slide_sense, slides_asked
 from graphkin.construction.velocity.turning_of_link import SummedRate, TurningOfLink
-from graphkin.drawing.symbol_markup import of_wheel, symbol
+from graphkin.drawing.symbol_markup import of_wheel
 from graphkin.scene.model import FRAME, Belt, Driver
 
 
@@ -62,7 +62,7 @@ def of_links(drawing: Drawing) -> Iterator[Relation]:
         if named != link and (key, named) in program.targets:
             continue
         step = program.steps[number]
-        name = symbol(f"{letter}_{link}")
+        name = drawing.symbol(f"{letter}_{link}")
         tail = (answer(drawing, abs(value)), rate.caret_unit, sense(drawing.words, value))
         if step.action is not None and turning_with(drawing, step.name) != link:
             other = rate_symbol(drawing, number, letter)
@@ -143,7 +143,7 @@ def by_radii(
     belt: Belt | None,
 ) -> Relation:
     """The rate of a wheel from the rates of the arm and of the wheel in contact."""
-    wheel, arm, track = (symbol(f"{drawing.rate.letter}_{name}") for name in names)
+    wheel, arm, track = (drawing.symbol(f"{drawing.rate.letter}_{name}") for name in names)
     _, carried, rolled = rates
     alike = any(disc.wheel.inside for disc in discs)
     if belt is not None:
@@ -187,5 +187,5 @@ def along_guide(drawing: Drawing, number: int) -> str:
     _, tail, tip = program.steps[number].args
     laid = component_ending_at(program, tail)
     if laid is not None and laid.component.follows:
-        return symbol(f"a_{laid.component.index}^r")  # it may be drawn from the other end
+        return drawing.symbol(f"a_{laid.component.index}^r")  # it may be drawn from the other end
     return vector_of(drawing, tail, tip)

@@ -14,7 +14,7 @@ from graphkin.drawing.columns import SMALL, ColumnTable, laid_out, on_sheets
 from graphkin.drawing.field import Rect
 from graphkin.drawing.marks import Mark, Text
 from graphkin.drawing.richtext import flowed
-from graphkin.drawing.symbol_markup import escape, symbol
+from graphkin.drawing.symbol_markup import escape
 from graphkin.numbers.plane import Vector
 from graphkin.text.tables import CellTable, Row
 
@@ -61,7 +61,7 @@ def unread(drawing: Drawing, named: Callable[[str], str] = str) -> Iterator[str]
         length = drawn_in(drawing, drawing.plane, size)
         if size == 0:
             still[vector.symbol] = named(vector.symbol)
-        elif length < LEGIBLE and symbol(vector.symbol) not in drawing.computed:
+        elif length < LEGIBLE and drawing.symbol(vector.symbol) not in drawing.computed:
             short[vector.symbol] = f"{named(vector.symbol)} ({in_mm(words, length)} mm)"
     for link in getattr(ask, drawing.rate.target):
         if drawing.turning(link) == 0:
@@ -82,9 +82,9 @@ def vector_rows(drawing: Drawing, *, empty: bool) -> list[Row]:
     rows = []
     for name, segment, length, size in vectors(drawing):
         measured = in_mm(words, length)
-        drawn = f"({measured})" if symbol(name) in drawing.computed else measured
+        drawn = f"({measured})" if drawing.symbol(name) in drawing.computed else measured
         values = ("", "") if empty else (drawn, value_of(words, size, length))
-        rows.append(Row((symbol(name), segment, *values), name))
+        rows.append(Row((drawing.symbol(name), segment, *values), name))
     return rows
 
 
@@ -94,7 +94,7 @@ def turning_rows(drawing: Drawing, *, empty: bool) -> list[Row]:
     rows = []
     for link, value in turning_links(drawing):
         cells = ("", "") if empty else (words.significant(abs(value)), sense(words, value))
-        rows.append(Row((symbol(f"{letter}_{link}"), *cells), f"{letter}{link}"))
+        rows.append(Row((drawing.symbol(f"{letter}_{link}"), *cells), f"{letter}{link}"))
     return rows
 
 

@@ -22,7 +22,7 @@ from graphkin.diagnosis.exact_intersection import Meeting, loci_of, meeting
 from graphkin.diagnosis.ranges import MOST, closes_where, closings, where_it_closes
 from graphkin.numbers.arithmetic import FLOAT, np
 from graphkin.scene.model import Driver, Scene
-from graphkin.scene.quantity import LENGTHS, shortest
+from graphkin.scene.quantity import shortest
 from graphkin.structure.driver_count import driver_name
 from graphkin.text.errors import (
     NO_WORDS,
@@ -466,4 +466,4 @@ def refuse_blind(scene: Scene, trace: Trace) -> None:
 def measured(scene: Scene, length: float) -> str:
     """A length (m) in the unit of the scene, with four digits."""
     unit = scene.units["length"]
-    return f"{shortest(float(f'{length / float(LENGTHS[unit]):.4g}'))} {unit}"
+    return f"{shortest(float(f'{length / scene.unit_length:.4g}'))} {unit}"

@@ -10,7 +10,6 @@ from msgspec import Struct
 
 from graphkin.numbers.arithmetic import np
 from graphkin.scene.model import Scene
-from graphkin.scene.quantity import LENGTHS
 from graphkin.structure.driver_count import driver_name
 from graphkin.text.errors import NO_WORDS, Message, joined, message
 
@@ -144,7 +143,7 @@ def slid_words(scene: Scene, found: Range, number: int) -> Message:
     low, high = found
     step = (sweep.high - sweep.low) / GRID
     free = low <= sweep.low + step, high >= sweep.high - step
-    first, last = (f"{end / float(LENGTHS[unit]):.6g}" for end in found)
+    first, last = (f"{end / scene.unit_length:.6g}" for end in found)
     ends = {"first": first, "last": last, "unit": unit}
     match free:
         case (False, False):

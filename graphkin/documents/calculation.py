@@ -319,7 +319,7 @@ def page_of(
         foot = whose or words("page.student"), "   ".join(filter(None, (made, number)))
     else:
         foot = made, number
-    marks: list[Mark] = [*page_frame((title, name), foot)]
+    marks: list[Mark] = [*page_frame((title, name), foot, drawing.scene.house.header)]
     for y, row in rows:
         if row.heading:
             marks.append(Text(LEFT, y, row.markup, "caption", 3.5))

@@ -141,8 +141,8 @@ def direction(vector: complex) -> float:
     return round(degrees(phase(vector)), SURE) + 0.0
 
 
-def relative_table(solution: Solution, names: Iterable[str]) -> list[str]:
-    """The places of the relative centres of two links (m)."""
+def relative_table(solution: Solution, names: Iterable[str], unit: str = "m") -> list[str]:
+    """The places of the relative centres of two links."""
     breadth = breadth_of(solution)
     rows: list[list[Cell]] = []
     for name in names:
@@ -151,11 +151,13 @@ def relative_table(solution: Solution, names: Iterable[str]) -> list[str]:
         if place_of(ratio, breadth) is None and ratio.shift == 0:
             words = "every point: they move as one"
         rows.append([name.replace("-", " and "), words])
-    return table(["links", "centre of both, m"], rows) if rows else []
+    return table(["links", f"centre of both, {unit}"], rows) if rows else []
 
 
-def circles_table(records: Mapping[str, dict[str, Any]], quantity: MotionQuantity) -> list[str]:
-    """The circle of a quantity for each link or point that reports one (m)."""
+def circles_table(
+    records: Mapping[str, dict[str, Any]], quantity: MotionQuantity, unit: str = "m"
+) -> list[str]:
+    """The circle of a quantity for each link or point that reports one."""
     assert quantity.circle is not None
     found = {name: one[quantity.key] for name, one in records.items() if quantity.key in one}
     heads = list(quantity.circle.parts(0j, 0j))
@@ -166,7 +168,7 @@ def circles_table(records: Mapping[str, dict[str, Any]], quantity: MotionQuantit
             cells = [circle[key] if key == "radius" else pair_words(circle[key]) for key in heads]
         rows.append([name, *cells])
     named = {heads[0]: quantity.words, "centre": "centre of circle", "radius": "radius"}
-    columns = [f"{({**named, heads[0]: quantity.words})[key]}, m" for key in heads]
+    columns = [f"{({**named, heads[0]: quantity.words})[key]}, {unit}" for key in heads]
     return table([quantity.whose.removesuffix("s"), *columns], rows) if rows else []
 
 

@@ -85,12 +85,13 @@ class Stated(Struct, frozen=True):
     """The scale factors that a scene states, 0 for each factor not stated.
 
     ``scale`` is kL; ``ka`` is in m/s² per metre of paper. ``times`` is the length of the pin's
-    vector in each plan relative to the crank.
+    vector in each plan relative to the crank. ``steps`` are the first digits of a school's scales.
     """
 
     scale: float
     times: Mapping[str, float]
     ka: float
+    steps: tuple[float, ...] = ()
 
     @property
     def keys(self) -> list[str]:
@@ -242,7 +243,7 @@ def lengths(needs: Needs, stated: Stated) -> Iterator[float]:
     """The scales to try: the stated one, or the preferred ones from the first that may fit."""
     if stated.scale:
         return iter([stated.scale])
-    return preferred_scales(least(needs.bare))
+    return preferred_scales(least(needs.bare), stated.steps)
 
 
 def least(box: Extent) -> float:
@@ -317,14 +318,16 @@ def no_room(needs: Needs, stated: Stated, seconds: float) -> Problem:
             message("a larger one"),
             message("write a larger ka, or leave it out"),
         )
-    free = Stated(0.0, stated.times, 0.0)
+    free = Stated(0.0, stated.times, 0.0, stated.steps)
     fits = largest(needs, free, seconds, times_of(free, TIMES, 1.0))
     found = message(
         "does not fit: at {scale} the drawing leaves its fields", scale=ratio(stated.scale or 1.0)
     )
     if fits is None:
         return Problem("sheet", found, message("drawings of a size"), message("leave [sheet] out"))
-    kL = next(kL for kL in preferred_scales(least(needs.bare)) if fits_at(needs, free, kL))
+    kL = next(
+        kL for kL in preferred_scales(least(needs.bare), stated.steps) if fits_at(needs, free, kL)
+    )
     hint = message("write scale = {kL}, or leave it out", kL=digits(kL))
     return Problem("sheet.scale", found, message("{kL} or smaller", kL=ratio(kL)), hint)
 

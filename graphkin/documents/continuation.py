@@ -17,10 +17,10 @@ from graphkin.documents.listing import in_columns, on_sheets
 from graphkin.documents.sheet import (
     HEADING,
     Moved,
+    a3_page,
     asked_words,
     construction_head,
     members,
-    page_title,
     plan_enlarged,
     right_board,
     title_block,
@@ -185,5 +185,5 @@ def one_sheet(drawing: Drawing, view: str, moved: Set[Moved], said: int) -> list
 
 def as_page(drawing: Drawing, view: str, number: str, marks: list[Mark]) -> Page:
     """The marks in the frame of a sheet."""
-    frame = sheet_frame(title_block(drawing, view, number))
-    return Page(420, 297, (*frame, *marks), page_title(drawing), drawing.words.language)
+    block = title_block(drawing, view, number)
+    return a3_page(drawing, block, (*sheet_frame(block), *marks))

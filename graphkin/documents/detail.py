@@ -33,7 +33,6 @@ from graphkin.drawing.marks import CircleMark, LineMark, Mark, Text, box, moved,
 from graphkin.drawing.placement import Spot
 from graphkin.drawing.scale import Scales, extent_of, preferred
 from graphkin.drawing.style import VECTORS
-from graphkin.drawing.symbol_markup import symbol
 from graphkin.drawing.symbols import SHORT, head
 
 SHOWN = (*VECTORS, "construction", "link")
@@ -341,7 +340,9 @@ def inset(
     around = ring(circle[1]) if (circle := kind.around(drawing)) else []
     extent = extent_of([*drawing.positions.values(), *spots_of(drawing, kind), centre, *around])
     inner = [size - 2 * EDGE for size in LARGEST]
-    scales = preferred(1000 * max(extent.width / inner[0], extent.height / inner[1]))
+    metre = drawing.scales.metre
+    first = 1000 * max(extent.width / inner[0], extent.height / inner[1]) * metre
+    scales = (kL / metre for kL in preferred(first))
     least = 1000 * max(extent.width, extent.height) / (SMALLEST - 2 * EDGE)
     for kL in takewhile(lambda kL: kL <= least, scales):
         width, height = (1000 * size / kL + 2 * EDGE for size in (extent.width, extent.height))
@@ -358,7 +359,7 @@ def pictured(drawing: Drawing, kind: Centre, centre: complex, field: Field) -> F
     left, top, right, bottom = field.rect
     lines, far = kind.lines_to(drawing), field(centre)
     firsts = [field(next(iter(line.values()))) for line in lines]
-    scale = Scales(1000 / field.mm, 1.0).words
+    scale = Scales(1000 / field.mm, 1.0, metre=drawing.scales.metre).words
     board = FieldContent(field.rect)
     board.marks = [
         box(left, top, right - left, bottom - top, "panel"),
@@ -370,8 +371,8 @@ def pictured(drawing: Drawing, kind: Centre, centre: complex, field: Field) -> F
         Text(right - 1.5, bottom - 1.5, scale, "caption", 2.5, "end"),
     ]
     names = {name: end for line in lines for name, end in line.items()}
-    board.labels = [Label(symbol(name), "", field(end), 2.5) for name, end in names.items()]
-    name = " = ".join(symbol(each) for each in names_of(drawing, kind))
+    board.labels = [Label(drawing.symbol(name), "", field(end), 2.5) for name, end in names.items()]
+    name = " = ".join(drawing.symbol(each) for each in names_of(drawing, kind))
     board.labels.append(Label(name, drawing.kind, far, 2.5, radius=0.9))
     return board
 

@@ -18,7 +18,7 @@ from graphkin.documents.sentences import sentences
 from graphkin.drawing.field import BELOW, TABLES
 from graphkin.drawing.marks import Mark, Text
 from graphkin.drawing.richtext import extent
-from graphkin.drawing.symbol_markup import symbol, without_index
+from graphkin.drawing.symbol_markup import without_index
 
 HEIGHT = 1.8
 """Height of the lettering in mm."""
@@ -93,6 +93,6 @@ def names_of_crossing(drawing: Drawing, crossing: Crossing) -> tuple[str, str]:
         letter = group.locus
     elif isinstance(kind, TriangleComponent):
         letter = kind.letter(drawing, step.role)
-        if not any(symbol(letter) in said.markup for said in sentences(drawing)):
-            return (drawing.words("page.crossing_for", a=kind.symbol),) * 2
-    return symbol(letter), symbol(without_index(letter))
+        if not any(drawing.symbol(letter) in said.markup for said in sentences(drawing)):
+            return (drawing.words("page.crossing_for", a=kind.symbol(drawing)),) * 2
+    return drawing.symbol(letter), drawing.symbol(without_index(letter))

@@ -49,7 +49,8 @@ def plot(
     """
     from graphkin.writers.axes import put_drawing, size_of
 
-    spoken, mechanism = language_of(mechanism, language), mechanism.spoken(language)
+    mechanism = mechanism.spoken(language).measured
+    spoken = language_of(mechanism, language)
     drawings = drawings_of(mechanism, proved(mechanism, sheet_motion(mechanism)), spoken)
     drawing = chosen(drawings, which)
     marks, field, times = for_axes(drawing, *size_of(ax), mechanism=which == "mechanism")

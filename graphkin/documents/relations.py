@@ -153,7 +153,14 @@ def relations(drawings: Sequence[Drawing], *, solved: bool = True) -> list[Secti
     ]
     used = dict.fromkeys(ends for _, found in own for each in found for ends in each.over)
     lengths = of_lengths(first, [ends for ends in used if ends not in after])
-    return [*sections, ("turned", list(of_rolled_turns(first))), *lengths, *own]
+    found = [*sections, ("turned", list(of_rolled_turns(first))), *lengths, *own]
+    return [(name, [in_results(first, each) for each in some]) for name, some in found]
+
+
+def in_results(drawing: Drawing, relation: Relation) -> Relation:
+    """A relation with its unit of length that of the results."""
+    unit = drawing.words.unit(relation.unit)
+    return relation if unit == relation.unit else replace(relation, unit=unit)
 
 
 def of_lengths(drawing: Drawing, bars: Sequence[Bar]) -> tuple[Section, Section]:
@@ -283,7 +290,7 @@ def data_line(drawing: Drawing, *, solved: bool) -> Relation:
 def read_off(drawing: Drawing) -> Iterator[Relation]:
     """Each vector that is read off the plan: scale factor times drawn length."""
     scale = scale_of(drawing, drawing.plane)
-    k = f"*k*_{drawing.vector.letter}"
+    k = drawing.in_signs(f"*k*_{drawing.vector.letter}")
     unit = drawing.vector.caret_unit
     for _, step, value in drawing.steps(drawing.plane):
         vector = plan_vector(step)
@@ -296,7 +303,7 @@ def read_off(drawing: Drawing) -> Iterator[Relation]:
             continue
         read = as_read(drawing, drawn_in(drawing, drawing.plane, size), scale / 1000)
         symbols = f"{k}·{segment_of(drawing, step)}"
-        yield Relation(symbol(vector.symbol), symbols, *read, unit)
+        yield Relation(drawing.symbol(vector.symbol), symbols, *read, unit)
 
 
 def of_laid_off(drawing: Drawing) -> Iterator[Relation]:
@@ -314,7 +321,7 @@ def laid_off_length(drawing: Drawing, step: Step, value: Vector) -> Relation:
     drawn = length_laid_off(drawing, drawn_in(drawing, drawing.plane, size))
     return Relation(
         segment_of(drawing, step),
-        f"{symbol(vector.symbol)}/*k*_{drawing.vector.letter}",
+        drawing.in_signs(f"{drawing.symbol(vector.symbol)}/*k*_{drawing.vector.letter}"),
         "/".join(put_in(drawing, drawn, truediv, size, scale, told=length_laid_off)),
         drawn,
         "mm",
@@ -376,11 +383,11 @@ def of_centres(drawing: Drawing, whose: Whose = "links") -> Iterator[Relation]:
             key, equals = ("everywhere", "=") if everywhere else ("at_infinity", "")
             key, equals = ("no_curvature", "") if whose == "points" else (key, equals)
             said = drawing.words(f"calculation.{key}")
-            yield Relation(symbol(step.name), result=said, equals=equals, blank=blank)
+            yield Relation(drawing.symbol(step.name), result=said, equals=equals, blank=blank)
         else:
             kind = construction(step)
             yield from kind.equations(drawing, step.role) if kind is not None else ()
-            yield replace(of_place(drawing, symbol(step.name), point), blank=blank)
+            yield replace(of_place(drawing, drawing.symbol(step.name), point), blank=blank)
 
 
 def owners_of(drawing: Drawing) -> dict[int, Whose]:

@@ -18,7 +18,7 @@ from graphkin.drawing.scale import Extent, Scales, digits, extent_of, preferred
 from graphkin.mechanism import Mechanism
 from graphkin.numbers.arithmetic import np
 from graphkin.scene.model import Sheet
-from graphkin.scene.quantity import Quantity
+from graphkin.scene.quantity import LENGTHS, Quantity
 from graphkin.text import Words, words
 from graphkin.text.errors import Message, PageError, Problem, SceneError, message
 
@@ -62,6 +62,10 @@ def scales(mechanism: Mechanism, curves: tuple[Curve, ...] | None = None) -> Sca
     Optional triangles are dropped where they leave no room for a larger mechanism. Raises PageError
     where the factors stated in the scene leave no room for the drawings, or shrink them to nothing.
     """
+    if mechanism.scene.base != "m":
+        metre = float(LENGTHS[mechanism.scene.base])
+        found_in_metres = scales(Mechanism(mechanism.scene.computed_in("m")))
+        return replace(found_in_metres, kL=found_in_metres.kL / metre, metre=metre)
     curves = curves_drawn(mechanism) if curves is None else curves
     said = stated(mechanism)
     crank, gives_way = the_crank(mechanism), may_give_way(mechanism.program)
@@ -105,7 +109,9 @@ def stated_of(sheet: Sheet, values: Mapping[str, Any], count: int, *kind: Any) -
     once = [[1.0 if sheet.rule == "lab" else 0.0] * count]
     times = [numbers(each) for each in sheet.enlarge] or once
     columns = zip(numbers(sheet.scale), numbers(sheet.ka), times[0], times[-1], strict=True)
-    return [Stated(kL, {SHEETS[0]: m, SHEETS[1]: n}, 1000 * ka) for kL, ka, m, n in columns]
+    return [
+        Stated(kL, {SHEETS[0]: m, SHEETS[1]: n}, 1000 * ka, sheet.steps) for kL, ka, m, n in columns
+    ]
 
 
 def found(

@@ -60,10 +60,18 @@ def explained(drawing: Drawing) -> Iterator[IndexNote]:
         own, (point, link) = lettered(name), ends_of(name)
         if link:
             called = {own, *vectors_of(drawing, own), *([image] if known.link and is_own else [])}
-            fields = {"name": symbol(own), "k": escape(link), "p": symbol(lettered(point))}
+            fields = {
+                "name": drawing.symbol(own),
+                "k": escape(link),
+                "p": symbol(lettered(point)),
+            }
             yield IndexNote("link", called, fields)
         if known.apart and is_own:
-            fields = {"name": symbol(image), "p": symbol(name), "pole": symbol(drawing.pole)}
+            fields = {
+                "name": drawing.symbol(image),
+                "p": drawing.symbol(name),
+                "pole": drawing.symbol(drawing.pole),
+            }
             yield IndexNote("image", {image}, fields)
 
 
@@ -132,7 +140,7 @@ def set_on_mechanism(drawing: Drawing, turning: str, only: Collection[int] | Non
     part = Part.VELOCITY if velocity else Part.ACCELERATION
     early = set_before(drawing)
     lengths = [
-        (symbol(step.name), abs(arrow.tip - arrow.tail))
+        (drawing.symbol(step.name), abs(arrow.tip - arrow.tail))
         for number, step, arrow in drawing.steps(Plane.MECHANISM)
         if is_set_on(step) and step.part is part
         if number not in early and (only is None or number in only)

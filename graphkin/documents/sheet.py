@@ -39,13 +39,22 @@ from graphkin.documents.listing import first_part, listed
 from graphkin.documents.scheme import scheme
 from graphkin.documents.sentences import sentences
 from graphkin.documents.signs import mechanism_signs, plan_signs
-from graphkin.drawing.field import A3_AREA, AREA, BELOW, SCHEME, TABLES, Rect
-from graphkin.drawing.frame import CELLS, STUDENT, TitleBlock, check_bar, sheet_frame, wrapped
+from graphkin.drawing.field import A3_AREA, A3_TITLE_BLOCK, AREA, BELOW, SCHEME, TABLES, Rect
+from graphkin.drawing.frame import (
+    CELLS,
+    STUDENT,
+    TitleBlock,
+    check_bar,
+    logo_box,
+    sheet_frame,
+    wrapped,
+)
 from graphkin.drawing.labels import FieldContent, FootNote, Label, at_bare_stretches, segment_of
-from graphkin.drawing.marks import LineMark, Mark, Page, Text, box, reach, style_class
+from graphkin.drawing.marks import LineMark, Mark, Page, Picture, Text, box, reach, style_class
 from graphkin.drawing.richtext import are_clear, extent, flowed, words_of
 from graphkin.drawing.style import VECTORS
 from graphkin.drawing.symbol_markup import bar, escape, symbol
+from graphkin.scene.house import THICK
 from graphkin.scene.link_points import lettered
 from graphkin.scene.model import Link
 from graphkin.text import Words
@@ -100,7 +109,9 @@ def said_above(drawing: Drawing, kind: str, view: str) -> tuple[str, str]:
         above = words("page.loads_heading", **fields | ({"kL": BLANK} if task else {}))
         return above, words("page.force_heading", k=k)
     beside = beside_plan(drawing, kind) if kind else ""
-    kL = f"{BLANK if task else length_scale(drawing)} m/mm" + (f"; {beside}" if beside else "")
+    kL = f"{BLANK if task else length_scale(drawing)} {words.unit('m/mm')}" + (
+        f"; {beside}" if beside else ""
+    )
     mechanism = words("page.mechanism_heading", scale=words.decimal(scales.words), kL=kL)
     if not kind:
         return mechanism, ""
@@ -324,7 +335,7 @@ def members(drawing: Drawing) -> str:
     told = [f"{escape(name)} = {of_link(words, link)}" for name, link in scene.links.items()]
     for centre, follower in scene.cam_centres.items():
         cam = escape(scene.cams[follower].on)
-        told.append(words("page.member_centre", point=symbol(centre), g=cam))
+        told.append(words("page.member_centre", point=drawing.symbol(centre), g=cam))
     return words("page.members", list=words("list_mark").join(told))
 
 
@@ -359,11 +370,11 @@ def rules(drawing: Drawing) -> Iterator[str]:
     kv, ka = plan_scales(drawing)
     rule = kv if first else ka
     m = figure(drawing, scales.of_bar(drawing.kind))
-    yield f"{rule.left} = {rule.symbols or f'{rule.result} {rule.unit}'}"
+    yield f"{rule.left} = {rule.symbols or f'{rule.result} {drawing.words.unit(rule.unit)}'}"
     if first and scales.of_crank:
         for p, q in islice(driven_bars(drawing, drawing.scene.drivers[0]), 1):
             times = "" if m == "1" else f"{m}·"
-            yield f"{segment(drawing, q)} = {times}{bar(p, q)}/*k*_L"
+            yield drawing.in_signs(f"{segment(drawing, q)} = {times}{bar(p, q)}/*k*_L")
 
 
 def segment(drawing: Drawing, pin: str) -> str:
@@ -371,7 +382,7 @@ def segment(drawing: Drawing, pin: str) -> str:
     for _, step, _ in drawing.steps(Plane.VELOCITIES):
         kind = construction(step)
         if isinstance(kind, TurnedVelocity) and kind.q == pin:
-            return symbol(drawing.pole) + symbol(step.name)
+            return drawing.symbol(drawing.pole) + drawing.symbol(step.name)
     raise KeyError(pin)
 
 
@@ -432,14 +443,26 @@ def sheet(
         detail += insets(drawing, layout.mechanism, [*left, *detail])
         detail += mechanism_signs(drawing, layout.mechanism, [*left, *detail])
         other += plan_signs(drawing, layout.plan, [*right, *other])
+    block = title_block(drawing, view, number)
     marks: list[Mark] = [
-        *sheet_frame(title_block(drawing, view, number)),
+        *sheet_frame(block),
         *written.head,
         *(*left, *detail, *right, *other),
         *panels(layout),
         *written.foot,
     ]
-    return Page(420, 297, tuple(marks), page_title(drawing), drawing.words.language)
+    return a3_page(drawing, block, marks)
+
+
+def a3_page(drawing: Drawing, block: TitleBlock, marks: Iterable[Mark]) -> Page:
+    """An A3 page of a sheet, with the logo of the school in its title block."""
+    title, shown = page_title(drawing), pictures(drawing, block)
+    return Page(420, 297, tuple(marks), title, drawing.words.language, shown, weight_of(drawing))
+
+
+def weight_of(drawing: Drawing) -> float:
+    """The factor of a school on the widths of lines."""
+    return drawing.scene.house.thick / THICK
 
 
 def page_title(drawing: Drawing) -> str:
@@ -463,7 +486,8 @@ def title_of(drawing: Drawing) -> str:
 def title_block(drawing: Drawing, view: str, number: str) -> TitleBlock:
     """The fields of the title block."""
     words, sheet = drawing.words, drawing.scene.sheet
-    labels = {name: words(f"block.{name}") for name, _, _ in CELLS}
+    house = drawing.scene.house
+    labels = {name: house.labels.get(name) or words(f"block.{name}") for name, _, _ in CELLS}
     if view == "task" or sheet.student:
         labels[STUDENT] = words("task.person")
     return TitleBlock(
@@ -481,7 +505,18 @@ def title_block(drawing: Drawing, view: str, number: str) -> TitleBlock:
         language=words.language,
         scale=words.decimal(drawing.scales.words),
         labels=labels,
+        logo=house.logo.aspect if house.logo else 0.0,
     )
+
+
+def pictures(drawing: Drawing, block: TitleBlock) -> tuple[Picture, ...]:
+    """The logo of the school in the title block of a sheet."""
+    logo = drawing.scene.house.logo
+    if logo is None:
+        return ()
+    left, top, right, bottom = logo_box(block)
+    x, y = A3_TITLE_BLOCK[:2]
+    return (Picture(x + left, y + top, right - left, bottom - top, logo.data, logo.kind),)
 
 
 def sheet_heading(drawing: Drawing, view: str = "key") -> tuple[list[Mark], set[Moved], float]:

@@ -18,7 +18,7 @@ from graphkin.construction.result_tables import unread
 from graphkin.diagnosis.assembly_failure import beside_dead_point
 from graphkin.documents.detail import with_detail
 from graphkin.documents.scaling import drawing, scales, sheet_motion, targets_of
-from graphkin.documents.sheet import boards, sheet_heading, title_of
+from graphkin.documents.sheet import boards, sheet_heading, title_of, weight_of
 from graphkin.documents.view_names import MOTION_VIEWS
 from graphkin.drawing.field import A3_AREA, Rect
 from graphkin.drawing.frame import fitting
@@ -57,7 +57,8 @@ def hand_out(
     """
     from graphkin.documents.calculation import calculation
 
-    spoken, mechanism = language_of(mechanism, language), mechanism.spoken(language)
+    mechanism = mechanism.spoken(language).measured
+    spoken = language_of(mechanism, language)
     if view in MOTION_VIEWS:
         from graphkin.documents.motion_sheets import motion_sheets
 
@@ -134,7 +135,7 @@ def by_itself(drawing: Drawing, view: str, number: str) -> tuple[Page, ...]:
 
 
 def language_of(mechanism: Mechanism, language: str | None) -> Words:
-    """The words of a language. Raises SceneError for an unknown language."""
+    """The words of a language with the scene's signs. Raises SceneError if it is unknown."""
     code = language or mechanism.scene.sheet.language
     if code not in LANGUAGES:
         raise SceneError(
@@ -144,7 +145,7 @@ def language_of(mechanism: Mechanism, language: str | None) -> Words:
                 either(LANGUAGES),
             )
         )
-    return words(code)
+    return words(code, mechanism.scene.sheet.signs, mechanism.scene.base)
 
 
 def proved(mechanism: Mechanism, solution: Solution) -> Verdict:
@@ -271,7 +272,7 @@ def overlay(drawing: Drawing, number: str) -> Page:
         *crop_marks(A3_AREA),
         Text(A3_AREA[0] + 12, A3_AREA[3] - FOOT, first + rest, "caption", height, name="title"),
     )
-    return Page(420, 297, marks, name, words.language)
+    return Page(420, 297, marks, name, words.language, weight=weight_of(drawing))
 
 
 def untinted(mark: Mark) -> Mark:

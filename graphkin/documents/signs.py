@@ -24,7 +24,7 @@ from graphkin.drawing.field import XY, Field, Rect
 from graphkin.drawing.free_space import Space
 from graphkin.drawing.marks import LineMark, Mark, Text
 from graphkin.drawing.richtext import extent
-from graphkin.drawing.symbol_markup import escape, symbol
+from graphkin.drawing.symbol_markup import escape
 from graphkin.drawing.symbols import head, turned_arrow
 from graphkin.scene.model import FRAME
 
@@ -147,7 +147,7 @@ class Sign(NamedTuple):
 
 def sign_of(drawing: Drawing, name: str) -> Sign:
     """The arrow of a link with its letter inside."""
-    text = symbol(drawing.turning_name(name))
+    text = drawing.symbol(drawing.turning_name(name))
     width, top, bottom = extent(text, HEIGHT)
     return Sign(text, drawing.kind, max(ROUND, hypot(width, bottom - top) / 2 + 0.7))
 
@@ -189,7 +189,9 @@ def at_foot(drawing: Drawing, space: Space, rates: Mapping[str, float]) -> Itera
     if not rates:
         return
     letter, words = drawing.rate.letter, drawing.words
-    told = "; ".join(f"{symbol(f'{letter}_{n}')}: {sense_word(words, r)}" for n, r in rates.items())
+    told = "; ".join(
+        f"{drawing.symbol(f'{letter}_{n}')}: {sense_word(words, r)}" for n, r in rates.items()
+    )
     width, top, bottom = extent(told, HEIGHT)
     half = width / 2, (bottom - top) / 2
     (left, high, right, low), air = space.rect, AIR + 0.1
@@ -240,7 +242,7 @@ def plan_scale(drawing: Drawing, space: Space) -> Iterator[Mark]:
     """The bar of a plan's scale in a free corner, with a round value at its end."""
     words, k = drawing.words, scale_of(drawing, drawing.plane) / 1000
     value, first = round_below(LONGEST * k)
-    length, unit = value / k, escape(drawing.unit)
+    length, unit = value / k, escape(words.unit(drawing.unit))
     beyond = extent(unit, HEIGHT)[0] + 3
     half = (length + beyond) / 2 + 1, 3.0
     at = space.first(corners(space.rect, *half), half, APART)

@@ -22,7 +22,15 @@ from graphkin.documents.flattest import crossings_on, group_closed, is_gap, name
 from graphkin.documents.listing import written
 from graphkin.documents.mark_dependencies import Target, ground_of, rests_on
 from graphkin.documents.sentences import SET_ON, sentences
-from graphkin.documents.sheet import boards, page_title, panels, sheet_heading, title_block
+from graphkin.documents.sheet import (
+    boards,
+    page_title,
+    panels,
+    pictures,
+    sheet_heading,
+    title_block,
+    weight_of,
+)
 from graphkin.documents.signs import mechanism_signs, plan_signs
 from graphkin.drawing.field import A3_TITLE_BLOCK, BELOW, MARKED, Field
 from graphkin.drawing.frame import sheet_frame
@@ -30,7 +38,6 @@ from graphkin.drawing.labels import BETWEEN, NOTE
 from graphkin.drawing.marks import CircleMark, LineMark, Mark, Page, Text, style_class
 from graphkin.drawing.richtext import extent, flowed, flowed_pieces, words_of
 from graphkin.drawing.style import NOW
-from graphkin.drawing.symbol_markup import symbol
 from graphkin.scene.link_points import lettered
 
 AT_LAST = ("detail", "note")
@@ -183,7 +190,7 @@ def when_told(drawing: Drawing, staged: Mapping[int, int]) -> dict[str, int]:
     for number, step in enumerate(drawing.trace.program.steps):
         if number in staged:
             vector = plan_vector(step)
-            name = symbol(vector.symbol if vector else step.name)
+            name = drawing.symbol(vector.symbol if vector else step.name)
             found.setdefault(name, staged[number])
             if vector and vector.foot:
                 found.setdefault(vector.foot, staged[number])
@@ -289,6 +296,7 @@ def growing(drawing: Drawing, number: str) -> tuple[Page, ...]:
         title_block(drawing, "steps", number),
         [*head, *panels(layout)],
     )
+    logo = pictures(drawing, block)
     lines = [
         (stage_of_crossing(drawing, each, staged), each)
         for each in crossings_on(drawing)
@@ -310,6 +318,8 @@ def growing(drawing: Drawing, number: str) -> tuple[Page, ...]:
             ),
             f"{title}, {stage + 1}/{len(said)}",
             drawing.words.language,
+            logo,
+            weight_of(drawing),
         )
         for first, stage in spans(fields, lambda first, last: to_do(said, first, last).is_held)
     )

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from functools import lru_cache
 from itertools import pairwise
 from math import floor
@@ -18,7 +18,7 @@ from graphkin.text.errors import PageError, Problem, message
 A3 = (420.0, 297.0)
 FILING, EDGE, BAND, FIELD = 20.0, 10.0, 5.0, 50.0  # margins, grid border's width, field length
 LETTERS = "ABCDEFGHJKLM"  # without I and O
-LEADING = 1.7  # line spacing in heights of capitals
+LEADING, CLOSER = 1.7, 1.5  # line spacing in heights of capitals, and that of a header
 CLOSE = 3.0  # distance of two lines at the head of an A4 page, in mm
 LABEL, UNDER = 2.9, 2.0  # a cell's baselines: label below the top, value above the bottom
 HEIGHTS = (7.0, 5.0, 3.5, 2.5, 1.8)  # ISO 3098
@@ -29,7 +29,8 @@ class TitleBlock(Struct, frozen=True):
 
     ``labels`` maps names of fields to labels; a field without a label shows only its value, and an
     empty value leaves its cell free for handwriting. A block with a label for ``student`` has that
-    cell where other blocks have the creator's.
+    cell where other blocks have the creator's. ``logo`` is the width over the height of a picture
+    in the legal owner's cell, 0 without one.
     """
 
     legal_owner: str = ""
@@ -45,6 +46,12 @@ class TitleBlock(Struct, frozen=True):
     scale: str = ""
     revision: str = ""
     labels: Mapping[str, str] = field(default_factory=dict)
+    logo: float = 0.0
+
+    @property
+    def is_headed(self) -> bool:
+        """Whether the legal owner's cell holds a school's header, which needs no label."""
+        return bool(self.logo) or "\n" in self.legal_owner
 
 
 # field name, cell (left, top, right, bottom) in the block, largest height of the value
@@ -61,6 +68,9 @@ CELLS: tuple[tuple[str, Rect, float], ...] = (
     ("language", (138, 26, 150, 36), 3.5),
     ("sheet", (150, 26, 180, 36), 3.5),
 )
+OWNER = "legal_owner"
+BESIDE = 1.0
+"""Distance of a logo and of a header from the edges of their cell, in mm."""
 STUDENT = "student"
 """The name of the field for the student's name."""
 STUDENTS: tuple[tuple[str, Rect, float], ...] = (
@@ -75,11 +85,29 @@ STUDENTS: tuple[tuple[str, Rect, float], ...] = (
 """The cells of a student's sheet, where the student's cell takes the place of the creator's."""
 
 
+HEADED = {OWNER: (0.0, 104.0), "document_type": (104.0, 146.0), "approved_by": (146.0, 180.0)}
+"""The sides of cells beside the wider cell of a school's header."""
+CROWDED = {
+    OWNER: (0.0, 98.0),
+    "document_type": (98.0, 136.0),
+    "creator": (136.0, 158.0),
+    "approved_by": (158.0, 180.0),
+}
+"""The same on a student's sheet that has an author."""
+
+
 def cells_of(block: TitleBlock) -> tuple[tuple[str, Rect, float], ...]:
     """The cells of a block; a student's block has a creator's cell only if there is an author."""
-    if STUDENT not in block.labels:
-        return CELLS
-    return STUDENTS if block.creator else (CELLS[0], STUDENTS[1], *CELLS[2:])
+    found, across = CELLS, HEADED
+    if STUDENT in block.labels:
+        found = STUDENTS if block.creator else (CELLS[0], STUDENTS[1], *CELLS[2:])
+        across = CROWDED if block.creator else HEADED
+    if not block.is_headed:
+        return found
+    return tuple(
+        (name, (across[name][0], rect[1], across[name][1], rect[3]) if name in across else rect, h)
+        for name, rect, h in found
+    )
 
 
 def sheet_frame(title_block: TitleBlock) -> tuple[Mark, ...]:
@@ -157,16 +185,17 @@ def wrapped(text: str, room: float, height: float) -> list[str]:
 
 
 def fitting(
-    name: str, text: str, room: float, depth: float, most: float
+    name: str, text: str, room: float, depth: float, most: float, leading: float = LEADING
 ) -> tuple[list[str], float]:
     """Return lines of markup and the greatest ISO 3098 height at which they fit a cell (mm).
 
     Raises PageError where the text does not fit.
     """
     for height in (height for height in HEIGHTS if height <= most):
-        lines = [text] if name == "scale" else wrapped(text, room, height)
+        parts = [text] if name == "scale" else text.split("\n")
+        lines = parts if name == "scale" else [x for p in parts for x in wrapped(p, room, height)]
         wide = max(extent(line, height)[0] for line in lines)
-        if wide <= room and (len(lines) - 1) * LEADING * height + height <= depth:
+        if wide <= room and (len(lines) - 1) * leading * height + height <= depth:
             return lines, height
     raise PageError(
         Problem(
@@ -201,6 +230,31 @@ def cell(name: str, rect: Rect, most: float, label: str, value: str) -> list[Mar
     return marks
 
 
+def logo_box(block: TitleBlock) -> Rect:
+    """The box of the logo in the title block; without a logo, it has no width."""
+    left, top, right, bottom = next(rect for name, rect, _ in cells_of(block) if name == OWNER)
+    high, most = bottom - top - 2 * BESIDE, (right - left) / 3
+    width = min(high * block.logo, most)
+    high = width / block.logo if width else high
+    middle = (top + bottom) / 2
+    return left + BESIDE, middle - high / 2, left + BESIDE + width, middle + high / 2
+
+
+def header_marks(block: TitleBlock, rect: Rect, logo: Rect) -> list[Mark]:
+    """The lines of a school's header beside its logo, across the whole height of its cell."""
+    left, top, right, bottom = rect
+    room, depth = right - left - 3 - (logo[2] - logo[0]), bottom - top - 2 * BESIDE
+    if not block.legal_owner.strip():
+        return []
+    lines, height = fitting(OWNER, block.legal_owner, room, depth, 3.5, CLOSER)
+    first = (top + bottom - (len(lines) - 1) * CLOSER * height + height) / 2
+    x = right - 1.5 - room
+    return [
+        Text(x, first + i * CLOSER * height, line, "title", height, name=OWNER)
+        for i, line in enumerate(lines)
+    ]
+
+
 def title_block_marks(block: TitleBlock, x: float, y: float) -> tuple[Mark, ...]:
     """Draw the title block with its top-left corner at (x, y)."""
     marks: list[Mark] = [box(x, y, TITLE_WIDTH, TITLE_HEIGHT, "frame title-block")]
@@ -210,6 +264,9 @@ def title_block_marks(block: TitleBlock, x: float, y: float) -> tuple[Mark, ...]
             marks.append(LineMark(rect[0], rect[1], rect[0], rect[3], "border title-block"))
         elif top:
             marks.append(LineMark(x, rect[1], x + TITLE_WIDTH, rect[1], "border title-block"))
+        if name == OWNER and block.is_headed:
+            marks += header_marks(block, rect, logo_box(block))
+            continue
         marks += cell(name, rect, most, block.labels.get(name, ""), getattr(block, name))
     return tuple(marks)
 
@@ -230,15 +287,25 @@ def check_bar(x: float, y: float) -> tuple[Mark, ...]:
 
 
 def page_frame(
-    header: tuple[str, str] = ("", ""), footer: tuple[str, str] = ("", "")
+    header: tuple[str, str] = ("", ""),
+    footer: tuple[str, str] = ("", ""),
+    school: Sequence[str] = (),
 ) -> tuple[Mark, ...]:
-    """Draw an A4 portrait page's frame, with a line (left, right; markup) at its head and foot."""
+    """Draw an A4 portrait page's frame, with a line (left, right; markup) at its head and foot.
+
+    The lines of a school's header, in plain text, are above the frame.
+    """
     left, _, right, bottom = A4_FRAME
     head, foot = A4_AREA[1], A4_AREA[3]
     marks: list[Mark] = [edged(A4_FRAME, "frame")]
     marks += (LineMark(left, y, right, y, "border") for y in (head, foot))
     marks += ends(head - 2.9, header, "header")
     marks += ends(bottom - 2.9, footer, "footer")
+    if school:
+        joined = escape(", ".join(school))
+        wide = extent(joined, 2.5)[0] <= right - left
+        line = joined if wide else escape(school[0])
+        marks.append(Text(left, A4_FRAME[1] - 2, line, "title", 2.5, name="school"))
     return tuple(marks)
 
 

@@ -303,14 +303,30 @@ def place_of(mark: Mark) -> str:
     return " ".join(word for word in words if word)
 
 
+class Picture(Struct, frozen=True):
+    """A picture in a box (mm): the bytes of a PNG or an SVG file."""
+
+    x: float
+    y: float
+    width: float
+    height: float
+    data: bytes
+    kind: Literal["png", "svg"]
+
+
 class Page(Struct, frozen=True):
-    """One page: its size in mm, its marks in painting order, its title and language code."""
+    """One page: its size in mm, its marks in painting order, its title and language code.
+
+    ``pictures`` lie above its marks. ``weight`` is a factor on the widths of all lines.
+    """
 
     width: float
     height: float
     marks: tuple[Mark, ...]
     title: str = ""
     lang: str = "en"
+    pictures: tuple[Picture, ...] = ()
+    weight: float = 1.0
 
     def check(self) -> None:
         """Raise PageError, naming each mark that is not finite or leaves the page."""

@@ -34,6 +34,7 @@ class Scales(Struct, frozen=True):
       acceleration plan.
     - ``of_crank``: the length of the crank pin's velocity on the mechanism, in lengths of the
       crank; 0 where no crank gives it.
+    - ``metre``: the unit of lengths in metres; kL, kv and ka are in this unit.
     - ``triangles``: optional triangles are drawn; they are computed instead where the space is
       needed for a larger mechanism.
     - ``kF`` (N per metre of paper) and ``k_lever`` (m/s per metre of paper): the scale factors of
@@ -48,6 +49,7 @@ class Scales(Struct, frozen=True):
     triangles: bool = True
     kF: float = 0.0
     k_lever: float = 0.0
+    metre: float = 1.0
 
     @property
     def kv(self) -> float:
@@ -81,7 +83,7 @@ class Scales(Struct, frozen=True):
     @property
     def words(self) -> str:
         """The scale as a drawing writes it, 1:5 or 2:1."""
-        return ratio(self.kL)
+        return ratio(self.kL * self.metre)
 
 
 def ratio(kL: float) -> str:
@@ -162,8 +164,16 @@ def extent_of(points: Sequence[complex]) -> Extent:
     return Extent(min(xs), min(ys), max(xs), max(ys))
 
 
-def preferred_scales(smallest: float) -> Iterator[float]:
-    """The kL of preferred scales in increasing order, from the first not below ``smallest``."""
+def preferred_scales(smallest: float, steps: Sequence[float] = ()) -> Iterator[float]:
+    """The kL of preferred scales in increasing order, from the first not below ``smallest``.
+
+    ``steps`` are the first digits n of a school's scales 1:n and n:1.
+    """
+    if steps:
+        enlarged = sorted(1.0 if step == 1 else 10 / step for step in steps)
+        yield from takewhile(lambda kL: kL < 1 - 1e-9, preferred(smallest, enlarged))
+        yield from preferred(max(smallest, 1.0), sorted(steps))
+        return
     yield from takewhile(lambda kL: kL < TWICE, preferred(smallest, ENLARGED))
     yield from preferred(max(smallest, TWICE), REDUCED)
 

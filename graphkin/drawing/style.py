@@ -189,8 +189,11 @@ STYLES: dict[str, Style] = {
 
 
 @lru_cache(maxsize=512)
-def style_of(cls: str, ink: Ink = "colour") -> Style:
-    """The style of a mark's classes, with fill and colour resolved. Raises KeyError if unknown."""
+def style_of(cls: str, ink: Ink = "colour", weight: float = 1.0) -> Style:
+    """The style of a mark's classes, with fill and colour resolved. Raises KeyError if unknown.
+
+    ``weight`` is a factor on the widths of lines.
+    """
     names = cls.split()
     first = STYLES[names[0]]
     colours = (STYLES[name].colour for name in names if name in STYLES)
@@ -205,6 +208,8 @@ def style_of(cls: str, ink: Ink = "colour") -> Style:
         first = replace(first, width=first.width + STRONGER if first.width else 0)
     if ink == "black":
         colour, fill = black(colour), black(fill)
+    if weight != 1:
+        first = replace(first, width=round(weight * first.width, 3))
     return replace(first, colour=colour, fill=fill)
 
 

@@ -6,6 +6,7 @@ import re
 from functools import lru_cache
 
 from graphkin.text.markup import Markup
+from graphkin.text.school_signs import USUAL, SchoolSigns
 
 NAME = (
     r"^(?P<times>\d*)(?P<letter>[^\W\d_¹²]+)(?P<index>\d*(?:,\w+?)?)(?P<prime>[′″‴⁗]?)"
@@ -32,14 +33,17 @@ def tag_words(tag: str) -> str:
 
 
 @lru_cache(maxsize=1024)
-def symbol(name: str, short: str = "") -> Markup:
-    """The symbol of a name, written as ``short`` if that is given because it is unambiguous."""
-    said = Markup(written(short or name))
+def symbol(name: str, short: str = "", signs: SchoolSigns = USUAL) -> Markup:
+    """The symbol of a name with a school's signs.
+
+    It is written as ``short`` if that is given because it is unambiguous.
+    """
+    said = Markup(written(short or name, signs))
     said.names = frozenset((name,)) if name else frozenset()
     return said
 
 
-def written(name: str) -> str:
+def written(name: str, signs: SchoolSigns = USUAL) -> str:
     """The markup of a name, "" where there is none.
 
     O1 gets its index, b⁗ its numeral, a_BA^ν its two scripts, b¹ the numeral of its plan.
@@ -51,6 +55,10 @@ def written(name: str) -> str:
         return f"*{escape(name)}*"
     times, letter, index, prime = found.group("times", "letter", "index", "prime")
     sub, sup, tag = found.group("sub", "sup", "tag")
+    if signs is not USUAL:
+        if not (index or sub) and letter + prime in signs.poles:
+            return written(times + signs.poles[letter + prime] + tag)
+        letter, sup = signs.letters.get(letter, letter), signs.components.get(sup, sup)
     apart = "," if index and sub and sub[0].isdigit() else ""
     scripts = f"{index}{apart}{sub or ''}".removeprefix(",")
     scripts = ",".join(filter(None, (scripts, tag_words(tag))))

@@ -11,7 +11,7 @@ from msgspec import Struct
 
 HERE = Path(__file__).parent
 INDEX = "index"
-REFERENCES = ("reference/scene", "reference/lab")
+REFERENCES = ("reference/scene", "reference/lab", "reference/house")
 """The pages that explain keys: those of a scene before those of a lab."""
 HEADING = re.compile(r"^(#{1,6}) (.+)$")
 FENCE = re.compile(r"^\s*```")

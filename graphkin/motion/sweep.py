@@ -27,7 +27,7 @@ from graphkin.motion.turns_counted import named_angles
 from graphkin.motion.window import usual, window
 from graphkin.scene.expression import TIME, Name
 from graphkin.scene.model import Branch, Driver, Scene
-from graphkin.scene.quantity import LENGTHS, Quantity
+from graphkin.scene.quantity import Quantity
 from graphkin.text.errors import Problem, SceneError, message
 
 
@@ -218,5 +218,5 @@ def bounds_in_si(
     number = chosen(scene, driver)
     if number is None or scene.drivers[number - 1].kind == "turn":
         return low, high
-    factor = float(LENGTHS[scene.units["length"]])
+    factor = scene.unit_length
     return None if low is None else low * factor, None if high is None else high * factor

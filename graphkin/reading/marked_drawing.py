@@ -25,7 +25,6 @@ from graphkin.reading.point_reading import PointReading
 from graphkin.reading.read_sheet import SheetRecord
 from graphkin.reading.settled_points import SettledPoints, Standing, latest_of, settled_points
 from graphkin.text import Words
-from graphkin.text import words as words_in
 from graphkin.text.errors import Refusals
 from graphkin.writers.templates import from_template
 
@@ -58,7 +57,7 @@ def drawings_of_class(
     names = stems([t.student.id for t in opened.takers], [t.code for t in opened.takers])
     found: dict[str, bytes] = {}
     for taker, name in zip(opened.takers, names, strict=True):
-        spoken = words_in(taker.spoken) if taker.spoken else words
+        spoken = words.in_language(taker.spoken) if taker.spoken else words
         with refusals.alone(taker.student.called):
             own = [records[key] for kind in MOTION if (key := (taker.code, kind)) in records]
             sheets = [marked_sheet(folder, each, taker, standing, spoken) for each in own]

@@ -45,8 +45,23 @@ DIGITS = 60
 HEAVIEST = 2000
 """The most parts of a law of time and of its first derivative."""
 
-UNITS = ("degrees", "degree", "deg", "°", "rad", "grad", "rpm", "mm", "cm", "dm", "in", "m", "s")
-RATES = ("mm/s", "cm/s", "m/s", "in/s", "rev/min", "rot/min", "rad/s", "deg/s", "°/s")
+UNITS = (
+    "degrees",
+    "degree",
+    "deg",
+    "°",
+    "rad",
+    "grad",
+    "rpm",
+    "mm",
+    "cm",
+    "dm",
+    "in",
+    "ft",
+    "m",
+    "s",
+)
+RATES = ("mm/s", "cm/s", "m/s", "in/s", "ft/s", "rev/min", "rot/min", "rad/s", "deg/s", "°/s")
 MEASURED = rf"(?as)(.*[\w.)\s])((?<![A-Za-z_])(?:{'|'.join((*RATES, *UNITS))})|°)"
 """A number or an expression followed by a unit."""
 MARKS = "_.+-*/() \t\r\n"

@@ -15,8 +15,10 @@ from msgspec.structs import astuple, replace
 
 from graphkin.numbers.arithmetic import FLOAT, Kind, Point
 from graphkin.scene.expression import TIME
-from graphkin.scene.quantity import Quantity
+from graphkin.scene.house import PLAIN, House
+from graphkin.scene.quantity import LENGTHS, Quantity, in_unit
 from graphkin.text.errors import Message, message
+from graphkin.text.school_signs import USUAL, SchoolSigns
 from graphkin.text.tables import listed
 
 if TYPE_CHECKING:
@@ -517,7 +519,7 @@ class Sheet(Struct, frozen=True):
     train with them. ``rule`` sets the size of plans: as large as possible, or as in the lab, with
     vectors of the crank's pin as long as the crank. ``enlarge`` is the factor on that length, one
     number for each plan or one for both. ``student`` is the owner of the sheet, set by a class, not
-    by a scene.
+    by a scene. ``steps`` are the first digits of a school's scales, () for the usual ones.
     """
 
     owner: str = ""
@@ -534,6 +536,8 @@ class Sheet(Struct, frozen=True):
     ka: Quantity | None = None
     method: str = "triangles"
     plan: str = "images"
+    signs: SchoolSigns = USUAL
+    steps: tuple[float, ...] = ()
 
 
 class StatedPositions(Struct, frozen=True):
@@ -566,13 +570,38 @@ def quantities_within(part: object) -> Iterator[Quantity]:
             yield from quantities_within(each)
 
 
+IMPERIAL = ("in", "ft")
+"""The units of length whose results are printed in them, unless others are stated."""
+LENGTHY = ("frame", "links", "drivers", "near")
+"""The parts of a scene that have lengths."""
+
+
+def rebased(part: Any, base: str) -> Any:
+    """A part of a scene with its lengths computed in another unit."""
+    if isinstance(part, Quantity):
+        unit = in_unit(part.unit, base)
+        return part if unit == part.unit else replace(part, unit=unit)
+    if isinstance(part, Struct):
+        own = {name: getattr(part, name) for name in part.__struct_fields__}
+        new = {name: rebased(each, base) for name, each in own.items()}
+        changed = {name: each for name, each in new.items() if each is not own[name]}
+        return replace(part, **changed) if changed else part
+    if isinstance(part, Mapping):
+        return {name: rebased(each, base) for name, each in part.items()}
+    if isinstance(part, tuple | list):
+        return type(part)(rebased(each, base) for each in part)
+    return part
+
+
 class Scene(Struct, frozen=True, dict=True):
     """A planar mechanism in one position, with the requested quantities.
 
     ``near`` gives angles within half a turn of which links' angles are taken, where a motion says
     more than the ``start`` of a rolling. Scenes do not state them; sweeps do. ``titles`` and
     ``notes`` hold texts per language, and ``names`` the links' names in each. ``values`` holds the
-    parameters as set, exact. ``forces`` are its masses and loads, None if it has none.
+    parameters as set, exact. ``forces`` are its masses and loads, None if it has none. ``house``
+    are the conventions of its school. ``results`` names the unit of results, "" for the usual one.
+    ``base`` is the unit in which its lengths are computed.
     """
 
     name: str
@@ -594,6 +623,33 @@ class Scene(Struct, frozen=True, dict=True):
     source: str | None = None
     forces: Forces | None = None
     positions: StatedPositions = field(default_factory=StatedPositions)
+    house: House = PLAIN
+    results: str = ""
+    base: str = "m"
+
+    @property
+    def unit_of_results(self) -> str:
+        """The unit of length in which results are printed: as stated, else inches of inches.
+
+        Forces are in newtons, so the results of a scene with forces are in metres.
+        """
+        if self.forces is not None:
+            return "m"
+        own = self.units["length"]
+        usual = own if own in IMPERIAL else "m"
+        return {"": usual, "SI": "m", "scene": own}.get(self.results, self.results)
+
+    def computed_in(self, base: str) -> Scene:
+        """The same scene with its lengths computed in another unit; without its forces."""
+        if base == self.base:
+            return self
+        parts = {name: rebased(getattr(self, name), base) for name in LENGTHY}
+        return replace(self, **parts, base=base, forces=None)
+
+    @property
+    def unit_length(self) -> float:
+        """The unit of its lengths, in the unit in which lengths are computed."""
+        return float(LENGTHS[self.units["length"]] / LENGTHS[self.base])
 
     @property
     def every_link(self) -> tuple[Link, ...]:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import re
 from collections.abc import Mapping
 from decimal import Context, Decimal
 from fractions import Fraction
@@ -36,13 +37,21 @@ LENGTHS = {
     "cm": Fraction(1, 100),
     "m": Fraction(1),
     "in": Fraction(254, 10000),
+    "ft": Fraction(3048, 10000),
 }
+IN = "|"
+"""The sign between a unit of length and the unit in which it is computed, other than metres."""
 TURNS = {"rad": (Fraction(1), False), "deg": (Fraction(1, 180), True)}
 
 
 def si_factors() -> dict[str, tuple[Fraction, bool]]:
-    """The size of each unit in metres, radians and seconds, and whether pi multiplies it."""
+    """The size of each unit in metres, radians and seconds, and whether pi multiplies it.
+
+    A unit such as mm|in is computed in inches, not in metres.
+    """
     bases = {unit: (factor, False) for unit, factor in LENGTHS.items()} | TURNS
+    for base, metres in LENGTHS.items():
+        bases |= {f"{unit}{IN}{base}": (each / metres, False) for unit, each in LENGTHS.items()}
     per_second = {f"{unit}/s": factor for unit, factor in bases.items()}
     per_square = {f"{unit}/s²": factor for unit, factor in bases.items()}
     others = dict.fromkeys(("", "s", "kg", "kg·m²", "N", "N·m"), (Fraction(1), False))
@@ -77,6 +86,11 @@ class Quantity(Struct, frozen=True, eq=False):
 
     def __hash__(self) -> int:
         return hash((self.text, self.unit))
+
+    @property
+    def written_unit(self) -> str:
+        """The unit as written, in whatever unit it is computed."""
+        return plain_unit(self.unit)
 
     def uses(self) -> frozenset[str]:
         """The names of its parameters, with ``t`` if it is a law of time."""
@@ -174,6 +188,19 @@ class Quantity(Struct, frozen=True, eq=False):
         if known:
             found = message("{gives} with {known}", gives=found, known=", ".join(known))
         return Problem(self.place, found, expected)
+
+
+def plain_unit(unit: str) -> str:
+    """A unit without the unit in which it is computed."""
+    return re.sub(rf"\{IN}[a-z]+", "", unit)
+
+
+def in_unit(unit: str, base: str) -> str:
+    """A unit of length, speed or acceleration as computed in another unit; others unchanged."""
+    length, slash, rest = plain_unit(unit).partition("/")
+    if length not in LENGTHS:
+        return unit
+    return f"{length}{slash}{rest}" if base == "m" else f"{length}{IN}{base}{slash}{rest}"
 
 
 def reckoned(tree: Tree, values: Mapping[str, Any], kind: Kind) -> Any:

@@ -13,6 +13,7 @@ from graphkin.scene.check import check_scene
 from graphkin.scene.expression import TIME, UnreadableError
 from graphkin.scene.file_limits import decoded, read_bytes, tables_of
 from graphkin.scene.findings import Findings, Table, listed, nearest, shown
+from graphkin.scene.house import PLAIN, RESULTS, House, house_beside
 from graphkin.scene.link_names import read_names
 from graphkin.scene.measures import Measures, quantity
 from graphkin.scene.model import FRAME, MASS_KEYS, Ask, Driver, DriverKind, Link, Scene
@@ -56,28 +57,37 @@ SPELLINGS = {
     **dict.fromkeys(("centimetre", "centimetres", "centimeter", "centimeters"), "cm"),
     **dict.fromkeys(("metre", "metres", "meter", "meters"), "m"),
     **dict.fromkeys(("inch", "inches", '"'), "in"),
+    **dict.fromkeys(("foot", "feet", "'"), "ft"),
 }
 """Other spellings of units, for hints; a unit that is merely spelt alike is not included."""
 UNITS = {"length": tuple(LENGTHS), "angle": tuple(TURNS), "speed": ("rev/min", "rad/s")}
 NO_SETTINGS: Mapping[str, object] = {}
 
 
-def read_scene(path: paths.Named, settings: Mapping[str, object] = NO_SETTINGS) -> Scene:
+def read_scene(
+    path: paths.Named, settings: Mapping[str, object] = NO_SETTINGS, house: House | None = None
+) -> Scene:
     """The scene in a file with its parameters set. Raises SceneError with all problems found.
 
-    The scene is named after its file, or after its folder when the file is ``scene.toml``.
+    The scene is named after its file, or after its folder when the file is ``scene.toml``. It has
+    the conventions of the house.toml beside the file unless others are given.
     """
     name = paths.stem(path)
     if name == "scene":
         name = paths.name_of(paths.folder_of(path)) or name
-    return read_text(decoded(read_bytes(path)), name, str(path), settings)
+    house = house_beside(path) if house is None else house
+    return read_text(decoded(read_bytes(path)), name, str(path), settings, house)
 
 
 def read_text(
-    text: str, name: str, source: str | None = None, settings: Mapping[str, object] = NO_SETTINGS
+    text: str,
+    name: str,
+    source: str | None = None,
+    settings: Mapping[str, object] = NO_SETTINGS,
+    house: House = PLAIN,
 ) -> Scene:
     """The scene in a TOML text with its parameters set. Raises SceneError with all problems."""
-    return read_into(Findings(), text, name, source, settings)
+    return read_into(Findings(), text, name, source, settings, house)
 
 
 def known_keys(text: str, name: str) -> dict[str, list[str]]:
@@ -97,6 +107,7 @@ def read_into(
     name: str,
     source: str | None = None,
     settings: Mapping[str, object] = NO_SETTINGS,
+    house: House = PLAIN,
 ) -> Scene:
     """The scene in a text, with its problems noted. Raises SceneError if there are any."""
     top = Table("", tables_of(text, findings), findings)
@@ -112,7 +123,7 @@ def read_into(
             )
         )
     check_version(top, findings)
-    scene = assembled(top, name, source, settings, findings)
+    scene = assembled(top, name, source, settings, findings, house)
     asked = top.table("ask")
     if has_forces(top, asked):
         from graphkin.scene.read_forces import read_forces
@@ -189,9 +200,10 @@ def assembled(
     source: str | None,
     settings: Mapping[str, object],
     findings: Findings,
+    house: House,
 ) -> Scene:
     """The scene without its requests; an unreadable part is noted and replaced by a default."""
-    units = read_units(top.table("units"), findings)
+    units, results = read_units(top.table("units"), findings, house)
     parameters = read_parameters(top.table("parameters"), findings)
     values = set_values(parameters, settings, findings)
     time = read_time(top, Measures(findings, units, values), values)
@@ -205,6 +217,8 @@ def assembled(
         from graphkin.scene.keepers import with_keepers
 
         frame, links = with_keepers(frame, links, drivers, measures)
+    sheet = read_sheet(top.table("sheet"), measures, house)
+    points = tuple(point for link in (frame, *links.values()) for point in link.points)
     return Scene(
         name=name,
         title=title,
@@ -215,7 +229,7 @@ def assembled(
         drivers=drivers,
         branches=read_branches(top.table("branches"), frame, links, findings),
         ask=Ask(),
-        sheet=read_sheet(top.table("sheet"), measures),
+        sheet=replace(sheet, signs=sheet.signs.beside(points)),
         positions=read_positions(top.table("positions"), drivers, measures),
         time=time,
         titles=read_languages(top.table("titles")),
@@ -223,11 +237,16 @@ def assembled(
         notes=read_languages(top.table("notes")),
         values=values,
         source=source,
+        house=house,
+        results=results,
     )
 
 
-def read_units(table: Table, findings: Findings) -> dict[str, str]:
-    """The units of lengths, angles and turning speeds; each must be written."""
+def read_units(table: Table, findings: Findings, house: House) -> tuple[dict[str, str], str]:
+    """The units of lengths, angles and turning speeds, each of which must be written.
+
+    The unit of results is the house's where none is stated, and "" for the usual one.
+    """
     units = {}
     lost = findings.inside(table.place)
     for key, choices in UNITS.items():
@@ -240,8 +259,10 @@ def read_units(table: Table, findings: Findings) -> dict[str, str]:
             meant = SPELLINGS.get(spelt, spelt)
             hint = Mend(str(raw), meant) if meant in choices else NO_WORDS
             findings.add(table.at(key), shown(raw), listed(choices), hint)
+    stated = "results" in table
+    results = table.choice("results", RESULTS, RESULTS[0])
     table.finish()
-    return units
+    return units, results if stated else house.results
 
 
 def read_time(top: Table, measures: Measures, values: dict[str, Fraction]) -> Quantity | None:

@@ -10,6 +10,7 @@ from typing import Literal
 
 from graphkin.scene.expression import TIME
 from graphkin.scene.findings import Findings, Table, nearest, numbered, plain_text, shown
+from graphkin.scene.house import House, read_signs
 from graphkin.scene.known_names import THE_MECHANISM, known_link, known_point
 from graphkin.scene.link_points import ends_of
 from graphkin.scene.measures import Measures
@@ -204,20 +205,23 @@ def link_pair(place: str, raw: str, findings: Findings, scene: Scene) -> list[st
     return ["-".join(sorted(names, key=(FRAME, *scene.links).index))]
 
 
-def read_sheet(table: Table, measures: Measures) -> Sheet:
-    """The sheet: the title block, the language, the scales and the number of sheets."""
+def read_sheet(table: Table, measures: Measures, house: House) -> Sheet:
+    """The sheet: the title block, the language, the scales and the number of sheets.
+
+    What a scene does not state is that of the house.
+    """
     rule, ka = table.choice("rule", RULES, RULES[0]), table.take("ka")
     sheets = table.take("sheets")
     if sheets is not None and (isinstance(sheets, bool) or sheets not in (1, 2)):
         table.findings.add(table.at("sheets"), shown(sheets), message("1 or 2"))
         sheets = None
     sheet = Sheet(
-        owner=table.text("owner"),
-        author=table.text("author"),
-        approved=table.text("approved"),
+        owner=table.text("owner", "\n".join(house.header)),
+        author=table.text("author", house.author),
+        approved=table.text("approved", house.approved),
         date=lenient_text(table, "date"),
         number=lenient_text(table, "number"),
-        language=table.choice("language", LANGUAGES, "en"),
+        language=table.choice("language", LANGUAGES, house.language),
         scale=read_scale(table, measures),
         sheets=2 if not isinstance(sheets, int) else sheets,
         rule=rule,
@@ -225,6 +229,8 @@ def read_sheet(table: Table, measures: Measures) -> Sheet:
         ka=None if ka is None else measures.number(table.at("ka"), ka, positive=True),
         method=table.choice("method", METHODS, METHODS[0]),
         plan=table.choice("plan", PLANS, PLANS[0]),
+        signs=read_signs(table, "signs", house.signs),
+        steps=house.steps,
     )
     table.finish()
     return sheet

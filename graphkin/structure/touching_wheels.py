@@ -9,7 +9,6 @@ from msgspec import Struct
 from graphkin.numbers.plane import Line, cross
 from graphkin.scene.known_names import next_name, quoted
 from graphkin.scene.model import FRAME, Belt, Rolling, Scene, Wheel, link_words, of_one_size
-from graphkin.scene.quantity import SI
 from graphkin.structure.link_axes import body, metres, through, unit
 from graphkin.structure.turning import LEVEL, stands
 from graphkin.text.errors import NO_WORDS, Message, Problem, StructureError, WrittenInto, message
@@ -264,7 +263,7 @@ def may_be_ring(scene: Scene, apart: WheelsApart) -> bool:
 def shown(scene: Scene, length: float) -> str:
     """A length in the unit of the scene."""
     unit = scene.units["length"]
-    return f"{length / float(SI[unit][0]):.10g} {unit}"
+    return f"{length / scene.unit_length:.10g} {unit}"
 
 
 def track_line(scene: Scene, rolling: Rolling) -> Line:

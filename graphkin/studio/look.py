@@ -19,6 +19,7 @@ from graphkin.documents.sheet_documents import drawings_of, language_of, lost
 from graphkin.loops.witness import sure_of
 from graphkin.mechanism import Mechanism
 from graphkin.scene.expression import TIME
+from graphkin.scene.house import PLAIN, house_beside
 from graphkin.scene.model import DRIVEN, JOINED, KEYWORDS, Parameter, Scene
 from graphkin.scene.parameters import plain
 from graphkin.scene.quantity import Quantity
@@ -30,6 +31,7 @@ from graphkin.studio.result_panel import margins, results, verdict_words
 from graphkin.text import Words, words
 from graphkin.text.errors import GraphkinError, InLine, Problem, Setting, Sought, message
 from graphkin.text.markup import as_text
+from graphkin.text.paths import within
 from graphkin.text.problems import spoken
 
 MOST = 1000
@@ -324,7 +326,7 @@ class Sight(Struct, frozen=True):
     """A view of a text: the text, the values of its sliders, and the way to show it.
 
     ``mechanism`` is the plan whose construction is shown on the mechanism. ``quick`` lets labels
-    keep their offsets. ``language`` is the language of the page.
+    keep their offsets. ``language`` is the language of the page. ``folder`` may hold a house.toml.
     """
 
     text: str
@@ -333,6 +335,7 @@ class Sight(Struct, frozen=True):
     settings: Mapping[str, str] = field(default_factory=dict)
     mechanism: str = "velocity"
     quick: bool = False
+    folder: str = ""
 
 
 def look(sight: Sight, memory: Memory, go_on: Callable[[], None]) -> dict[str, Any]:
@@ -347,7 +350,8 @@ def look(sight: Sight, memory: Memory, go_on: Callable[[], None]) -> dict[str, A
         scene = read(sight)
         found["sliders"] = [to_builtins(each, enc_hook=as_text) for each in sliders(scene)]
         found["title"] = scene.titles.get(sight.language, scene.title)
-        mechanism = memory.mechanism(scene, sight.text)
+        measured = scene.computed_in(scene.unit_of_results)
+        mechanism = memory.mechanism(measured, sight.text)
         found |= drawn(mechanism, sight, memory, found["problems"], go_on)
     except GraphkinError as error:
         found["problems"] += error.problems
@@ -359,7 +363,8 @@ def read(sight: Sight) -> Scene:
     """The scene of a text; values of sliders that no longer exist are dropped."""
     found = spans(sight.text) if sight.settings else {}
     own = {name: set_ for name, set_ in sight.settings.items() if ("parameters", name) in found}
-    return read_text(sight.text, sight.name, None, own)
+    house = house_beside(within(sight.folder, sight.name)) if sight.folder else PLAIN
+    return read_text(sight.text, sight.name, None, own, house)
 
 
 def drawn(

@@ -174,11 +174,11 @@ class Memory(Struct):
 
         Raises StructureError where the values of its parameters do not allow its assembly.
         """
-        found = Mechanism(scene)
-        if self.program and self.program[0] == text and found.groups:
+        found, key = Mechanism(scene), f"{scene.base}\n{text}"
+        if self.program and self.program[0] == key and found.groups:
             found.__dict__["program"] = self.program[1]
         else:
-            self.program = text, found.program
+            self.program = key, found.program
         return found
 
     def held(self, text: str) -> Scales | None:

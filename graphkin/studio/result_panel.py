@@ -11,7 +11,7 @@ from typing import Any
 from msgspec.structs import replace
 
 from graphkin.construction.core.crossings import Crossing
-from graphkin.construction.core.drawn_scene import METRES, Drawing
+from graphkin.construction.core.drawn_scene import Drawing
 from graphkin.construction.core.program import Part
 from graphkin.construction.core.quantities import CENTRES, Whose, motion_value, names_asked
 from graphkin.construction.core.solution import Solution, Verdict
@@ -46,7 +46,7 @@ def results(drawings: Sequence[Drawing], solution: Solution) -> str:
 
     The notes say what is asked for but cannot be read off.
     """
-    notes = [note for drawing in drawings for note in unread(drawing, symbol)]
+    notes = [note for drawing in drawings for note in unread(drawing, drawing.symbol)]
     said = from_template("studio/web/notes.html", notes=notes)
     found = [table for drawing in drawings for table in read_off(drawing, solution)]
     found += places(drawings[0].scene, solution, drawings[0].words)
@@ -107,7 +107,7 @@ def places(scene: Scene, solution: Solution, words: Words) -> Iterator[CellTable
         if at is not None and isnan(at):
             cells = ("–", "–")
         elif at is not None:
-            metre, least = METRES[unit], NOISE * breadth
+            metre, least = scene.unit_length, NOISE * breadth
             x, y = (0.0 if abs(part) < least else part / metre for part in (at.real, at.imag))
             cells = (words.significant(x, 5), words.significant(y, 5))
         elif whose == "points":
@@ -137,7 +137,7 @@ def margin_row(crossing: Crossing, words: Words) -> Row:
     factor = words.significant(crossing.factor, 2)
     flat = f" ({words('studio.flat')})" if look_of(crossing) == "flat" else ""
     where = words(WHERE.get(crossing.part, "studio.in_mechanism"))
-    return Row((symbol(crossing.name), where, f"{angle}°{flat}", f"{factor} mm"))
+    return Row((symbol(crossing.name, signs=words.signs), where, f"{angle}°{flat}", f"{factor} mm"))
 
 
 def look_of(crossing: Crossing) -> str:

@@ -26,6 +26,7 @@ from graphkin.scene import scene_files
 from graphkin.scene.expression import TIME
 from graphkin.scene.file_limits import LARGEST, decoded, read_bytes, tables_of, whole_file
 from graphkin.scene.findings import Findings
+from graphkin.scene.house import HOUSE, house_beside
 from graphkin.scene.model import Scene
 from graphkin.scene.parameters import of_setting, plain, rational
 from graphkin.scene.quantity import shortest
@@ -171,7 +172,8 @@ def sheets_of(folder: Folder, wanted: WantedSheets) -> dict[str, bytes]:
     """
     name, settings, view, formats = wanted.name, wanted.settings, wanted.view, wanted.formats
     text, language = wanted.text, wanted.language
-    mechanism = Mechanism(read_text(text, stem_of(name), None, settings))
+    house = house_beside(folder.root / HOUSE)
+    mechanism = Mechanism(read_text(text, stem_of(name), None, settings, house))
     stem = file_stem(mechanism.scene.name, values_of(mechanism.scene))
     lab = lab_of(folder, name, text) if PAGE in formats else name
     return sheet_files(mechanism, lab, stem, view, language, formats)[0]
@@ -539,6 +541,7 @@ class Session:
             order.settings(),
             order.choice("mechanism", SHEETS),
             order.flag("quick"),
+            str(self.folder.root),
         )
         there = {"there": self.folder.holds(order.text("name"))}
         self.arrived(tab, number)
@@ -642,7 +645,8 @@ class Session:
         drivers: list[str] = []
 
         def made() -> dict[str, Any]:
-            mechanism = Mechanism(read_text(text, stem, None, settings))
+            house = house_beside(self.folder.root / HOUSE)
+            mechanism = Mechanism(read_text(text, stem, None, settings, house))
             drivers.extend(map(driver_name, mechanism.scene.drivers))
             moved = driver if len(drivers) > 1 and 1 <= driver <= len(drivers) else None
             with self.drawing():

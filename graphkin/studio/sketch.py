@@ -13,7 +13,6 @@ from typing import Any
 
 from msgspec import Struct
 
-from graphkin.construction.core.drawn_scene import METRES
 from graphkin.diagnosis.closures import choices
 from graphkin.mechanism import Mechanism
 from graphkin.scene.file_limits import tables_of
@@ -200,7 +199,7 @@ def wheels_of(tables: Mapping[str, Any]) -> Iterator[DrawnWheel]:
 
 def solved(mechanism: Mechanism) -> dict[str, complex]:
     """The places of the points by construction. Raises GraphkinError where it does not close."""
-    metre = METRES[mechanism.scene.units["length"]]
+    metre = mechanism.scene.unit_length
     found = mechanism.solve().points
     return {
         name: complex(point.position) / metre
@@ -212,7 +211,7 @@ def solved(mechanism: Mechanism) -> dict[str, complex]:
 def others(mechanism: Mechanism) -> Iterator[Ghost]:
     """The closures that are not drawn, each with the branch that chooses it."""
     scene = mechanism.scene
-    metre = METRES[scene.units["length"]]
+    metre = scene.unit_length
     for choice in choices(scene, *mechanism.laid):
         key = choice.key
         for closure in choice.closures:

@@ -10,19 +10,33 @@ from string import Formatter
 from typing import Any
 
 from graphkin.text.markup import Markup, names_in, saying
+from graphkin.text.school_signs import USUAL, SchoolSigns
 
 LANGUAGES = ("en", "it", "ro")
 MINUS = "\N{MINUS SIGN}"
+METRE = re.compile(r"(?<![\w*{'’])m(?=/s|/mm|$)")
+"""A metre in a unit: m, m/s, (m/s²)/mm, m/mm."""
+RATE = re.compile(r"(?<![\w*{'’])m(?=/s)")
+"""A metre in a unit in a sentence."""
 SUPERSCRIPTS = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
 EUPHONIC = r"(?<!\S)([ae]) (?=\*?(?i:\1))"
 """The Italian words for "to" and "and" before a word that begins with the same vowel."""
 
 
 class Words:
-    """The sentences of one language, and its number format."""
+    """The sentences of one language with the signs of a school, and its number format.
 
-    def __init__(self, language: str) -> None:
+    ``length`` is the unit of length in results.
+    """
+
+    def __init__(self, language: str, signs: SchoolSigns = USUAL, length: str = "m") -> None:
         self.language = language
+        self.signs = signs
+        self.length = length
+
+    def in_language(self, language: str) -> Words:
+        """The sentences of another language with the same signs."""
+        return words(language, self.signs, self.length)
 
     @cached_property
     def sentences(self) -> Mapping[str, str]:
@@ -31,7 +45,15 @@ class Words:
         from pathlib import Path
 
         text = (Path(__file__).parent / f"{self.language}.toml").read_text(encoding="utf-8")
-        return dict(flattened(tomllib.loads(text)))
+        found = dict(flattened(tomllib.loads(text)))
+        if self.signs is USUAL and self.length == "m":
+            return found
+        signed = {key: self.signs.in_sentence(said) for key, said in found.items()}
+        return {key: RATE.sub(self.length, said) for key, said in signed.items()}
+
+    def unit(self, unit: str) -> str:
+        """A unit of results, whose metres are these lengths: in/s for m/s."""
+        return unit if self.length == "m" else METRE.sub(self.length, unit)
 
     def __call__(self, key: str, **fields: object) -> Markup:
         """The sentence under a key, with its fields filled in. Raises KeyError if it is missing."""
@@ -88,11 +110,11 @@ def gaps_of(sentence: str) -> frozenset[str]:
 
 
 @lru_cache(maxsize=8)
-def words(language: str) -> Words:
+def words(language: str, signs: SchoolSigns = USUAL, length: str = "m") -> Words:
     """The sentences of a language by its code. Raises KeyError for an unknown language."""
     if language not in LANGUAGES:
         raise KeyError(language)
-    return Words(language)
+    return Words(language, USUAL if signs == USUAL else signs, length)
 
 
 def flattened(tree: Mapping[str, Any], prefix: str = "") -> list[tuple[str, str]]:

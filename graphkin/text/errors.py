@@ -261,6 +261,10 @@ class FileError(PageError):
     """A file cannot be written in its place."""
 
 
+class HouseError(SceneError):
+    """The conventions of a school cannot be used; every problem has the file of the conventions."""
+
+
 class RosterError(GraphkinError):
     """A class list or a table of answers cannot be read; every problem has its row and column."""
 

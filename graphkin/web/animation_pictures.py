@@ -10,7 +10,7 @@ from msgspec import Struct
 from msgspec.structs import replace
 
 from graphkin.construction.bare_plan import Free, is_point, is_shown, plan_box
-from graphkin.construction.core.drawn_scene import METRES, Drawing
+from graphkin.construction.core.drawn_scene import Drawing
 from graphkin.construction.core.layout import Layout
 from graphkin.construction.core.naming import angle_symbol
 from graphkin.construction.core.paper_canvas import Plot
@@ -30,7 +30,7 @@ from graphkin.drawing.labels import FieldContent
 from graphkin.drawing.marks import CircleMark, LineMark, Mark, Polyline, Text, reach
 from graphkin.drawing.richtext import extent
 from graphkin.drawing.scale import Extent, extent_of, preferred
-from graphkin.drawing.symbol_markup import escape, symbol
+from graphkin.drawing.symbol_markup import escape
 from graphkin.motion.driving import TURN
 from graphkin.numbers.arithmetic import np
 from graphkin.text import Words
@@ -202,7 +202,7 @@ def mechanism_seen(drawing: Drawing, field: Field) -> FrameView:
     draw_pins(board, drawing, field)
     marks = [mark for mark in board.marks if mark not in away_with]
     places = {name: field(place) for name, place in drawing.positions.items()}
-    letters = {name: PointLetter(symbol(name)) for name in places}
+    letters = {name: PointLetter(drawing.symbol(name)) for name in places}
     return FrameView(letters, places, marks, {name: linked(drawing, name) for name in places})
 
 
@@ -235,7 +235,7 @@ def plan_seen(drawing: Drawing, field: Field) -> FrameView:
     for number, step, value in drawing.steps(drawing.plane):
         if is_point(step) and isinstance(value, complex):
             own = number, parts.get(number, 0)
-            letters[step.name] = PointLetter(symbol(step.name), drawing.kind, *own)
+            letters[step.name] = PointLetter(drawing.symbol(step.name), drawing.kind, *own)
             places[step.name] = field(value)
     return FrameView(
         letters, places, marks, {name: joined(drawing, name, letters) for name in letters}
@@ -362,10 +362,15 @@ class Stage(Struct, frozen=True, dict=True):
     @property
     def captions(self) -> Iterator[tuple[Field, str, str, float]]:
         """Each field with its name, the unit of its scale, and that unit in SI."""
-        words, length = self.words, self.motion.cycle.scene.units["length"]
-        yield self.mechanism, escape(words("animation.mechanism")), length, METRES[length]
+        words, scene = self.words, self.motion.cycle.scene
+        yield (
+            self.mechanism,
+            escape(words("animation.mechanism")),
+            scene.units["length"],
+            scene.unit_length,
+        )
         for kind, field in self.plans.items():
-            yield field, escape(words(f"sheet.{kind}")), MOTION[kind].unit, 1.0
+            yield field, escape(words(f"sheet.{kind}")), words.unit(MOTION[kind].unit), 1.0
 
     @property
     def ground(self) -> Iterator[Mark]:
@@ -389,8 +394,9 @@ class Stage(Struct, frozen=True, dict=True):
                 angle = moment.at % circle if goes_round(self.motion.cycle) else moment.at
                 text = f"{name} = {words.fixed(angle, 1)}°"
             else:
-                unit = sweep.original.units["length"]
-                text = f"{name} = {words.significant(moment.at / METRES[unit], 4)} {unit}"
+                scene = sweep.original
+                place = words.significant(moment.at / scene.unit_length, 4)
+                text = f"{name} = {place} {scene.units['length']}"
         yield Text(PICTURE[0] - 45, 7.5, text, "caption", LETTER)
 
 

@@ -67,6 +67,6 @@ def senses(drawing: Drawing) -> dict[str, tuple[str, str]]:
 
 def wanted(drawing: Drawing) -> tuple[str, str, list[str]]:
     """The scales of a task, the scale of its plan, and the quantities it asks for, one by one."""
-    words, kL = drawing.words, f"{length_scale(drawing)} m/mm"
+    words, kL = drawing.words, f"{length_scale(drawing)} {drawing.words.unit('m/mm')}"
     scale = words("task.to_scale", scale=words.decimal(drawing.scales.words), kL=kL)
     return scale, plan_at(drawing), [*asked_words(drawing), members(drawing)]

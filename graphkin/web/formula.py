@@ -31,7 +31,6 @@ from graphkin.motion.driving import stated_motion
 from graphkin.motion.sweep import law_of_time
 from graphkin.scene.expression import TIME
 from graphkin.scene.model import Driver, Scene
-from graphkin.scene.quantity import LENGTHS
 from graphkin.text.errors import Message, Problem, SceneError, message
 from graphkin.web.page_driver import driven_by, time_of
 
@@ -208,7 +207,7 @@ def coordinates(scene: Scene) -> list[Argument]:
 
 def metres_of(driver: Driver, scene: Scene) -> float:
     """The length of one unit of a sliding driver's coordinate; 1 for degrees."""
-    return 1.0 if driver.kind == "turn" else float(LENGTHS[scene.units["length"]])
+    return 1.0 if driver.kind == "turn" else scene.unit_length
 
 
 def at_time(

@@ -13,7 +13,6 @@ from graphkin.construction.velocity.turning_of_link import TurningOfLink
 from graphkin.documents.mark_dependencies import BODY
 from graphkin.drawing.marks import CircleMark, Text, style_class
 from graphkin.drawing.style import DRAWN
-from graphkin.drawing.symbol_markup import symbol
 from graphkin.web.facts import SLIDES
 from graphkin.web.protocol import PageProtocol
 from graphkin.web.screen_sheets import ScreenSheet
@@ -53,7 +52,7 @@ def rates(sheets: Sequence[ScreenSheet], told: PageProtocol) -> dict[int, list[d
 
 def told_as(drawing: Drawing, link: str) -> str:
     """The formula for the rate of a link, in symbols, as HTML."""
-    name = symbol(f"{drawing.rate.letter}_{link}")
+    name = drawing.symbol(f"{drawing.rate.letter}_{link}")
     relation = next(each for each in of_turning(drawing) if each.left == name)
     return marked_up(f"{name} = {relation.symbols}" if relation.symbols else name)
 

@@ -22,7 +22,7 @@ from graphkin.motion.sweep import chosen, law_of_time, sweep_of
 from graphkin.numbers.arithmetic import np
 from graphkin.scene.expression import TIME
 from graphkin.scene.model import Driver, Scene, quantities_within
-from graphkin.scene.quantity import LENGTHS, Quantity
+from graphkin.scene.quantity import Quantity
 from graphkin.text import Words
 
 
@@ -91,7 +91,7 @@ def of_drivers(scene: Scene) -> Iterator[GivenFigure]:
         unit, metres, low, high, step = "deg", 1.0, -TURN, TURN, 1.0
         if driver.kind != "turn":
             unit = scene.units["length"]
-            metres = float(LENGTHS[unit])
+            metres = scene.unit_length
             sweep = sweep_of(scene, driver=number)
             low, high = ((end - sweep.start) / metres for end in (sweep.low, sweep.high))
             step = (high - low) / TURN
@@ -233,7 +233,7 @@ def driven_by(
     if driver.kind == "turn":
         return PageDriver(scene, driver, "turn", place, "deg", figures=figures)
     unit = scene.units["length"]
-    metres = float(LENGTHS[unit])
+    metres = scene.unit_length
     return PageDriver(scene, driver, driver.kind, place / metres, unit, metres, figures)
 
 

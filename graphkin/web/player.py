@@ -19,7 +19,6 @@ from graphkin.drawing.marks import CircleMark, LineMark, Mark, Text, style_class
 from graphkin.drawing.scale import Scales
 from graphkin.drawing.style import VECTORS
 from graphkin.drawing.symbol_markup import escape as markup
-from graphkin.drawing.symbol_markup import symbol
 from graphkin.mechanism import Mechanism
 from graphkin.text import Words
 from graphkin.text.errors import NO_WORDS, Problem, SceneError, message
@@ -165,7 +164,8 @@ def vector_names(sheet: ScreenSheet, s: int) -> Iterator[VectorName]:
 
     They start at the pole; the script moves each next to its vector.
     """
-    steps, asked = sheet.drawing.trace.program.steps, asked_rows(sheet.drawing)
+    drawing = sheet.drawing
+    steps, asked = drawing.trace.program.steps, asked_rows(drawing)
     found = []
     for k, mark in enumerate(sheet.right, len(sheet.left)):
         if isinstance(mark, LineMark) and style_class(mark) in VECTORS and mark.step is not None:
@@ -175,7 +175,7 @@ def vector_names(sheet: ScreenSheet, s: int) -> Iterator[VectorName]:
                 found.append((rank, mark, vector.symbol))
     for rank, mark, name in sorted(found, key=lambda each: each[0]):
         x, y = sheet.layout.plan.at
-        text = Text(x, y, symbol(name), f"label {style_class(mark)}", NAMES, "middle", name)
+        text = Text(x, y, drawing.symbol(name), f"label {style_class(mark)}", NAMES, "middle", name)
         yield VectorName(f"v{s}-{rank[-1]}", f"m{s}-{rank[-1]}", text, not rank[0])
 
 
@@ -234,11 +234,11 @@ def row_words(row: str, drawing: Drawing) -> tuple[str, str]:
     """The symbol and the unit of a quantity that is asked for."""
     words, unit = drawing.words, drawing.words(f"table.{drawing.kind}")
     if row[0] == drawing.rate.letter:
-        return symbol(row), words(f"table.{drawing.rate.target}")
+        return drawing.symbol(row), words(f"table.{drawing.rate.target}")
     if block := blocks_asked(drawing).get(row):
         on = drawing.scene.links[block].slides[0].on
         return f"*{drawing.sliding.letter}*_{{{markup(block)}/{markup(on)}}}", unit
-    return symbol(row), unit
+    return drawing.symbol(row), unit
 
 
 def record(

@@ -36,7 +36,6 @@ from graphkin.documents.sentences import (
 from graphkin.documents.step_pages import accompanied, stage_of, stages, when_told
 from graphkin.drawing.marks import CircleMark, Mark, Text, style_class
 from graphkin.drawing.style import DRAWN
-from graphkin.drawing.symbol_markup import symbol
 from graphkin.text.markup import AND, EQUALS, names_in
 from graphkin.web.reasons import VECTORS_APART, of_sentence, reasons
 from graphkin.web.screen_sheets import ScreenSheet
@@ -147,7 +146,7 @@ def readings(drawing: Drawing) -> Iterator[SentencePart]:
     rate, steps = drawing.rate, dict[str, int]()
     for (what, link), number in drawing.trace.program.targets.items():
         if what == rate.target:
-            steps[symbol(f"{rate.letter}_{link}")] = number
+            steps[drawing.symbol(f"{rate.letter}_{link}")] = number
     how: str = drawing.words(f"step.read-{rate.target}")
     for relation in of_turning(drawing):
         if (step := steps.get(relation.left)) is not None:
@@ -279,7 +278,7 @@ def telling(sheets: Sequence[ScreenSheet]) -> PageProtocol:
         {step: sources(program, step, frozenset(shown), ran) for step in shown},
         pairs,
         {
-            step: names.get(name, symbol(name))
+            step: names.get(name, sheets[0].drawing.symbol(name))
             for step in shown
             if (name := letter(program.steps[step]))
         },
@@ -441,7 +440,7 @@ def spoken(
             tuple(text for text, _ in why),
             tuple(shown_by(drawing, step, fresh, shown) for _, step in why),
             tuple(found),
-            tuple(labels.get(crossing.name, symbol(crossing.name)) for crossing in found),
+            tuple(labels.get(crossing.name, drawing.symbol(crossing.name)) for crossing in found),
             tuple(part for part in STOPS if last.get(part) == stage),
             rates=tuple(rates_read(drawing, sentence)),
         )
@@ -462,7 +461,7 @@ def rates_read(drawing: Drawing, sentence: Sentence) -> Iterator[str]:
         told = {relation.left for relation in of_turning(drawing)}
         for (what, link), number in drawing.trace.program.targets.items():
             is_read = what == drawing.rate.target and number in sentence.all_steps
-            if is_read and symbol(f"{drawing.rate.letter}_{link}") in told:
+            if is_read and drawing.symbol(f"{drawing.rate.letter}_{link}") in told:
                 yield link
 
 
@@ -484,7 +483,7 @@ def vector_found(drawing: Drawing, number: int, said: AbstractSet[str] = frozens
     segment = segment_of(drawing, step)
     if not segment or vector.symbol in said:
         return ""
-    return EQUALS.join((segment, symbol(vector.symbol)))
+    return EQUALS.join((segment, drawing.symbol(vector.symbol)))
 
 
 def timed_marks(

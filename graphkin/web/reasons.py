@@ -14,7 +14,6 @@ from graphkin.construction.normal_component.normal_component import NormalCompon
 from graphkin.construction.velocity.lines_through import PerpendicularThrough
 from graphkin.documents.flattest import OWN
 from graphkin.documents.sentences import SET_ON, TURNING
-from graphkin.drawing.symbol_markup import symbol
 from graphkin.numbers.plane import Line
 
 AGAIN = {
@@ -113,4 +112,4 @@ def fields(drawing: Drawing, step: Step) -> dict[str, str]:
         known |= kind.symbols()
         if isinstance(kind, NormalComponent):
             known |= kind.corner_symbols(drawing, *kind.lettered)
-    return known | {"name": symbol(step.name) if step.name else ""}
+    return known | {"name": drawing.symbol(step.name) if step.name else ""}

@@ -59,13 +59,14 @@ PLANS = {
 
 def meanings(words: Words, sheets: Sequence[ScreenSheet]) -> Iterator[tuple[str, str]]:
     """Each symbol and its meaning, as markup."""
-    yield "*k*_L", words("legend.kL")
+    yield words.signs.in_sentence("*k*_L"), words("legend.kL")
     for sheet in sheets:
         drawing = sheet.drawing
-        scale, rate, turning = PLANS[drawing.kind]
+        *signs, turning = PLANS[drawing.kind]
+        scale, rate = map(drawing.in_signs, signs)
         unit = words(f"table.{drawing.kind}")
         yield scale, words("legend.scale", plan=words(f"sheet.{drawing.kind}"), unit=unit)
-        yield symbol(drawing.pole), words("legend.at_rest")
+        yield drawing.symbol(drawing.pole), words("legend.at_rest")
         steps = [step for _, step, _ in drawing.steps(drawing.plane)]
         arrows = [(step, vector) for step in steps if (vector := plan_vector(step))]
         yield from images(words, arrows, sheet)
@@ -80,20 +81,25 @@ def meanings(words: Words, sheets: Sequence[ScreenSheet]) -> Iterator[tuple[str,
 
 def images(words: Words, arrows: Sequence[Arrow], sheet: ScreenSheet) -> Iterator[tuple[str, str]]:
     """One segment of a point's vector, and one of a relative vector, with their meanings."""
-    steps = sheet.drawing.trace.program.steps
+    drawing, steps = sheet.drawing, sheet.drawing.trace.program.steps
     whole = [(step, vector) for step, vector in arrows if not vector.sign]
     for key, has_pivot in (("legend.image", False), ("legend.relative", True)):
         for step, found in [each for each in whole if bool(each[1].p) is has_pivot][:1]:
             names = {"q": found.q, "p": found.p, "symbol": found.symbol}
-            fields = {key: symbol(name or "o") for key, name in names.items()}
-            yield "".join(symbol(steps[arg].name) for arg in step.args), words(key, **fields)
+            fields = {key: drawing.symbol(name or "o") for key, name in names.items()}
+            yield (
+                "".join(drawing.symbol(steps[arg].name) for arg in step.args),
+                words(key, **fields),
+            )
 
 
 def components(words: Words, arrows: Sequence[Arrow]) -> Iterator[tuple[str, str]]:
     """The components of accelerations by their signs, in the order in which they are drawn."""
     kinds = dict.fromkeys(vector.sign for _, vector in arrows if vector.sign)
     yield from (
-        (symbol(f"a^{kind}"), words(BY_SIGN[kind].legend)) for kind in kinds if kind in BY_SIGN
+        (symbol(f"a^{kind}", signs=words.signs), words(BY_SIGN[kind].legend))
+        for kind in kinds
+        if kind in BY_SIGN
     )
 
 
@@ -219,7 +225,7 @@ def step_page(
     notes on quantities that are asked for but cannot be read off the page. Raises WitnessError when
     the independent route disagrees, and PageError where a drawing does not fit.
     """
-    mechanism = mechanism.spoken(language)
+    mechanism = mechanism.spoken(language).measured
     sheets = screen_sheets(mechanism, language)
     tell_unread(sheets, tell)
     told = telling(sheets)
@@ -277,7 +283,8 @@ def task_page(
 
     ``tell`` receives notes on quantities that are asked for but cannot be read off a drawing.
     """
-    mechanism = mechanism if form else mechanism.spoken(language)  # answers use the scene's names
+    own = mechanism if form else mechanism.spoken(language)  # answers use the scene's names
+    mechanism = own.measured
     sheets = screen_sheets(mechanism, language, "task")
     tell_unread(sheets, tell)
     body = from_template(

@@ -381,7 +381,7 @@ class MoveFinder:
         number = self.arrows.get((tail, tip))
         vector = plan_vector(self.steps[number]) if number is not None else None
         if vector:
-            name = symbol(vector.symbol)
+            name = self.drawing(tip).symbol(vector.symbol)
         elif not name:
             letters = self.picks[ends[0]].name + self.picks[ends[1]].name
             name = vector_of(self.drawing(tip), tail, tip, letters)
@@ -411,7 +411,7 @@ class MoveFinder:
         """The vector of a plan that a step sets on the mechanism."""
         vector = plan_vector(self.steps[number])
         _, tail, tip, *_ = self.steps[number].args
-        return self.arrow(tail, tip, symbol(vector.symbol) if vector else "")
+        return self.arrow(tail, tip, self.drawing(number).symbol(vector.symbol) if vector else "")
 
     def vector(self, number: int) -> str | None:
         """A vector that is known before it is laid off; None for a vector of length zero."""
@@ -426,7 +426,7 @@ class MoveFinder:
         if step.action in LAID_OFF:
             key, value = f"v{self.same.get(others[0], others[0])}", self.values[others[0]]
             component = construction(self.steps[others[0]])
-            name = component.symbol if isinstance(component, Component) else ""
+            name = component.symbol(drawing) if isinstance(component, Component) else ""
             ends = component.shown_between() if isinstance(component, Component) else ()
             on = tuple(end for end in ends if end in self.values and end is not None)
         elif isinstance(kind, LaidOffByRate):
@@ -478,15 +478,15 @@ class MoveFinder:
     def letter(self, number: int) -> str:
         """The letter of a point, or the vector that it ends."""
         step = self.steps[number]
-        if step.name:
-            return symbol(step.name)
         kind, drawing, vector = construction(step), self.drawing(number), ""
+        if step.name:
+            return drawing.symbol(step.name)
         if isinstance(kind, LaidOff):
             if number in drawing.feet and (letter := letter_at(drawing, number)):
                 if kind.is_short(drawing):
-                    return f"{symbol(letter)} + {kind.component.symbol}"
-                return symbol(letter)
-            vector = kind.component.symbol
+                    return f"{drawing.symbol(letter)} + {kind.component.symbol(drawing)}"
+                return drawing.symbol(letter)
+            vector = kind.component.symbol(drawing)
         elif isinstance(kind, LaidOffByRate):
             vector = kind.fields(drawing, step.role)["vector"]
         if not vector:
@@ -522,7 +522,7 @@ class MoveFinder:
         names = [self.picks[name].name for name in inputs]
         kind, drawing = construction(self.steps[number]), self.drawing(number)
         if isinstance(kind, Component) and kind.vector == number:
-            return kind.symbol, kind.symbol
+            return kind.symbol(drawing), kind.symbol(drawing)
         if action in ("perpendicular", "parallel"):
             sign = "⊥" if action == "perpendicular" else "∥"
             return f"{sign} {names[1]} ({names[0]})", self.vector_on(number, kind, names[0])
@@ -543,7 +543,7 @@ class MoveFinder:
         vector = ""
         if isinstance(kind, AboutPivot):
             sign = "^τ" if drawing.kind == "acceleration" else ""
-            vector = symbol(f"{drawing.vector.letter}_{kind.index}{sign}")
+            vector = drawing.symbol(f"{drawing.vector.letter}_{kind.index}{sign}")
         elif isinstance(kind, AlongGuide):
             vector = kind.vector_along(drawing, number)
         return vector or drawing.words("turn.this_line")

@@ -12,9 +12,20 @@ from reportlab.pdfbase import pdfmetrics
 from reportlab.pdfbase.ttfonts import TTFont
 from reportlab.pdfgen.canvas import Canvas
 
-from graphkin.drawing.marks import Arc, CircleMark, LineMark, Mark, Page, Point, Polyline, Text
+from graphkin.drawing.marks import (
+    Arc,
+    CircleMark,
+    LineMark,
+    Mark,
+    Page,
+    Picture,
+    Point,
+    Polyline,
+    Text,
+)
 from graphkin.drawing.richtext import FILES, TextRun, font_file, spaced_runs
 from graphkin.drawing.style import Ink, Style, style_of
+from graphkin.text.errors import NO_WORDS, PageError, Problem, message
 
 MM = 72 / 25.4  # points to the millimetre
 rl_config.useA85 = 0  # compressed streams need no ASCII encoding: smaller and faster
@@ -106,7 +117,7 @@ class PdfPen:
 
     def __init__(self, canvas: Canvas, page: Page, ink: Ink) -> None:
         self.document = canvas._doc  # type: ignore[attr-defined]
-        self.ink = ink
+        self.ink, self.weight = ink, page.weight
         self.top = page.height
         self.line = self.filling = ""
         self.code: list[str] = []
@@ -114,7 +125,7 @@ class PdfPen:
 
     def draw(self, mark: Mark) -> None:
         """Write one mark."""
-        style = style_of(mark.cls, self.ink)
+        style = style_of(mark.cls, self.ink, self.weight)
         if isinstance(mark, Text):
             self.text(mark, style)
         else:
@@ -166,6 +177,27 @@ class PdfPen:
         return self.shown[key]
 
 
+def put_picture(canvas: Canvas, picture: Picture, top: float) -> None:
+    """Draw a picture; an SVG picture as lines and fills, which needs the extra [logo]."""
+    x, y = picture.x * MM, (top - picture.y - picture.height) * MM
+    width, height = picture.width * MM, picture.height * MM
+    if picture.kind == "png":
+        from reportlab.lib.utils import ImageReader
+
+        image = ImageReader(BytesIO(picture.data))
+        canvas.drawImage(image, x, y, width, height, mask="auto")
+        return
+    try:
+        from svglib.svglib import svg2rlg
+    except ImportError:
+        hint = message("pip install 'graphkin[logo]', or save the logo as PNG")
+        found = message("an SVG picture in a PDF needs svglib")
+        raise PageError(Problem("header.logo", found, NO_WORDS, hint)) from None
+    drawn = svg2rlg(BytesIO(picture.data))
+    drawn.scale(width / drawn.width, height / drawn.height)
+    drawn.drawOn(canvas, x, y)
+
+
 def write_pdf(pages: Sequence[Page], ink: Ink = "colour", title: str = "") -> bytes:
     """Write pages as PDF, each in its own true size; the same pages give the same bytes."""
     target = BytesIO()
@@ -188,6 +220,8 @@ def write_pdf(pages: Sequence[Page], ink: Ink = "colour", title: str = "") -> by
         for mark in page.marks:
             pen.draw(mark)
         canvas.addLiteral("\n".join(pen.code))
+        for picture in page.pictures:
+            put_picture(canvas, picture, page.height)
         canvas.showPage()
     canvas.save()
     return target.getvalue()

@@ -48,7 +48,7 @@ def of_tests(name: str) -> Mechanism:
 def report(mechanism: Mechanism) -> str:
     """What check says of the closures."""
     found = choices(mechanism.scene, *mechanism.laid, proving=True)
-    return "\n".join(line for choice in found for line in closure_lines(choice))
+    return "\n".join(line for choice in found for line in closure_lines(choice, mechanism.scene))
 
 
 def counted_by_loops(mechanism: Mechanism) -> int:

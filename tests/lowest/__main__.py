@@ -16,7 +16,7 @@ from collections.abc import Iterator
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[2]
-EXTRAS = ("cad", "class", "cluster", "fast", "read", "studio")
+EXTRAS = ("cad", "class", "cluster", "fast", "logo", "read", "studio")
 NEWEST = (3, 12)
 """The newest Python for which the lowest versions were published."""
 REQUIREMENT = re.compile(r"([\w.-]+)>=([\w.]+)")

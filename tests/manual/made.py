@@ -24,7 +24,9 @@ from graphkin.documents.sheet_documents import drawings_of, language_of, proved
 from graphkin.drawing.style import Ink
 from graphkin.mechanism import Mechanism, load
 from graphkin.scene import scene_files
+from graphkin.scene.house import HEADINGS, HOUSE_KEYS
 from graphkin.studio.panels import MECHANISM, Memory, edges_of, panels
+from graphkin.text.school_signs import NAMES, SCHOOLS
 from graphkin.writers.svg import LETTERING, element, rules
 from tests.manual.kinds import EVERYWHERE, KINDS
 
@@ -88,6 +90,28 @@ def fields_table() -> str:
 def causes_table() -> str:
     """Every slip that is known by name."""
     return table(("cause", "what the student did"), causes())
+
+
+def house_tables() -> str:
+    """Every key of house.toml, a section for each of its tables."""
+    lines: list[str] = []
+    for heading, about in HEADINGS.items():
+        lines += [f"## `[{heading}]`", "", f"{about[0].upper()}{about[1:]}.", ""]
+        lines += ["| key | meaning | example |", "|---|---|---|"]
+        keys = (key for key in HOUSE_KEYS if key.table == heading)
+        lines += [f"| `{key.name}` | {key.words} | `{key.name} = {key.example}` |" for key in keys]
+        lines.append("")
+    return "\n".join(lines)
+
+
+def schools_table() -> str:
+    """The signs of each set, and the books that write them so."""
+    lines = [f"| sign | {' | '.join(SCHOOLS)} |", f"|{'---|' * (len(SCHOOLS) + 1)}"]
+    for name in NAMES:
+        signs = (getattr(school.signs, name) for school in SCHOOLS.values())
+        lines.append(f"| `{name}` | {' | '.join(signs)} |")
+    books = (f"- **{name}**: {school.books}" for name, school in SCHOOLS.items())
+    return "\n".join([*lines, "", *books]) + "\n"
 
 
 def commands() -> str:
@@ -264,5 +288,7 @@ MAKERS = {
     "gallery": gallery,
     "python": python,
     "causes": causes_table,
+    "house": house_tables,
+    "schools": schools_table,
 }
 """The function that writes each part."""

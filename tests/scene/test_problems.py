@@ -60,7 +60,7 @@ CASES = [
     ('"Pump mechanism"', "5", "title", "5", "a text in quotes"),
     ('"Pump mechanism"', '"a\\u202eb"', "title", "'\\u202e'", "printable text"),
     ('"Pump mechanism"', '"a\\u0000b"', "title", "'\\x00'", "printable text"),
-    ('"cm"', '"cn"', "units.length", '"cn"', "one of cm, in, m, mm"),
+    ('"cm"', '"cn"', "units.length", '"cn"', "one of cm, ft, in, m, mm"),
     ('"deg"', '"degree"', "units.angle", '"degree"', "did you mean deg?"),
     (', speed = "rev/min"', "", "units.speed", "no unit of speed", "rev/min"),
     (', speed = "rev/min"', ', speed = "rev/min", mass = "kg"', "units.mass", "unknown key", ""),

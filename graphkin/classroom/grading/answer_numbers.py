@@ -10,6 +10,7 @@ from math import pi
 from graphkin.classroom.grading.graded import BLANK, Answer
 from graphkin.classroom.lab.lab_model import Item
 from graphkin.construction.core.quantities import TURNING
+from graphkin.scene.quantity import LENGTHS
 
 
 def words_in(text: str) -> frozenset[str]:
@@ -162,6 +163,12 @@ UNITS: dict[str, dict[str, float]] = {
     "rad/s²": {"rad/s2": 1, "1/s2": 1, "s-2": 1, "rads-2": 1, "deg/s2": pi / 180},
 }
 """For each field's unit, the factors that convert the units students may write."""
+UNITS |= {
+    f"{length}{per}": {f"{each}{written}": float(size) for each, size in LENGTHS.items()}
+    for length in LENGTHS
+    for per, written in (("/s", "/s"), ("/s²", "/s2"))
+    if length != "m"
+}
 
 
 def read_answer(text: str, item: Item) -> Answer:
@@ -174,7 +181,7 @@ def read_answer(text: str, item: Item) -> Answer:
         return BLANK
     if item.what == "sense":
         return read_sense(text, stripped, item.quantity)
-    return read_number(text, stripped, item.unit)
+    return read_number(text, stripped, item.unit, item.one)
 
 
 def read_sense(text: str, stripped: str, quantity: str) -> Answer:
@@ -186,8 +193,11 @@ def read_sense(text: str, stripped: str, quantity: str) -> Answer:
     return Answer(text, float(known), signed=True)
 
 
-def read_number(text: str, stripped: str, unit: str) -> Answer:
-    """Read a number with a decimal point or comma and an optional unit; ? is an open answer."""
+def read_number(text: str, stripped: str, unit: str, one: float = 1.0) -> Answer:
+    """Read a number with a decimal point or comma and an optional unit; ? is an open answer.
+
+    ``one`` is the factor of a number without a unit.
+    """
     if stripped == OPEN:
         return Answer(text, problem="open")
     found = NUMBER.match(stripped) if len(stripped) <= LONGEST else None
@@ -196,7 +206,7 @@ def read_number(text: str, stripped: str, unit: str) -> Answer:
     rest = stripped[found.end() :]
     written = plain_unit(rest)
     known = UNITS.get(unit, {unit: 1.0})
-    factor = 1.0 if not written else known.get(written)
+    factor = one if not written else known.get(written)
     if factor is None:
         return Answer(text, problem="number" if MISTYPED.search(rest) else "unit")
     digits = found["digits"].replace(",", ".")

@@ -55,7 +55,8 @@ class Book(Struct, dict=True):
 
     def mechanism(self, settings: Mapping[str, str]) -> Mechanism:
         """The mechanism of a variant."""
-        return Mechanism(read_text(self.scene, self.lab.name, settings=dict(settings)))
+        house = self.lab.house
+        return Mechanism(read_text(self.scene, self.lab.name, settings=dict(settings), house=house))
 
     @cached_property
     def usual(self) -> Mechanism:

@@ -118,7 +118,7 @@ def mechanisms(usual: Mechanism, text: str, many: Sequence[Settings]) -> list[Me
         return [
             VariantMechanism(replace(scene, values=values_of(scene, each)), usual) for each in many
         ]
-    texts = (read_text(text, scene.name, settings=dict(each)) for each in many)
+    texts = (read_text(text, scene.name, settings=dict(each), house=scene.house) for each in many)
     return [as_usual(Mechanism(each), usual) for each in texts]
 
 

@@ -179,12 +179,12 @@ def value_words(mark: EarnedMark, words: Words, value: float) -> str:
         return words(SENSES[turning, value > 0]) if value else "0"
     if isnan(value):
         return "–"
-    return words.significant(item.size(value))
+    return words.significant(item.size(value) / item.one)
 
 
 def allowed_words(mark: EarnedMark, words: Words) -> str:
     """The tolerance of a field; empty for a sense."""
-    return "" if mark.item.what == "sense" else words.significant(mark.tolerance, 2)
+    return "" if mark.item.what == "sense" else words.significant(mark.tolerance / mark.item.one, 2)
 
 
 def off_words(mark: EarnedMark, words: Words) -> str:
@@ -194,7 +194,7 @@ def off_words(mark: EarnedMark, words: Words) -> str:
     if abs(mark.off) < NEGLIGIBLE * mark.tolerance:
         return "0"
     sign = "+" if mark.off > 0 else ""
-    return sign + words.significant(mark.off, 2)
+    return sign + words.significant(mark.off / mark.item.one, 2)
 
 
 def why(graded: Graded, mark: EarnedMark, words: Words) -> str:
@@ -424,6 +424,7 @@ def feedback_pages(
                 *page_frame(
                     (fitting(escape(safe(title))), words("feedback.title")),
                     (fitting(name), f"{number}/{len(bodies)}"),
+                    scene.house.header if scene else (),
                 ),
                 *marks,
             ),

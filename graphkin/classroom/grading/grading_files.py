@@ -20,7 +20,7 @@ from graphkin.classroom.grading.standard import Expectation
 from graphkin.classroom.lab.lab_model import Lab
 from graphkin.classroom.printing.file_names import stems
 from graphkin.scene.model import Scene
-from graphkin.text import Words, words
+from graphkin.text import Words
 from graphkin.text.errors import Refusals
 from graphkin.text.tables import csv_text
 from graphkin.writers.pdf import write_pdf
@@ -134,13 +134,13 @@ def tolerances_table(graded: Sequence[Graded], expected: Sequence[Expectation]) 
             key, item = form.key[name], form.item[name]
             share = 100 * allowed.value / abs(key) if key and item.what != "place" else None
             amounts = (allowed.value, allowed.pencil, allowed.ruler)
-            value, pencil, ruler = (f"{amount:.4g}" for amount in amounts)
+            value, pencil, ruler = (f"{amount / item.one:.4g}" for amount in amounts)
             lines.append(
                 (
                     who,
                     name,
                     item.unit,
-                    f"{key:.6g}",
+                    f"{key / item.one:.6g}",
                     value,
                     "" if share is None else f"{share:.2f}",
                     pencil,
@@ -233,7 +233,7 @@ class ReportSettings(Struct, frozen=True):
     def words_for(self, graded: Graded) -> Words:
         """The words of a student's own language."""
         own = graded.taker.spoken
-        return words(own) if own else self.words
+        return self.words.in_language(own) if own else self.words
 
     def title_in(self, language: str) -> str:
         """The lab's title in a language."""

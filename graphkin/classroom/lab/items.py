@@ -30,6 +30,8 @@ from graphkin.construction.core.quantities import (
 from graphkin.drawing.symbol_markup import escape, symbol
 from graphkin.mechanism import Mechanism
 from graphkin.scene.link_points import lettered, point_of
+from graphkin.text import words
+from graphkin.text.school_signs import USUAL, SchoolSigns
 
 GREEK = {"ν": "nu", "τ": "tau", "c": "cor"}
 ARROW = "arrow"
@@ -46,12 +48,21 @@ def items(mechanism: Mechanism, lab: Lab) -> tuple[Item, ...]:
 
 def asked_fields(mechanism: Mechanism) -> dict[str, Item]:
     """The fields that the scene asks for, in the order of its [ask]."""
-    return named(asked(mechanism))
+    return named(printed(mechanism, asked(mechanism)))
 
 
 def all_fields(mechanism: Mechanism) -> dict[str, Item]:
     """Every field that a rubric may name: what is asked, all motions, and each arrow of a plan."""
-    return named([*asked(mechanism), *moving(mechanism), *arrows(mechanism.program)])
+    shown = arrows(mechanism.program, mechanism.scene.sheet.signs)
+    return named(printed(mechanism, [*asked(mechanism), *moving(mechanism), *shown]))
+
+
+def printed(mechanism: Mechanism, found: Iterable[Item]) -> Iterator[Item]:
+    """Items with their units as the sheets print them: in/s for a scene in inches."""
+    unit = words("en", length=mechanism.scene.unit_of_results).unit
+    for item in found:
+        own = item.unit if item.unit == "mm" else unit(item.unit)
+        yield item if own == item.unit else replace(item, unit=own)
 
 
 def named(found: Iterable[Item]) -> dict[str, Item]:
@@ -91,7 +102,7 @@ def asked(mechanism: Mechanism) -> Iterator[Item]:
             yield from vector_items(quantity, point)
     for quantity in RATES:
         for link in scene.links if nothing else names_asked(ask, quantity):
-            yield from rate_items(quantity, link)
+            yield from rate_items(quantity, link, scene.sheet.signs)
     for block in ask.slides:
         yield from slide_items(block, scene.links[block].slides[0].on)
     for quantity in CENTRES:
@@ -110,7 +121,7 @@ def moving(mechanism: Mechanism) -> Iterator[Item]:
     for quantity in RATES:
         for link in mechanism.scene.links:
             if mechanism.gives((quantity.target, link)):
-                yield from rate_items(quantity, link)
+                yield from rate_items(quantity, link, mechanism.scene.sheet.signs)
 
 
 def motion_of(item: Item) -> MotionQuantity:
@@ -127,18 +138,19 @@ def moving_points(mechanism: Mechanism) -> list[str]:
     return list(dict.fromkeys(p for link in links for p in link.points if p not in fixed))
 
 
-def arrows(program: Program) -> Iterator[Item]:
+def arrows(program: Program, signs: SchoolSigns) -> Iterator[Item]:
     """The vectors of the plans, with components, by their symbols."""
     for step in program.steps:
         vector = plan_vector(step)
         if vector is not None and step.plane in UNITS:
-            yield from arrow_items(vector, UNITS[step.plane])
+            yield from arrow_items(vector, UNITS[step.plane], signs)
 
 
-def arrow_items(vector: PlanVector, unit: str) -> Iterator[Item]:
+def arrow_items(vector: PlanVector, unit: str, signs: SchoolSigns = USUAL) -> Iterator[Item]:
     """The segment of an arrow in its plan, and its true size."""
     tail = f"_{GREEK.get(vector.sign, plain(vector.sign))}" if vector.sign else ""
-    name, sign = f"{vector.letter}_{plain(vector.index)}{tail}", symbol(vector.symbol)
+    name = f"{vector.letter}_{plain(vector.index)}{tail}"
+    sign = symbol(vector.symbol, signs=signs)
     own = ARROW, vector.symbol, vector
     yield Item(name, "segment", sign, "mm", *own)
     yield Item(name, "value", sign, unit, *own)
@@ -162,9 +174,9 @@ def vector_items(quantity: MotionQuantity, point: str) -> Iterator[Item]:
     yield Item(name, "value", sign, quantity.unit, what, point)
 
 
-def rate_items(quantity: MotionQuantity, link: str) -> Iterator[Item]:
+def rate_items(quantity: MotionQuantity, link: str, signs: SchoolSigns = USUAL) -> Iterator[Item]:
     """An angular velocity or acceleration, and its sense."""
-    sign = symbol(f"{quantity.letter}_{link}")
+    sign = symbol(f"{quantity.letter}_{link}", signs=signs)
     yield from with_sense(f"{quantity.name}_{plain(link)}", sign, quantity, link)
 
 

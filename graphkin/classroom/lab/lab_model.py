@@ -13,7 +13,8 @@ from msgspec import Struct, field
 from graphkin.classroom.lab.cause_names import GRADES, SHARES
 from graphkin.construction.core.plan_vector import PlanVector
 from graphkin.mechanism import Mechanism
-from graphkin.scene.quantity import Quantity
+from graphkin.scene.house import PLAIN, House
+from graphkin.scene.quantity import LENGTHS, Quantity
 from graphkin.scene.read_scene import read_scene
 
 NUMBER = "number"
@@ -133,7 +134,8 @@ class Rubric(Struct, frozen=True):
 class Lab(Struct, frozen=True, dict=True):
     """A lab: its folder, its scene file, and what ``lab.toml`` states.
 
-    ``text`` is the exact text of lab.toml, for the manifest's hash.
+    ``text`` is the exact text of lab.toml, for the manifest's hash. ``house`` are the conventions
+    of its school.
     """
 
     name: str
@@ -143,6 +145,7 @@ class Lab(Struct, frozen=True, dict=True):
     fair: Fair = Fair()
     rubric: Rubric = Rubric()
     text: str = ""
+    house: House = PLAIN
 
     @cached_property
     def mechanism(self) -> Mechanism:
@@ -151,7 +154,7 @@ class Lab(Struct, frozen=True, dict=True):
 
     def variant(self, settings: Mapping[str, Fraction]) -> Mechanism:
         """The mechanism with some exact data. Raises SceneError."""
-        return Mechanism(read_scene(self.scene, settings))
+        return Mechanism(read_scene(self.scene, settings, self.house))
 
 
 class Item(Struct, frozen=True, dict=True):
@@ -180,6 +183,12 @@ class Item(Struct, frozen=True, dict=True):
     def field(self) -> str:
         """The name of the field in files."""
         return self.beside(self.what)
+
+    @cached_property
+    def one(self) -> float:
+        """One of its unit as it is marked: in SI, but lengths on paper in mm."""
+        length, per, _ = self.unit.partition("/")
+        return float(LENGTHS[length]) if per and length in LENGTHS else 1.0
 
     def beside(self, what: What, axis: str = "") -> str:
         """The name of another field of the same quantity."""

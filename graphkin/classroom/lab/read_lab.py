@@ -29,6 +29,7 @@ from graphkin.scene import scene_files
 from graphkin.scene.expression import UnreadableError
 from graphkin.scene.file_limits import decoded, read_bytes, tables_of
 from graphkin.scene.findings import Findings, Table, listed, near_name, nearest, shown
+from graphkin.scene.house import House, house_beside
 from graphkin.scene.measures import FloatText, quantity
 from graphkin.scene.model import Parameter, Scene
 from graphkin.scene.parameters import optional, out_of_range, plain, rational
@@ -45,15 +46,17 @@ MOST_VALUES = 10**9
 """The most values of a range."""
 
 
-def read_lab(name: str | Path, called: str = "") -> Lab:
+def read_lab(name: str | Path, called: str = "", house: House | None = None) -> Lab:
     """The lab of a shipped lab's name, of a folder with lab.toml, or of that file.
 
     It is named after its folder, unless ``called`` gives a name, as for a copy stored with a class.
+    It has the conventions of the house.toml in its folder unless others are given.
     Raises SceneError with the problems of the scene or, where it has none, with every problem of
     lab.toml.
     """
     folder = find(name)
-    scene = read_scene_of(folder)
+    house = house_beside(folder / LAB) if house is None else house
+    scene = read_scene_of(folder, house)
     try:
         text = decoded(read_bytes(folder / LAB))
         return lab_of(text, folder, scene, called or folder.absolute().name)
@@ -62,10 +65,10 @@ def read_lab(name: str | Path, called: str = "") -> Lab:
         raise SceneError(places) from error
 
 
-def read_scene_of(folder: Path) -> Mechanism:
+def read_scene_of(folder: Path, house: House) -> Mechanism:
     """The mechanism of a lab's scene. Raises SceneError, with the file in each problem."""
     try:
-        return Mechanism(read_scene(folder / SCENE))
+        return Mechanism(read_scene(folder / SCENE, house=house))
     except SceneError as error:
         raise SceneError(placed(problem, SCENE) for problem in error.problems) from error
 
@@ -121,7 +124,8 @@ def lab_of(text: str, folder: Path, mechanism: Mechanism, name: str) -> Lab:
     rubric = read_rubric(top.table("marks"), top.table("marking"), mechanism)
     top.finish()
     findings.stop()
-    return Lab(name, folder, folder / "scene.toml", rule, fair, rubric, text)
+    scene = folder / "scene.toml"
+    return Lab(name, folder, scene, rule, fair, rubric, text, mechanism.scene.house)
 
 
 def read_rule(table: Table, scene: Scene) -> LabRule:

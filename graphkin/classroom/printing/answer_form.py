@@ -37,12 +37,13 @@ def form(
     header: tuple[str, str],
     owner: tuple[str, str],
     pivot: str = "",
+    school: Sequence[str] = (),
 ) -> tuple[Page, ...]:
     """The pages of a form: its fields in order, those in ``compute`` marked as computed.
 
     ``header`` is markup for the left and right of the head, ``owner`` the student's name and opaque
     code. ``pivot`` is the first fixed point, from which places are measured. Points are shown where
-    the rubric gives any.
+    the rubric gives any. ``school`` are the lines of a school's header.
     """
     if not items:
         return ()
@@ -52,7 +53,7 @@ def form(
     room = rows_within(height)
     parts = [rows[i : i + room] for i in range(0, len(rows), room)]
     return tuple(
-        page_of(part, words, header, owner, f"{i}/{len(parts)}", said, height)
+        page_of(part, words, header, owner, f"{i}/{len(parts)}", said, height, school)
         for i, part in enumerate(parts, 1)
     )
 
@@ -113,10 +114,11 @@ def page_of(
     number: str,
     said: Sequence[str],
     height: float,
+    school: Sequence[str],
 ) -> Page:
     """One A4 page."""
     name, code = owner
-    marks: list[Mark] = [*page_frame(header, (escape(f"{name}   {code}"), number))]
+    marks: list[Mark] = [*page_frame(header, (escape(f"{name}   {code}"), number), school)]
     marks += square(code, RIGHT - SIDE - 1, TOP + 1)
     letters = next((h for h in (3.5, 2.5) if extent(escape(name), h)[0] <= BESIDE), SMALL)
     marks.append(Text(LEFT, TOP + 7, escape(name), "caption", letters, name="owner"))

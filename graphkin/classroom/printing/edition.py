@@ -23,6 +23,7 @@ from graphkin.classroom.variants.manifest import COPY, FORMAT, MANIFEST, TABLE, 
 from graphkin.documents.sheet_documents import language_of
 from graphkin.mechanism import Mechanism
 from graphkin.scene.file_limits import whole_file
+from graphkin.scene.house import PLAIN
 from graphkin.scene.read_scene import read_text
 from graphkin.text import LANGUAGES, Words
 from graphkin.text.errors import NO_WORDS, Problem, SceneError, either, message
@@ -35,6 +36,8 @@ if TYPE_CHECKING:
 
 FILES = ("scene.toml", "lab.toml")
 """The files of the lab whose hashes the manifest holds."""
+COPIED = f"{COPY}/"
+"""The beginning of the names of a school's files in the manifest."""
 AGAIN = message("make the folder again with graphkin variants")
 
 
@@ -74,7 +77,7 @@ class Edition(Struct, frozen=True, dict=True):
 
         Raises SceneError for a language that does not exist.
         """
-        mechanism = Mechanism(read_text(self.scene, self.lab.name))
+        mechanism = Mechanism(read_text(self.scene, self.lab.name, house=self.lab.house))
         return language_of(mechanism, language or self.language or None)
 
 
@@ -103,7 +106,8 @@ def read_edition(folder: Path) -> Edition:
         raise SceneError(problems)
     own = beside_ids(folder)
     takers = [replace(each, **own.get(safe(each.student.id), {})) for each in takers]
-    lab = replace(read_lab(folder / COPY), name=str(raw.get("lab", COPY)))
+    house = None if house_files(raw.get("sha256")) else PLAIN
+    lab = replace(read_lab(folder / COPY, house=house), name=str(raw.get("lab", COPY)))
     scene = (folder / COPY / FILES[0]).read_text(encoding="utf-8-sig")
     return Edition(folder, lab, scene, tuple(takers), language)
 
@@ -151,14 +155,20 @@ def tables(folder: Path) -> dict[str, Any]:
     return raw
 
 
+def house_files(hashes: object) -> list[str]:
+    """The files of a school's conventions that the manifest records."""
+    known = hashes if isinstance(hashes, dict) else {}
+    return [name for name in known if name.startswith(COPIED)]
+
+
 def refuse_changed(folder: Path, hashes: object) -> None:
     """Raise SceneError if the copied lab or the table is not the one recorded in the manifest.
 
     A run that was killed, or a person, changed one file and not the other.
     """
     problems = []
-    for name in FILES:
-        path = folder / COPY / name
+    for name in (*FILES, *house_files(hashes)):
+        path = folder / (name if name.startswith(COPIED) else f"{COPIED}{name}")
         try:
             found = sha256(whole_file(path)).hexdigest()
         except OSError as error:

@@ -132,7 +132,8 @@ class PrintRun:
     def note_parts(self) -> None:
         """Record the settings of each part, and a hash of everything that decides its bytes."""
         order = self.order
-        texts = [sha256(text.encode()).hexdigest() for text in (order.scene, order.lab.text)]
+        stated = (order.scene.encode(), order.lab.text.encode(), *order.lab.house.files.values())
+        texts = [sha256(data).hexdigest() for data in stated]
         for one in self.edition.takers:
             language = one.spoken or order.language
             shared = (__version__, order.lab.name, language, order.ink)

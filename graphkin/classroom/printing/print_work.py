@@ -105,8 +105,10 @@ class Sheets:
 
     def __init__(self, order: PrintOrder, taker: Taker) -> None:
         self.lab, self.taker = order.lab, taker
-        scene = read_text(order.scene, order.lab.name, settings=dict(taker.settings))
-        self.mechanism = Mechanism(scene)
+        scene = read_text(
+            order.scene, order.lab.name, settings=dict(taker.settings), house=order.lab.house
+        )
+        self.mechanism = Mechanism(scene).measured
         self.whose: Owner = owner(taker)
         self.words: Words = language_of(self.mechanism, taker.spoken or order.language)
         verdict = proved(self.mechanism, sheet_motion(self.mechanism))
@@ -162,8 +164,10 @@ class Sheets:
         settings = parameters(first.scene, self.words)
         title, name = "; ".join([escape(title_of(first)), *settings]), self.words("form.title")
         fields, points = self.asked()
-        whose, pivot = (self.whose.name, self.whose.code), first.scene.frame.points[:1]
-        return form(fields, points, self.taker.compute, self.words, (title, name), whose, *pivot)
+        whose, pivot = (self.whose.name, self.whose.code), next(iter(first.scene.frame.points), "")
+        school = self.lab.house.header
+        compute = self.taker.compute
+        return form(fields, points, compute, self.words, (title, name), whose, pivot, school)
 
     def asked(self) -> tuple[tuple[Item, ...], dict[str, Fraction]]:
         """The fields of the student's form, and the points of each."""

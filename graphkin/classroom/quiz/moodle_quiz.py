@@ -17,6 +17,7 @@ from xml.etree.ElementTree import Element, SubElement, indent, tostring
 
 from markupsafe import Markup
 from msgspec import Struct
+from msgspec.structs import replace
 
 from graphkin.classroom.form_page import KINDS, first_pivot
 from graphkin.classroom.grading.class_marking import Book
@@ -54,6 +55,12 @@ class Taken(Struct, frozen=True):
     share: Fraction
     told: str
 
+    def in_units(self, one: float) -> Taken:
+        """The answer as a multiple of a unit."""
+        if one == 1 or isinstance(self.answer, str):
+            return self
+        return replace(self, answer=self.answer / one, allowed=self.allowed / one)
+
 
 class Gap(Struct, frozen=True):
     """One field of a question: its points and the answers it accepts, the correct one first."""
@@ -77,7 +84,7 @@ def gaps(marker: Marker, points: Mapping[str, Fraction], words: Words) -> tuple[
         if worth and not isnan(marker.standard.key[item.field]):
             takes = sensed(marker, item, words) if item.what == "sense" else ()
             takes = takes or (*keyed(marker, item, words), *caused(marker, item, ways, words))
-            found.append(Gap(item, worth, tuple(takes)))
+            found.append(Gap(item, worth, tuple(each.in_units(item.one) for each in takes)))
     return tuple(found)
 
 

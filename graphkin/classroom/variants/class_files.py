@@ -59,11 +59,14 @@ def write_class(
     table = csv_text(table_rows(students, salt)).encode("utf-8")
     hashes = {"scene.toml": digest(scene), "lab.toml": digest(rule), TABLE: digest(table)}
     hashes["roster"] = digest(whole_file(roster))
+    house = {f"{COPY}/{name}": data for name, data in lab.house.files.items()}
+    hashes |= {name: digest(data) for name, data in house.items()}
     record = manifest(lab, students, hashes, roster.name, salt, language)
     files = {
         TABLE: table,
         f"{COPY}/scene.toml": scene,
         f"{COPY}/lab.toml": rule,
+        **house,
         MANIFEST: as_text(record).encode("utf-8"),
     }
     return write_all(folder, files, force)

@@ -25,8 +25,8 @@ from graphkin.diagnosis.closures import Choice, choices
 from graphkin.diagnosis.ranges import ClosingRanges, closing, reached_words
 from graphkin.loops.freedom import true_mobility
 from graphkin.mechanism import Mechanism
-from graphkin.scene.model import FRAME, Cam, Driver, Scene, joined_words, link_words
-from graphkin.scene.quantity import SI, exact
+from graphkin.scene.model import FRAME, IMPERIAL, Cam, Driver, Scene, joined_words, link_words
+from graphkin.scene.quantity import LENGTHS, SI, exact
 from graphkin.structure.decomposition import decompose
 from graphkin.structure.driver_count import count, driver_problem
 from graphkin.structure.grashof import FourBar, Loop, SliderCrank, single_loops
@@ -398,7 +398,7 @@ class Checking:
             groups = mechanism.groups
             program = write(mechanism.scene, groups, fitted=False)
         for choice in choices(mechanism.scene, groups, program, proving=True):
-            lines += closure_lines(choice)
+            lines += closure_lines(choice, mechanism.scene)
         stated = any(line.startswith("*") for line in lines)
         legend = ["(* as the scene says)"] if stated else []
         lines = lines or ["nothing to choose"]
@@ -445,7 +445,7 @@ class Checking:
             scales(self.mechanism)
 
 
-def closure_lines(choice: Choice) -> list[str]:
+def closure_lines(choice: Choice, scene: Scene) -> list[str]:
     """Both closures of a dyad, with a mark on the chosen one."""
     of = f"the angle of link {choice.pin}" if choice.is_turned else choice.pin
     lines = [f"{of} of links {listed(choice.links)}:"]
@@ -457,8 +457,10 @@ def closure_lines(choice: Choice) -> list[str]:
         elif choice.is_turned:
             where = f"{degrees(phase(closure.place)) + 0.0:.3f}°"
         else:
-            x, y = (f"{1e3 * part + 0.0:.3f}" for part in (closure.place.real, closure.place.imag))
-            where = f"({x}, {y}) mm"
+            unit = scene.units["length"] if scene.units["length"] in IMPERIAL else "mm"
+            one = 1 / float(LENGTHS[unit])
+            x, y = (f"{one * part + 0.0:.3f}" for part in (closure.place.real, closure.place.imag))
+            where = f"({x}, {y}) {unit}"
         rest = f"then {closure.fails} cannot be drawn" if closure.fails else "the rest closes"
         if closure.unfit:
             rest = f"then link {closure.unfit} does not fit"

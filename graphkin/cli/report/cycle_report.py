@@ -20,7 +20,8 @@ from graphkin.construction.core.quantities import (
 from graphkin.numbers.arithmetic import np
 from graphkin.numbers.plane import Ratio
 from graphkin.scene.model import Closure
-from graphkin.scene.quantity import SI
+from graphkin.scene.quantity import LENGTHS, SI
+from graphkin.text import words
 from graphkin.text.tables import Cell, csv_text, labelled, listed
 
 if TYPE_CHECKING:
@@ -447,7 +448,7 @@ def extremes_words(cycle: Cycle, found: Extremes) -> str:
     """The least and the largest value of one quantity, with the driver's places."""
     measure = found.measure
     if found.is_constant:
-        return f"{measure.label} stays at {in_unit(found.least.value, measure.unit)}"
+        return f"{measure.label} stays at {in_results(cycle, found.least.value, measure.unit)}"
     both = ((found.least, "least"), (found.largest, "largest"))
     words = "; ".join(f"{name} {extreme_words(cycle, e, measure.unit)}" for e, name in both)
     return f"{measure.label}: {words}"
@@ -461,12 +462,17 @@ def extreme_words(cycle: Cycle, found: Extreme, unit: str) -> str:
         sign = "+" if found.value > 0 else "-"
         points = "points" if len(found.places) > 1 else "point"
         return f"{sign}∞ at the dead {points} {letter} = {where}"
-    return f"{in_unit(found.value, unit)} at {letter} = {where}"
+    return f"{in_results(cycle, found.value, unit)} at {letter} = {where}"
 
 
-def in_unit(value: float, unit: str) -> str:
-    """A value with its unit."""
-    return f"{value:.3f}°" if unit == "°" else f"{short(value)} {unit}".rstrip()
+def in_results(cycle: Cycle, value: float, unit: str) -> str:
+    """A value in SI, in the unit of results, with that unit."""
+    if unit == "°":
+        return f"{value:.3f}°"
+    base = cycle.scene.unit_of_results
+    own = words("en", length=base).unit(unit)
+    size = value if own == unit else value / float(LENGTHS[base])
+    return f"{short(size)} {own}".rstrip()
 
 
 def place_words(cycle: Cycle, found: Reached) -> str:

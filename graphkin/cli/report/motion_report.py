@@ -28,35 +28,39 @@ from graphkin.documents.centre_tables import (
 )
 from graphkin.numbers.plane import Ratio
 from graphkin.scene.model import Scene
+from graphkin.text import Words, words
 from graphkin.text.tables import Cell, cleaned, listed, number, table
 
+SPOKEN = words("en")
+"""English, with results in metres."""
 COLUMNS = {"place": ("x", "y"), "vector": ("x", "y", "")}
 """The components of each sort of quantity, the magnitude last."""
-POINT_HEADS = {
-    each.key: [f"{each.letter}{part}, {each.unit}" for part in COLUMNS[each.sort]]
-    for each in OF_POINTS
-}
 
 
 def motion_text(scene: Scene, solution: Solution, found: Record, verdict: Verdict | None) -> str:
-    """Everything in a record, in aligned tables."""
+    """Everything in a record, in aligned tables, in the unit in which the scene is computed."""
+    spoken = words("en", length=scene.base)
     parts = [
         [heading(scene)],
-        points_table(found["points"], solution),
+        points_table(found["points"], solution, spoken),
         turning_table(found["links"], solution),
         centres_table(scene, solution, found["links"]),
-        relative_table(solution, found.get("centres", {})),
-        *(circles_table(found[each.whose], each) for each in CENTRES if each.circle),
-        slides_table(found["slides"]),
-        scale_lines(found["scales"]) if "scales" in found else [],
+        relative_table(solution, found.get("centres", {}), scene.base),
+        *(circles_table(found[each.whose], each, scene.base) for each in CENTRES if each.circle),
+        slides_table(found["slides"], spoken),
+        scale_lines(found["scales"], spoken) if "scales" in found else [],
         [f"witness  {verdict_words(verdict, scene)}", *sure_lines(verdict)],
     ]
     return "\n\n".join("\n".join(lines) for lines in parts if lines)
 
 
-def points_table(points: Mapping[str, Record], solution: Solution) -> list[str]:
+def points_table(points: Mapping[str, Record], solution: Solution, spoken: Words) -> list[str]:
     """Position, velocity and acceleration of each point, with magnitudes."""
-    known = [key for key in POINT_HEADS if any(key in point for point in points.values())]
+    heads = {
+        each.key: [f"{each.letter}{part}, {spoken.unit(each.unit)}" for part in COLUMNS[each.sort]]
+        for each in OF_POINTS
+    }
+    known = [key for key in heads if any(key in point for point in points.values())]
     if not known:
         return []
     every = solution.points.values()
@@ -65,9 +69,9 @@ def points_table(points: Mapping[str, Record], solution: Solution) -> list[str]:
     for name, point in points.items():
         row: list[Cell] = [name]
         for key in known:
-            row += components(point.get(key), biggest[key], len(POINT_HEADS[key]))
+            row += components(point.get(key), biggest[key], len(heads[key]))
         rows.append(row)
-    return table(["point", *(head for key in known for head in POINT_HEADS[key])], rows)
+    return table(["point", *(head for key in known for head in heads[key])], rows)
 
 
 def components(pair: list[float | None] | None, biggest: float, columns: int) -> list[Cell]:
@@ -128,7 +132,8 @@ def centres_table(scene: Scene, solution: Solution, links: Mapping[str, Record])
         ]
         if any(cells):
             rows.append([name, *cells])
-    return table(["link", *(f"{each.words}, {each.unit}" for each in known)], rows) if rows else []
+    heads = ["link", *(f"{each.words}, {scene.base}" for each in known)]
+    return table(heads, rows) if rows else []
 
 
 def words_of(
@@ -146,11 +151,12 @@ def acceleration_of(scene: Scene, solution: Solution, link: str) -> complex | No
     return next((p.acceleration for p in points if p is not None), None)
 
 
-def slides_table(slides: Mapping[str, Record]) -> list[str]:
+def slides_table(slides: Mapping[str, Record], spoken: Words) -> list[str]:
     """Motion of each block along its guide, and the vector that the turning of the guide adds."""
     *along, across = OF_SLIDES
-    heads = [f"{each.words}, {each.unit}" for each in along]
-    heads += [f"{across.words} x, {across.unit}", f"y, {across.unit}"]
+    heads = [f"{each.words}, {spoken.unit(each.unit)}" for each in along]
+    unit = spoken.unit(across.unit)
+    heads += [f"{across.words} x, {unit}", f"y, {unit}"]
     rows: list[list[Any]] = [
         [name, *(slide[each.attribute] for each in along), *slide[across.attribute]]
         for name, slide in slides.items()
@@ -158,7 +164,7 @@ def slides_table(slides: Mapping[str, Record]) -> list[str]:
     return table(["block", *heads], rows) if rows else []
 
 
-def scale_lines(scales: Mapping[str, float | None]) -> list[str]:
+def scale_lines(scales: Mapping[str, float | None], spoken: Words = SPOKEN) -> list[str]:
     """The scale factors of the largest drawing that fits the sheet; those of plans where known."""
     kL, kv, ka = scales["kL"], scales["kv"], scales["ka"]
     assert kL is not None
@@ -166,10 +172,11 @@ def scale_lines(scales: Mapping[str, float | None]) -> list[str]:
     lines = [f"scale    kL = {kL:g}, drawn {drawn}"]
     if kv is None or ka is None:
         return lines
+    v, a = spoken.unit("m/s"), spoken.unit("m/s²")
     return [
         *lines,
-        f"         kv = {number(kv)} m/s per metre of paper, {number(kv / 1000)} m/s per mm",
-        f"         ka = {number(ka)} m/s² per metre of paper, {number(ka / 1000)} m/s² per mm",
+        f"         kv = {number(kv)} {v} per metre of paper, {number(kv / 1000)} {v} per mm",
+        f"         ka = {number(ka)} {a} per metre of paper, {number(ka / 1000)} {a} per mm",
     ]
 
 

@@ -80,7 +80,7 @@ def drawn_at(scales: Scales | None, verdict: Verdict | None) -> Record:
         return {}
     sure = verdict is None or not verdict.unsure
     plans = {"kv": scales.kv, "ka": scales.ka} if sure else {"kv": None, "ka": None}
-    return {"scales": {"kL": scales.kL, **plans}}
+    return {"scales": {"kL": scales.kL * scales.metre, **plans}}
 
 
 def wanted_of(scene: Scene, asked: bool) -> Wanted:

@@ -22,7 +22,6 @@ from graphkin.construction.normal_component.normal_component import (
 )
 from graphkin.construction.plan import ACCELERATION
 from graphkin.construction.velocity.lines_through import PerpendicularThrough, square_to
-from graphkin.drawing.symbol_markup import symbol
 from graphkin.scene.link_points import is_under, lettered
 from graphkin.scene.requests import KLEIN
 from graphkin.structure.pairs import Joint
@@ -35,12 +34,12 @@ class TangentialDirection(PerpendicularThrough, frozen=True, kw_only=True):
 
     def clause(self, drawing: Drawing, role: str) -> str:
         """The clause: through the normal component's end, or its start if it is too short."""
-        fields = {"vector": symbol(f"a_{self.index}^τ"), **self.symbols()}
+        fields = {"vector": drawing.symbol(f"a_{self.index}^τ"), **self.symbols()}
         laid = component_ending_at(drawing.trace.program, self.start)
         if laid is not None and laid.is_short(drawing):
             start = drawing.lettered(laid.start)
             return drawing.words("step.square-to", s=start, **fields)
-        foot = symbol(letter_at(drawing, self.start))
+        foot = drawing.symbol(letter_at(drawing, self.start))
         return drawing.words(f"step.square-to-{'foot' if foot else 'end'}", s=foot, **fields)
 
 

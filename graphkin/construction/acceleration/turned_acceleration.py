@@ -94,7 +94,7 @@ class TurnedAcceleration(LaidOffAboutPivot, GivenVector, EndsComponent, frozen=T
             return {
                 **names,
                 "name": drawing.lettered(self.end),
-                "vector": symbol(f"a_{self.index}" + ("" if whole else "^ν")),
+                "vector": drawing.symbol(f"a_{self.index}" + ("" if whole else "^ν")),
                 "omega": rate,
                 "rate": rate,
                 "drawn": length_drawn(drawing, self.start, self.end),
@@ -103,7 +103,7 @@ class TurnedAcceleration(LaidOffAboutPivot, GivenVector, EndsComponent, frozen=T
         return {
             **names,
             "name": drawing.lettered(self.image),
-            "vector": symbol(f"a_{self.index}^τ"),
+            "vector": drawing.symbol(f"a_{self.index}^τ"),
             "epsilon": rate_words(drawing, self.image, self.epsilon, self.link, "ε"),
             "drawn": length_drawn(drawing, self.end, self.image),
         }
@@ -114,7 +114,7 @@ class TurnedAcceleration(LaidOffAboutPivot, GivenVector, EndsComponent, frozen=T
             return ""
         key = "none" if has_no_length(drawing, self.end) else "computed"
         fields = self.fields(drawing, role)
-        if foot := symbol(letter_at(drawing, self.end)) if key == "computed" else "":
+        if foot := drawing.symbol(letter_at(drawing, self.end)) if key == "computed" else "":
             fields["vector"] = EQUALS.join((NOTHING.join((fields["s"], foot)), fields["vector"]))
         return drawing.words(f"step.lay-off-{key}", **fields)
 
@@ -131,7 +131,7 @@ class TurnedAcceleration(LaidOffAboutPivot, GivenVector, EndsComponent, frozen=T
         assert self.image is not None
         alone = has_no_length(drawing, self.end)
         if not alone:
-            fields["s"] = symbol(letter_at(drawing, self.end))
+            fields["s"] = drawing.symbol(letter_at(drawing, self.end))
         if has_no_length(drawing, self.image):
             key = "falls" if fields["s"] else "falls-end"
         else:

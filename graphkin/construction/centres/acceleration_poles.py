@@ -20,7 +20,6 @@ from graphkin.construction.core.program import Part, Plane
 from graphkin.construction.core.quantities import EPSILON
 from graphkin.construction.core.vocabulary import Action, action
 from graphkin.construction.plan import omega_of
-from graphkin.drawing.symbol_markup import symbol
 from graphkin.numbers.arithmetic import Point, Real, at
 from graphkin.numbers.plane import Line, Ratio
 
@@ -91,13 +90,13 @@ class AccelerationPole(TwoPointCentre, frozen=True, kw_only=True):
         if drawing.place(value) is not None:
             super().mark_far(canvas)
         elif not drawing.is_everywhere(value):
-            fields = {"name": symbol(self.name), "k": self.link}
+            fields = {"name": drawing.symbol(self.name), "k": self.link}
             canvas.note(drawing.words("page.pole_at_infinity", **fields))
 
     def fields(self, drawing: Drawing) -> dict[str, str]:
         """The fields of a sentence, with the image of the bar in the plan."""
         images = dict(zip("ab", (drawing.lettered(each) for each in self.images), strict=False))
-        figure = symbol(drawing.pole) + "".join(images.values())
+        figure = drawing.symbol(drawing.pole) + "".join(images.values())
         return super().fields(drawing) | images | {"figure": figure}
 
 

@@ -87,7 +87,7 @@ class VelocityNormal(LineToCentre, frozen=True, kw_only=True):
     def clause(self, drawing: Drawing, role: str) -> str:
         """The clause for the perpendicular to the velocity at the point."""
         name = lettered(self.point)
-        fields = {"p": symbol(name), "v": symbol(f"v_{name}")}
+        fields = {"p": drawing.symbol(name), "v": symbol(f"v_{name}")}
         return drawing.words("step.velocity-normal", **fields)
 
     def places(self, drawing: Drawing) -> Places:
@@ -290,7 +290,7 @@ def far_words(drawing: Drawing, value: Ratio, name: str, point: str) -> str:
     """The words for a centre that lies off the sheet or at infinity."""
     words, way = drawing.words, way_to(value)
     angle = words.fixed(degrees(phase(way)) % 360, 1)
-    fields = {"name": symbol(name), "p": symbol(lettered(point)), "angle": angle}
+    fields = {"name": drawing.symbol(name), "p": symbol(lettered(point)), "angle": angle}
     if drawing.place(value) is None:
         return words("page.centre_at_infinity", **fields)
     fields["unit"] = drawing.scene.units["length"]

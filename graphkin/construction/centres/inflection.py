@@ -126,8 +126,8 @@ class InflectionPoint(LineToCentre, frozen=True, kw_only=True):
         values = drawing.trace.values
         return drawing.words(
             "step.inflection-point",
-            name=symbol(self.letter),
-            p=symbol(self.name),
+            name=drawing.symbol(self.letter),
+            p=drawing.symbol(self.name),
             a=symbol(f"a_{self.name}"),
             omega=symbol(f"ω_{self.link}"),
             drawn=drawn_amount(drawing, abs(values[self.found] - values[self.ray.place])),
@@ -135,7 +135,7 @@ class InflectionPoint(LineToCentre, frozen=True, kw_only=True):
 
     def clause(self, drawing: Drawing, role: str) -> str:
         """The clause for the perpendicular at the point."""
-        fields = {"w": symbol(self.letter), "p": symbol(self.name)}
+        fields = {"w": drawing.symbol(self.letter), "p": drawing.symbol(self.name)}
         return drawing.words("step.inflection-square", **fields)
 
     def places(self, drawing: Drawing) -> Places:

@@ -132,7 +132,7 @@ class InstantCentre(TwoPointCentre, SaidInParts, frozen=True, kw_only=True):
 
     def fields(self, drawing: Drawing) -> dict[str, str]:
         """The fields of a sentence, with the point at rest."""
-        return super().fields(drawing) | {"rest": symbol(lettered(self.resting(drawing)))}
+        return super().fields(drawing) | {"rest": drawing.symbol(lettered(self.resting(drawing)))}
 
 
 def set_before(drawing: Drawing) -> Mapping[int, int]:

@@ -169,7 +169,7 @@ class CurvatureEdge(LineToCentre, frozen=True, kw_only=True):
     def clause(self, drawing: Drawing, role: str) -> str:
         """The clause for the perpendicular at the tip."""
         names = [drawing.trace.program.steps[each].name for each in (self.foot, self.tip)]
-        return drawing.words("step.curvature-edge", tip=symbol(names[1]), side=bar(*names))
+        return drawing.words("step.curvature-edge", tip=drawing.symbol(names[1]), side=bar(*names))
 
     def places(self, drawing: Drawing) -> Places:
         """The tip."""
@@ -180,7 +180,7 @@ def scales_of_triangle(drawing: Drawing) -> str:
     """The condition that makes v²/a a length of the mechanism: (5·kv)² = kL·3·ka."""
     m = drawing.scales.larger
     enlarged = "*k*_v" if m == 1 else f"{figure(drawing, m)}·*k*_v"
-    return f"{squared(enlarged)} = *k*_L·{laid_times(drawing)}*k*_a"
+    return drawing.in_signs(f"{squared(enlarged)} = *k*_L·{laid_times(drawing)}*k*_a")
 
 
 class PathCentre(Centre, frozen=True, kw_only=True):
@@ -269,7 +269,7 @@ class PathCentre(Centre, frozen=True, kw_only=True):
         if role != "found" or self.oddity(drawing):
             return
         words, p, size = drawing.words, letter(self.point), self.component(drawing)
-        across, speed = symbol(f"a_{p}^ν"), abs(self.velocity(drawing))
+        across, speed = drawing.symbol(f"a_{p}^ν"), abs(self.velocity(drawing))
         measured = drawn_in(drawing, Plane.ACCELERATIONS, size)
         read = as_read(drawing, measured, scale_of(drawing, Plane.ACCELERATIONS) / 1000)
         remark = words("calculation.across_path", a=symbol(f"a_{p}"), v=symbol(f"v_{p}"))
@@ -283,7 +283,11 @@ class PathCentre(Centre, frozen=True, kw_only=True):
             f"{v}^2/{over}",
             result,
             "m",
-            words("calculation.radius_drawn", bar=symbol(p) + symbol(self.name), drawn=drawn),
+            words(
+                "calculation.radius_drawn",
+                bar=symbol(p) + drawing.symbol(self.name),
+                drawn=drawn,
+            ),
         )
 
 

@@ -185,7 +185,7 @@ class RelativeCentre(PairCentre, frozen=True, kw_only=True):
         if drawing.is_everywhere(value) or not way or not same:
             super().mark_far(canvas)
             return
-        text = f"{symbol(self.name)} = {same}"
+        text = f"{drawing.symbol(self.name)} = {same}"
         canvas.away(value.start, way, text, ray=self.needs_ray(canvas), headed=False)
 
     def needs_ray(self, canvas: Canvas) -> bool:
@@ -219,7 +219,7 @@ class RelativeCentre(PairCentre, frozen=True, kw_only=True):
         if len(lines) != 2 or not self.is_by_hand(drawing) or self.oddity(drawing):
             return ""
         pairs = ("".join(map(symbol, line.letters)) for line in lines)
-        same, name = self.equal(drawing), symbol(self.name)
+        same, name = self.equal(drawing), drawing.symbol(self.name)
         called = f"{name} = {same}" if same else name
         return f"{called} ({drawing.words('list_mark').join(pairs)})"
 

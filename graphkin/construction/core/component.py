@@ -26,10 +26,9 @@ from graphkin.construction.core.program import Effect, Part, Plane, Program
 from graphkin.construction.core.relation import Relation
 from graphkin.construction.core.run import Trace
 from graphkin.construction.core.segments import TINY, is_short, letter_at
-from graphkin.drawing.symbol_markup import symbol
 from graphkin.numbers.arithmetic import smaller
 from graphkin.scene.model import Scene
-from graphkin.text.markup import EQUALS, NOTHING
+from graphkin.text.markup import EQUALS, NOTHING, Markup
 
 
 class Size(Struct, frozen=True):
@@ -103,9 +102,9 @@ class Component(Construction, frozen=True, kw_only=True):
         """The name of the component: a, its index, its sign."""
         return f"a_{self.index}^{self.sign}"
 
-    @property
-    def symbol(self) -> str:
-        return symbol(self.name)
+    def symbol(self, drawing: Drawing) -> Markup:
+        """Its symbol with the signs of a sheet."""
+        return drawing.symbol(self.name)
 
     @classmethod
     def cause(cls, scene: Scene) -> str:
@@ -142,7 +141,7 @@ class Component(Construction, frozen=True, kw_only=True):
     def left_out(self, drawing: Drawing) -> str:
         """The text for a component too short to be drawn: its formula and its drawn length."""
         drawn = plan_amount(drawing, drawing.plane, self.size(drawing))
-        return EQUALS.join((self.symbol, self.formula(drawing))) + f" ({drawn})"
+        return EQUALS.join((self.symbol(drawing), self.formula(drawing))) + f" ({drawn})"
 
     @abstractmethod
     def sentence(self, drawing: Drawing, *, first: bool) -> Wording:
@@ -236,7 +235,7 @@ class TriangleComponent(Component, frozen=True, kw_only=True):
         """The symbols of the triangle's corners by role, as the sheet writes them."""
         steps = drawing.trace.program.steps
         names = {role: steps[getattr(self, role)].name for role in roles}
-        return {role: symbol(names[role], self.letter(drawing, role)) for role in roles}
+        return {role: drawing.symbol(names[role], self.letter(drawing, role)) for role in roles}
 
     @abstractmethod
     def corner_letter(self, role: str) -> str:
@@ -303,16 +302,16 @@ class LaidOff(EndsComponent, frozen=True, kw_only=True):
             start = drawing.trace.program.steps[before.start]
         key = self.component.laid_off_key
         key = f"lay-back-{key}" if self.back else f"lay-off-{key}" if key else "lay-off"
-        fields = {**self.symbols(), "s": symbol(start.name)}
+        fields = {**self.symbols(), "s": drawing.symbol(start.name)}
         return drawing.words(f"step.{key}", vector=self.segment(drawing, fields["s"]), **fields)
 
     def segment(self, drawing: Drawing, start: str) -> str:
         """The symbol of the component, after its segment if the end has a letter of its own."""
-        foot = symbol(letter_at(drawing, self.corner))
+        foot = drawing.symbol(letter_at(drawing, self.corner))
         if foot in ("", start):
-            return self.component.symbol
+            return self.component.symbol(drawing)
         ends = (foot, start) if self.back else (start, foot)
-        return EQUALS.join((NOTHING.join(ends), self.component.symbol))
+        return EQUALS.join((NOTHING.join(ends), self.component.symbol(drawing)))
 
     def sentence(self, drawing: Drawing) -> str:
         """The sentence where only a vector along a guide remains, to a point that is known.
@@ -326,9 +325,9 @@ class LaidOff(EndsComponent, frozen=True, kw_only=True):
             return ""
         if not all(user.arrow or user.part is Part.RESULT for user in users):
             return ""
-        end = symbol(steps[left[0].args[1]].name)
-        fields = {"s": drawing.lettered(self.start), "r": symbol(left[0].name)}
-        foot = symbol(letter_at(drawing, self.corner)) or fields["s"]
+        end = drawing.symbol(steps[left[0].args[1]].name)
+        fields = {"s": drawing.lettered(self.start), "r": drawing.symbol(left[0].name)}
+        foot = drawing.symbol(letter_at(drawing, self.corner)) or fields["s"]
         vector = self.segment(drawing, fields["s"])
         return self.component.laid_alone(drawing, q=end, k=foot, c=vector, **fields)
 

@@ -29,11 +29,12 @@ from graphkin.drawing.symbol_markup import symbol
 from graphkin.numbers.plane import Circle, Line, Ratio, Vector, cross
 from graphkin.scene.model import FRAME, Scene, Slide
 from graphkin.text import Words
+from graphkin.text.markup import Markup
 
 if TYPE_CHECKING:
     from graphkin.drawing.field import Field
 
-METRES = {"mm": 0.001, "cm": 0.01, "m": 1.0, "in": 0.0254}
+METRES = {"mm": 0.001, "cm": 0.01, "m": 1.0, "in": 0.0254, "ft": 0.3048}
 """Metres in each unit in which a scene may write lengths."""
 ENDLESS = 1e9
 """A centre this many times the mechanism's size away counts as at infinity."""
@@ -229,9 +230,17 @@ class Drawing(Struct, frozen=True, dict=True):
             if (hand := steps[number].by_hand) is not None
         }
 
+    def symbol(self, name: str, short: str = "") -> Markup:
+        """The symbol of a name with the signs of this sheet."""
+        return symbol(name, short, self.words.signs)
+
+    def in_signs(self, markup: str) -> str:
+        """Markup written with the usual signs of scale factors and rates, with this sheet's."""
+        return self.words.signs.in_sentence(markup)
+
     def lettered(self, number: int) -> str:
         """The letter of a step, as markup."""
-        return symbol(self.trace.program.steps[number].name)
+        return self.symbol(self.trace.program.steps[number].name)
 
     def number_of(self, step: Step) -> int:
         return self.numbers[id(step)]
@@ -342,7 +351,7 @@ class Drawing(Struct, frozen=True, dict=True):
 
     def length(self, metres: float) -> float:
         """A length in the scene's own unit."""
-        return metres / METRES[self.scene.units["length"]]
+        return metres / self.scene.unit_length
 
     def on_paper(self, metres: float) -> OnPaper:
         """The drawn length of a length of the mechanism."""

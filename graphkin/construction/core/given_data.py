@@ -167,8 +167,7 @@ def spelled(words: Words, text: str) -> str:
 
 def law(scene: Scene, words: Words, quantity: Quantity) -> str:
     """The expression of a quantity with its unit: 15·n°, (30 + 2·n) rev/min."""
-    text, unit = expression(scene, words, quantity, values=False), quantity.unit
-    unit = words(f"unit.{unit}") if words.has(f"unit.{unit}") else unit
+    text, unit = expression(scene, words, quantity, values=False), unit_words(words, quantity.unit)
     bare = re.sub(r"\([^()]*\)", "", text)
     text = f"({text})" if re.search(r"[^^(][+−-]", bare) else text
     return f"{text}{'' if unit == '°' else ' '}{unit}"
@@ -205,14 +204,14 @@ def unit_of(scene: Scene, name: str) -> str:
         return scene.units["angle"]
     fixed = name in scene.parameters and scene.parameters[name].minimum is None
     kinds = {
-        quantity.unit.split("/")[0] in LENGTHS
+        quantity.written_unit.split("/")[0] in LENGTHS
         for quantity in quantities(scene)
         if name in quantity.uses() and quantity.unit and slope_of(scene, quantity, name)
     }
     if not fixed and len(kinds) > 1:
         return ""
     units = {
-        quantity.unit
+        quantity.written_unit
         for quantity in quantities(scene)
         if name in quantity.uses()
         and (grows_alike(scene, quantity, name) or (fixed and is_multiple(scene, quantity, name)))
@@ -234,7 +233,7 @@ def grows_alike(scene: Scene, quantity: Quantity, name: str) -> bool:
 def is_multiple(scene: Scene, quantity: Quantity, name: str) -> bool:
     """Whether a length is proportional to a parameter."""
     slope = slope_of(scene, quantity, name)
-    if slope is None or quantity.unit not in LENGTHS:
+    if slope is None or quantity.written_unit not in LENGTHS:
         return False
     whole = float(quantity.number(scene.values))
     value = float(Fraction(str(scene.values[name])))
@@ -292,7 +291,12 @@ def which_way(drawing: Drawing, link: Link, slide: Slide) -> str:
         fields = {"side": words(f"page.{nearest_side(line[1] * branch.way)}")}
         if found.name == link.points[0]:
             return words("page.way", pivot=symbol(found.centre), **fields)
-        return words("page.way_of", pin=symbol(found.name), pivot=symbol(found.centre), **fields)
+        return words(
+            "page.way_of",
+            pin=symbol(found.name),
+            pivot=symbol(found.centre),
+            **fields,
+        )
     if is_led(drawing, link, slide):
         p, q = (symbol(point) for point in slide.along or ())
         key = "half_line" if branch.way > 0 else "half_line_back"
@@ -377,7 +381,7 @@ def module(scene: Scene, words: Words, wheel: Wheel) -> str:
     """The module of a gear: the diameter of its pitch circle over its number of teeth."""
     assert wheel.radius is not None and wheel.teeth is not None
     size = 2 * wheel.radius.number(scene.values) / wheel.teeth.number(scene.values)
-    return f"{words.decimal(shortest(size))} {wheel.radius.unit}"
+    return f"{words.decimal(shortest(size))} {wheel.radius.written_unit}"
 
 
 def tracks(drawing: Drawing) -> Iterator[str]:
@@ -608,7 +612,10 @@ def cams(drawing: Drawing) -> Iterator[str]:
         if cam.carrier != FRAME and not cam.slides:
             yield words("page.cam_seen", g=fields["g"], c=escape(cam.carrier))
         if cam.conjugate:
-            radius, at = quantity_text(scene, words, cam.conjugate.roller), symbol(cam.conjugate.at)
+            radius, at = (
+                quantity_text(scene, words, cam.conjugate.roller),
+                symbol(cam.conjugate.at),
+            )
             yield words("page.cam_conjugate", radius=radius, p=at, **fields)
         if cam.slopes:
             points = cam_points(scene, words, cam)
@@ -673,7 +680,7 @@ def of_driver(
     steady = driver.acceleration.is_zero()
     rates = [(speed_symbol(driver), driver.speed, words("page.constant") if steady else "")]
     if not steady:
-        rate = "*ε*" if driver.kind == "turn" else "*a*"
+        rate = words.signs.in_sentence("*ε*") if driver.kind == "turn" else "*a*"
         rates.append((f"{rate}_{{{driver_index(driver)}}}", driver.acceleration, ""))
     for name, quantity, constant in rates:
         if not solved and is_derived(quantity):
@@ -729,7 +736,7 @@ def fixed_points(scene: Scene, words: Words) -> Iterator[Datum]:
     """The coordinates of the frame's points."""
     for placing in scene.frame.placings:
         if isinstance(placing, At):
-            place = f"{place_of(scene, words, placing)} {placing.x.unit}"
+            place = f"{place_of(scene, words, placing)} {placing.x.written_unit}"
             yield Datum(name=symbol(placing.point), value=place, sign=" ")
 
 
@@ -744,7 +751,7 @@ def plates(drawing: Drawing) -> Iterator[Datum]:
                 f"{symbol(placing.point)} {place_of(scene, words, placing)}" for placing in places
             )
             on_link = words("page.on_link", k=escape(link.name))
-            yield Datum(f"{points} {places[0].x.unit}, {on_link}")
+            yield Datum(f"{points} {places[0].x.written_unit}, {on_link}")
         for placing in link.placings:
             point = symbol(placing.point)
             if isinstance(placing, Polar):

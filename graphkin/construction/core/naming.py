@@ -67,7 +67,7 @@ def vector_of(drawing: Drawing, tail: int, tip: int, default: str = "") -> str:
     """The vector between two points of a plan, as markup."""
     arrow = arrow_of(drawing, tail, tip)
     found = plan_vector(arrow) if arrow else None
-    return symbol(found.symbol) if found else default
+    return drawing.symbol(found.symbol) if found else default
 
 
 def scale_of(drawing: Drawing, plane: Plane) -> float:
@@ -78,8 +78,10 @@ def scale_of(drawing: Drawing, plane: Plane) -> float:
 
 
 def length_scale(drawing: Drawing) -> str:
-    """kL in metres per millimetre of paper, the unit in which lengths and scales are printed."""
-    return drawing.words.decimal(digits(drawing.scales.kL / 1000))
+    """kL in lengths of results per millimetre of paper, with six digits where it is not round."""
+    scale = drawing.scales.kL / 1000
+    exact = drawing.scales.metre == 1
+    return drawing.words.decimal(digits(scale) if exact else f"{scale:.6g}")
 
 
 def drawn_in(drawing: Drawing, plane: Plane, size: float) -> OnPaper:
@@ -104,10 +106,14 @@ def rate_symbol(drawing: Drawing, number: int, letter: str = "ω", link: str = "
     """The symbol of an angular velocity or acceleration, by its step or its link, as markup."""
     step = drawing.trace.program.steps[number]
     if step.name in drawing.scene.links:
-        return symbol(f"{letter}_{turning_with(drawing, step.name)}")
+        return drawing.symbol(f"{letter}_{turning_with(drawing, step.name)}")
     if isinstance(step.of, Drive):
-        return symbol(f"{letter}_{drawing.scene.drivers[step.of.driver].link}")
-    return symbol(f"{letter}_{turning_with(drawing, link)}") if link else f"*{letter}*"
+        return drawing.symbol(f"{letter}_{drawing.scene.drivers[step.of.driver].link}")
+    return (
+        drawing.symbol(f"{letter}_{turning_with(drawing, link)}")
+        if link
+        else drawing.symbol(letter)
+    )
 
 
 def turning_with(drawing: Drawing, link: str) -> str:
@@ -201,13 +207,13 @@ def place(
     The coordinates are printed as the scene gives them or, ``on_paper``, as drawn.
     """
     if isinstance(through, str):
-        return symbol(through)
+        return drawing.symbol(through)
     words, link = drawing.words, drawing.scene.link(on)
     lean, away, pin = leaning(drawing, link), metres(drawing, through), ""
     if lean is not None and link.points:
         start = next(p for p in link.placings if isinstance(p, At) and p.point == link.points[0])
         away, pin = (away - metres(drawing, (start.x, start.y))) * lean, start.point
-    unit = "mm" if on_paper else through[0].unit
+    unit = "mm" if on_paper else through[0].written_unit
     if on_paper:
         x, y = (in_mm(words, drawing.on_paper(part)) for part in (away.real, away.imag))
     elif pin:

@@ -239,11 +239,11 @@ def name_point(
         apart = hypot(x - at[0], y - at[1])
         if apart < TINY:
             label, joint = board.labels[i], "≡" if apart < SAME else "≈"
-            letters = (*label.letters, SharedLetter(name, symbol(name), f" {joint} "))
+            letters = (*label.letters, SharedLetter(name, plot.drawing.symbol(name), f" {joint} "))
             board.labels[i] = label.of_letters(letters)
             return
     board.lettered[len(board.labels)] = at
-    letters = (SharedLetter(name, symbol(name)),)
+    letters = (SharedLetter(name, plot.drawing.symbol(name)),)
     label = Label("", look, at, height, "", number, priority=2, radius=radius)
     board.labels.append(label.of_letters(letters))
 
@@ -257,7 +257,7 @@ def put_arrow(plot: Plot, number: int, step: Step, value: Any) -> None:
         plot.board.marks += arrow(tail, tip, cls, step.name, number)
     vector = plan_vector(step)
     assert vector is not None
-    name, short = symbol(vector.symbol), length < SHORT
+    name, short = plot.drawing.symbol(vector.symbol), length < SHORT
     if length < TINY:
         note_tiny(plot, name, OnPaper(length))
         return
@@ -377,7 +377,16 @@ class PaperCanvas(Struct, frozen=True):
         short = hypot(end[0] - start[0], end[1] - start[1]) < SHORT
         subject = middle(start, end) if short else (start, end)
         self.plot.board.labels.append(
-            Label(symbol(name), look, subject, 2.5, name, self.number, led=short, spare=True)
+            Label(
+                self.drawing.symbol(name),
+                look,
+                subject,
+                2.5,
+                name,
+                self.number,
+                led=short,
+                spare=True,
+            )
         )
 
     @stroke
@@ -386,7 +395,9 @@ class PaperCanvas(Struct, frozen=True):
         place, own = self.plot.field(at), self.step.name
         self.circled(place, "point construction", DOT)
         self.plot.board.labels.append(
-            Label(symbol(name), "construction", place, 2.5, own, self.number, radius=DOT)
+            Label(
+                self.drawing.symbol(name), "construction", place, 2.5, own, self.number, radius=DOT
+            )
         )
 
     @stroke

@@ -17,7 +17,7 @@ from graphkin.construction.core.program import Plane, Target
 from graphkin.numbers.arithmetic import Point, Real
 from graphkin.numbers.plane import Ratio
 from graphkin.scene.model import Ask, Scene
-from graphkin.scene.quantity import Quantity
+from graphkin.scene.quantity import Quantity, plain_unit
 from graphkin.text import Words
 
 KINDS = ("position", "velocity", "acceleration")
@@ -296,6 +296,7 @@ def quantity_text(scene: Scene, words: Words, quantity: Quantity) -> str:
 
 def unit_words(words: Words, unit: str) -> str:
     """A unit of a scene as printed."""
+    unit = plain_unit(unit)
     return words(f"unit.{unit}") if words.has(f"unit.{unit}") else unit
 
 

@@ -8,7 +8,6 @@ from graphkin.construction.core.plan_vector import plan_vector
 from graphkin.construction.core.program import Plane, Step
 from graphkin.construction.core.quantities import in_mm
 from graphkin.construction.core.vocabulary import join
-from graphkin.drawing.symbol_markup import symbol
 from graphkin.text.markup import NOTHING
 
 TINY = 0.5
@@ -42,7 +41,7 @@ def segment_of(drawing: Drawing, step: Step) -> str:
         ends = [letter_at(drawing, number) for number in step.args]
         if vector and vector.foot:
             ends[0 if vector.back else 1] = vector.foot
-    return NOTHING.join(symbol(end) for end in ends) if all(ends) else ""
+    return NOTHING.join(drawing.symbol(end) for end in ends) if all(ends) else ""
 
 
 def letter_at(drawing: Drawing, number: int) -> str:

@@ -72,7 +72,7 @@ class DrivenSlide(AlongGuide, LaidOffByRate, frozen=True, kw_only=True):
         """The ends, the guide, the drawn length and the sense, for the sentences."""
         return {
             **self.symbols(),
-            "s": symbol(letter_at(drawing, end_before(drawing, self.start))),
+            "s": drawing.symbol(letter_at(drawing, end_before(drawing, self.start))),
             "name": drawing.lettered(self.image),
             "guide": self.way(drawing),
             "vector": self.vector_along(drawing, self.image) or self.relative(drawing),
@@ -87,7 +87,9 @@ class DrivenSlide(AlongGuide, LaidOffByRate, frozen=True, kw_only=True):
 
     def relative(self, drawing: Drawing) -> str:
         """The point's motion relative to the guide, if no vector of the plan has its name."""
-        return symbol(f"{drawing.vector.letter}_{''.join(self.slider(drawing, self.point))}")
+        return drawing.symbol(
+            f"{drawing.vector.letter}_{''.join(self.slider(drawing, self.point))}"
+        )
 
     def point_sentence(self, drawing: Drawing, role: str) -> str:
         """How the motion is laid off; if it is zero, why the point is on the previous one."""
@@ -153,7 +155,7 @@ class DrivenSlide(AlongGuide, LaidOffByRate, frozen=True, kw_only=True):
         if self.image in drawing.auxiliary:
             yield motion
             return
-        default = symbol(f"{drawing.vector.letter}_{self.point}")
+        default = drawing.symbol(f"{drawing.vector.letter}_{self.point}")
         yield Relation(
             vector_of(drawing, self.start, self.image, default),
             rate,

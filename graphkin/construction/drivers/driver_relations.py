@@ -48,7 +48,7 @@ def of_driver(drawing: Drawing, driver: Driver, *, accelerated: bool) -> Iterato
     """Position and speed from the parameters, angular velocity, and motion of the driven pin."""
     words, scene = drawing.words, drawing.scene
     index = f"_{{{driver_index(driver)}}}"
-    rate = "*ε*" if driver.kind == "turn" else "*a*"
+    rate = drawing.in_signs("*ε*") if driver.kind == "turn" else "*a*"
     for letter, quantity in (
         (angle_symbol(scene, driver), driver.position),
         (speed_symbol(driver), driver.speed),
@@ -87,7 +87,7 @@ def of_driver(drawing: Drawing, driver: Driver, *, accelerated: bool) -> Iterato
     elif driver.speed.unit == "deg/s":
         yield in_radians(drawing, f"*ω*{index}", driver.speed, "rad/s")
     if driver.acceleration.unit == "deg/s²" and not driver.acceleration.is_zero():
-        yield in_radians(drawing, f"*ε*{index}", driver.acceleration, "rad/s^2")
+        yield in_radians(drawing, drawing.in_signs(f"*ε*{index}"), driver.acceleration, "rad/s^2")
     if driver.against == FRAME:
         for p, q in driven_bars(drawing, driver):
             yield from of_pin(drawing, driver, p, q, accelerated=accelerated)
@@ -139,7 +139,7 @@ def of_pin(
     yield laid(symbol(f"v_{q}"), f"*ω*{index}·{line}", f"{w}·{bar_length}", speed, "m/s", square)
     if accelerated:
         yield laid(
-            symbol(f"a_{q}" if steady else f"a_{q}^ν"),
+            drawing.symbol(f"a_{q}" if steady else f"a_{q}^ν"),
             f"*ω*{index}^2·{line}",
             f"{squared(w)}·{bar_length}",
             answer(drawing, omega * omega * length),
@@ -148,8 +148,8 @@ def of_pin(
         )
     if accelerated and not steady:
         yield laid(
-            symbol(f"a_{q}^τ"),
-            f"*ε*{index}·{line}",
+            drawing.symbol(f"a_{q}^τ"),
+            drawing.in_signs(f"*ε*{index}·{line}"),
             f"{figure(drawing, epsilon)}·{bar_length}",
             answer(drawing, epsilon * length),
             "m/s^2",
@@ -162,7 +162,7 @@ def of_scales(drawing: Drawing) -> Iterator[Relation]:
     words, scales = drawing.words, drawing.scales
     number = length_scale(drawing)
     yield Relation(
-        "*k*_L",
+        drawing.in_signs("*k*_L"),
         "",
         "",
         number,
@@ -188,22 +188,25 @@ def plan_scales(drawing: Drawing) -> Iterator[Relation]:
     Where no crank determines them, ka = (m·kv)²/(m′·kL), which keeps kv the mean proportional. The
     plans are m and m′ times as large as the vectors on the mechanism.
     """
-    scales, chosen = drawing.scales, drawing.words("calculation.chosen")
+    scales, chosen, signed = drawing.scales, drawing.words("calculation.chosen"), drawing.in_signs
     number = length_scale(drawing)
     kv, ka = figure(drawing, scales.kv / 1000), figure(drawing, scales.ka / 1000)
     if not scales.of_crank:
         m, again = (figure(drawing, each) for each in (scales.larger, scales.larger_still))
-        by_ka = ("*k*_v^2/*k*_L", f"{squared(kv)}/{number}")
+        by_ka = (signed("*k*_v^2/*k*_L"), f"{squared(kv)}/{number}")
         if (m, again) != ("1", "1"):
-            by_ka = (f"({m}·*k*_v)^2/({again}·*k*_L)", f"({m}·{kv})^2/({again}·{number})")
-        yield Relation("*k*_v", "", "", kv, KV, chosen, given=True)
-        yield Relation("*k*_a", *by_ka, ka, KA)
+            by_ka = (
+                signed(f"({m}·*k*_v)^2/({again}·*k*_L)"),
+                f"({m}·{kv})^2/({again}·{number})",
+            )
+        yield Relation(signed("*k*_v"), "", "", kv, KV, chosen, given=True)
+        yield Relation(signed("*k*_a"), *by_ka, ka, KA)
         return
     turning = float(drawing.scene.drivers[0].speed.si(drawing.scene.values))
     w, index = figure(drawing, abs(turning), OMEGA), f"_{{{escape(drawing.scene.drivers[0].link)}}}"
     for name, power, kind, result, unit in (
-        ("*k*_v", "", "velocity", kv, KV),
-        ("*k*_a", "^2", "acceleration", ka, KA),
+        (signed("*k*_v"), "", "velocity", kv, KV),
+        (signed("*k*_a"), "^2", "acceleration", ka, KA),
     ):
         if kind == "acceleration" and drawing.scene.sheet.ka is not None:
             yield Relation(name, "", "", result, unit, chosen, given=True)
@@ -211,7 +214,8 @@ def plan_scales(drawing: Drawing) -> Iterator[Relation]:
         times = scales.of_bar(kind)
         less = f"/{figure(drawing, times)}" if times != 1 else ""
         numbers = f"{squared(w) if power else w}·{number}{less}"
-        yield Relation(name, f"*ω*{index}{power}·*k*_L{less}", numbers, result, unit)
+        whole = signed(f"*ω*{index}{power}·*k*_L{less}")
+        yield Relation(name, whole, numbers, result, unit)
 
 
 def laid_bars(drawing: Drawing) -> Iterator[tuple[str, str]]:
@@ -239,7 +243,7 @@ def opposite(drawing: Drawing, name: str, placing: Angled) -> Relation:
     p, o, q = placing.arm, placing.vertex, placing.point
     one, other, third = (length_of(drawing, *ends) for ends in ((o, p), (o, q), (p, q)))
     degrees = abs(math.degrees(float(placing.angle.si(drawing.scene.values))))
-    corner = f"∠{symbol(p)}{symbol(o)}{symbol(q)}"
+    corner = f"∠{symbol(p)}{drawing.symbol(o)}{symbol(q)}"
     figures = figure(drawing, one), figure(drawing, other), f"{figure(drawing, degrees)}°"
     return Relation(
         name,
@@ -258,4 +262,4 @@ def drawn_bars(drawing: Drawing) -> Iterator[tuple[str, float]]:
         if bar(p, q) not in found.setdefault(length, []):
             found[length].append(bar(p, q))
     for length, bars in found.items():
-        yield " = ".join(f"{name}/*k*_L" for name in bars), length
+        yield drawing.in_signs(" = ".join(f"{name}/*k*_L" for name in bars)), length

@@ -249,7 +249,7 @@ def draw_force(canvas: Canvas, name: str, look: str, tail: Any, tip: Any) -> Non
     drawing = canvas.drawing
     size = drawing.settled(abs(tip - tail))
     length = in_mm(drawing.words, drawn_force(drawing, size))
-    key = "page.tiny" if size else "page.nought"
+    key = "page.tiny" if size else "page.zero"
     canvas.note(drawing.words(key, name=symbol(name), length=length))
 
 

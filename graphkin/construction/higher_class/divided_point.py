@@ -21,7 +21,7 @@ from graphkin.construction.group_images import GroupImages
 from graphkin.construction.guides.guides import known_guide
 from graphkin.construction.velocity.lines_through import parallel_through
 from graphkin.drawing.style import CHAIN_LINES
-from graphkin.drawing.symbol_markup import TAGS, symbol
+from graphkin.drawing.symbol_markup import TAGS
 from graphkin.numbers.arithmetic import Point, Real
 from graphkin.numbers.plane import Line
 from graphkin.scene.link_points import is_under
@@ -73,12 +73,12 @@ class DividedRate(Divided, GivesRate, frozen=True, kw_only=True):
         figures = f"{figure(drawing, first)} + {figure(drawing, share, FINE)}·"
         figures += f"({figure(drawing, second, FINE)} − {within(drawing, first)})"
         letter = drawing.rate.letter
-        one, two = (symbol(f"{letter}_{link}{tag}") for tag in TAGS)
+        one, two = (drawing.symbol(f"{letter}_{link}{tag}") for tag in TAGS)
         whole = f"{one} + {SHARE}·({two} − {one})"
         result, unit, turning = tail
         if first + share * (second - first) < 0:
             result = f"{MINUS}{result}"
-        name = symbol(f"{letter}_{link}")
+        name = drawing.symbol(f"{letter}_{link}")
         return Relation(name, whole, figures, result, unit, turning, takes=SHARE)
 
 
@@ -150,14 +150,14 @@ class DividedPoint(Divided, FindsImage, frozen=True, kw_only=True):
         if not self.is_crossed(drawing.trace.values):
             return ""
         name = drawing.trace.program.steps[self.value].name
-        return drawing.words("step.meet", name=symbol(name))
+        return drawing.words("step.meet", name=drawing.symbol(name))
 
     def point_apart(self, drawing: Drawing, role: str) -> str:
         """The sentence for the crossing, on its own."""
         if not self.is_crossed(drawing.trace.values):
             return ""
         name = drawing.trace.program.steps[self.value].name
-        return drawing.words("step.meet-apart", name=symbol(name))
+        return drawing.words("step.meet-apart", name=drawing.symbol(name))
 
     def marks(self, canvas: Canvas, role: str) -> None:
         """Draw the point, with the line of its trials where no other step draws that line."""

@@ -140,7 +140,7 @@ class BarMisclosure(DrawnMisclosure, frozen=True, kw_only=True):
         component = component_of(drawing.trace.program, self.wanted)
         if component is None:
             return "square", fields
-        return "square-end", {**fields, "a": component.symbol}
+        return "square-end", {**fields, "a": component.symbol(drawing)}
 
     def draw(self, canvas: Canvas) -> None:
         """Draw the gap from the end of the known component to the point."""
@@ -160,8 +160,11 @@ class GuideMisclosure(LineMisclosure, frozen=True, kw_only=True):
         program = drawing.trace.program
         laid = component_ending_at(program, self.start)
         if laid is None:
-            return "parallel", {**fields, "s": symbol(program.steps[self.start].name)}
-        fields |= {"a": laid.component.symbol, "s": symbol(program.steps[laid.start].name)}
+            return "parallel", {**fields, "s": drawing.symbol(program.steps[self.start].name)}
+        fields |= {
+            "a": laid.component.symbol(drawing),
+            "s": drawing.symbol(program.steps[laid.start].name),
+        }
         return "parallel-end", fields
 
 
@@ -191,8 +194,8 @@ class DrivenMisclosure(Misclosure, frozen=True, kw_only=True):
         program = drawing.trace.program
         start, tip = program.steps[self.start], program.steps[self.tip]
         if not start.name:
-            return symbol(f"a_{index_before(program, self.start)}^r")
-        return symbol(start.name) + symbol(tip.name)
+            return drawing.symbol(f"a_{index_before(program, self.start)}^r")
+        return drawing.symbol(start.name) + drawing.symbol(tip.name)
 
     def relation(self, drawing: Drawing, name: str) -> Relation:
         """The relation: the rate in the plan, less the given rate."""

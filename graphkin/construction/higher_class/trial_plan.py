@@ -223,18 +223,18 @@ class TrialPlan(Struct, AuxiliaryPlan, frozen=True, eq=False):
                     if size:
                         way = nearest_side(values[number] - values[step.args[0]])
                         sliding += f" {drawing.words(f'page.to_{way}')}"
-                    return symbol(f"{drawing.sliding.letter}_{kind.point}"), sliding
+                    return drawing.symbol(f"{drawing.sliding.letter}_{kind.point}"), sliding
                 turning = amount(drawing, abs(size), drawing.rate.caret_unit)
                 turning += f" {sense(drawing.words, size)}" if size else ""
                 assert isinstance(kind, LaidOffAboutPivot)
-                return symbol(f"{drawing.rate.letter}_{kind.link}"), turning
+                return drawing.symbol(f"{drawing.rate.letter}_{kind.link}"), turning
         return "", ""
 
     # --- relations -------------------------------------------------------------------------------
 
     def slid(self, drawing: Drawing, vector: DrivenSlide, rate: float) -> Relation:
         """The assumed rate of a slider along its guide."""
-        name = symbol(f"{drawing.sliding.letter}_{vector.point}{self.tag}")
+        name = drawing.symbol(f"{drawing.sliding.letter}_{vector.point}{self.tag}")
         drawn = in_mm(drawing.words, drawn_in(drawing, drawing.plane, rate))
         remark = drawing.words("calculation.chosen_drawn", drawn=drawn)
         return Relation(name, "", "", figure(drawing, rate), drawing.sliding.caret_unit, remark)
@@ -247,8 +247,8 @@ class TrialPlan(Struct, AuxiliaryPlan, frozen=True, eq=False):
         length, part = length_of(drawing, p, q), "" if drawing.kind == "velocity" else "^τ"
         drawn = in_mm(drawing.words, drawn_in(drawing, drawing.plane, rate * length))
         return Relation(
-            symbol(f"{drawing.vector.letter}_{vector.index}{self.tag}{part}"),
-            f"{symbol(f'{drawing.rate.letter}_{link}{self.tag}')}·{bar(p, q)}",
+            drawing.symbol(f"{drawing.vector.letter}_{vector.index}{self.tag}{part}"),
+            f"{drawing.symbol(f'{drawing.rate.letter}_{link}{self.tag}')}·{bar(p, q)}",
             f"{figure(drawing, rate)}·{figure(drawing, length)}",
             answer(drawing, rate * length),
             drawing.vector.caret_unit,
@@ -315,7 +315,7 @@ def point_told(drawing: Drawing, number: int) -> str:
 def falling(drawing: Drawing, numbers: Sequence[int], under: str) -> str:
     """The words for points of a trial plan that coincide with the point ``under``."""
     key = "falls" if len(numbers) == 1 else "fall-together"
-    return of_many(drawing, key, numbers, s=symbol(under))
+    return of_many(drawing, key, numbers, s=drawing.symbol(under))
 
 
 def of_many(drawing: Drawing, key: str, numbers: Sequence[int], **fields: str) -> str:

@@ -212,7 +212,7 @@ def driver_missed(drawing: Drawing, first: DrivenMisclosure, second: DrivenMiscl
     if driver.kind == "turn":
         fields = {key: figure(drawing, size) for key, size in sizes.items()}
         fields["unit"] = drawing.rate.caret_unit
-        what = f"*{drawing.rate.letter}*_{{{driver_index(driver)}}}"
+        what = drawing.in_signs(f"*{drawing.rate.letter}*_{{{driver_index(driver)}}}")
         return drawing.words("step.share-turn", what=what, **fields)
     mm = on_paper(drawing)
     fields = {key: drawing.words.fixed(size * mm, 2) for key, size in sizes.items()}

@@ -195,7 +195,7 @@ class KleinComponent(NormalComponent, frozen=True, kw_only=True):
     def in_parts(self, drawing: Drawing) -> Iterator[tuple[int, str]]:
         """The instruction in parts, where the construction is drawn."""
         assert self.corner is not None and self.over is not None and self.vector is not None
-        fields = {**self.symbols(), "v": symbol(self.speed), "a": self.symbol}
+        fields = {**self.symbols(), "v": symbol(self.speed), "a": self.symbol(drawing)}
         fields["w"] = symbol(f"v_{self.q}")
         fields["omega"] = rate_symbol(drawing, self.omega)
         fields |= self.corner_symbols(drawing, *self.lettered)

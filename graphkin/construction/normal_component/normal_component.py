@@ -197,7 +197,7 @@ class NormalComponent(TriangleComponent, frozen=True, kw_only=True):
         if self.is_left_out(drawing):
             return Wording("short", self.left_out(drawing))
         size = self.size(drawing)
-        fields = {**self.symbols(), "v": symbol(self.speed), "a": self.symbol}
+        fields = {**self.symbols(), "v": symbol(self.speed), "a": self.symbol(drawing)}
         if not drawing.settled(size):
             return Wording("ν none", drawing.words("step.normal-none", **fields))
         if self.is_hidden(drawing):
@@ -222,7 +222,7 @@ class NormalComponent(TriangleComponent, frozen=True, kw_only=True):
         fields = {
             **self.symbols(),
             **self.corner_symbols(drawing, *self.lettered),
-            "a": self.symbol,
+            "a": self.symbol(drawing),
             "set": set_length(drawing, speed),
             "more": laid_times(drawing),
         }
@@ -259,7 +259,7 @@ class NormalComponent(TriangleComponent, frozen=True, kw_only=True):
         speed, result = (size * length) ** 0.5, answer(drawing, size)
         v, over = put_in(drawing, result, lambda v, over: v * v / over, speed, length)
         return Relation(
-            self.symbol,
+            self.symbol(drawing),
             f"{symbol(self.speed)}^2/{bar(self.p, self.q)}",
             f"{squared(v)}/{over}",
             result,

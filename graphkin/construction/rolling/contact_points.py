@@ -376,7 +376,7 @@ def of_contacts(drawing: Drawing) -> Iterator[Relation]:
         vector = plan_vector(arrow) if arrow else None
         if vector is None or vector.symbol == f"v_{index}":
             continue
-        name = symbol(vector.symbol)
+        name = drawing.symbol(vector.symbol)
         size = drawing.settled(abs(drawing.trace.values[tip] - drawing.trace.values[tail]))
         fields = {"contact": symbol(f"v_{contact}"), "v": name}
         remark = drawing.words(f"calculation.{key}", **fields)

@@ -137,7 +137,11 @@ class LadderAxis(Construction, frozen=True, kw_only=True):
 
     def point_sentence(self, drawing: Drawing, role: str) -> str:
         """The sentence for the direction of the axis and the points on it."""
-        fields = {"bar": bar(self.p, self.q), "p": symbol(self.p), "name": symbol(self.name)}
+        fields = {
+            "bar": bar(self.p, self.q),
+            "p": symbol(self.p),
+            "name": drawing.symbol(self.name),
+        }
         return drawing.words("step.ladder-axis", **fields)
 
 
@@ -257,9 +261,10 @@ class SpeedPole(Construction, frozen=True, kw_only=True):
         if role == "line":
             scale, length = scale_of(drawing, Plane.VELOCITIES) / 1000, self.length(drawing)
             figures = f"{figure(drawing, scale)}/{figure(drawing, length)}"
-            whole = f"*k*_v/{bar(self.p, self.q)}"
+            whole = drawing.in_signs(f"*k*_v/{bar(self.p, self.q)}")
             result, unit = answer(drawing, scale / length), "(rad/s)/mm"
-            yield Relation("*k*_n", whole, figures, result, unit, over=((self.p, self.q),))
+            name = drawing.in_signs("*k*_n")
+            yield Relation(name, whole, figures, result, unit, over=((self.p, self.q),))
 
     def length(self, drawing: Drawing) -> float:
         """The distance of the wheel's centre from its rim, in metres."""
@@ -304,7 +309,9 @@ class SpeedRead(GivesRate, frozen=True, kw_only=True):
         scale = scale_of(drawing, Plane.VELOCITIES) / 1000 / self.scale.length(drawing)
         drawn = abs(float(values[self.rate or 0])) / scale
         figures = f"{figure(drawing, scale)}·{drawing.words.fixed(drawn, 2)}"
-        return Relation(symbol(f"ω_{link}"), f"*k*_n·{start}{cut}", figures, *tail)
+        return Relation(
+            symbol(f"ω_{link}"), drawing.in_signs(f"*k*_n·{start}{cut}"), figures, *tail
+        )
 
 
 # --- sentences -----------------------------------------------------------------------------------

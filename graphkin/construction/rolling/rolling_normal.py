@@ -118,7 +118,7 @@ class RollingNormal(Component, frozen=True, kw_only=True):
             key,
             s=drawing.lettered(self.start),
             name=drawing.lettered(self.image),
-            vector=self.symbol,
+            vector=self.symbol(drawing),
             omega=self.rate(drawing),
             drawn=in_mm(
                 drawing.words, drawn_between(drawing, self.start, self.image, drawing.plane)
@@ -137,7 +137,7 @@ class RollingNormal(Component, frozen=True, kw_only=True):
         rate = abs(float(values[self.omega]) - float(values[self.omega_track]))
         lengths = self.lengths(*(figure(drawing, length_of(drawing, *bar)) for bar in self.bars()))
         return Relation(
-            self.symbol,
+            self.symbol(drawing),
             self.formula(drawing),
             f"{squared(figure(drawing, rate))}·{lengths}",
             answer(drawing, size),

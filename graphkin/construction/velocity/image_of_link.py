@@ -55,7 +55,7 @@ class TranslatedImage(FallsOnImage, frozen=True, kw_only=True):
 
     def equations(self, drawing: Drawing, role: str) -> Iterator[Relation]:
         """The equation that its vector equals that of the other point."""
-        whole = Term(symbol(f"{drawing.vector.letter}_{self.q}"))
+        whole = Term(drawing.symbol(f"{drawing.vector.letter}_{self.q}"))
         yield as_relation(VectorEquation(whole, ((known_term(drawing, self.p),),)))
 
 
@@ -226,7 +226,7 @@ class ImageOfLink(Construction, frozen=True, kw_only=True):
     def equations(self, drawing: Drawing, role: str) -> Iterator[Relation]:
         """Its vector by similarity to the link, where no lines find it."""
         if self.crossing(drawing) is None:
-            vector = symbol(f"{drawing.vector.letter}_{self.whole}")
+            vector = drawing.symbol(f"{drawing.vector.letter}_{self.whole}")
             key = "similar_in_line" if self.is_in_line(drawing) else "similar"
             fields = self.figures(drawing)
             yield Relation(drawing.words(f"calculation.{key}", vector=vector, **fields))

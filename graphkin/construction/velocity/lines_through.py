@@ -63,7 +63,7 @@ class PerpendicularThrough(AboutPivot, frozen=True, kw_only=True):
         key = "square-to"
         if self.touch:
             key = "square-to-both" if self.touch == start else "square-to-touch"
-        fields = {"s": symbol(start), "c": symbol(self.touch), **self.symbols()}
+        fields = {"s": drawing.symbol(start), "c": symbol(self.touch), **self.symbols()}
         return drawing.words(f"step.{key}", **fields)
 
     def marks(self, canvas: Canvas, role: str) -> None:
@@ -124,7 +124,7 @@ class ParallelThrough(AlongGuide, frozen=True, kw_only=True):
             back = laid is not None and laid.back
             key = "parallel-to-tail" if back else "parallel-to-end"
         fields = {"guide": self.way(drawing), "vector": self.vector_along(drawing, self.line)}
-        return drawing.words(f"step.{key}", s=symbol(letter), **fields)
+        return drawing.words(f"step.{key}", s=drawing.symbol(letter), **fields)
 
     def marks(self, canvas: Canvas, role: str) -> None:
         """Draw the line, labelled with the guide to which it is parallel."""

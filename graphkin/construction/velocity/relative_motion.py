@@ -22,7 +22,7 @@ def known_term(drawing: Drawing, point: str) -> Term:
     number = program.targets.get((drawing.kind, point))
     kind = construction(program.steps[number]) if number is not None else None
     note = kind.known_by(drawing) if isinstance(kind, GivenVector) else ""
-    return Term(symbol(f"{drawing.vector.letter}_{point}"), 2, note)
+    return Term(drawing.symbol(f"{drawing.vector.letter}_{point}"), 2, note)
 
 
 def joined(*notes: str) -> str:
@@ -67,7 +67,7 @@ class AboutPivot(Construction, frozen=True, kw_only=True):
         tangential component.
         """
         letter, fixed = drawing.vector.letter, self.index == self.whole
-        whole = Term(symbol(f"{letter}_{self.whole}"))
+        whole = Term(drawing.symbol(f"{letter}_{self.whole}"))
         base = known_term(drawing, self.base)
         before = () if fixed else (base,)
         across, speed = f"⊥ {self.bar}", symbol(f"v_{self.index}")
@@ -78,10 +78,10 @@ class AboutPivot(Construction, frozen=True, kw_only=True):
             return as_relation(VectorEquation(whole, ((*before, relative),)))
         square = f"{omega}^2·{self.bar}" if omega else f"{speed}^2/{self.bar}"
         inward = f"{symbol(self.q)}→{symbol(self.p)}"
-        terms = [Term(symbol(f"a_{self.index}^ν"), 2, joined(inward, square))]
+        terms = [Term(drawing.symbol(f"a_{self.index}^ν"), 2, joined(inward, square))]
         if not steady:
             size = epsilon and f"{epsilon}·{self.bar}"
-            name = symbol(f"a_{self.index}^τ")
+            name = drawing.symbol(f"a_{self.index}^τ")
             terms.append(Term(name, 1 + bool(epsilon), joined(across, size)))
         return as_relation(VectorEquation(whole, ((*before, *terms),)))
 
@@ -104,7 +104,7 @@ class AlongGuide(Construction, frozen=True, kw_only=True):
         tips = [number, *drawing.children.get(number, ())]
         found = (vector_of(drawing, self.start, tip) for tip in tips)
         index = index_before(drawing.trace.program, self.start)
-        default = symbol(f"a_{index}^r") if index else ""
+        default = drawing.symbol(f"a_{index}^r") if index else ""
         return next((name for name in found if name), default)
 
     def motion_of(self, drawing: Drawing, sought: str, size: str = "") -> Relation:
@@ -118,10 +118,10 @@ class AlongGuide(Construction, frozen=True, kw_only=True):
         letter = drawing.vector.letter
         along = joined(f"∥ {guide}", size)
         if drawing.trace.program.steps[self.start].name == drawing.pole:
-            name = symbol(f"{letter}_{beneath if is_under(sought) else point}")
+            name = drawing.symbol(f"{letter}_{beneath if is_under(sought) else point}")
             rests = self.rests(drawing, point) if is_under(sought) else ""
             return as_relation(VectorEquation(Term(name, 1 + bool(size), joined(along, rests))))
-        unknown = Term(symbol(f"{letter}_{beneath if is_under(sought) else point}"))
+        unknown = Term(drawing.symbol(f"{letter}_{beneath if is_under(sought) else point}"))
         rests = self.rests(drawing, point)
         if is_under(sought):
             known_one = known_term(drawing, point)
@@ -133,16 +133,16 @@ class AlongGuide(Construction, frozen=True, kw_only=True):
         laid = component_ending_at(drawing.trace.program, self.start)
         if laid is not None:
             component = laid.component
-            name = symbol(f"a_{point}{beneath}^{component.sign}")
+            name = drawing.symbol(f"a_{point}{beneath}^{component.sign}")
             terms.append(Term(name, 2, component.formula(drawing)))
-        relative = symbol(f"{letter}_{point}{beneath}" + ("" if velocity else "^r"))
+        relative = drawing.symbol(f"{letter}_{point}{beneath}" + ("" if velocity else "^r"))
         terms.append(Term(relative, 1 + bool(size), along))
         return as_relation(VectorEquation(whole, (tuple(terms),)))
 
     def rests(self, drawing: Drawing, point: str) -> str:
         """The remark that a fixed point has a zero vector; empty for a moving point."""
         fixed = point in drawing.scene.frame.points
-        return f"{symbol(f'{drawing.vector.letter}_{point}')} = 0" if fixed else ""
+        return f"{drawing.symbol(f'{drawing.vector.letter}_{point}')} = 0" if fixed else ""
 
     def slider(self, drawing: Drawing, sought: str) -> tuple[str, str]:
         """The sliding point and the point beneath it on the guide, as indices of symbols."""

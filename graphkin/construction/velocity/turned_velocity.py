@@ -72,12 +72,12 @@ class LaidOffAboutPivot(AboutPivot, LaidOffByRate, frozen=True, kw_only=True):
         remark: str = drawing.words("calculation.square_to", bar=self.bar)
         driver = driver_of_rate(drawing, rate)
         if driver is not None and self.link not in ("", driver.link, driver.against):
-            own = symbol(f"{letter}_{self.link}")
+            own = drawing.symbol(f"{letter}_{self.link}")
             remark = f"{remark}; {own} = {rate_symbol(drawing, rate, letter)}"
         if square:
             remark = laid_off_words(drawing, "laid_off", size, p=symbol(self.p), q=symbol(self.q))
         return Relation(
-            symbol(f"{drawing.vector.letter}_{self.index}{signed(sign)}"),
+            drawing.symbol(f"{drawing.vector.letter}_{self.index}{signed(sign)}"),
             f"{rate_symbol(drawing, rate, letter)}{square}·{self.bar}",
             f"{figure(drawing, value, 6)}{square}·{figure(drawing, length)}",
             answer(drawing, size),
@@ -124,9 +124,9 @@ def rate_words(drawing: Drawing, number: int, rate: int, link: str, letter: str)
 
     plan = auxiliary_plan(drawing, number)
     if plan is not None and link:
-        own, lead = symbol(f"{letter}_{link}"), turning_with(drawing, plan.turned_by(rate))
+        own, lead = drawing.symbol(f"{letter}_{link}"), turning_with(drawing, plan.turned_by(rate))
         if lead not in ("", turning_with(drawing, link)):
-            return f"{own} = {symbol(f'{letter}_{lead}')}"
+            return f"{own} = {drawing.symbol(f'{letter}_{lead}')}"
         if lead or drawing.trace.program.steps[rate].name not in drawing.scene.links:
             return own
     return rate_symbol(drawing, rate, letter) + source_of_rate(drawing, number, rate)

@@ -14,7 +14,7 @@ from graphkin.construction.core.plan_vector import plan_vector
 from graphkin.construction.core.quantities import EPSILON, OMEGA
 from graphkin.construction.core.relation import FINE, Relation, figure, length_of, put_in, within
 from graphkin.construction.core.vocabulary import action, difference, sum_of
-from graphkin.drawing.symbol_markup import bar, symbol
+from graphkin.drawing.symbol_markup import bar
 from graphkin.numbers.arithmetic import Point, Real
 from graphkin.numbers.plane import cross, dot
 from graphkin.scene.model import Driver
@@ -76,8 +76,8 @@ class TurningOfLink(GivesRate, frozen=True, kw_only=True):
         drawn = {vector.symbol for vector in found if vector}
         one, other = (self.vector(index) for index in (self.index, self.p + self.q))
         if one not in drawn and other in drawn:
-            return symbol(other), (self.q, self.p)
-        return symbol(one), (self.p, self.q)
+            return drawing.symbol(other), (self.q, self.p)
+        return drawing.symbol(one), (self.p, self.q)
 
     def source_of_rate(self, drawing: Drawing) -> str:
         """The relative vector over the bar."""
@@ -91,7 +91,7 @@ class TurningOfLink(GivesRate, frozen=True, kw_only=True):
         size = abs(float(drawing.trace.values[self.rate])) * length
         size = 0.0 if drawing.turning(self.link) == 0 else size
         figures = "/".join(put_in(drawing, tail[0], truediv, size, length))
-        name = symbol(f"{drawing.rate.letter}_{turning_with(drawing, self.link)}")
+        name = drawing.symbol(f"{drawing.rate.letter}_{turning_with(drawing, self.link)}")
         whole = f"{vector}/{bar(*ends)}"
         return Relation(name, whole, figures, *tail, over=(ends,), takes=vector)
 
@@ -145,7 +145,8 @@ class SummedRate(GivesRate, frozen=True, kw_only=True):
         """The sum or the difference, as markup."""
         other = rate_symbol(drawing, self.other, drawing.rate.letter)
         index = driver_index(drawing.scene.drivers[self.driver])
-        return f"{other} {self.sign(drawing)} *{drawing.rate.letter}*_{{{index}}}"
+        letter = drawing.symbol(drawing.rate.letter)
+        return f"{other} {self.sign(drawing)} {letter}_{{{index}}}"
 
     def source_of_rate(self, drawing: Drawing) -> str:
         """The sum with its value."""
@@ -158,7 +159,7 @@ class SummedRate(GivesRate, frozen=True, kw_only=True):
         sign = self.sign(drawing)
         value = one + two if sign == "+" else one - two
         return Relation(
-            symbol(f"{drawing.rate.letter}_{self.link}"),
+            drawing.symbol(f"{drawing.rate.letter}_{self.link}"),
             self.whole(drawing),
             f"{figure(drawing, one, FINE)} {sign} {within(drawing, two)}",
             figure(drawing, value, FINE),

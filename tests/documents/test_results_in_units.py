@@ -1,0 +1,190 @@
+"""Results in other units than metres: the same mechanism, computed in the unit of its results."""
+
+from __future__ import annotations
+
+import json
+import re
+
+import numpy as np
+import pytest
+from msgspec.structs import replace
+
+from graphkin.documents.sheet_documents import hand_out
+from graphkin.drawing.marks import LineMark, Text
+from graphkin.drawing.richtext import plain
+from graphkin.mechanism import Mechanism, load
+from graphkin.scene import scene_files
+from graphkin.scene.house import House
+from graphkin.scene.read_scene import read_text
+from graphkin.text import LANGUAGES, words
+from graphkin.text.errors import SceneError
+from graphkin.web.step_page import step_page
+from tests.running import Run
+
+INCH = 0.0254
+SCENES = (
+    *("pump", "shaper", "cam-rocker", "cam-plate", "gears-planet", "gears-rack", "plates-ring"),
+    *("belts-crossed", "excavator-relative", "roller", "platform-six", "geneva-wheel"),
+)
+INCHES = """
+graphkin = 1
+title = "Slider-crank"
+units = { length = "in", angle = "deg", speed = "rev/min" }
+[frame]
+O = [0, 0]
+[links.1]
+O-A = 2
+[links.2]
+A-B = 6
+[links.3]
+B = [0, 0]
+slides = { on = 0, through = [0, 0.5], angle = 0 }
+[[drivers]]
+turn = 1
+angle = 40
+speed = 120
+[branches]
+3 = "forward"
+[ask]
+velocity = ["B"]
+acceleration = ["B"]
+omega = [2]
+epsilon = [2]
+"""
+METRES = re.compile(r"(?<![\w*])m(?=/s|/mm)|= [\d.,·]+ m\b")
+"""Metres as a unit in a text."""
+
+
+def of(name: str, results: str) -> Mechanism:
+    """A scene of graphkin with the unit of its results."""
+    path = scene_files.examples().get(name, name)
+    return Mechanism(replace(load(path).scene, results=results))
+
+
+def texts(mechanism: Mechanism, view: str, language: str = "en") -> list[str]:
+    """Every text on the pages of a view."""
+    pages = (page for part in hand_out(mechanism, view, language) for page in part.pages)
+    return [plain(m.markup) for page in pages for m in page.marks if isinstance(m, Text)]
+
+
+@pytest.mark.parametrize("name", SCENES)
+def test_the_motion_is_the_same_in_inches(name: str) -> None:
+    given = of(name, "in")
+    own, measured = given.solve(), given.measured.solve()
+    assert given.measured.scene.base == "in"
+    for point, motion in own.points.items():
+        other = measured.points[point]
+        for key in ("position", "velocity", "acceleration"):
+            every = [getattr(each, key) for each in own.points.values()]
+            scale = max(abs(each) for each in every if each is not None) or 1.0
+            if getattr(motion, key) is not None:
+                away = getattr(motion, key) - INCH * getattr(other, key)
+                assert abs(away) <= 1e-9 * scale
+    for link, turning in own.links.items():
+        other = measured.links[link]
+        assert other.omega == pytest.approx(turning.omega, rel=1e-9, abs=1e-9)
+        assert other.epsilon == pytest.approx(turning.epsilon, rel=1e-9, abs=1e-6)
+    assert given.measured.witness(measured).agrees
+
+
+@pytest.mark.parametrize("name", ["pump", "shaper", "cam-rocker", "gears-planet"])
+def test_the_drawing_is_the_same_in_inches(name: str) -> None:
+    drawn = []
+    for results in ("SI", "in"):
+        sheets = hand_out(of(name, results))[:-1]
+        marks = (mark for sheet in sheets for mark in sheet.pages[0].marks)
+        lines = [m for m in marks if isinstance(m, LineMark) and m.step is not None]
+        ends = np.array([(m.x1, m.y1, m.x2, m.y2) for m in lines])
+        drawn.append(ends[np.hypot(*(ends[:, :2] - ends[:, 2:]).T) > 1e-6])
+    assert np.allclose(*drawn, rtol=0, atol=1e-6)
+
+
+@pytest.mark.parametrize("language", LANGUAGES)
+@pytest.mark.parametrize("view", ["key", "task"])
+def test_no_metre_is_left_on_paper(view: str, language: str) -> None:
+    found = texts(Mechanism(read_text(INCHES, "x")), view, language)
+    assert not [each for each in found if METRES.search(each)]
+    assert any("in/s" in each for each in found)
+
+
+def test_relations_follow_from_their_figures_in_inches() -> None:
+    found = texts(Mechanism(read_text(INCHES, "x")), "key")
+    assert "vA = ω1·OA = 12.5664·2 = 25.13 in/s (⊥ OA)" in found
+    assert "kL = 0.0393701 in/mm (scale 1:1)" in found
+    assert "OA/kL = 2/0.0393701 = 50.8 mm (drawn)" in found
+
+
+def test_a_page_for_the_screen_has_inches() -> None:
+    page = step_page(Mechanism(read_text(INCHES, "x")), "en")
+    assert "in/s" in page
+    assert not re.search(r">[^<]*(?<![\w])m/s", page)
+
+
+def test_a_scene_in_metres_is_not_computed_anew() -> None:
+    mechanism = load("pump")
+    assert mechanism.measured is mechanism
+    assert words("en", length="m").unit("(m/s^2)/mm") == "(m/s^2)/mm"
+    assert words("en", length="ft").unit("(m/s^2)/mm") == "(ft/s^2)/mm"
+
+
+@pytest.mark.parametrize(
+    "length, stated, house, base",
+    [
+        *(("in", "", "", "in"), ("ft", "", "", "ft"), ("mm", "", "", "m"), ("cm", "", "", "m")),
+        *(("in", "SI", "", "m"), ("cm", "scene", "", "cm"), ("mm", "", "scene", "mm")),
+        *(("mm", "m", "in", "m"), ("in", "", "ft", "ft")),
+    ],
+)
+def test_the_unit_of_results(length: str, stated: str, house: str, base: str) -> None:
+    more = f', results = "{stated}"' if stated else ""
+    text = INCHES.replace('length = "in"', f'length = "{length}"{more}')
+    scene = read_text(text, "x", house=House(results=house))
+    assert scene.unit_of_results == base
+    assert Mechanism(scene).measured.scene.base == base
+
+
+def test_an_unknown_unit_of_results_is_told() -> None:
+    with pytest.raises(SceneError, match=r"units\.results: \"yd\"; expected one of SI, cm, ft"):
+        read_text(INCHES.replace('"in"', '"in", results = "yd"'), "x")
+
+
+def test_solve_prints_inches_and_its_json_si(run: Run, tmp_path) -> None:
+    path = tmp_path / "mine.toml"
+    path.write_text(INCHES, encoding="utf-8")
+    assert "v, in/s" in run("solve", path).output
+    assert "v, m/s" in run("solve", path, "--units", "SI").output
+    si = json.loads(run("solve", path, "--json").output)
+    own = json.loads(run("solve", path, "--json", "--units", "scene").output)
+    assert "units" not in si
+    assert own["units"]["length"] == "in"
+    assert si["points"]["B"]["velocity"][0] == pytest.approx(
+        INCH * own["points"]["B"]["velocity"][0]
+    )
+    assert si["scales"]["kL"] == own["scales"]["kL"]
+    assert si["scales"]["kv"] == pytest.approx(INCH * own["scales"]["kv"])
+
+
+def test_a_class_in_inches_is_marked_in_inches(run: Run, tmp_path) -> None:
+    """A number without a unit has that of its field; the feedback shows values in it."""
+    lab, folder = tmp_path / "lab", tmp_path / "class"
+    lab.mkdir()
+    scene = INCHES.replace("[frame]", "[parameters]\nn = { value = 1, min = 1, max = 9 }\n[frame]")
+    (lab / "scene.toml").write_text(scene.replace("angle = 40", 'angle = "39 + n"'), "utf-8")
+    rule = 'graphkin = 1\n[variants]\nset = { n = "number" }\n[marks]\nv_B = 1\na_B = 1\n'
+    (lab / "lab.toml").write_text(rule, encoding="utf-8")
+    (tmp_path / "class.csv").write_text("id,number\none,1\ntwo,1\n", encoding="utf-8")
+    given = "id,v_B,a_B\none,18.70,278.5\ntwo,0.4749 m/s,400\n"
+    (tmp_path / "answers.csv").write_text(given, encoding="utf-8")
+    assert run("variants", lab, tmp_path / "class.csv", "-o", folder).exit_code in (0, 1)
+    done = run("grade", folder, tmp_path / "answers.csv")
+    assert done.exit_code in (0, 1), done.output
+    marks = (folder / "report" / "marks.csv").read_text(encoding="utf-8-sig")
+    rows = [line.split(",") for line in marks.splitlines()]
+    right = {row[rows[0].index("id")]: row for row in rows[1:]}
+    assert right["one"][rows[0].index("v_B")] == right["two"][rows[0].index("v_B")] == "1"
+    assert right["one"][rows[0].index("a_B")] == "1"
+    assert right["two"][rows[0].index("a_B")] != "1"
+    tolerances = (folder / "report" / "tolerances.csv").read_text(encoding="utf-8-sig")
+    assert "one,v_B,in/s,18.6977," in tolerances
+    page = next((folder / "report").rglob("*one*.html")).read_text(encoding="utf-8")
+    assert "18.70" in page and "in/s" in page and "m/s" not in re.sub("[a-z]m/s", "", page)
