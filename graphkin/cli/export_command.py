@@ -6,7 +6,7 @@ from pathlib import Path
 
 import click
 
-from graphkin.cli.options import force_option, mechanism_of, say, scene_argument, tell
+from graphkin.cli.options import complain, force_option, mechanism_of, say, scene_argument, tell
 
 
 @click.command()
@@ -61,6 +61,8 @@ def export(
     mechanism = mechanism_of(name, settings)
     if language in PROGRAMS:
         data = PROGRAMS[language](mechanism)
+        if mechanism.scene.forces is not None:
+            complain("masses and loads are left out: the file holds the motion alone")
     elif language == "excel":
         from graphkin.web.formula import formula_of
         from graphkin.web.formula_workbook import formula_workbook

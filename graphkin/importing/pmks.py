@@ -13,6 +13,7 @@ from itertools import takewhile
 from urllib.parse import parse_qs
 
 from msgspec import Struct
+from msgspec.structs import replace
 
 from graphkin.documents.pmks_file import (
     ALPHABET,
@@ -29,6 +30,7 @@ from graphkin.importing.record import (
     DrawnInput,
     DrawnJoint,
     DrawnLink,
+    DrawnLoad,
     Imported,
     damaged,
     few,
@@ -42,6 +44,10 @@ from graphkin.text.errors import Message, message
 UNITS = {"0": "in", "1": "cm", "2": "m"}
 OLD_UNITS = {"cm": "cm", "m": "m", "in": "in", "inch": "in"}
 USUAL = "cm"
+UNITS_OF_FORCE = {"0": 4.4482216152605, "1": 1.0}
+"""Newtons in one unit of force: pounds, newtons."""
+LOCAL, OUTWARD = 1, 2
+"""Flags of a force: it turns with its link; its arrow points away from the link."""
 CLOCKWISE = 1
 WELDED = 8
 DIGITS = 12
@@ -84,7 +90,11 @@ def new_text(text: str) -> Imported:
         end = held.index("")
         (bodies if line[0] == "Y" else parts_of_links)[own] = DrawnLink(name, tuple(held[:end]))
         welded |= {*held[end + 1 :]} if line[0] == "Y" else set()
-    notes = [left_out(force.split(",")[2]) for force in forces]
+    notes = list[Message]()
+    loads = []
+    for force in forces:
+        if (load := add_load(force, units, found, bodies, notes)) is not None:
+            loads.append(load)
     notes += [
         message("link {name} is a part of no other and is left out", name=named(part.name))
         for own, part in parts_of_links.items()
@@ -92,7 +102,39 @@ def new_text(text: str) -> Imported:
     ]
     sense = -1 if ALPHABET.index(flags[-1]) & CLOCKWISE else 1
     unit = unit_of(units[:1], UNITS, notes)
-    return gathered(found, one_at_welds(found, bodies), unit, sense * rpm(speeds), notes)
+    whole_links = one_at_welds(found, bodies)
+    mechanism = gathered(found, whole_links, unit, sense * rpm(speeds), notes)
+    return replace(mechanism, loads=tuple(load for load in loads if load.body in whole_links))
+
+
+def add_load(
+    force: str,
+    units: str,
+    found: dict[str, PmksJoint],
+    bodies: dict[str, DrawnLink],
+    notes: list[Message],
+) -> DrawnLoad | None:
+    """A force on a link, at a new joint of the link where it has none; a note where it is lost.
+
+    The force points from its first place to its second, or back where its arrow points inwards.
+    """
+    flags, (_, own, name, *numbers) = ALPHABET.index(force[0]), force[1:].split(",")
+    x, y, to_x, to_y, size = map(decimal, numbers)
+    at, way = complex(x, y), complex(to_x, to_y) - complex(x, y)
+    unit = UNITS_OF_FORCE.get(units[2:3])
+    if own not in bodies or not way or unit is None:
+        notes.append(left_out(name))
+        return None
+    if flags & LOCAL:
+        notes.append(message("force {name} keeps its direction, as now", name=named(name)))
+    here = (joint for joint in bodies[own].joints if joint in found)
+    joint = next((j for j in here if abs(found[j].joint.at - at) < 1.5 / THOUSANDTH), "")
+    if not joint:
+        joint = f"force {own} {name}"
+        found[joint] = PmksJoint(DrawnJoint(name, at), driven=False, prismatic=False, angle=0.0)
+        bodies[own] = DrawnLink(bodies[own].name, (*bodies[own].joints, joint))
+    sense = 1 if flags & OUTWARD else -1
+    return DrawnLoad(own, joint, sense * size * unit * way / abs(way))
 
 
 def unit_of(name: str, known: Mapping[str, str], notes: list[Message]) -> str:

@@ -73,6 +73,14 @@ class DrawnInput(Struct, frozen=True):
     against: str = ""
 
 
+class DrawnLoad(Struct, frozen=True):
+    """A force in N on a link, at one of its joints."""
+
+    body: str
+    joint: str
+    force: complex
+
+
 class Imported(Struct, frozen=True):
     """A mechanism of another program; places in ``unit``, exact to ``rounding``.
 
@@ -88,6 +96,7 @@ class Imported(Struct, frozen=True):
     inputs: tuple[DrawnInput, ...]
     notes: tuple[Message, ...] = ()
     gears: tuple[DrawnGear, ...] = ()
+    loads: tuple[DrawnLoad, ...] = ()
 
 
 def refused(found: Message, expected: Message = NO_WORDS) -> SceneError:

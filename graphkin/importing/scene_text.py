@@ -19,6 +19,7 @@ from graphkin.importing.record import (
     DrawnGuide,
     DrawnInput,
     DrawnLink,
+    DrawnLoad,
     Imported,
     named,
     refused,
@@ -133,6 +134,7 @@ class SceneWriter:
         self.numbers = {own: str(number) for number, own in enumerate(self.bodies, 1)}
         self.at = {own: joint.at for own, joint in found.joints.items()}
         self.drivers = [each for each in found.inputs if each.body in self.bodies]
+        self.loads = [each for each in found.loads if each.body in self.bodies]
         if not self.drivers:
             self.drivers = [self.some_driver(fixed)]
 
@@ -222,6 +224,8 @@ class SceneWriter:
             lines += ["", f"[links.{self.numbers[own]}]", *self.link(own)]
         for driver in self.drivers:
             lines += ["", "[[drivers]]", *self.driver(driver)]
+        for load in self.loads:
+            lines += ["", "[[loads]]", *self.load(load)]
         if branches:
             lines += ["", "[branches]", *(f'{key} = "{words}"' for key, words in branches.items())]
         return "\n".join([*lines, ""])
@@ -313,6 +317,12 @@ class SceneWriter:
         """How far to the left of its guide a joint is drawn."""
         assert guide.along is not None
         return ((self.at[guide.first] - self.at[guide.along[0]]) / self.way(guide)).imag
+
+    def load(self, load: DrawnLoad) -> Iterator[str]:
+        """The keys of a load."""
+        yield f'at = "{self.points[load.joint]}"'
+        yield f"link = {self.numbers[load.body]}"
+        yield f"force = {pair(load.force)}"
 
     def driver(self, driver: DrawnInput) -> Iterator[str]:
         """The keys of a driver."""

@@ -91,9 +91,13 @@ def rate(angle_at) -> float:
 
 @pytest.mark.parametrize("name", LINKS)
 def test_every_joint_stands_where_the_link_draws_it(name):
-    found, at = places(opened(LINKS[name]), CENTIMETRE), drawn(LINKS[name])
-    assert len(found) >= 2
-    for point in (name for name in found if "@" not in name):
+    mechanism = opened(LINKS[name])
+    found, at = places(mechanism, CENTIMETRE), drawn(LINKS[name])
+    loads = mechanism.scene.forces.loads if mechanism.scene.forces else ()
+    more = {load.at for load in loads}
+    joints = [name for name in found if "@" not in name and name not in more - at.keys()]
+    assert len(joints) >= 2
+    for point in joints:
         assert abs(found[point] - at[point]) < 2e-3, point
 
 
@@ -474,10 +478,33 @@ def test_a_block_of_the_old_pmks_slides_on_its_guide():
 
 
 def test_what_has_no_counterpart_is_named_in_the_scene():
-    for name, words in (("loaded", "force F1"), ("trammel", "nothing is driven")):
-        found = scene_text(imported(LINKS[name]))
+    lost = changed(LINKS["loaded"], ("2F1,CD,", "2F1,XY,"))
+    for text, words in ((lost, "force F1 is left out"), (LINKS["trammel"], "nothing is driven")):
+        found = scene_text(imported(text))
         assert [words in note for note in found.notes] == [True]
         assert f"# {found.notes[0]}" in found.text.splitlines()
+
+
+@pytest.mark.parametrize(("flags", "sense"), [("2", 1), ("0", -1)])
+@pytest.mark.parametrize(("units", "newtons"), [("1011", 1.0), ("1001", 4.4482216152605)])
+def test_a_force_is_balanced_by_the_power_of_the_driver(flags, sense, units, newtons):
+    """No link has a mass: what the driver gives is what the force takes."""
+    changes = (".K,0.1011.", f".K,0.{units}."), ("2F1,CD,", f"{flags}F1,CD,")
+    text = scene_text(imported(changed(LINKS["loaded"], *changes))).text
+    mechanism = Mechanism(read_text(f"{text}[ask]\nbalance = true\n", "loaded"))
+    at, end = ((thousandths(x), thousandths(y)) for x, y in (("0RF", "Oj"), ("0RF", "95")))
+    way = complex(*end) - complex(*at)
+    force = sense * newtons * thousandths("2SG") * way / abs(way)
+    (load,) = mechanism.scene.forces.loads
+    point = mechanism.solve().points[load.at]
+    assert complex(point.position) * 100 == pytest.approx(complex(*at), abs=2e-3)
+    found = mechanism.solve()
+    power = (force * complex(point.velocity).conjugate()).real
+    omega = float(found.links["1"].omega)
+    solved, verdict = mechanism.forces()
+    assert verdict.agrees
+    (balance,) = solved.balance
+    assert float(balance.moment) * omega == pytest.approx(-power, rel=1e-4)
 
 
 def test_a_text_that_breaks_off_is_refused_in_words():

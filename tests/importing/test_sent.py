@@ -110,3 +110,14 @@ def test_the_command_writes_a_file_for_a_program(tmp_path):
     done = run(app, ["import", str(file), "-o", str(back)])
     assert done.exit_code == 0, done.output
     assert run(app, ["solve", str(back)]).exit_code == 0
+
+
+def test_masses_and_loads_that_stay_behind_are_named(tmp_path):
+    path = scene_files.examples()["slider-crank"]
+    scene = tmp_path / "loaded.toml"
+    load = '\n[[loads]]\nat = "B"\nforce = [10, 0]\n'
+    scene.write_text(path.read_text("utf-8") + load, encoding="utf-8")
+    done = CliRunner().invoke(app, ["export", str(scene), "--to", "linkage"])
+    assert done.exit_code == 0
+    assert "masses and loads are left out" in done.stderr
+    assert "left out" not in CliRunner().invoke(app, ["export", str(path), "--to", "pmks"]).stderr
