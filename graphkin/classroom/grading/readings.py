@@ -50,8 +50,7 @@ class FormFields(Struct, frozen=True, dict=True):
     @cached_property
     def causes(self) -> tuple[Cause, ...]:
         """All causes, those in the construction first."""
-        layout, standards = self.variants.layout, self.variants.standards
-        return (*constructed(standards[0].mechanism, layout), *read_otherwise(self))
+        return (*constructed(self.variants.standards[0]), *read_otherwise(self))
 
     @cached_property
     def items(self) -> tuple[Item, ...]:
@@ -99,6 +98,12 @@ class FormFields(Struct, frozen=True, dict=True):
         return np.array([at.get(item.segment, -1) for item in self.items])
 
     @cached_property
+    def sized(self) -> Array:
+        """The place of the value of each sense; -1 where there is none."""
+        at = {item.field: i for i, item in enumerate(self.items)}
+        return np.array([at.get(i.sized, -1) if i.what == "sense" else -1 for i in self.items])
+
+    @cached_property
     def formulas(self) -> Array:
         """The values of components, which may be computed without a length of the plan."""
         return self.those(lambda item: item.vector is not None and item.vector.sign in ("ν", "c"))
@@ -143,19 +148,25 @@ class View(Struct, frozen=True, dict=True):
             ratios = np.where(among, self.answers / abs(predicted), np.nan)
             ratios = np.where(np.isfinite(ratios) & (ratios > 0), ratios, np.nan)
             told = np.isfinite(ratios).sum(axis=1) >= FEW
-            middle = np.exp(middling(np.log(np.where(told[:, None], ratios, 1.0))))
+            long = np.where(self.units > 0, abs(predicted) / self.units, 1.0)
+            middle = np.exp(middling(np.log(np.where(told[:, None], ratios, 1.0)), long))
         found = np.where(told, middle, 1.0)
         near = abs(np.log(found)) < np.log(ODD)
         return np.where(near, 1.0, found)[:, None]
 
 
-def middling(logs: Array) -> Any:
-    """The median of each row, without NaN; 0 where there is none."""
-    ordered = np.sort(logs, axis=1)
-    count = np.isfinite(ordered).sum(axis=1)
-    low, high = (np.clip(each, 0, logs.shape[1] - 1) for each in ((count - 1) // 2, count // 2))
+def middling(logs: Array, weights: Array | None = None) -> Any:
+    """The median of each row, without NaN; 0 where there is none. Long lengths may weigh more."""
+    weights = np.ones(logs.shape) if weights is None else weights
+    order = np.argsort(logs, axis=1, kind="stable")
+    ordered, own = (np.take_along_axis(each, order, axis=1) for each in (logs, weights))
+    own = np.where(np.isfinite(ordered) & np.isfinite(own), own, 0.0)
+    share = np.cumsum(own, axis=1) / np.maximum(own.sum(axis=1, keepdims=True), 1e-300)
     rows = np.arange(len(logs))
-    return np.nan_to_num((ordered[rows, low] + ordered[rows, high]) / 2)
+    low, high = ((share < half).sum(axis=1) for half in (0.5 - 1e-9, 0.5 + 1e-9))
+    last = logs.shape[1] - 1
+    ends = (ordered[rows, np.minimum(each, last)] for each in (low, high))
+    return np.nan_to_num(sum(ends) / 2)
 
 
 Told = tuple[Array, Array | None]
