@@ -128,3 +128,54 @@ def test_a_column_without_its_decimal_points_is_told():
         lost[who] = {**row, "v_D": read_answer(digits, items["v_D"])}
     with pytest.raises(RosterError, match="decimal"):
         graded_class(book_of("pump"), takers, lost)
+
+
+def written(row: Mapping[str, Answer], change) -> dict[str, Answer]:
+    """The answers of a student with each number changed, written to four digits."""
+    items = {item.field: item for item in book_of("pump").form}
+    told = {field: change(field, answer.value) for field, answer in row.items()}
+    texts = {f: f"{v:+.0f}" if f.endswith("_sense") else f"{v:.4g}" for f, v in told.items()}
+    return {field: read_answer(text, items[field]) for field, text in texts.items()}
+
+
+def whole_class(change, count: int = 12):
+    """A class all of whose answers are changed in one way, marked."""
+    takers, answers = keys_of(count)
+    return graded_class(
+        book_of("pump"), takers, {who: written(row, change) for who, row in answers.items()}
+    )
+
+
+@pytest.mark.parametrize("factor", [1.25, 0.5**0.5])
+def test_sheets_of_another_scale_are_told_and_nothing_is_marked(factor):
+    with pytest.raises(RosterError, match="scale"):
+        whole_class(lambda f, v: v * factor if f.endswith("_mm") and f[0] in "va" else v)
+
+
+def test_the_answers_of_another_lab_are_told_and_nothing_is_marked():
+    fields = [item.field for item in book_of("pump").form]
+    with pytest.raises(RosterError, match="lab"):
+        whole_class(lambda f, v: v * (1.3 + fields.index(f) % 5) * (-1) ** fields.index(f))
+
+
+def test_rows_in_another_order_are_told_and_nothing_is_marked():
+    takers, answers = keys_of(24)
+    ids = list(answers)
+    other = dict(zip(ids, (answers[who] for who in reversed(ids)), strict=True))
+    with pytest.raises(RosterError, match="order"):
+        graded_class(book_of("pump"), takers, other)
+
+
+def test_a_class_that_shares_a_mistake_is_marked():
+    """Plans drawn 2:1, and values in mm: no mistake of the table."""
+    doubled = whole_class(lambda f, v: v * 2 if f.endswith("_mm") and f[0] in "va" else v)
+    assert {c.name for each in doubled.graded for c in each.causes} == {"own_scale"}
+    millimetres = whole_class(lambda f, v: v * 1000 if f in ("v_D", "a_D") else v)
+    assert {c.name for each in millimetres.graded for c in each.causes} == {"power_of_ten"}
+
+
+def test_a_class_may_be_marked_as_it_is():
+    takers, answers = keys_of(12)
+    ids = list(answers)
+    shifted = {who: answers[ids[(i + 1) % len(ids)]] for i, who in enumerate(ids)}
+    assert len(graded_class(book_of("pump"), takers, shifted, as_it_is=True).graded) == 12
