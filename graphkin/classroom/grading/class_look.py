@@ -34,8 +34,7 @@ SAMPLE = 60
 MIXED = 0.8
 """The share of students from which rows are in another order, or sheets have another scale."""
 SCALED, ODD = 0.03, 0.07
-"""How far factors of one scale differ, and how far a scale differs from the right one, as logarithms
-of e."""
+"""How far factors of one scale differ, and how far a scale is from the right one, in log."""
 DOUBLED = (2.0, 0.5)
 """The factors by which a class draws its plans larger or smaller of its own accord."""
 PLANS = {
@@ -68,7 +67,6 @@ def look_at_class(graded: Sequence[Graded], expected: Sequence[Expectation]) -> 
         apart = away(answers, keys.sizes[variants], allowed[variants])
         shifted_rows(keys.sizes, allowed, answers, (every, present), apart)
         mixed_rows(keys.sizes, allowed, answers, variants, apart)
-    another_lab([graded[i] for i in present])
 
 
 def refused(found: Message, hint: Message, where: Message | str = "answers") -> RosterError:
@@ -115,7 +113,7 @@ def mixed_rows(sizes: Any, allowed: Any, answers: Any, variants: Any, apart: Any
 
 
 def scales(keys: Keys, answers: Any, sizes: Any, allowed: Any) -> None:
-    """Raise RosterError where most lengths of a plan are off by one factor, and values are right."""
+    """Raise RosterError where the lengths of a plan are off by one factor, but not its values."""
     with np.errstate(all="ignore"):
         logs = np.log(abs(answers / sizes))
     logs = np.where(np.isfinite(logs), logs, np.nan)
@@ -139,14 +137,18 @@ def scales(keys: Keys, answers: Any, sizes: Any, allowed: Any) -> None:
             )
 
 
-def another_lab(graded: Sequence[Graded]) -> None:
-    """Raise RosterError where the answers of most students are wrong, and nothing explains them."""
+def look_for_another_lab(graded: Sequence[Graded]) -> None:
+    """Raise RosterError where the answers of most students are wrong, and nothing explains them.
+
+    Causes must have been looked for, and the data of others.
+    """
+    present = [each for each in graded if each.present]
     lost = 0
-    for each in graded:
+    for each in present:
         read = [m for m in each.marks if m.answer.is_read and m.item.what != "sense"]
         right = sum(mark.status is Status.RIGHT for mark in read)
         lost += len(read) > FEW and not each.causes and right < LOST * len(read)
-    if lost >= MOST * len(graded):
+    if len(present) >= FEW and lost >= MOST * len(present):
         raise refused(
             message("fit neither the students' data nor any known mistake: the lab is another"),
             message("mark with the lab, the course and the year whose sheets were handed out"),

@@ -9,7 +9,7 @@ from functools import cached_property, partial
 from msgspec import Struct, field
 from msgspec.structs import replace
 
-from graphkin.classroom.grading.class_look import look_at_class
+from graphkin.classroom.grading.class_look import look_at_class, look_for_another_lab
 from graphkin.classroom.grading.class_standards import standards
 from graphkin.classroom.grading.copied_answers import copies, wrong_variants
 from graphkin.classroom.grading.decisions import by_student, settled, with_decisions
@@ -154,6 +154,8 @@ def graded_class(
     twice = copies(graded, expected, book.ways, refusals.alone)
     copied = {who for each in twice for who in each.students}
     graded = with_others_data(book, graded, expected, copied, refusals.alone)
+    if not as_it_is:
+        look_for_another_lab(graded)
     others = wrong_variants(graded, expected, book.ways, refusals.alone)
     flagged = {*(each.students[0] for each in others), *copied}
     free = settled(decisions).union(released)

@@ -155,7 +155,7 @@ def test_sheets_of_another_scale_are_told_and_nothing_is_marked(factor):
 def test_the_answers_of_another_lab_are_told_and_nothing_is_marked():
     fields = [item.field for item in book_of("pump").form]
     with pytest.raises(RosterError, match="lab"):
-        whole_class(lambda f, v: v * (1.3 + fields.index(f) % 5) * (-1) ** fields.index(f))
+        whole_class(count=7, change=lambda f, v: v * (1.3 + fields.index(f) % 5) * (-1) ** fields.index(f))
 
 
 def test_rows_in_another_order_are_told_and_nothing_is_marked():
