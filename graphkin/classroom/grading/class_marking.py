@@ -24,7 +24,7 @@ from graphkin.classroom.grading.graded import (
     Status,
 )
 from graphkin.classroom.grading.marking import FirstLook, Marker, explained, unread_left_out
-from graphkin.classroom.grading.others_data import with_others_data
+from graphkin.classroom.grading.others_data import with_others_data, with_own_causes
 from graphkin.classroom.grading.standard import Expectation, standard
 from graphkin.classroom.lab.cause_names import ANOTHER
 from graphkin.classroom.lab.items import items
@@ -153,6 +153,7 @@ def graded_class(
         look_at_class(graded, expected)
     twice = copies(graded, expected, book.ways, refusals.alone)
     copied = {who for each in twice for who in each.students}
+    graded = with_own_causes(book, graded, refusals.alone)
     graded = with_others_data(book, graded, expected, copied, refusals.alone)
     if not as_it_is:
         look_for_another_lab(graded)

@@ -142,13 +142,15 @@ class EarnedCause(Struct, frozen=True):
     """A cause that explains a sheet by name, and the points that it costs, once.
 
     ``odds`` says how much likelier the explanation is than no mistake, as a logarithm. ``whose``
-    are the ids of the students whose data were drawn.
+    are the ids of the students whose data were drawn. ``said`` is the sentence of a lab's own cause
+    by language.
     """
 
     name: str
     cost: Fraction
     odds: float
     whose: tuple[str, ...] = ()
+    said: Mapping[str, str] = {}
 
 
 class Graded(Struct, frozen=True):

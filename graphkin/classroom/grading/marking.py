@@ -156,8 +156,14 @@ class Marker:
         ]
         full = points * sum(shares, NONE)
         part = min(Fraction(1), most / full) if full else NONE
+        own = self.standard.rubric.own
         return tuple(
-            EarnedCause(name, points * share * part, found.odds)
+            EarnedCause(
+                name,
+                points * share * part,
+                found.odds,
+                said=own[name].said if name in own else {},
+            )
             for name, share in zip(found.names, shares, strict=True)
         )
 

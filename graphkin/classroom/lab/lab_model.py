@@ -98,11 +98,24 @@ class Fair(Struct, frozen=True):
         return self.apart is not None or self.pencil is not None
 
 
+class OwnCause(Struct, frozen=True):
+    """A mistake that a lab names: the data as a student took them, by formulas in the parameters.
+
+    ``cost`` is a grade or a share of all points. ``said`` has its sentence in each language.
+    """
+
+    name: str
+    settings: Mapping[str, Quantity]
+    cost: float | str
+    said: Mapping[str, str]
+
+
 class Rubric(Struct, frozen=True):
     """The points of each field of the form, and how they are given.
 
     ``follow`` is the share for what follows correctly from the student's own earlier values.
     ``causes`` has the share of all points that a cause costs by name, where the lab states one.
+    ``own`` are causes of this lab alone, by name.
     ``grades`` has the shares of slight, moderate and serious causes.
 
     ``point`` and ``line`` are the forgiven drawing errors, in mm and degrees. ``ruler`` is the
@@ -117,6 +130,7 @@ class Rubric(Struct, frozen=True):
     follow: float = 0.8
     causes: Mapping[str, float | str] = field(default_factory=dict)
     grades: Mapping[str, float] = field(default_factory=lambda: dict(SHARES))
+    own: Mapping[str, OwnCause] = field(default_factory=dict)
     point: float = 0.5
     line: float = 0.5
     ruler: float = 0.25
@@ -126,7 +140,8 @@ class Rubric(Struct, frozen=True):
 
     def cost(self, cause: str) -> float:
         """The share of all points that a cause costs."""
-        stated = self.causes.get(cause, GRADES.get(cause, "moderate"))
+        own = self.own.get(cause)
+        stated = own.cost if own else self.causes.get(cause, GRADES.get(cause, "moderate"))
         return self.grades[stated] if isinstance(stated, str) else stated
 
 

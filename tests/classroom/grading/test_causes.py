@@ -6,6 +6,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from fractions import Fraction
 
 import numpy as np
 import pytest
@@ -13,15 +14,25 @@ from msgspec.structs import replace
 
 from graphkin.classroom.grading.answer_numbers import read_answer
 from graphkin.classroom.grading.causes import Variants
-from graphkin.classroom.grading.class_marking import graded_class
+from graphkin.classroom.grading.class_marking import Book, graded_class
 from graphkin.classroom.grading.feedback import notes, points_words, rows
 from graphkin.classroom.grading.graded import Answer
 from graphkin.classroom.grading.readings import FormFields
+from graphkin.classroom.lab.read_lab import read_lab
 from graphkin.text import words
-from graphkin.text.errors import RosterError
+from graphkin.text.errors import RosterError, SceneError
 from tests.bench.causes import a_class, is_named
+from tests.classroom.grading import hand, mistaken
 from tests.classroom.grading.mistaken import CAUSES
-from tests.classroom.grading.students import LABS, book_of, given, key_answers, marker_of, taker
+from tests.classroom.grading.students import (
+    LABS,
+    book_of,
+    given,
+    key_answers,
+    lab_of,
+    marker_of,
+    taker,
+)
 
 SLICE = (
     ("offset-slider-crank", "the crank's diameter for its radius"),
@@ -155,7 +166,9 @@ def test_sheets_of_another_scale_are_told_and_nothing_is_marked(factor):
 def test_the_answers_of_another_lab_are_told_and_nothing_is_marked():
     fields = [item.field for item in book_of("pump").form]
     with pytest.raises(RosterError, match="lab"):
-        whole_class(count=7, change=lambda f, v: v * (1.3 + fields.index(f) % 5) * (-1) ** fields.index(f))
+        whole_class(
+            count=7, change=lambda f, v: v * (1.3 + fields.index(f) % 5) * (-1) ** fields.index(f)
+        )
 
 
 def test_rows_in_another_order_are_told_and_nothing_is_marked():
@@ -179,3 +192,50 @@ def test_a_class_may_be_marked_as_it_is():
     ids = list(answers)
     shifted = {who: answers[ids[(i + 1) % len(ids)]] for i, who in enumerate(ids)}
     assert len(graded_class(book_of("pump"), takers, shifted, as_it_is=True).graded) == 12
+
+
+OWN = """
+[marking.causes.from_the_vertical]
+set = { n = "n/2 - 2" }
+cost = 0.12
+en = "the angle was measured from the other axis"
+ro = "unghiul a fost măsurat de la cealaltă axă"
+"""
+"""A cause of a lab: the crank of the pump stands at 30° + 2°·n, and turns at (300 + 10·n)/min."""
+
+
+def lab_with(tmp_path, more: str):
+    """The lab of the pump with more in its lab.toml."""
+    found = lab_of("pump")
+    (tmp_path / "scene.toml").write_text(found.scene.read_text("utf-8"), "utf-8")
+    (tmp_path / "lab.toml").write_text(found.text + more, "utf-8")
+    return read_lab(tmp_path)
+
+
+def test_a_lab_names_a_cause_of_its_own(tmp_path):
+    lab = lab_with(tmp_path, OWN)
+    book = Book(lab, lab.scene.read_text("utf-8"))
+    who = taker(17)
+    sheet = book.marker_of(who).standard.paper
+    scales = (sheet.mechanism, sheet.velocities, sheet.accelerations)
+    found = mistaken.handed_in("pump", hand.data("pump", 6.5), scales, np.random.default_rng(4))
+    answers = {item.field: read_answer(found[item.field], item) for item in book.form}
+    (graded,) = graded_class(book, [who], {who.student.id: answers}).graded
+    assert [cause.name for cause in graded.causes] == ["from_the_vertical"]
+    assert graded.cost == graded.points * Fraction("0.12")
+    assert "the other axis" in notes(graded, words("en"))[0]
+    assert "cealaltă axă" in notes(graded, words("ro"))[0]
+    assert "the other axis" in notes(graded, words("it"))[0]
+
+
+def test_every_mistake_in_a_cause_of_a_lab_is_told(tmp_path):
+    wrong = """
+[marking.causes.odd]
+set = { n = "number + 1", m = "3" }
+cost = "grave"
+"""
+    with pytest.raises(SceneError) as caught:
+        lab_with(tmp_path, wrong)
+    told = {problem.place for problem in caught.value.problems}
+    inside = "marking.causes.odd"
+    assert told == {inside, f"{inside}.cost", f"{inside}.set.n", f"{inside}.set.m"}
