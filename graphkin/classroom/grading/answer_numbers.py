@@ -269,6 +269,17 @@ def rounding(answer: Answer) -> float:
     return 0.5 * 10.0**-places / size if size else 0.0
 
 
+def significant(answer: Answer) -> tuple[int, int]:
+    """The fewest and the most significant digits that a number may have; zeros for no number.
+
+    Zeros at the end of a whole number may be significant.
+    """
+    found = NUMBER.match(answer.text.strip())
+    digits = digits_of(found) if found is not None else ""
+    bare = digits.replace(".", "").lstrip("0")
+    return len(bare) if "." in digits else len(bare.rstrip("0")), len(bare)
+
+
 def plain_unit(text: str) -> str:
     """A unit without spaces, brackets, power signs, and the stop or semicolon after it."""
     plain = re.sub(r"[\s()\[\]^*·]", "", text).replace("²", "2").replace("⁻¹", "-1")

@@ -24,6 +24,7 @@ from graphkin.construction.core.kind import Construction
 from graphkin.construction.core.program import Drive, Plane, Step
 from graphkin.construction.core.quantities import OMEGA
 from graphkin.construction.core.vocabulary import similar_point
+from graphkin.construction.higher_class.closure_solver import closer_of
 from graphkin.construction.registry import SLIPPING
 from graphkin.construction.velocity.lines_through import square_to
 from graphkin.construction.velocity.turning_of_link import TurningOfLink
@@ -457,28 +458,37 @@ class Variants(Struct, frozen=True, dict=True):
     def deviations(self, change: Change, rows: Any) -> Any:
         """The deviation of each field in drawings of some variants with a change, for one pencil.
 
-        A row for each variant; senses are zero. The pencil is the one that is forgiven.
+        A row for each variant; senses are zero. The pencil is the one that is forgiven. NaN where
+        the construction closes a group of higher class, whose drawings have no errors here.
         """
         rubric = self.standards[0].rubric
-        pencil, paper = (
-            Pencil(rubric.point, rubric.line),
-            rows_of(self.paper_of(change.faster), rows),
-        )
+        count = sum(mark.errors for mark in self.marks.values()) + 1
+        shape = len(rows), count
+        if self.closes:
+            return np.full((len(rows), len(self.fields)), np.nan)
+        pencil = Pencil(rubric.point, rubric.line)
+        paper = repeated(self.paper_of(change.faster), rows, count)
         found = self.redrawn(change, rows, pencil, paper)
         told = np.zeros((len(rows), len(self.fields)))
         for place, probe in enumerate(self.layout.probes):
             if probe.item.what != "sense":
                 value = np.real(np.asarray(probe.read(found, paper), dtype=complex))
-                off = value - value[..., -1:] if value.ndim > 1 else 0.0 * value
-                told[:, place] = np.sqrt(np.sum(off * off, axis=-1))
+                each = np.broadcast_to(value, (len(rows) * count,)).reshape(shape)
+                off = each - each[:, -1:]
+                told[:, place] = np.sqrt(np.sum(off * off, axis=1))
         return told
+
+    @property
+    def closes(self) -> bool:
+        """Whether the construction closes a group of higher class by trials."""
+        return any(closer_of(self.layout.program.steps[n]) is not None for n in self.layout.needed)
 
     def redrawn(
         self, change: Change, rows: Any, pencil: Pencil, paper: Paper
     ) -> Mapping[int, Value]:
-        """The values of the steps of some variants with a change, a column for each drawing."""
-        steps = self.layout.program.steps
-        values = {n: rows_of(self.values[n], rows) for n in self.values}
+        """The values of the steps of some variants with a change, drawing by drawing."""
+        steps, count = self.layout.program.steps, len(next(iter(self.single_errors.values())))
+        values = {n: repeated(self.values[n], rows, count) for n in self.values}
         found: dict[int, Value] = {}
 
         def get(number: int) -> Value:
@@ -499,7 +509,8 @@ class Variants(Struct, frozen=True, dict=True):
                 start = get(step.args[0]) if mark is PencilMark.ARROW and step.args else value
                 start = start if is_place(start) else value
                 mm = paper.millimetre(step.plane)
-                value = marked(mark, value, start, self.single_errors[number], pencil, mm)
+                errors = np.tile(self.single_errors[number], (len(rows), 1))
+                value = marked(mark, value, start, errors, pencil, mm)
             found[number] = value
         return {**values, **found}
 
@@ -511,14 +522,16 @@ def first_of(value: Value) -> Any:
     return np.ravel(value)[0].item() if isinstance(value, np.ndarray) else value
 
 
-def rows_of(value: Value, rows: Any) -> Any:
-    """The values of some variants."""
+def repeated(value: Value, rows: Any, count: int) -> Any:
+    """The values of some variants, each so many times; a value that all share stays single."""
     if isinstance(value, Paper):
         own = (value.mechanism, value.velocities, value.accelerations)
-        return Paper(*(rows_of(each, rows) for each in own))
+        return Paper(*(repeated(each, rows, count) for each in own))
     if isinstance(value, tuple):
-        return by_parts(lambda part: rows_of(part, rows), value)
-    return value[rows] if isinstance(value, np.ndarray) and value.ndim > 1 else value
+        return by_parts(lambda part: repeated(part, rows, count), value)
+    if isinstance(value, np.ndarray) and value.ndim > 1:
+        return np.repeat(value[rows, 0], count)
+    return value
 
 
 def is_place(value: Value) -> bool:

@@ -224,7 +224,8 @@ class AnswerSheets(Struct, frozen=True, dict=True):
             grown = growing(drawn, self.key)
             if closely and hypothesis.made:
                 most = SPREAD[1] * np.maximum(1.0, abs(drawn / self.key))
-                grown = np.clip(self.grown(hypothesis), SPREAD[0], most)
+                own = self.grown(hypothesis)
+                grown = np.where(np.isnan(own), grown, np.clip(own, SPREAD[0], most))
         found = Predicted(drawn, predicted, other, np.where(self.form.senses, 1.0, grown))
         return replace(found, written=self.with_open_senses(found)) if closely else found
 
@@ -250,7 +251,6 @@ class AnswerSheets(Struct, frozen=True, dict=True):
                 told = self.variants.deviations(Change(), first)
                 plain.update(zip(first, told, strict=True))
             told = self.variants.deviations(change, new) / np.array([plain[i] for i in new])
-            told = np.where(np.isnan(told), 1.0, told)
             known.update(zip(new, told, strict=True))
         return np.array([known[i] for i in self.rows.tolist()])
 

@@ -99,7 +99,8 @@ class EarnedMark(Struct, frozen=True):
 
     ``cause`` names what explains the answer: it is right for a student who made that mistake.
     ``torn`` says that a sense contradicts the sign of its own value, ``alone`` that a right sense
-    earns nothing, since the size beside it earns nothing. ``decision`` is the lecturer's.
+    earns nothing, since the size beside it earns nothing. ``rounded`` says that it is right but for
+    its digits: ``few`` or ``many``. ``decision`` is the lecturer's.
     """
 
     item: Item
@@ -113,6 +114,7 @@ class EarnedMark(Struct, frozen=True):
     cause: str = ""
     torn: bool = False
     alone: bool = False
+    rounded: str = ""
     decision: Decision | None = None
 
     @property

@@ -38,6 +38,8 @@ ODD = 1.07
 """The least factor, up or down, by which a scale of one's own differs from the right one."""
 FREE = 0.2
 """How rare a factor of one's own is beside a known one."""
+ODD_PAIR = 0.3
+"""How rare it is that two cells of one row of the table are exchanged."""
 OTHER = {"ν": "τ", "τ": "ν"}
 """The component mistaken for another."""
 
@@ -545,9 +547,15 @@ def of_table(form: FormFields) -> Iterator[Cause]:
         ways = {"": shared} | {
             plan: [kind for kind in shared if kind[0] == plan] for plan, _, _ in shared
         }
+        ways |= {" ".join(kind[:2]): [kind] for kind in shared if kind[1] != "place"}
         seen: list[list[tuple[int, int]]] = []
         for way, kinds in ways.items():
             pairs = [(owners[one][kind], owners[other][kind]) for kind in kinds]
             if pairs and pairs not in seen:
                 seen.append(pairs)
                 yield reading("answers_exchanged", f"{one}-{other} {way}", exchanged(pairs))
+    for owner, kinds_of in owners.items():
+        for (one_kind, i), (other_kind, k) in combinations(kinds_of.items(), 2):
+            if {one_kind[1], other_kind[1]} <= {"segment", "value"}:
+                way = f"{owner} {' '.join((*one_kind, *other_kind))}"
+                yield reading("answers_exchanged", way, exchanged([(i, k)]), ODD_PAIR)

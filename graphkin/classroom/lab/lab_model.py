@@ -122,6 +122,9 @@ class Rubric(Struct, frozen=True):
     reading error, in mm. ``floor`` and ``cap`` are the least and the largest tolerance, relative to
     the value.
 
+    ``digits`` are the fewest and the most significant digits of a value, where the lab wants some.
+    ``rounded`` is the share for a value that is right but for its digits.
+
     ``hold`` keeps back the marks of students whose answers seem to be another's, until the lecturer
     has decided.
     """
@@ -130,13 +133,15 @@ class Rubric(Struct, frozen=True):
     follow: float = 0.8
     causes: Mapping[str, float | str] = field(default_factory=dict)
     grades: Mapping[str, float] = field(default_factory=lambda: dict(SHARES))
-    own: Mapping[str, OwnCause] = field(default_factory=dict)
     point: float = 0.5
     line: float = 0.5
     ruler: float = 0.25
     floor: float = 0.01
     cap: float = 0.25
     hold: bool = False
+    own: Mapping[str, OwnCause] = field(default_factory=dict)
+    digits: tuple[int, int] | None = None
+    rounded: float = 0.8
 
     def cost(self, cause: str) -> float:
         """The share of all points that a cause costs."""

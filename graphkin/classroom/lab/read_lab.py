@@ -44,6 +44,7 @@ USUAL, LIMITS = Rubric(), Fair()
 OPEN = -1.0
 """The value of a limit that is not written."""
 MOST_TRIES = 10_000
+MOST_DIGITS = 12
 MOST_VALUES = 10**9
 """The most values of a range."""
 
@@ -391,7 +392,9 @@ def read_rubric(marks: Table, marking: Table, mechanism: Mechanism) -> Rubric:
         "ruler": number(marking, "ruler", USUAL.ruler, 0, 10),
         "floor": number(marking, "floor", USUAL.floor, 0, 1),
         "cap": number(marking, "cap", USUAL.cap, 0, 1),
+        "rounded": number(marking, "rounded", USUAL.rounded, 0, 1),
     }
+    digits = read_digits(marking)
     if given["floor"] > given["cap"]:
         marking.findings.add(
             marking.at("floor"),
@@ -400,7 +403,23 @@ def read_rubric(marks: Table, marking: Table, mechanism: Mechanism) -> Rubric:
         )
     hold = marking.flag("hold")
     marking.finish()
-    return Rubric(points=points, causes=causes, grades=grades, own=own, hold=hold, **given)
+    return Rubric(
+        points=points, causes=causes, grades=grades, own=own, hold=hold, digits=digits, **given
+    )
+
+
+def read_digits(table: Table) -> tuple[int, int] | None:
+    """The fewest and the most significant digits of a value; None where the lab wants none."""
+    raw = table.take("digits")
+    if raw is None:
+        return None
+    ends = raw if isinstance(raw, list) else []
+    whole = [end for end in ends if isinstance(end, int) and not isinstance(end, bool)]
+    if len(whole) != 2 or len(ends) != 2 or not 1 <= whole[0] <= whole[1] <= MOST_DIGITS:
+        expected = message("two whole numbers [fewest, most] from 1 to {most}", most=MOST_DIGITS)
+        table.findings.add(table.at("digits"), shown(raw), expected)
+        return None
+    return whole[0], whole[1]
 
 
 def read_grades(table: Table) -> dict[str, float]:
