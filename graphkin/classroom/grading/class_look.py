@@ -179,7 +179,10 @@ def columns(keys: Keys, answers: Any, sizes: Any, allowed: Any) -> None:
 def tens(
     graded: Sequence[Graded], present: Sequence[int], keys: Keys, answers: Any, sizes: Any
 ) -> None:
-    """Raise RosterError where the answers of a column lack their decimal points."""
+    """Raise RosterError where the answers of a column lack their decimal points.
+
+    They keep their last digits. Zeros at the end tell of a power of ten.
+    """
     with np.errstate(all="ignore"):
         powers = np.log10(answers / abs(sizes))
         powers = np.where(np.isfinite(powers), powers, np.nan)
@@ -195,8 +198,9 @@ def tens(
             continue
         varied = len(set(near[lost, place])) > 1 or not any("." in t or "," in t for t in texts)
         most = told.sum() >= FEW and lost.sum() > MOST * told.sum() and varied
+        zeros = np.mean([text.strip().endswith("0") for text in np.array(texts)[lost]])
         unit = others_whole(graded, present, keys, field) or in_smaller_unit(keys, near, field)
-        if most and not unit:
+        if most and not unit and zeros < MIXED:
             hint = message("export the column as text, or with a decimal point")
             found = message("the answers lack their decimal points")
             raise refused(found, hint, f'column "{field}"')

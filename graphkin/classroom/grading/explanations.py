@@ -53,7 +53,7 @@ SPAN = (0.5, 4.0)
 """The least and largest factor by which an error scales with its value."""
 SPREAD = (0.5, 30.0)
 """The least and largest factor by which an error grows in another drawing."""
-MOST = 0.4
+MOST = 1.0
 """The largest error of an answer that an explanation gives, in parts of the value."""
 BEST = 12
 """The number of hypotheses of a student that are compared, and of causes of which pairs are."""
@@ -157,7 +157,7 @@ class AnswerSheets(Struct, frozen=True, dict=True):
         """What the students have before them."""
         fields = self.variants.fields
         whole = [[not {".", ","} & {*each[field].text} for field in fields] for each in self.given]
-        return View(self.form, self.rows, self.answers, np.array(whole))
+        return View(self.form, self.rows, self.answers, np.array(whole), self.errors[0])
 
     @cached_property
     def is_read(self) -> Array:
@@ -561,7 +561,8 @@ class Ranked:
 
 def growing(drawn: Array, key: Array) -> Array:
     """How many times as large errors are that grow with what is drawn."""
-    return np.clip(np.nan_to_num(abs(drawn / key), nan=1.0), *SPAN)
+    with np.errstate(all="ignore"):
+        return np.clip(np.nan_to_num(abs(drawn / key), nan=1.0), *SPAN)
 
 
 def pairs_of(causes: Sequence[Cause]) -> Iterator[Hypothesis]:

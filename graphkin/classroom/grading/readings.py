@@ -40,6 +40,8 @@ FREE = 0.2
 """How rare a factor of one's own is beside a known one."""
 ODD_PAIR = 0.3
 """How rare it is that two cells of one row of the table are exchanged."""
+OFTEN = 3.0
+"""The deviations within which an answer is that of a drawing, but for a power of ten."""
 OTHER = {"ν": "τ", "τ": "ν"}
 """The component mistaken for another."""
 
@@ -115,17 +117,20 @@ class View(Struct, frozen=True, dict=True):
     """What some students have before them, and what they answered.
 
     ``answers`` are sizes, places with their sign, and senses as signs; NaN where there is none.
-    ``rows`` are their variants, ``whole`` marks numbers without a decimal point.
+    ``rows`` are their variants, ``whole`` marks numbers without a decimal point. ``errors`` are the
+    deviations of the forgiven pencil.
     """
 
     form: FormFields
     rows: Array
     answers: Array
     whole: Array
+    errors: Array
 
     def some(self, which: list[int]) -> View:
         """What some of the students have before them."""
-        return View(self.form, self.rows[which], self.answers[which], self.whole[which])
+        each = (self.rows, self.answers, self.whole, self.errors)
+        return View(self.form, *(part[which] for part in each))
 
     @cached_property
     def units(self) -> Array:
@@ -420,11 +425,17 @@ def of_ten(form: FormFields, *, whole: bool = False) -> Reads:
             shift = np.where(fits & view.whole & (near > 0), near, np.nan)
             return only(np.isfinite(shift), shown * 10.0 ** np.nan_to_num(shift), shown), None
         changed = shown
+        least = np.where(np.isfinite(near) & fits, abs(near), np.inf).min(axis=1)
+        usual = np.where(np.isfinite(least), middling(np.where(fits, near, np.nan)), 0.0)
         for group in groups:
             here = fits & group
-            power = middling(np.where(here, near, np.nan))
+            power = np.where(here.any(axis=1), middling(np.where(here, near, np.nan)), usual)
             power = np.round(power)[:, None]
-            some = here & (near == power)
+            with np.errstate(all="ignore"):
+                away = abs(view.answers / 10.0**power - abs(shown))
+                beside = abs(view.answers - abs(shown)) > OFTEN * view.errors
+            unsure = group & sized & beside & (away < OFTEN * view.errors) & (power != 0)
+            some = (here & (near == power)) | unsure
             changed = only(some, shown * 10.0**power, changed)
         return changed, None
 
