@@ -31,7 +31,10 @@ Way = tuple[str, ...]
 def a_class(
     lab: str, ways: Sequence[Way], seed: int, pencil: Pencil = CAREFUL, count: int = STUDENTS
 ) -> list[tuple[Graded, Way]]:
-    """The marks of a class in which each makes the first of some mistakes that changes anything."""
+    """The marks of a class in which each makes the first of some mistakes that changes anything.
+
+    Of two mistakes, each must change something beside the other.
+    """
     book, rng = book_of(lab), np.random.default_rng(seed)
     takers = [student(3 + i % 28, f"s{i:04d}") for i in range(max(count, STUDENTS))]
     book.prepare(takers)
@@ -45,11 +48,12 @@ def a_class(
         far = [each for each in numbers if abs(each - number) >= APART]
         other = (hand.data(lab, int(others.choice(far))), 0.0)
         for way in ways or ((),):
-            plain, wrong = (
+            fewer = [tuple(each for each in way if each != left) for left in way] or [()]
+            wrong, *others_told = (
                 drawn(lab, number, sheet, np.random.default_rng(1), mistakes, other)
-                for mistakes in ((), way)
+                for mistakes in (way, *fewer)
             )
-            if wrong is None or (way and plain == wrong):
+            if wrong is None or (way and wrong in others_told):
                 continue
             row = drawn(lab, number, sheet, rng, way, other, pencil)
             if row is not None:

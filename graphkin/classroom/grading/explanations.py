@@ -43,7 +43,7 @@ LIKELY = 5.0
 """The least odds, as a logarithm, at which a cause is named."""
 SENSES = -1.0
 """The same where nothing but senses is wrong, all of which the cause must reverse."""
-SECOND = 6.0
+SECOND = 2.0
 """The least odds, as a logarithm, by which two causes must be likelier than one."""
 EXPLAINS = 0.6
 """The least share of the wrong answers that an explanation must give."""
@@ -382,24 +382,31 @@ class AnswerSheets(Struct, frozen=True, dict=True):
                 again = self.some(own).judged(ranked.every[place], closely=True)
                 ranked.table[place, own] = np.nan_to_num(again, nan=-inf)
         found = [self.chosen(i, ranked.of(i), honest[i]) for i in range(count)]
-        more = [i for i, each in enumerate(found) if self.left(i, each) > 1]
-        self.explain_more({i: ranked.names_of(i) for i in more}, honest, found)
+        more = [i for i, each in enumerate(found) if self.left(i, each) > (each is None)]
+        lost = {i for i in more if found[i] is None and self.is_lost(i)}
+        pairs = {i: ranked.wide_pairs(i) if i in lost else ranked.pairs(i) for i in more}
+        self.explain_more(pairs, honest, found)
         return found
+
+    def is_lost(self, i: int) -> bool:
+        """Whether most numbers of a sheet are wrong."""
+        numbers = self.is_read[i] & ~self.form.senses
+        return bool((self.missed[i] & numbers).sum() > numbers.sum() / 2)
 
     def explain_more(
         self,
-        which: Mapping[int, Sequence[Cause]],
+        which: Mapping[int, Sequence[Hypothesis]],
         honest: Array,
         found: list[SheetCauses | None],
     ) -> None:
         """Replace the explanations of some sheets by those of two causes that are likelier.
 
-        ``which`` holds the causes by sheet of which pairs are tried.
+        ``which`` holds the pairs by sheet that are tried.
         """
         pairs: dict[tuple[tuple[str, str], ...], tuple[Hypothesis, list[int]]] = {}
-        for i, causes in which.items():
-            for pair in pairs_of(causes):
-                key = tuple((cause.name, cause.way) for cause in pair.causes)
+        for i, own_pairs in which.items():
+            for pair in own_pairs:
+                key = pair_key(pair)
                 pairs.setdefault(key, (pair, []))[1].append(i)
         tried: dict[int, list[tuple[float, Any]]] = {i: [] for i in which}
         plain = self.judged(Hypothesis(), COARSE)
@@ -550,19 +557,42 @@ class Ranked:
         order = np.argsort(-column, kind="stable")[:BEST]
         return [(self.every[k], float(column[k])) for k in order]
 
-    def names_of(self, i: int) -> list[Cause]:
+    def names_of(self, i: int, most: int | None = BEST) -> list[Cause]:
         """The likeliest causes of a student, one of each name, in the order they were noted."""
         best: dict[str, int] = {}
         for k in np.argsort(-self.table[:, i], kind="stable").tolist():
-            if self.table[k, i] > -inf and len(best) < BEST:
+            if self.table[k, i] > -inf and (most is None or len(best) < most):
                 best.setdefault(self.every[k].causes[0].name, k)
         return [self.every[k].causes[0] for k in sorted(best.values())]
+
+    def pairs(self, i: int) -> list[Hypothesis]:
+        """Pairs of the likeliest causes of a student."""
+        return list(pairs_of(self.names_of(i)))
+
+    def wide_pairs(self, i: int) -> list[Hypothesis]:
+        """Pairs of all causes of a student whose sheet no single cause comes near.
+
+        Each cause has its likeliest way, those in reading any way beside one in the construction.
+        """
+        names = self.names_of(i, None)
+        reads = [e.causes[0] for e in self.every if e.causes[0].change is None]
+        made = [cause for cause in names if cause.change is not None]
+        found = {pair_key(pair): pair for pair in pairs_of(names)}
+        for cause in made:
+            every = (Hypothesis((cause, each)) for each in reads)
+            found |= {pair_key(pair): pair for pair in every}
+        return list(found.values())
 
 
 def growing(drawn: Array, key: Array) -> Array:
     """How many times as large errors are that grow with what is drawn."""
     with np.errstate(all="ignore"):
         return np.clip(np.nan_to_num(abs(drawn / key), nan=1.0), *SPAN)
+
+
+def pair_key(pair: Hypothesis) -> tuple[tuple[str, str], ...]:
+    """The names and ways of the causes of a pair."""
+    return tuple((cause.name, cause.way) for cause in pair.causes)
 
 
 def pairs_of(causes: Sequence[Cause]) -> Iterator[Hypothesis]:
