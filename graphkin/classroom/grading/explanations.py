@@ -68,7 +68,8 @@ class SheetCauses(Struct, frozen=True):
 
     ``values`` are sizes, places and senses by field. ``times`` is how many times as large each
     error then is. ``odds`` says how much likelier this is than no mistake, as a logarithm.
-    ``fits`` are the fields whose answers agree.
+    ``fits`` are the fields whose answers agree. ``single`` is the best
+    explanation by one cause, where these are two.
     """
 
     causes: tuple[Cause, ...]
@@ -76,6 +77,7 @@ class SheetCauses(Struct, frozen=True):
     times: Mapping[str, float]
     odds: float
     fits: frozenset[str] = frozenset()
+    single: SheetCauses | None = None
 
     @property
     def names(self) -> tuple[str, ...]:
@@ -430,7 +432,7 @@ class AnswerSheets(Struct, frozen=True, dict=True):
             told.sort(key=lambda pair: -pair[1])
             each, single = self.chosen(i, told, honest[i]), found[i]
             if each is not None and (single is None or each.odds > single.odds + SECOND):
-                found[i] = each
+                found[i] = replace(each, single=single)
 
     def left(self, i: int, found: SheetCauses | None) -> int:
         """How many answers of a sheet are not explained; of wrong ones where there is none."""
@@ -479,12 +481,36 @@ class AnswerSheets(Struct, frozen=True, dict=True):
         """An explanation with the answers that agree; None where these are too few."""
         fits, read = self.fits(i, found), self.is_read[i]
         missed = self.missed[i] & read
-        spoilt = (read & ~fits).sum() > SPOILS * read.sum()
+        spoilt = (read & ~fits & ~self.beside_wrong(i, found, fits)).sum() > SPOILS * read.sum()
         enough = EXPLAINS if (missed & ~self.form.senses).any() else 1.0
         if (missed & fits).sum() < enough * missed.sum() or spoilt:
             return None
         told = [f for f, fit in zip(self.variants.fields, fits, strict=True) if fit]
         return replace(found, fits=frozenset(told))
+
+    def beside_wrong(self, i: int, by: SheetCauses, fits: Array) -> Array:
+        """The answers that only follow from one that an explanation does not give.
+
+        These are values computed from a length, and senses beside a value.
+        """
+        found = np.zeros(len(fits), dtype=bool)
+        if self.known is not None:
+            computed, own = self.known
+            told = self.computed_rightly(i, np.array([by.values[f] for f in self.variants.fields]))
+            found[computed] = told & self.is_read[i][own] & ~fits[own]
+        sized = self.form.sized
+        beside = self.is_read[i][sized] & ~fits[sized] & (sized >= 0)
+        return found | beside
+
+    def computed_rightly(self, i: int, sizes: Array) -> Array:
+        """Whether values were computed as an explanation says from the student's own lengths."""
+        assert self.known is not None
+        answers, rounded = self.answers[i], self.rounded[i]
+        computed, own = self.known
+        with np.errstate(all="ignore"):
+            apart = np.log(abs(answers[computed] / answers[own] * sizes[own] / sizes[computed]))
+        near: Array = abs(apart) <= 3 * COMPUTED + rounded[computed] + rounded[own]
+        return near
 
     def settled(self, i: int, hypothesis: Hypothesis, odds: float = 0.0) -> SheetCauses:
         """What a student would write by a hypothesis, the likelier of two values in each field."""
@@ -518,9 +544,7 @@ class AnswerSheets(Struct, frozen=True, dict=True):
             near = abs(answers - sizes) <= allowed + rounded * abs(answers)
             if self.known is not None:
                 computed, own = self.known
-                apart = np.log(answers[computed] / answers[own] * sizes[own] / sizes[computed])
-                error = 3 * COMPUTED + rounded[computed] + rounded[own]
-                near[computed] |= (abs(apart) <= error) & near[own]
+                near[computed] |= self.computed_rightly(i, sizes) & near[own]
         sense = (answers == np.sign(values)) | (values == 0) | self.open_senses[i]
         return np.where(form.senses, sense, near) & self.is_read[i]
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from fractions import Fraction
-from math import isnan
+from math import floor, isnan
 from typing import Any
 
 from msgspec import Struct
@@ -135,21 +135,25 @@ class Marker:
     ) -> Graded:
         """The marks with the explanation of the sheet, if there is one that costs less than none.
 
-        A cause costs what the rubric says, and never more than the same values unexplained.
+        A cause costs what the rubric says, and never more than the same values unexplained, or
+        explained without it.
         """
         plain = Graded(taker, self.marks(taker, first), present)
         if found is None:
             return plain
+        least = plain.earned
+        if found.single is not None:
+            least = max(least, self.graded(taker, first, found.single, present).earned)
         caused = self.marks(taker, first, found)
         whole = sum((mark.earned for mark in caused), NONE)
-        most = max(NONE, whole - plain.earned)
+        most = max(NONE, whole - least)
         costs = self.costs(plain.points, found, most)
         return Graded(taker, caused, present, causes=costs)
 
     def costs(
         self, points: Fraction, found: SheetCauses, most: Fraction
     ) -> tuple[EarnedCause, ...]:
-        """What each cause costs, together at most ``most``.
+        """What each cause costs, together at most ``most``: hundredths of a point, rounded down.
 
         Senses that are all reversed cost their own points, and nothing beside.
         """
@@ -157,13 +161,14 @@ class Marker:
             NONE if name == REVERSED else Fraction(str(self.standard.rubric.cost(name)))
             for name in found.names
         ]
-        full = points * sum(shares, NONE)
+        shares = [Fraction(floor(100 * points * share), 100) for share in shares]
+        full = sum(shares, NONE)
         part = min(Fraction(1), most / full) if full else NONE
         own = self.standard.rubric.own
         return tuple(
             EarnedCause(
                 name,
-                points * share * part,
+                share * part,
                 found.odds,
                 said=own[name].said if name in own else {},
             )

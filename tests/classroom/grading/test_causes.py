@@ -94,6 +94,30 @@ def test_a_named_cause_never_costs_more_than_the_same_values_unexplained():
             assert graded.cost + lost <= graded.points
 
 
+def test_a_second_cause_never_costs_more_than_the_first_alone():
+    """Beside a crank twice as long, the right ε of number 7 happens to be ω²."""
+    book, who = book_of("offset-slider-crank"), replace(taker(7), settings={"n": "7", "r": "61"})
+    marker = book.marker_of(who)
+    sheet = marker.standard.paper
+    scales = (sheet.mechanism, sheet.velocities, sheet.accelerations)
+    data = hand.data("offset-slider-crank", 7)
+    row = mistaken.handed_in(
+        "offset-slider-crank",
+        data,
+        scales,
+        np.random.default_rng(11),
+        mistakes=("diameter",),
+        crank=61,
+    )
+    told = {item.field: read_answer(row[item.field], item) for item in book.form}
+    one = marker.mark(who, told)
+    assert [cause.name for cause in one.causes] == ["diameter_for_radius"]
+    epsilon = marker.standard.by_field["epsilon_2"].item
+    two = marker.mark(who, told | {"epsilon_2": read_answer("41.5", epsilon)})
+    assert two.causes[0].name == "diameter_for_radius"
+    assert one.earned - two.earned <= two.mark("epsilon_2").points
+
+
 def test_feedback_begins_with_the_mistake_in_every_language():
     (graded, _), *_ = a_class("offset-slider-crank", [("diameter",)], 1, count=1)
     for language, start in (("en", "One mistake"), ("ro", "O greșeală"), ("it", "Un errore")):
