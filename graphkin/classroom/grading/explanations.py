@@ -472,7 +472,8 @@ class AnswerSheets(Struct, frozen=True, dict=True):
         for hypothesis, likely in tried:
             if likely - honest < (LIKELY if numbers.any() else SENSES):
                 break
-            found = self.judged_enough(i, self.settled(i, hypothesis, likely - honest))
+            told = self.settled(i, hypothesis, likely - honest)
+            found = None if told is None else self.judged_enough(i, told)
             if found is not None:
                 return found
         return None
@@ -512,11 +513,17 @@ class AnswerSheets(Struct, frozen=True, dict=True):
         near: Array = abs(apart) <= 3 * COMPUTED + rounded[computed] + rounded[own]
         return near
 
-    def settled(self, i: int, hypothesis: Hypothesis, odds: float = 0.0) -> SheetCauses:
-        """What a student would write by a hypothesis, the likelier of two values in each field."""
+    def settled(
+        self, i: int, hypothesis: Hypothesis, odds: float = 0.0, *, closely: bool = True
+    ) -> SheetCauses | None:
+        """What a student would write by a hypothesis, the likelier of two values in each field.
+
+        None where it cannot be drawn.
+        """
         part = self.some([i])
-        told = part.shown(hypothesis, closely=True)
-        assert told is not None
+        told = part.shown(hypothesis, closely=closely)
+        if told is None:
+            return None
         written = told.written
         if told.other is not None:
             one, two = (part.by_field(told, each, 1.4) for each in (written, told.other))
@@ -675,11 +682,11 @@ def ways_of(
     sheet = sheets_of([standard], [0], [given], [missed])
     single = (Hypothesis((cause,)) for cause in sheet.causes)
     with np.errstate(all="ignore"):
-        told = [(each, sheet.settled(0, each)) for each in single if sheet.shown(each) is not None]
+        told = [(each, sheet.settled(0, each, closely=False)) for each in single]
     (found,) = sheet.explained()
-    if found is not None and len(found.causes) > 1:
+    if found is not None:
         told.append((Hypothesis(found.causes), found))
-    return tuple(CauseWay(e.names, e.values, e.times, each.share) for each, e in told)
+    return tuple(CauseWay(e.names, e.values, e.times, each.share) for each, e in told if e)
 
 
 def explained_by(
