@@ -98,6 +98,11 @@ SHOWN = 10
     multiple=True,
     help="A released student to hold again; repeatable.",
 )
+@click.option(
+    "--as-it-is",
+    is_flag=True,
+    help="Mark the class even where its answers look like those of another table, lab or scale.",
+)
 @click.option("--force", is_flag=True, help="Replace an earlier report, and list what changed.")
 @click.pass_context
 def grade(  # noqa: PLR0915
@@ -114,6 +119,7 @@ def grade(  # noqa: PLR0915
     jobs: int | None,
     released: tuple[str, ...],
     held: tuple[str, ...],
+    as_it_is: bool,
     force: bool,
 ) -> None:
     """Mark the answers of a class.
@@ -133,6 +139,10 @@ def grade(  # noqa: PLR0915
     A cell that cannot be read is reported. Its points wait, and no gradebook gets the marks of that
     student until you correct the cell and mark again. The same holds for a file or row that cannot
     be read, or that is signed with the id of another student. All other answers are marked.
+
+    The class is looked at as a whole first. Nothing is marked where rows or columns are shifted or
+    in another order, where a column lost its decimal points, or where the answers are those of
+    another lab or scale. --as-it-is marks such a class.
 
     The tolerance of a value is the error of a careful pencil in that student's own drawing;
     tolerances.csv lists the tolerances. A sheet with wrong values is first explained as a whole: a
@@ -212,7 +222,15 @@ def grade(  # noqa: PLR0915
     turns = read_turns(answers, ids, refusals)
     words = opened.words(lang)
     processes = jobs or usual_jobs(opened)
-    found = graded_class(opened.book, opened.takers, given.of, processes, free.ids, decisions)
+    found = graded_class(
+        opened.book,
+        opened.takers,
+        given.of,
+        processes,
+        free.ids,
+        decisions,
+        as_it_is=as_it_is,
+    )
     given.unread = open_cells(found, given.unread)
     for who, problems in found.refused.items():
         refusals.add(who, problems)

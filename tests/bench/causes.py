@@ -1,8 +1,8 @@
 """Marks of students with one mistake each: how they are spread, and how often it is named.
 
-``python -m tests.bench.causes`` draws 24 students of each of three labs with each mistake, by the
-formulas of ``tests.classroom.grading.mistaken``, and marks them as a class. Then come pairs of
-mistakes, and honest and sloppy students without any.
+``python -m tests.bench.causes [PART …] [SEED]`` draws 24 students of each of three labs with
+each mistake, by the formulas of ``tests.classroom.grading.mistaken``, and marks them as a class.
+Then come pairs of mistakes, and honest and sloppy students without any.
 """
 
 from __future__ import annotations
@@ -22,29 +22,38 @@ from tests.classroom.grading.students import book_of
 from tests.classroom.grading.students import taker as student
 
 STUDENTS = 24
+APART = 4
+"""The least difference from the number of a fellow student whose data are drawn: those of a
+neighbour hardly differ, which ``apart`` in a lab excludes."""
 Way = tuple[str, ...]
 
 
 def a_class(
     lab: str, ways: Sequence[Way], seed: int, pencil: Pencil = CAREFUL, count: int = STUDENTS
 ) -> list[tuple[Graded, Way]]:
-    """The marks of a class in which each makes the first of some mistakes that changes anything."""
+    """The marks of a class in which each makes the first of some mistakes that changes anything.
+
+    Of two mistakes, each must change something beside the other.
+    """
     book, rng = book_of(lab), np.random.default_rng(seed)
-    takers = [student(3 + i % 28, f"s{i:04d}") for i in range(count)]
+    takers = [student(3 + i % 28, f"s{i:04d}") for i in range(max(count, STUDENTS))]
     book.prepare(takers)
     answers, made = {}, {}
-    for taker in takers:
+    numbers, others = range(3, 3 + STUDENTS), np.random.default_rng([seed, 5])
+    for taker in takers[:count]:
         standard = book.marker(taker.settings).standard
         paper = standard.paper
         sheet = (paper.mechanism, paper.velocities, paper.accelerations)
         number = int(taker.settings["n"])
-        other = (hand.data(lab, (number + 6) % 28 + 3), 0.0)
+        far = [each for each in numbers if abs(each - number) >= APART]
+        other = (hand.data(lab, int(others.choice(far))), 0.0)
         for way in ways or ((),):
-            plain, wrong = (
+            fewer = [tuple(each for each in way if each != left) for left in way] or [()]
+            wrong, *others_told = (
                 drawn(lab, number, sheet, np.random.default_rng(1), mistakes, other)
-                for mistakes in ((), way)
+                for mistakes in (way, *fewer)
             )
-            if wrong is None or (way and plain == wrong):
+            if wrong is None or (way and wrong in others_told):
                 continue
             row = drawn(lab, number, sheet, rng, way, other, pencil)
             if row is not None:
@@ -86,32 +95,32 @@ def told(name: str, found: Sequence[tuple[Graded, Way]]) -> str:
     return f"{name:52} {len(found):4} {marks.mean():6.1f} {low:6.1f} {high:6.1f} {100 * named:6.1f}"
 
 
-def rows() -> Iterator[str]:
+def rows(seed: int) -> Iterator[str]:
     """The rows of the table."""
     yield f"{'mistake':52} {'n':>4} {'mean':>6} {'5 %':>6} {'95 %':>6} {'named':>6}"
     for lab in LABS:
         for name, ways in CAUSES.items():
-            found = a_class(lab, ways, 1)
+            found = a_class(lab, ways, seed)
             yield told(f"{lab}: {name}", found) if found else f"{lab}: {name}: changes nothing"
 
 
-def pair_rows() -> Iterator[str]:
+def pair_rows(seed: int) -> Iterator[str]:
     """How often pairs of mistakes are both named."""
     for lab in LABS:
         named, count = 0, 0
         for first, second in combinations(CAUSES.values(), 2):
-            found = a_class(lab, [a + b for a in first for b in second], 3, count=2)
+            found = a_class(lab, [a + b for a in first for b in second], seed + 2, count=2)
             named += sum(is_named(*each) for each in found)
             count += len(found)
         yield f"{lab}: pairs named {named} of {count}"
 
 
-def honest_rows(count: int) -> Iterator[str]:
+def honest_rows(seed: int, count: int = 334) -> Iterator[str]:
     """Honest and sloppy students: right answers, and false names."""
     for kind, pencil in (("careful", CAREFUL), ("sloppy", SLOPPY)):
         right = every = false = 0
         for lab in LABS:
-            for graded, _ in a_class(lab, [()], 7, pencil, count):
+            for graded, _ in a_class(lab, [()], seed + 6, pencil, count):
                 marks = [m for m in graded.marks if m.points]
                 right += sum(m.status is Status.RIGHT for m in marks)
                 every += len(marks)
@@ -121,9 +130,10 @@ def honest_rows(count: int) -> Iterator[str]:
 
 def main() -> None:
     """Print the table."""
-    parts = {"causes": rows, "pairs": pair_rows, "honest": lambda: honest_rows(334)}
-    for name in sys.argv[1:] or parts:
-        for line in parts[name]():
+    parts = {"causes": rows, "pairs": pair_rows, "honest": honest_rows}
+    seeds = [int(each) for each in sys.argv[1:] if each.isdigit()] or [1]
+    for name in [each for each in sys.argv[1:] if each in parts] or parts:
+        for line in parts[name](seeds[0]):
             print(line, flush=True)
 
 

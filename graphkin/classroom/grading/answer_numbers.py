@@ -118,14 +118,30 @@ def parts(word: str, said: Collection[str]) -> list[str]:
     return [word]
 
 
+ABOUT = r"(?:[~∼≈≃≅]|cc?a\.|circa)\s?"
+SIGN = r"[+\-\u2212]"
 NUMBER = re.compile(
-    r"(?:(?:[~∼≈≃≅]|cc?a\.|circa)\s?)?(?P<sign>[+\-\u2212]?)(?P<digits>[0-9]+(?:[.,][0-9]*)?|[.,][0-9]+)"
-    r"(?:(?:[eE]|\s?[*x×·]\s?10\s?\^\s?)(?P<power>[+-]?[0-9]{1,3}))?"
+    rf"(?:(?P<label>[^\W\d][\w']{{0,15}})\s?[=:~≈]\s?)?(?:{ABOUT})?(?P<sign>{SIGN}?)\s?"
+    r"(?P<digits>"
+    r"[1-9][0-9]{0,2}(?:(?P<part>[.,' \u00a0\u202f])[0-9]{3})(?:(?P=part)[0-9]{3})*"
+    r"(?:(?!(?P=part))[.,][0-9]+(?![0-9.,]))"
+    r"|[1-9][0-9]{0,2}(?:(?P<parts>[.,' \u00a0\u202f])[0-9]{3})(?:(?P=parts)[0-9]{3})+(?![0-9.,])"
+    r"|[0-9]+(?:[.,][0-9]*)?|[.,][0-9]+)"
+    rf"(?:(?:[eE]|\s?[*x×·]\s?10\s?(?:\^|\*\*)\s?\(?)(?P<power>{SIGN}?[0-9]{{1,3}})\)?"
+    r"|\s?[*x×·]\s?10(?P<raised>[⁺⁻]?[⁰¹²³⁴⁵⁶⁷⁸⁹]{1,3}))?"
 )
 """A number in ASCII digits, with a point or a comma, and optionally a power of ten.
 
-A mark for "about" before the number is ignored.
+Thousands may be apart where the decimal mark, or more than one gap, leaves no doubt. The name of
+the quantity, or a mark for "about", may come before the number.
 """
+RAISED = str.maketrans("⁺⁻⁰¹²³⁴⁵⁶⁷⁸⁹\u2212", "+-0123456789-")
+"""Superscripts, and the minus sign, in ASCII."""
+LETTERS = {
+    "omega": ("omega", "ω", "w"),
+    "epsilon": ("epsilon", "ε", "eps", "alpha", "α"),
+}
+"""How the names of quantities may begin in a cell; others by the letter that fields begin with."""
 BLANKS = ("-", "–", "—", "--", "n/a", "n.a.", "na")
 """Text that means no answer. In a field for a sense, a single - is a sense."""
 OPEN = "?"
@@ -181,7 +197,7 @@ def read_answer(text: str, item: Item) -> Answer:
         return BLANK
     if item.what == "sense":
         return read_sense(text, stripped, item.quantity)
-    return read_number(text, stripped, item.unit, item.one)
+    return read_number(text, stripped, item)
 
 
 def read_sense(text: str, stripped: str, quantity: str) -> Answer:
@@ -189,33 +205,57 @@ def read_sense(text: str, stripped: str, quantity: str) -> Answer:
     turning = quantity in TURNING
     known = sense_of(stripped, turning=turning) if len(stripped) <= LONGEST else None
     if known is None:
+        known = sign_of_number(stripped)
+    if known is None:
         return Answer(text, problem="turning" if turning else "sliding")
     return Answer(text, float(known), signed=True)
 
 
-def read_number(text: str, stripped: str, unit: str, one: float = 1.0) -> Answer:
-    """Read a number with a decimal point or comma and an optional unit; ? is an open answer.
+def sign_of_number(text: str) -> int | None:
+    """The sign that is written before a number with any unit; None where there is none."""
+    found = NUMBER.match(text) if len(text) <= LONGEST else None
+    if found is None or not found["sign"] or not float(digits_of(found)):
+        return None
+    written = plain_unit(text[found.end() :])
+    if written and not any(written in known for known in UNITS.values()):
+        return None
+    return 1 if found["sign"] == "+" else -1
 
-    ``one`` is the factor of a number without a unit.
-    """
+
+def digits_of(found: re.Match[str]) -> str:
+    """The digits of a number with a decimal point, without gaps between thousands."""
+    digits = found["digits"]
+    for gap in (found["part"], found["parts"]):
+        digits = digits.replace(gap, "") if gap else digits
+    return digits.replace(",", ".")
+
+
+def is_name_of(label: str, item: Item) -> bool:
+    """Whether a label before a number may name the quantity of a field."""
+    letter = item.name.partition("_")[0]
+    return label.casefold().startswith(LETTERS.get(letter, (letter.casefold(),)))
+
+
+def read_number(text: str, stripped: str, item: Item) -> Answer:
+    """Read a number with a decimal point or comma and an optional unit; ? is an open answer."""
     if stripped == OPEN:
         return Answer(text, problem="open")
     found = NUMBER.match(stripped) if len(stripped) <= LONGEST else None
-    if found is None:
+    if found is None or (found["label"] and not is_name_of(found["label"], item)):
         return Answer(text, problem="number")
-    rest = stripped[found.end() :]
+    unit, rest = item.unit, stripped[found.end() :]
     written = plain_unit(rest)
     known = UNITS.get(unit, {unit: 1.0})
-    factor = one if not written else known.get(written)
+    factor = item.one if not written else known.get(written)
     if factor is None:
         return Answer(text, problem="number" if MISTYPED.search(rest) else "unit")
-    digits = found["digits"].replace(",", ".")
-    value = float(f"{digits}e{found['power'] or 0}") * factor
+    power = (found["power"] or found["raised"] or "0").translate(RAISED)
+    value = float(f"{digits_of(found)}e{power}") * factor
     if not value < LARGEST_ANSWER:
         return Answer(text, problem="large")
     sign = found["sign"]
     value = value if sign in ("", "+") else -value
-    in_groups = GROUPED.fullmatch(found["digits"]) and not found["power"]
+    in_groups = GROUPED.fullmatch(found["digits"]) and power == "0"
     grouped = 1000 * value if in_groups else None
     return Answer(text, value, signed=bool(sign), grouped=grouped)
 
@@ -231,16 +271,26 @@ def rounding(answer: Answer) -> float:
     found = NUMBER.match(answer.text.strip())
     if found is None:
         return 0.0
-    digits = found["digits"].replace(",", ".")
+    digits = digits_of(found)
     size, places = float(digits), len(digits.partition(".")[2])
     return 0.5 * 10.0**-places / size if size else 0.0
 
 
+def significant(answer: Answer) -> tuple[int, int]:
+    """The fewest and the most significant digits that a number may have; zeros for no number.
+
+    Zeros at the end of a whole number may be significant.
+    """
+    found = NUMBER.match(answer.text.strip())
+    digits = digits_of(found) if found is not None else ""
+    bare = digits.replace(".", "").lstrip("0")
+    return len(bare) if "." in digits else len(bare.rstrip("0")), len(bare)
+
+
 def plain_unit(text: str) -> str:
-    """A unit without spaces, brackets and power signs."""
-    return (
-        re.sub(r"[\s()\[\]^*·]", "", text).replace("²", "2").replace("⁻¹", "-1").replace("−", "-")
-    )
+    """A unit without spaces, brackets, power signs, and the stop or semicolon after it."""
+    plain = re.sub(r"[\s()\[\]^*·]", "", text).replace("²", "2").replace("⁻¹", "-1")
+    return re.sub(r"(?<=\w)[.;]$", "", plain.replace("−", "-").replace("sec", "s"))
 
 
 def shown_cell(text: str) -> str:

@@ -6,7 +6,7 @@ draw alike at once. Names of causes in components come from the kinds' own recor
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Collection, Iterator, Mapping, Sequence
 from functools import cached_property
 from math import pi
 from typing import Any
@@ -15,19 +15,22 @@ from msgspec import Struct
 from msgspec.structs import replace
 
 from graphkin.accuracy.pencil.original import together
-from graphkin.accuracy.pencil.pencil import Paper
+from graphkin.accuracy.pencil.pencil import Paper, Pencil, PencilMark, mark_of, marked
 from graphkin.classroom.grading.standard import FormLayout, Standard, ruler_unit
 from graphkin.construction.core.bases import crank_tip
 from graphkin.construction.core.component import component_of
 from graphkin.construction.core.crossings import Determined
 from graphkin.construction.core.kind import Construction
 from graphkin.construction.core.program import Drive, Plane, Step
+from graphkin.construction.core.quantities import OMEGA
 from graphkin.construction.core.vocabulary import similar_point
+from graphkin.construction.higher_class.closure_solver import closer_of
 from graphkin.construction.registry import SLIPPING
 from graphkin.construction.velocity.lines_through import square_to
+from graphkin.construction.velocity.turning_of_link import TurningOfLink
 from graphkin.mechanism import Mechanism
 from graphkin.numbers.arithmetic import np
-from graphkin.numbers.plane import Ratio
+from graphkin.numbers.plane import Ratio, by_parts
 from graphkin.structure.groups import Crank
 
 Value = Any
@@ -87,15 +90,16 @@ def speed_factors(mechanism: Mechanism) -> Mapping[str, float]:
     return UNITS if in_turns else {"rad_as_rpm": RAD_AS_RPM}
 
 
-def constructed(mechanism: Mechanism, layout: FormLayout) -> tuple[Cause, ...]:
-    """Every cause in the construction of a mechanism, as far as the fields depend on it."""
+def constructed(standard: Standard) -> tuple[Cause, ...]:
+    """Every cause in the construction of a variant, as far as the fields depend on it."""
+    mechanism, layout = standard.mechanism, standard.layout
     needed = frozenset(layout.needed)
     found = (
         *of_drivers(mechanism),
         *of_cranks(mechanism),
         *of_sides(layout),
         *of_plates(layout),
-        *of_perpendiculars(layout),
+        *of_perpendiculars(layout, standard.exact.tails),
         *of_components(layout),
     )
     return tuple(
@@ -234,8 +238,11 @@ def driven(layout: FormLayout) -> frozenset[int]:
 # --- what the student draws: perpendiculars and components ----------------------------------------
 
 
-def of_perpendiculars(layout: FormLayout) -> Iterator[Cause]:
-    """The parallel to a bar drawn for the perpendicular: in the plans, or in one of them."""
+def of_perpendiculars(layout: FormLayout, tails: Mapping[int, int]) -> Iterator[Cause]:
+    """The parallel to a bar drawn for the perpendicular: in the plans, or in one of them.
+
+    The bar's rate is then computed from an arrow along the bar, which turns it neither way.
+    """
     steps = layout.program.steps
     bars: dict[tuple[int, ...], list[int]] = {}
     for number in layout.needed:
@@ -248,9 +255,43 @@ def of_perpendiculars(layout: FormLayout) -> Iterator[Cause]:
     for bar, lines in bars.items():
         ways = {tuple(lines), *((number,) for number in lines)}
         for way in sorted(ways, key=len, reverse=True):
-            mends = dict.fromkeys(way, turned)
+            rates = list(rates_along(layout, bar, {steps[number].plane for number in way}))
+            mends: dict[int, Mend] = dict.fromkeys(way, turned)
+            mends |= {number: whole_arrow(steps[number], tails.get(number)) for number in rates}
             told = f"{bar[0]}-{bar[1]} {len(way)}:{way[0]}"
-            yield Cause("parallel_for_perpendicular", told, Change(mends))
+            reads = without_sense(layout, rates) if rates else None
+            yield Cause("parallel_for_perpendicular", told, Change(mends), reads)
+
+
+def rates_along(layout: FormLayout, bar: Sequence[int], plans: Collection[Plane]) -> Iterator[int]:
+    """The steps that compute the rates of a bar from some of the plans."""
+    for number in layout.needed:
+        step = layout.program.steps[number]
+        if isinstance(step.of, TurningOfLink) and {*step.args[:2]} == {*bar}:
+            plan = Plane.VELOCITIES if step.of.quantity == OMEGA else Plane.ACCELERATIONS
+            if plan in plans:
+                yield number
+
+
+def whole_arrow(step: Step, tail: int | None) -> Mend:
+    """A rate computed from the length of the arrow that was drawn, whatever its direction."""
+    p, q, start, tip = step.args
+
+    def computed(rate: Value, get: Get) -> Value:
+        return abs(get(tip) - get(start if tail is None else tail)) / abs(get(q) - get(p))
+
+    return computed
+
+
+def without_sense(layout: FormLayout, rates: Collection[int]) -> Callable[..., Any]:
+    """Senses that the drawing leaves open."""
+    probes = layout.probes
+    mask = np.array([probe.item.what == "sense" and probe.step in rates for probe in probes])
+
+    def reads(shown: Any, *rest: Any) -> tuple[Any, None]:
+        return np.where(mask, 0.0, shown), None
+
+    return reads
 
 
 def of_components(layout: FormLayout) -> Iterator[Cause]:
@@ -375,13 +416,7 @@ class Variants(Struct, frozen=True, dict=True):
 
         The plans of a crank ``faster`` than it is keep their size where the crank sets their scale.
         """
-        paper = self.paper
-        if faster != 1.0:
-            by_crank: Any = np.array(
-                [[float(bool(each.scales.of_crank))] for each in self.standards]
-            )
-            ratio = faster**by_crank
-            paper = Paper(paper.mechanism, paper.velocities * ratio, paper.accelerations * ratio**2)
+        paper = self.paper_of(faster)
         every = {**self.values, **found}
         shape = len(self.standards), len(self.fields)
         told = np.empty(shape)
@@ -390,6 +425,118 @@ class Variants(Struct, frozen=True, dict=True):
             column = np.broadcast_to(value, (shape[0], 1))[:, 0]
             told[:, place] = np.sign(column) if probe.item.what == "sense" else column
         return told
+
+    def paper_of(self, faster: float) -> Paper:
+        """The scale factors of a crank so many times as fast, where the crank sets them."""
+        paper = self.paper
+        if faster == 1.0:
+            return paper
+        by_crank: Any = np.array([[float(bool(each.scales.of_crank))] for each in self.standards])
+        ratio = faster**by_crank
+        return Paper(paper.mechanism, paper.velocities * ratio, paper.accelerations * ratio**2)
+
+    # --- how far off a drawing is -----------------------------------------------------------------
+
+    @cached_property
+    def marks(self) -> Mapping[int, PencilMark]:
+        """The mark that each step puts on paper, composite steps by their result."""
+        steps = self.layout.program.steps
+        found = {n: mark_of(steps[n], first_of(self.values[n])) for n in self.layout.needed}
+        known = {n: mark for n, mark in found.items() if mark not in (None, PencilMark.CLOSING)}
+        return {n: mark for n, mark in known.items() if mark is not None and not steps[n].arrow}
+
+    @cached_property
+    def single_errors(self) -> Mapping[int, Any]:
+        """The errors of each mark in drawings with one error each; the last drawing has none."""
+        count = sum(mark.errors for mark in self.marks.values())
+        found, start = {}, 0
+        for number, mark in self.marks.items():
+            found[number] = np.eye(count + 1)[:, start : start + mark.errors]
+            start += mark.errors
+        return found
+
+    def deviations(self, change: Change, rows: Any) -> Any:
+        """The deviation of each field in drawings of some variants with a change, for one pencil.
+
+        A row for each variant; senses are zero. The pencil is the one that is forgiven. NaN where
+        the construction closes a group of higher class, whose drawings have no errors here.
+        """
+        rubric = self.standards[0].rubric
+        count = sum(mark.errors for mark in self.marks.values()) + 1
+        shape = len(rows), count
+        if self.closes:
+            return np.full((len(rows), len(self.fields)), np.nan)
+        pencil = Pencil(rubric.point, rubric.line)
+        paper = repeated(self.paper_of(change.faster), rows, count)
+        found = self.redrawn(change, rows, pencil, paper)
+        told = np.zeros((len(rows), len(self.fields)))
+        for place, probe in enumerate(self.layout.probes):
+            if probe.item.what != "sense":
+                value = np.real(np.asarray(probe.read(found, paper), dtype=complex))
+                each = np.broadcast_to(value, (len(rows) * count,)).reshape(shape)
+                off = each - each[:, -1:]
+                told[:, place] = np.sqrt(np.sum(off * off, axis=1))
+        return told
+
+    @property
+    def closes(self) -> bool:
+        """Whether the construction closes a group of higher class by trials."""
+        return any(closer_of(self.layout.program.steps[n]) is not None for n in self.layout.needed)
+
+    def redrawn(
+        self, change: Change, rows: Any, pencil: Pencil, paper: Paper
+    ) -> Mapping[int, Value]:
+        """The values of the steps of some variants with a change, drawing by drawing."""
+        steps, count = self.layout.program.steps, len(next(iter(self.single_errors.values())))
+        values = {n: repeated(self.values[n], rows, count) for n in self.values}
+        found: dict[int, Value] = {}
+
+        def get(number: int) -> Value:
+            if number == MILLIMETRE:
+                return paper.velocities / 1000
+            return found[number] if number in found else values[number]
+
+        for number in self.layout.needed:
+            step, value = change.steps.get(number, steps[number]), values[number]
+            moved = number in change.steps or not found.keys().isdisjoint(step.args)
+            mend, mark = change.mends.get(number), self.marks.get(number)
+            if not moved and mend is None and mark is None:
+                continue
+            if moved and step.action is not None:
+                value = step.action.value(*(get(arg) for arg in step.args), *step.extra)
+            value = value if mend is None else mend(value, get)
+            if mark is not None:
+                start = get(step.args[0]) if mark is PencilMark.ARROW and step.args else value
+                start = start if is_place(start) else value
+                mm = paper.millimetre(step.plane)
+                errors = np.tile(self.single_errors[number], (len(rows), 1))
+                value = marked(mark, value, start, errors, pencil, mm)
+            found[number] = value
+        return {**values, **found}
+
+
+def first_of(value: Value) -> Any:
+    """The value of the first variant."""
+    if isinstance(value, tuple):
+        return by_parts(first_of, value)
+    return np.ravel(value)[0].item() if isinstance(value, np.ndarray) else value
+
+
+def repeated(value: Value, rows: Any, count: int) -> Any:
+    """The values of some variants, each so many times; a value that all share stays single."""
+    if isinstance(value, Paper):
+        own = (value.mechanism, value.velocities, value.accelerations)
+        return Paper(*(repeated(each, rows, count) for each in own))
+    if isinstance(value, tuple):
+        return by_parts(lambda part: repeated(part, rows, count), value)
+    if isinstance(value, np.ndarray) and value.ndim > 1:
+        return np.repeat(value[rows, 0], count)
+    return value
+
+
+def is_place(value: Value) -> bool:
+    """Whether a value is a point, or many of them."""
+    return isinstance(value, complex | np.ndarray)
 
 
 def millimetre(standard: Standard, place: int) -> float:

@@ -1,15 +1,21 @@
-"""Looks at a class as a whole before it is marked: a mistake of the table is not the students'."""
+"""Looks at a class as a whole before it is marked: a mistake of the table is not the students'.
+
+Rows or columns may be shifted or in another order. A column may have lost its decimal points, and
+the answers may be those of another lab, or of sheets at other scales.
+"""
 
 from __future__ import annotations
 
 from collections.abc import Sequence
 from typing import Any
 
-from graphkin.classroom.grading.graded import Graded
+from graphkin.classroom.grading.graded import Graded, Status
 from graphkin.classroom.grading.keys import Keys, distinct, read_of
+from graphkin.classroom.grading.probes import plane_of
 from graphkin.classroom.grading.standard import Expectation
+from graphkin.construction.core.program import Plane
 from graphkin.numbers.arithmetic import np
-from graphkin.text.errors import NO_WORDS, Problem, RosterError, message
+from graphkin.text.errors import NO_WORDS, Message, Problem, RosterError, message
 
 FEW = 6
 """The fewest students that tell of a table."""
@@ -23,46 +29,137 @@ CENTRED = 0.008
 """How near a power of ten the middle of a column is that lost its points, as a logarithm."""
 REACH = 5
 """The most rows by which a table is thought to be shifted."""
+SAMPLE = 60
+"""The most students who are compared with the data of all."""
+MIXED = 0.8
+"""The share of students from which rows are in another order, or sheets have another scale."""
+SCALED, ODD = 0.03, 0.07
+"""How far factors of one scale differ, and how far a scale is from the right one, in log."""
+DOUBLED = (2.0, 0.5)
+"""The factors by which a class draws its plans larger or smaller of its own accord."""
+PLANS = {
+    Plane.VELOCITIES: "the lengths of the velocity plan are {factor} times those of the sheets: the"
+    " scale is another",
+    Plane.ACCELERATIONS: "the lengths of the acceleration plan are {factor} times those of the"
+    " sheets: the scale is another",
+}
+LOST = 0.2
+"""The share of right answers below which an unexplained sheet may be that of another lab."""
 
 
 def look_at_class(graded: Sequence[Graded], expected: Sequence[Expectation]) -> None:
-    """Raise RosterError where rows or columns are shifted, or a column lost its decimal points."""
+    """Raise RosterError where a mistake of the table, of the lab or of its scales explains most."""
     present = [i for i, each in enumerate(graded) if each.present]
     if len(present) < FEW or not expected[0].tolerance:
         return
     own, mine = distinct(expected)
     keys = Keys.of(own)
-    variants = np.array([mine[id(expected[i])] for i in present])
+    every = np.array([mine[id(each)] for each in expected])
+    variants = every[present]
     answers = np.array([read_of(graded[i], keys)[0] for i in present])
     allowed = np.array([[each.tolerance[f].most for f in keys.fields] for each in own])
-    read = ~np.isnan(answers)
-    if not read.any():
+    if np.isnan(answers).all():
         return
     columns(keys, answers, keys.sizes[variants], allowed[variants])
     tens(graded, present, keys, answers, keys.sizes[variants])
-    if len(own) < 2:
-        return
-    apart = away(answers, keys.sizes[variants], allowed[variants])
-    every = np.array([mine[id(each)] for each in expected])
+    scales(keys, answers, keys.sizes[variants], allowed[variants])
+    if len(own) > 1:
+        apart = away(answers, keys.sizes[variants], allowed[variants])
+        shifted_rows(keys.sizes, allowed, answers, (every, present), apart)
+        mixed_rows(keys.sizes, allowed, answers, variants, apart)
+
+
+def refused(found: Message, hint: Message, where: Message | str = "answers") -> RosterError:
+    """The error that says what is wrong with the class, and what to do."""
+    return RosterError(Problem(where, found, NO_WORDS, hint))
+
+
+def shifted_rows(
+    sizes: Any, allowed: Any, answers: Any, rows: tuple[Any, Sequence[int]], apart: Any
+) -> None:
+    """Raise RosterError where most answers fit the data of the row so many places away.
+
+    ``rows`` are the variants of all students, and the places of those with answers.
+    """
+    every, present = rows
     for by in sorted({*range(-REACH, REACH + 1)} - {0}, key=abs):
         at = np.array(present) + by
-        rows = every[np.clip(at, 0, len(every) - 1)]
-        inside = (at >= 0) & (at < len(every)) & (rows != variants)
-        near = away(answers, keys.sizes[rows], allowed[rows])
+        other = every[np.clip(at, 0, len(every) - 1)]
+        inside = (at >= 0) & (at < len(every)) & (other != every[present])
+        near = away(answers, sizes[other], allowed[other])
         if ((near < apart / NEARER) & inside).mean() >= MOST:
-            hint = message("mend the order of the rows, or the column of ids")
-            raise RosterError(
-                Problem(
-                    "answers",
-                    message("fit the data of other rows: they are shifted"),
-                    NO_WORDS,
-                    hint,
-                )
+            raise refused(
+                message("fit the data of other rows: they are shifted"),
+                message("mend the order of the rows, or the column of ids"),
             )
 
 
+def mixed_rows(sizes: Any, allowed: Any, answers: Any, variants: Any, apart: Any) -> None:
+    """Raise RosterError where nearly everybody's answers fit the data of one other student each."""
+    if len(set(variants.tolist())) < MIXED * len(variants):
+        return
+    some = range(0, len(variants), -(-len(variants) // SAMPLE))
+    found = []
+    for i in some:
+        near = away(answers[i], sizes, allowed)
+        best = int(near.argmin())
+        if best != variants[i] and near[best] < min(1.0, apart[i] / NEARER):
+            found.append(best)
+    if len(found) >= MIXED * len(some) and len(set(found)) == len(found):
+        raise refused(
+            message("fit the data of other students: the rows are in another order"),
+            message("mend the order of the rows, or the column of ids"),
+        )
+
+
+def scales(keys: Keys, answers: Any, sizes: Any, allowed: Any) -> None:
+    """Raise RosterError where the lengths of a plan are off by one factor, but not its values."""
+    with np.errstate(all="ignore"):
+        logs = np.log(abs(answers / sizes))
+    logs = np.where(np.isfinite(logs), logs, np.nan)
+    for plan, template in PLANS.items():
+        own = [keys.standards[0].item[field] for field in keys.fields]
+        lengths = [i for i, e in enumerate(own) if e.what == "segment" and plane_of(e) is plan]
+        values = [i for i, e in enumerate(own) if e.what == "value" and keys.beside[i] in lengths]
+        if not values or (abs(answers - sizes) <= allowed)[:, values].mean() < MOST:
+            continue
+        told = logs[:, lengths][~np.isnan(logs[:, lengths]).all(axis=1)]
+        if len(told) < FEW:
+            continue
+        each = np.nanmedian(told, axis=1)
+        factor = float(np.median(each))
+        alike = (abs(each - factor) < SCALED).mean() >= MIXED
+        by_class = min(abs(factor - np.log(ratio)) for ratio in DOUBLED) < SCALED
+        if alike and abs(factor) > ODD and not by_class:
+            raise refused(
+                message(template, factor=f"{np.exp(factor):.3g}"),
+                message("mark with the lab, the course and the year whose sheets were handed out"),
+            )
+
+
+def look_for_another_lab(graded: Sequence[Graded]) -> None:
+    """Raise RosterError where the answers of most students are wrong, and nothing explains them.
+
+    Causes must have been looked for, and the data of others.
+    """
+    present = [each for each in graded if each.present]
+    lost = 0
+    for each in present:
+        read = [m for m in each.marks if m.answer.is_read and m.item.what != "sense"]
+        right = sum(mark.status is Status.RIGHT for mark in read)
+        lost += len(read) > FEW and not each.causes and right < LOST * len(read)
+    if len(present) >= FEW and lost >= MOST * len(present):
+        raise refused(
+            message("fit neither the students' data nor any known mistake: the lab is another"),
+            message("mark with the lab, the course and the year whose sheets were handed out"),
+        )
+
+
 def away(answers: Any, sizes: Any, allowed: Any) -> Any:
-    """The median distance of each student's answers from some sizes, in what is allowed."""
+    """The median distance of each student's answers from some sizes, in what is allowed.
+
+    A single student may be compared with many rows of sizes.
+    """
     with np.errstate(all="ignore"):
         far = np.where(np.isnan(answers), np.nan, abs(answers - sizes) / allowed)
     return np.nanmedian(np.where(np.isfinite(far), far, 1e9), axis=1)
@@ -75,15 +172,17 @@ def columns(keys: Keys, answers: Any, sizes: Any, allowed: Any) -> None:
         other = np.roll(sizes, by, axis=1), np.roll(allowed, by, axis=1)
         near = (abs(answers - other[0]) <= other[1]).mean(axis=0)
         if ((near > MOST) & (right < OWN)).mean() > MOST:
-            hint = message("mend the heads of the columns")
             found = message("hold the answers of the column beside: the columns are shifted")
-            raise RosterError(Problem("answers", found, NO_WORDS, hint))
+            raise refused(found, message("mend the heads of the columns"))
 
 
 def tens(
     graded: Sequence[Graded], present: Sequence[int], keys: Keys, answers: Any, sizes: Any
 ) -> None:
-    """Raise RosterError where the answers of a column lack their decimal points."""
+    """Raise RosterError where the answers of a column lack their decimal points.
+
+    They keep their last digits. Zeros at the end tell of a power of ten.
+    """
     with np.errstate(all="ignore"):
         powers = np.log10(answers / abs(sizes))
         powers = np.where(np.isfinite(powers), powers, np.nan)
@@ -99,10 +198,12 @@ def tens(
             continue
         varied = len(set(near[lost, place])) > 1 or not any("." in t or "," in t for t in texts)
         most = told.sum() >= FEW and lost.sum() > MOST * told.sum() and varied
-        if most and not others_whole(graded, present, keys, field):
+        zeros = np.mean([text.strip().endswith("0") for text in np.array(texts)[lost]])
+        unit = others_whole(graded, present, keys, field) or in_smaller_unit(keys, near, field)
+        if most and not unit and zeros < MIXED:
             hint = message("export the column as text, or with a decimal point")
             found = message("the answers lack their decimal points")
-            raise RosterError(Problem(f'column "{field}"', found, NO_WORDS, hint))
+            raise refused(found, hint, f'column "{field}"')
 
 
 def others_whole(graded: Sequence[Graded], present: Sequence[int], keys: Keys, field: str) -> bool:
@@ -111,3 +212,16 @@ def others_whole(graded: Sequence[Graded], present: Sequence[int], keys: Keys, f
     alike = [f for f in keys.fields if item[f].unit == item[field].unit and f != field]
     texts = [graded[i].mark(f).answer.text.strip() for i in present for f in alike]
     return bool(texts) and all(text.isdigit() for text in texts if text)
+
+
+def in_smaller_unit(keys: Keys, near: Any, field: str) -> bool:
+    """Whether another unit explains it: all speeds and accelerations are in mm, or all in cm.
+
+    ``near`` are the powers of ten by which answers are too large.
+    """
+    item = keys.standards[0].item
+    if not item[field].unit.startswith("m/"):
+        return False
+    metric = [k for k, f in enumerate(keys.fields) if item[f].unit.startswith("m/")]
+    powers = {float(np.nanmedian(near[:, k])) for k in metric if not np.isnan(near[:, k]).all()}
+    return len(metric) > 1 and len(powers) == 1 and powers <= {2.0, 3.0}

@@ -9,7 +9,7 @@ from functools import cached_property, partial
 from msgspec import Struct, field
 from msgspec.structs import replace
 
-from graphkin.classroom.grading.class_look import look_at_class
+from graphkin.classroom.grading.class_look import look_at_class, look_for_another_lab
 from graphkin.classroom.grading.class_standards import standards
 from graphkin.classroom.grading.copied_answers import copies, wrong_variants
 from graphkin.classroom.grading.decisions import by_student, settled, with_decisions
@@ -24,7 +24,7 @@ from graphkin.classroom.grading.graded import (
     Status,
 )
 from graphkin.classroom.grading.marking import FirstLook, Marker, explained, unread_left_out
-from graphkin.classroom.grading.others_data import with_others_data
+from graphkin.classroom.grading.others_data import with_others_data, with_own_causes
 from graphkin.classroom.grading.standard import Expectation, standard
 from graphkin.classroom.lab.cause_names import ANOTHER
 from graphkin.classroom.lab.items import items
@@ -124,8 +124,13 @@ def graded_class(
     jobs: int = 1,
     released: Collection[str] = (),
     decisions: Sequence[Decision] = (),
+    *,
+    as_it_is: bool = False,
 ) -> Result:
     """The marks of a whole class, by student id, with the evidence that needs the whole class.
+
+    Raises RosterError where the class as a whole looks like another table or lab, unless it is
+    marked ``as_it_is``.
 
     Where the rubric holds marks back, those of ``released`` students and of students with a
     decision are not held. The evidence comes from the answers, whatever was decided.
@@ -145,10 +150,14 @@ def graded_class(
         raise GraphkinError(p for problems in refusals.found.values() for p in problems)
     graded = [each for each, _ in found]
     expected = shared(found)
-    look_at_class(graded, expected)
+    if not as_it_is:
+        look_at_class(graded, expected)
     twice = copies(graded, expected, book.ways, refusals.alone)
     copied = {who for each in twice for who in each.students}
+    graded = with_own_causes(book, graded, refusals.alone)
     graded = with_others_data(book, graded, expected, copied, refusals.alone)
+    if not as_it_is:
+        look_for_another_lab(graded)
     others = wrong_variants(graded, expected, book.ways, refusals.alone)
     flagged = {*(each.students[0] for each in others), *copied}
     free = settled(decisions).union(released)

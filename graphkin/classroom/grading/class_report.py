@@ -12,11 +12,12 @@ from typing import TYPE_CHECKING, Any
 
 from graphkin.classroom.grading.answer_numbers import beyond_number, rounding, shown_cell
 from graphkin.classroom.grading.answers import Answers, Unread
-from graphkin.classroom.grading.feedback import points_words
+from graphkin.classroom.grading.feedback import cause_sentence, points_words
 from graphkin.classroom.grading.feedback import unread as unread_words
 from graphkin.classroom.grading.graded import (
     SURE,
     Decision,
+    EarnedCause,
     EarnedMark,
     Graded,
     Result,
@@ -148,23 +149,25 @@ def distribution(graded: Sequence[Graded], words: Words) -> Figure:
     return drawn
 
 
-def cause_counts(graded: Sequence[Graded]) -> list[tuple[str, int, int]]:
+def cause_counts(graded: Sequence[Graded]) -> list[tuple[EarnedCause, int, int]]:
     """Each cause with the answers and the students it explains, the most frequent first."""
     answers: Counter[str] = Counter()
     students: Counter[str] = Counter()
+    known: dict[str, EarnedCause] = {}
     for each in graded:
         explained = sum(mark.status is Status.CAUSE for mark in worth(each))
         for cause in each.causes:
             answers[cause.name] += explained
             students[cause.name] += 1
+            known.setdefault(cause.name, cause)
     order = sorted(students, key=lambda name: (-students[name], -answers[name], name))
-    return [(name, answers[name], students[name]) for name in order]
+    return [(known[name], answers[name], students[name]) for name in order]
 
 
 def frequent(graded: Sequence[Graded], words: Words) -> Figure:
     """Draw how many students made each mistake."""
     counts = cause_counts(graded)[:MOST]
-    texts = [wrap(plain(words(f"cause.{name}")), ACROSS) for name, _, _ in counts]
+    texts = [wrap(plain(cause_sentence(cause, words)), ACROSS) for cause, _, _ in counts]
     places, height = stacked([len(lines) for lines in texts])
     drawn, ax = figure(0.7 + INCH * height)
     ax.barh(places, [c[2] for c in counts], height=BAR, color="#e0b04c")
@@ -228,7 +231,7 @@ def class_report(
         title=title,
         summary=summary(result.graded, words),
         pictures={name: b64encode(png).decode("ascii") for name, png in pngs.items()},
-        causes=[(words(f"cause.{name}"), *counts) for name, *counts in cause_counts(own)],
+        causes=[(cause_sentence(each, words), *counts) for each, *counts in cause_counts(own)],
         wrong_variants=list(wrong_variant_lines(result, words)),
         copies=[copies_words(each, names, words) for each in result.copies],
         others=list(another_lines(result, words)),

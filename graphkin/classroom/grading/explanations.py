@@ -43,7 +43,7 @@ LIKELY = 5.0
 """The least odds, as a logarithm, at which a cause is named."""
 SENSES = -1.0
 """The same where nothing but senses is wrong, all of which the cause must reverse."""
-SECOND = 6.0
+SECOND = 2.0
 """The least odds, as a logarithm, by which two causes must be likelier than one."""
 EXPLAINS = 0.6
 """The least share of the wrong answers that an explanation must give."""
@@ -51,6 +51,10 @@ SPOILS = 0.25
 """The largest share of all answers that an explanation may leave unexplained."""
 SPAN = (0.5, 4.0)
 """The least and largest factor by which an error scales with its value."""
+SPREAD = (0.5, 30.0)
+"""The least and largest factor by which an error grows in another drawing."""
+MOST = 1.0
+"""The largest error of an answer that an explanation gives, in parts of the value."""
 BEST = 12
 """The number of hypotheses of a student that are compared, and of causes of which pairs are."""
 COARSE = (2,)
@@ -64,7 +68,8 @@ class SheetCauses(Struct, frozen=True):
 
     ``values`` are sizes, places and senses by field. ``times`` is how many times as large each
     error then is. ``odds`` says how much likelier this is than no mistake, as a logarithm.
-    ``fits`` are the fields whose answers agree.
+    ``fits`` are the fields whose answers agree. ``single`` is the best
+    explanation by one cause, where these are two.
     """
 
     causes: tuple[Cause, ...]
@@ -72,6 +77,7 @@ class SheetCauses(Struct, frozen=True):
     times: Mapping[str, float]
     odds: float
     fits: frozenset[str] = frozenset()
+    single: SheetCauses | None = None
 
     @property
     def names(self) -> tuple[str, ...]:
@@ -108,11 +114,13 @@ class Predicted(Struct, frozen=True):
     """What students would draw and write by a hypothesis.
 
     ``other`` holds values that are as likely to be ``written``, field by field; NaN for none.
+    ``grown`` is how many times as large the errors of such a drawing are beside those of the key.
     """
 
     drawn: Array
     written: Array
     other: Array | None
+    grown: Array
 
 
 class AnswerSheets(Struct, frozen=True, dict=True):
@@ -151,7 +159,7 @@ class AnswerSheets(Struct, frozen=True, dict=True):
         """What the students have before them."""
         fields = self.variants.fields
         whole = [[not {".", ","} & {*each[field].text} for field in fields] for each in self.given]
-        return View(self.form, self.rows, self.answers, np.array(whole))
+        return View(self.form, self.rows, self.answers, np.array(whole), self.errors[0])
 
     @cached_property
     def is_read(self) -> Array:
@@ -195,8 +203,11 @@ class AnswerSheets(Struct, frozen=True, dict=True):
 
     # --- judging hypotheses -----------------------------------------------------------------------
 
-    def shown(self, hypothesis: Hypothesis) -> Predicted | None:
-        """What the students would write by a hypothesis; None where it cannot be drawn."""
+    def shown(self, hypothesis: Hypothesis, *, closely: bool = False) -> Predicted | None:
+        """What the students would write by a hypothesis; None where it cannot be drawn.
+
+        ``closely`` draws with the pencil's errors; else these grow with what is drawn.
+        """
         told = self.drawn(hypothesis)
         if told is None:
             return None
@@ -211,7 +222,44 @@ class AnswerSheets(Struct, frozen=True, dict=True):
                 elif free is not None:
                     other = free
                 predicted = changed
-        return Predicted(drawn, predicted, other)
+        with np.errstate(all="ignore"):
+            grown = growing(drawn, self.key)
+            if closely and hypothesis.made:
+                most = SPREAD[1] * np.maximum(1.0, abs(drawn / self.key))
+                own = self.grown(hypothesis)
+                grown = np.where(np.isnan(own), grown, np.clip(own, SPREAD[0], most))
+        found = Predicted(drawn, predicted, other, np.where(self.form.senses, 1.0, grown))
+        return replace(found, written=self.with_open_senses(found)) if closely else found
+
+    def with_open_senses(self, told: Predicted) -> Array:
+        """What is written, with zero for senses that such a drawing leaves open."""
+        sized = self.form.sized
+        if not (sized >= 0).any():
+            return told.written
+        error = STRAIGHT * self.errors[0] * self.times(told, told.written)
+        is_open = (abs(told.written) <= error)[:, sized] & (sized >= 0)
+        return np.where(is_open, 0.0, told.written)
+
+    def grown(self, hypothesis: Hypothesis) -> Array:
+        """How many times as large a drawing's errors are, by drawing with the pencil's errors."""
+        change = hypothesis.change
+        assert change is not None
+        known = self.growths.setdefault(hypothesis.made, {})
+        new = sorted({*self.rows.tolist()} - known.keys())
+        if new:
+            plain = self.growths.setdefault((), {})
+            first = sorted({*new} - plain.keys())
+            if first:
+                told = self.variants.deviations(Change(), first)
+                plain.update(zip(first, told, strict=True))
+            told = self.variants.deviations(change, new) / np.array([plain[i] for i in new])
+            known.update(zip(new, told, strict=True))
+        return np.array([known[i] for i in self.rows.tolist()])
+
+    @cached_property
+    def growths(self) -> dict[tuple[tuple[str, str], ...], dict[int, Array]]:
+        """A cache of the growth of errors by hypothesis and variant; of deviations, by none."""
+        return {}
 
     def drawn(self, hypothesis: Hypothesis) -> tuple[Array, Mapping[int, Any]] | None:
         """The fields as read rightly off the drawing of a hypothesis, and its values by step."""
@@ -231,29 +279,35 @@ class AnswerSheets(Struct, frozen=True, dict=True):
         """A cache of the drawings of hypotheses, of all variants."""
         return {}
 
-    def judged(self, hypothesis: Hypothesis, pencils: Iterable[int] = range(len(PENCILS))) -> Array:
+    def judged(
+        self,
+        hypothesis: Hypothesis,
+        pencils: Iterable[int] = range(len(PENCILS)),
+        *,
+        closely: bool = False,
+    ) -> Array:
         """How likely each student's answers are by a hypothesis, as a logarithm."""
-        told = self.shown(hypothesis)
+        told = self.shown(hypothesis, closely=closely)
         if told is None:
             return np.full(len(self.rows), -inf)
         best = np.full(len(self.rows), -inf)
         for pencil in pencils:
-            each = self.by_field(told.drawn, told.written, PENCILS[pencil])
+            each = self.by_field(told, told.written, PENCILS[pencil])
             if told.other is not None:
-                also = self.by_field(told.drawn, told.other, PENCILS[pencil])
+                also = self.by_field(told, told.other, PENCILS[pencil])
                 with np.errstate(invalid="ignore"):
                     each = np.logaddexp(each, also) - HALF
             whole = np.where(self.is_read, each, 0.0).sum(axis=1) + RARE_PENCILS[pencil]
             best = np.maximum(best, whole)
         return best + hypothesis.share
 
-    def by_field(self, shown: Array, predicted: Array, pencil: float) -> Array:
+    def by_field(self, told: Predicted, predicted: Array, pencil: float) -> Array:
         """The density of each answer where some values are aimed at, as a logarithm."""
         form, answers = self.form, self.answers
         with np.errstate(all="ignore"):
             sizes = np.where(form.centres, predicted, abs(predicted))
             drawn, read = self.errors
-            times = self.times(shown, predicted)
+            times = self.times(told, predicted)
             spread = (pencil * drawn * times) ** 2 + (read * np.maximum(times, 1.0)) ** 2
             spread = spread + (self.rounded * answers) ** 2 / 3 + (COMPUTED * sizes) ** 2
             found = -0.5 * ((answers - sizes) ** 2 / spread + np.log(2 * pi * spread))
@@ -277,15 +331,14 @@ class AnswerSheets(Struct, frozen=True, dict=True):
         whole = np.logaddexp(log(1 - DIRECT) + found, log(DIRECT) + direct[:, values])
         return np.where(np.isnan(whole), direct[:, values], whole)
 
-    def times(self, shown: Array, predicted: Array) -> Array:
+    def times(self, told: Predicted, predicted: Array) -> Array:
         """How many times as large an error is beside that of the key.
 
-        The errors of a drawing grow with what it shows, those of what is read as it is misread.
+        The errors of what is read grow as it is misread.
         """
         with np.errstate(all="ignore"):
-            drawn = np.clip(np.nan_to_num(abs(shown / self.key), nan=1.0), *SPAN)
-            misread = np.nan_to_num(abs(predicted / shown), nan=1.0, posinf=1.0)
-        return np.where(self.form.centres | self.form.senses, 1.0, drawn * misread)
+            misread = np.nan_to_num(abs(predicted / told.drawn), nan=1.0, posinf=1.0)
+        return np.where(self.form.centres | self.form.senses, 1.0, misread) * told.grown
 
     @cached_property
     def open_senses(self) -> Array:
@@ -326,25 +379,36 @@ class AnswerSheets(Struct, frozen=True, dict=True):
         ranked = Ranked(count)
         for cause in self.causes:
             ranked.add(each := Hypothesis((cause,)), self.judged(each))
+        for place, own in ranked.best().items():
+            if ranked.every[place].made:
+                again = self.some(own).judged(ranked.every[place], closely=True)
+                ranked.table[place, own] = np.nan_to_num(again, nan=-inf)
         found = [self.chosen(i, ranked.of(i), honest[i]) for i in range(count)]
-        more = [i for i, each in enumerate(found) if self.left(i, each) > 1]
-        self.explain_more({i: ranked.names_of(i) for i in more}, honest, found)
+        more = [i for i, each in enumerate(found) if self.left(i, each) > (each is None)]
+        lost = {i for i in more if found[i] is None and self.is_lost(i)}
+        pairs = {i: ranked.wide_pairs(i) if i in lost else ranked.pairs(i) for i in more}
+        self.explain_more(pairs, honest, found)
         return found
+
+    def is_lost(self, i: int) -> bool:
+        """Whether most numbers of a sheet are wrong."""
+        numbers = self.is_read[i] & ~self.form.senses
+        return bool((self.missed[i] & numbers).sum() > numbers.sum() / 2)
 
     def explain_more(
         self,
-        which: Mapping[int, Sequence[Cause]],
+        which: Mapping[int, Sequence[Hypothesis]],
         honest: Array,
         found: list[SheetCauses | None],
     ) -> None:
         """Replace the explanations of some sheets by those of two causes that are likelier.
 
-        ``which`` holds the causes by sheet of which pairs are tried.
+        ``which`` holds the pairs by sheet that are tried.
         """
         pairs: dict[tuple[tuple[str, str], ...], tuple[Hypothesis, list[int]]] = {}
-        for i, causes in which.items():
-            for pair in pairs_of(causes):
-                key = tuple((cause.name, cause.way) for cause in pair.causes)
+        for i, own_pairs in which.items():
+            for pair in own_pairs:
+                key = pair_key(pair)
                 pairs.setdefault(key, (pair, []))[1].append(i)
         tried: dict[int, list[tuple[float, Any]]] = {i: [] for i in which}
         plain = self.judged(Hypothesis(), COARSE)
@@ -361,13 +425,14 @@ class AnswerSheets(Struct, frozen=True, dict=True):
         again: dict[int, list[tuple[Hypothesis, float]]] = {}
         for key, own in close.items():
             pair = pairs[key][0]
-            for i, each in zip(own, self.some(own).judged(pair).tolist(), strict=True):
+            likely = self.some(own).judged(pair, closely=True).tolist()
+            for i, each in zip(own, likely, strict=True):
                 again.setdefault(i, []).append((pair, each))
         for i, told in again.items():
             told.sort(key=lambda pair: -pair[1])
             each, single = self.chosen(i, told, honest[i]), found[i]
             if each is not None and (single is None or each.odds > single.odds + SECOND):
-                found[i] = each
+                found[i] = replace(each, single=single)
 
     def left(self, i: int, found: SheetCauses | None) -> int:
         """How many answers of a sheet are not explained; of wrong ones where there is none."""
@@ -393,6 +458,7 @@ class AnswerSheets(Struct, frozen=True, dict=True):
             open_senses=self.open_senses[own],
             view=self.view.some(own),
             drawings=self.drawings,
+            growths=self.growths,
         )
         return part
 
@@ -406,7 +472,8 @@ class AnswerSheets(Struct, frozen=True, dict=True):
         for hypothesis, likely in tried:
             if likely - honest < (LIKELY if numbers.any() else SENSES):
                 break
-            found = self.judged_enough(i, self.settled(i, hypothesis, likely - honest))
+            told = self.settled(i, hypothesis, likely - honest)
+            found = None if told is None else self.judged_enough(i, told)
             if found is not None:
                 return found
         return None
@@ -415,23 +482,53 @@ class AnswerSheets(Struct, frozen=True, dict=True):
         """An explanation with the answers that agree; None where these are too few."""
         fits, read = self.fits(i, found), self.is_read[i]
         missed = self.missed[i] & read
-        spoilt = (read & ~fits).sum() > SPOILS * read.sum()
+        spoilt = (read & ~fits & ~self.beside_wrong(i, found, fits)).sum() > SPOILS * read.sum()
         enough = EXPLAINS if (missed & ~self.form.senses).any() else 1.0
         if (missed & fits).sum() < enough * missed.sum() or spoilt:
             return None
         told = [f for f, fit in zip(self.variants.fields, fits, strict=True) if fit]
         return replace(found, fits=frozenset(told))
 
-    def settled(self, i: int, hypothesis: Hypothesis, odds: float = 0.0) -> SheetCauses:
-        """What a student would write by a hypothesis, the likelier of two values in each field."""
+    def beside_wrong(self, i: int, by: SheetCauses, fits: Array) -> Array:
+        """The answers that only follow from one that an explanation does not give.
+
+        These are values computed from a length, and senses beside a value.
+        """
+        found = np.zeros(len(fits), dtype=bool)
+        if self.known is not None:
+            computed, own = self.known
+            told = self.computed_rightly(i, np.array([by.values[f] for f in self.variants.fields]))
+            found[computed] = told & self.is_read[i][own] & ~fits[own]
+        sized = self.form.sized
+        beside = self.is_read[i][sized] & ~fits[sized] & (sized >= 0)
+        return found | beside
+
+    def computed_rightly(self, i: int, sizes: Array) -> Array:
+        """Whether values were computed as an explanation says from the student's own lengths."""
+        assert self.known is not None
+        answers, rounded = self.answers[i], self.rounded[i]
+        computed, own = self.known
+        with np.errstate(all="ignore"):
+            apart = np.log(abs(answers[computed] / answers[own] * sizes[own] / sizes[computed]))
+        near: Array = abs(apart) <= 3 * COMPUTED + rounded[computed] + rounded[own]
+        return near
+
+    def settled(
+        self, i: int, hypothesis: Hypothesis, odds: float = 0.0, *, closely: bool = True
+    ) -> SheetCauses | None:
+        """What a student would write by a hypothesis, the likelier of two values in each field.
+
+        None where it cannot be drawn.
+        """
         part = self.some([i])
-        told = part.shown(hypothesis)
-        assert told is not None
+        told = part.shown(hypothesis, closely=closely)
+        if told is None:
+            return None
         written = told.written
         if told.other is not None:
-            one, two = (part.by_field(told.drawn, e, 1.4) for e in (written, told.other))
+            one, two = (part.by_field(told, each, 1.4) for each in (written, told.other))
             written = np.where(two > one, told.other, written)
-        times = part.times(told.drawn, written)
+        times = part.times(told, written)
         fields = self.variants.fields
         values, scaled = (
             dict(zip(fields, each[0].tolist(), strict=True)) for each in (written, times)
@@ -448,14 +545,14 @@ class AnswerSheets(Struct, frozen=True, dict=True):
         with np.errstate(all="ignore"):
             drawn, read = (each[i] for each in self.errors)
             sizes = np.where(form.centres, values, abs(values))
-            allowed = 2.6 * np.hypot(1.4 * drawn, read) * times + 2 * COMPUTED * abs(sizes)
+            error = 2.6 * np.hypot(1.4 * drawn, read)
+            allowed = np.minimum(error * times, np.maximum(error * SPAN[1], MOST * abs(sizes)))
+            allowed = allowed + 2 * COMPUTED * abs(sizes)
             near = abs(answers - sizes) <= allowed + rounded * abs(answers)
             if self.known is not None:
                 computed, own = self.known
-                apart = np.log(answers[computed] / answers[own] * sizes[own] / sizes[computed])
-                error = 3 * COMPUTED + rounded[computed] + rounded[own]
-                near[computed] |= (abs(apart) <= error) & near[own]
-        sense = (answers == np.sign(values)) | self.open_senses[i]
+                near[computed] |= self.computed_rightly(i, sizes) & near[own]
+        sense = (answers == np.sign(values)) | (values == 0) | self.open_senses[i]
         return np.where(form.senses, sense, near) & self.is_read[i]
 
 
@@ -477,19 +574,56 @@ class Ranked:
         """A row for each hypothesis."""
         return np.nan_to_num(np.array(self.likely), nan=-inf, neginf=-inf)
 
+    def best(self) -> dict[int, list[int]]:
+        """The students by each hypothesis that is among the likeliest of theirs."""
+        found: dict[int, list[int]] = {}
+        for i in range(self.count):
+            for k in np.argsort(-self.table[:, i], kind="stable")[:BEST].tolist():
+                found.setdefault(k, []).append(i)
+        return found
+
     def of(self, i: int) -> list[tuple[Hypothesis, float]]:
         """The likeliest hypotheses of a student, in order."""
         column = self.table[:, i]
         order = np.argsort(-column, kind="stable")[:BEST]
         return [(self.every[k], float(column[k])) for k in order]
 
-    def names_of(self, i: int) -> list[Cause]:
+    def names_of(self, i: int, most: int | None = BEST) -> list[Cause]:
         """The likeliest causes of a student, one of each name, in the order they were noted."""
         best: dict[str, int] = {}
         for k in np.argsort(-self.table[:, i], kind="stable").tolist():
-            if self.table[k, i] > -inf and len(best) < BEST:
+            if self.table[k, i] > -inf and (most is None or len(best) < most):
                 best.setdefault(self.every[k].causes[0].name, k)
         return [self.every[k].causes[0] for k in sorted(best.values())]
+
+    def pairs(self, i: int) -> list[Hypothesis]:
+        """Pairs of the likeliest causes of a student."""
+        return list(pairs_of(self.names_of(i)))
+
+    def wide_pairs(self, i: int) -> list[Hypothesis]:
+        """Pairs of all causes of a student whose sheet no single cause comes near.
+
+        Each cause has its likeliest way, those in reading any way beside one in the construction.
+        """
+        names = self.names_of(i, None)
+        reads = [e.causes[0] for e in self.every if e.causes[0].change is None]
+        made = [cause for cause in names if cause.change is not None]
+        found = {pair_key(pair): pair for pair in pairs_of(names)}
+        for cause in made:
+            every = (Hypothesis((cause, each)) for each in reads)
+            found |= {pair_key(pair): pair for pair in every}
+        return list(found.values())
+
+
+def growing(drawn: Array, key: Array) -> Array:
+    """How many times as large errors are that grow with what is drawn."""
+    with np.errstate(all="ignore"):
+        return np.clip(np.nan_to_num(abs(drawn / key), nan=1.0), *SPAN)
+
+
+def pair_key(pair: Hypothesis) -> tuple[tuple[str, str], ...]:
+    """The names and ways of the causes of a pair."""
+    return tuple((cause.name, cause.way) for cause in pair.causes)
 
 
 def pairs_of(causes: Sequence[Cause]) -> Iterator[Hypothesis]:
@@ -548,11 +682,11 @@ def ways_of(
     sheet = sheets_of([standard], [0], [given], [missed])
     single = (Hypothesis((cause,)) for cause in sheet.causes)
     with np.errstate(all="ignore"):
-        told = [(each, sheet.settled(0, each)) for each in single if sheet.shown(each) is not None]
+        told = [(each, sheet.settled(0, each, closely=False)) for each in single]
     (found,) = sheet.explained()
-    if found is not None and len(found.causes) > 1:
+    if found is not None:
         told.append((Hypothesis(found.causes), found))
-    return tuple(CauseWay(e.names, e.values, e.times, each.share) for each, e in told)
+    return tuple(CauseWay(e.names, e.values, e.times, each.share) for each, e in told if e)
 
 
 def explained_by(
@@ -570,12 +704,13 @@ def explained_by(
     sheet = sheets_of([standard], [0], [given], [missed])
     every = sheet.some([0] * count)
     likely = np.full(count, -inf)
+    told = Predicted(others, others, None, growing(others, every.key))
     for pencil, rare in zip(PENCILS, RARE_PENCILS, strict=True):
-        each = every.by_field(others, others, pencil)
+        each = every.by_field(told, others, pencil)
         likely = np.maximum(likely, np.where(every.is_read, each, 0.0).sum(axis=1) + rare)
     best = int(likely.argmax())
     odds = float(likely[best] - sheet.judged(Hypothesis())[0] + SHARE - log(count))
-    times = every.times(others, others)[best]
+    times = every.times(told, others)[best]
     fields = sheet.variants.fields
     values, scaled = (dict(zip(fields, e.tolist(), strict=True)) for e in (others[best], times))
     found = sheet.judged_enough(0, SheetCauses((cause,), values, scaled, odds))

@@ -98,7 +98,19 @@ def cause_row(cause: EarnedCause, words: Words) -> FeedbackRow:
     """The row of a cause: what it was, and what it costs."""
     cost = f"−{points_words(cause.cost, words)}"
     cells = (words("feedback.mistake"), "", "", "", "", cost)
-    return FeedbackRow(cells, words(f"cause.{cause.name}"), Status.CAUSE)
+    return FeedbackRow(cells, cause_sentence(cause, words), Status.CAUSE)
+
+
+def cause_sentence(cause: EarnedCause, words: Words) -> str:
+    """What a student did, as markup; a lab's own cause in a language that the lab writes."""
+    if not cause.said:
+        return words(f"cause.{cause.name}")
+    return escape(printable(cause.said.get(words.language, next(iter(cause.said.values())))))
+
+
+def shows_sentence(cause: EarnedCause, words: Words) -> str:
+    """Where a cause shows on the drawing."""
+    return words("shows.own" if cause.said else f"shows.{cause.name}")
 
 
 def row_of(graded: Graded, mark: EarnedMark, words: Words) -> FeedbackRow:
@@ -203,6 +215,8 @@ def why(graded: Graded, mark: EarnedMark, words: Words) -> str:
         rest = escape(safe(beyond_number(mark.answer.text)))
         reason = unread(mark.answer.problem, unit_markup(mark.item.unit), words, rest)
         return reason if mark.is_ruled else words("feedback.unreadable", why=reason)
+    if mark.rounded and mark.earned:
+        return words(f"feedback.digits_{mark.rounded}", share=percent(mark))
     if mark.status is Status.CAUSE:
         return words("feedback.caused" if mark.earned else "feedback.lost_sense")
     if mark.alone:
@@ -320,21 +334,22 @@ def feedback_html(
 
 def cause_words(graded: Graded, words: Words) -> list[str]:
     """What explains the sheet, what it cost, where it shows, and whether all else follows."""
-    names = [cause.name for cause in graded.causes]
-    if not names or not is_shown(graded):
+    causes = graded.causes
+    if not causes or not is_shown(graded):
         return []
     own = (mark.points - mark.earned for mark in graded.marks if mark.status is Status.CAUSE)
     cost = points_words(graded.cost + sum(own), words)
-    told = [words(f"cause.{name}") for name in names]
-    if len(names) == 1:
+    told = [cause_sentence(cause, words) for cause in causes]
+    if len(causes) == 1:
         parts = [words("feedback.one_mistake", cost=cost, cause=told[0])]
     else:
         parts = [words("feedback.two_mistakes", cost=cost, cause=told[0], other=told[1])]
-    parts += [words("feedback.mistake_shows", where=words(f"shows.{name}")) for name in names]
+    shows = (shows_sentence(cause, words) for cause in causes)
+    parts += [words("feedback.mistake_shows", where=each) for each in shows]
     open_yet = (Status.WRONG, Status.FOLLOWS)
     left = [mark.item for mark in graded.marks if mark.points and mark.status in open_yet]
     if not left:
-        parts.append(words("feedback.all_follows" if len(names) == 1 else "feedback.all_follow"))
+        parts.append(words("feedback.all_follows" if len(causes) == 1 else "feedback.all_follow"))
     else:
         fields = ", ".join(dict.fromkeys(item.symbol for item in left))
         parts.append(words("feedback.not_all", fields=fields))

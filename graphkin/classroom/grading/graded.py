@@ -99,7 +99,8 @@ class EarnedMark(Struct, frozen=True):
 
     ``cause`` names what explains the answer: it is right for a student who made that mistake.
     ``torn`` says that a sense contradicts the sign of its own value, ``alone`` that a right sense
-    earns nothing, since the size beside it earns nothing. ``decision`` is the lecturer's.
+    earns nothing, since the size beside it earns nothing. ``rounded`` says that it is right but for
+    its digits: ``few`` or ``many``. ``decision`` is the lecturer's.
     """
 
     item: Item
@@ -113,6 +114,7 @@ class EarnedMark(Struct, frozen=True):
     cause: str = ""
     torn: bool = False
     alone: bool = False
+    rounded: str = ""
     decision: Decision | None = None
 
     @property
@@ -142,13 +144,15 @@ class EarnedCause(Struct, frozen=True):
     """A cause that explains a sheet by name, and the points that it costs, once.
 
     ``odds`` says how much likelier the explanation is than no mistake, as a logarithm. ``whose``
-    are the ids of the students whose data were drawn.
+    are the ids of the students whose data were drawn. ``said`` is the sentence of a lab's own cause
+    by language.
     """
 
     name: str
     cost: Fraction
     odds: float
     whose: tuple[str, ...] = ()
+    said: Mapping[str, str] = {}
 
 
 class Graded(Struct, frozen=True):

@@ -119,7 +119,8 @@ def reason(graded: Graded, name: str) -> str:
         source = f"from {source}"
     torn = "contradicts its sign" if mark.torn else ""
     alone = "without its value" if mark.alone else ""
-    parts = (mark.status.value, source, mark.cause, torn, alone)
+    digits = f"too {mark.rounded} digits" if mark.rounded else ""
+    parts = (mark.status.value, source, mark.cause, torn, alone, digits)
     found = " ".join(part for part in parts if part)
     return found if mark.decision is None else f"{found}; {ruling(mark.decision)}"
 

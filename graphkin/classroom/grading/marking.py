@@ -4,13 +4,14 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from fractions import Fraction
-from math import isnan
+from math import floor, isnan
 from typing import Any
 
 from msgspec import Struct
 from msgspec.structs import replace
 
 from graphkin.accuracy.pencil.forecast import chi_square_share
+from graphkin.classroom.grading.answer_numbers import significant
 from graphkin.classroom.grading.explanations import SheetCauses, explanations
 from graphkin.classroom.grading.follow_through import followings, is_hit, rightly
 from graphkin.classroom.grading.form_relations import Following
@@ -82,6 +83,8 @@ def is_one_drawing(off: Any, rounded: Any, key: Key) -> Any:
 NONE = Fraction()
 REVERSED = "sense_reversed"
 """The cause that all senses were taken the other way."""
+COARSE = 2
+"""The most significant digits of a value that is rounded too coarsely."""
 NEAR = 3.0
 """The largest factor, up or down, by which an answer near the key differs from it."""
 
@@ -132,21 +135,25 @@ class Marker:
     ) -> Graded:
         """The marks with the explanation of the sheet, if there is one that costs less than none.
 
-        A cause costs what the rubric says, and never more than the same values unexplained.
+        A cause costs what the rubric says, and never more than the same values unexplained, or
+        explained without it.
         """
         plain = Graded(taker, self.marks(taker, first), present)
         if found is None:
             return plain
+        least = plain.earned
+        if found.single is not None:
+            least = max(least, self.graded(taker, first, found.single, present).earned)
         caused = self.marks(taker, first, found)
         whole = sum((mark.earned for mark in caused), NONE)
-        most = max(NONE, whole - plain.earned)
+        most = max(NONE, whole - least)
         costs = self.costs(plain.points, found, most)
         return Graded(taker, caused, present, causes=costs)
 
     def costs(
         self, points: Fraction, found: SheetCauses, most: Fraction
     ) -> tuple[EarnedCause, ...]:
-        """What each cause costs, together at most ``most``.
+        """What each cause costs, together at most ``most``: hundredths of a point, rounded down.
 
         Senses that are all reversed cost their own points, and nothing beside.
         """
@@ -154,10 +161,17 @@ class Marker:
             NONE if name == REVERSED else Fraction(str(self.standard.rubric.cost(name)))
             for name in found.names
         ]
-        full = points * sum(shares, NONE)
+        shares = [Fraction(floor(100 * points * share), 100) for share in shares]
+        full = sum(shares, NONE)
         part = min(Fraction(1), most / full) if full else NONE
+        own = self.standard.rubric.own
         return tuple(
-            EarnedCause(name, points * share * part, found.odds)
+            EarnedCause(
+                name,
+                share * part,
+                found.odds,
+                said=own[name].said if name in own else {},
+            )
             for name, share in zip(found.names, shares, strict=True)
         )
 
@@ -185,8 +199,26 @@ class Marker:
                 mark = replace(mark, status=Status.CAUSE, earned=earned, cause=name)
             elif field in rest:
                 mark = self.following(mark, followed.get(field))
+            mark = self.by_digits(mark)
             known[field] = replace(mark, torn=field in first.torn)
         return tuple(self.not_by_chance(mark, known) for mark in known.values())
+
+    def by_digits(self, mark: EarnedMark) -> EarnedMark:
+        """The mark of a value that is right but for its digits: too few, or other than wanted."""
+        rubric = self.standard.rubric
+        if mark.item.what != "value" or not mark.answer.is_read or not mark.points:
+            return mark
+        fewest, most = significant(mark.answer)
+        share = mark.points * Fraction(str(rubric.rounded))
+        if mark.status is Status.WRONG:
+            error = mark.tolerance + coarseness(mark.answer) * abs(mark.answer.value or 0.0)
+            if fewest > COARSE or mark.off is None or abs(mark.off) > error:
+                return mark
+            return replace(mark, status=Status.FOLLOWS, earned=share, rounded="few")
+        if rubric.digits is None or mark.status is Status.BLANK:
+            return mark
+        told = "few" if most < rubric.digits[0] else "many" if fewest > rubric.digits[1] else ""
+        return replace(mark, earned=min(mark.earned, share), rounded=told) if told else mark
 
     def is_lost(self, field: str, found: SheetCauses) -> bool:
         """Whether a sense was taken the other way: it is worth no more than a blank."""

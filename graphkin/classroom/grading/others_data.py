@@ -1,9 +1,10 @@
-"""Sheets drawn from another student's data: whose data they are, and the marks by these."""
+"""Sheets drawn from other data: another student's, or as a cause of the lab changes the own."""
 
 from __future__ import annotations
 
 from collections.abc import Callable, Collection, Iterable, Mapping, Sequence
 from contextlib import AbstractContextManager
+from fractions import Fraction
 from typing import Any, Protocol
 
 from msgspec import Struct
@@ -11,18 +12,18 @@ from msgspec.structs import replace
 
 from graphkin.accuracy.pencil.pencil import Paper
 from graphkin.classroom.grading.causes import Cause, plan_of
-from graphkin.classroom.grading.explanations import LIKELY, explained_by
+from graphkin.classroom.grading.explanations import LIKELY, SheetCauses, explained_by
 from graphkin.classroom.grading.graded import Graded, Status
 from graphkin.classroom.grading.marking import Marker, unread_left_out
-from graphkin.classroom.grading.standard import Expectation, Standard
+from graphkin.classroom.grading.standard import Expectation, Standard, standard
 from graphkin.classroom.lab.cause_names import ANOTHER
-from graphkin.classroom.lab.lab_model import Lab
+from graphkin.classroom.lab.lab_model import Item, Lab, OwnCause
 from graphkin.classroom.lab.rules import exact_text, outside, settings
 from graphkin.classroom.roster.student import Student
 from graphkin.classroom.roster.taker import Taker
 from graphkin.mechanism import Mechanism
 from graphkin.numbers.arithmetic import np
-from graphkin.text.errors import SceneError
+from graphkin.text.errors import GraphkinError, SceneError
 
 
 class Markers(Protocol):
@@ -33,6 +34,10 @@ class Markers(Protocol):
     @property
     def usual(self) -> Mechanism:
         """The mechanism with the scene's own values."""
+
+    @property
+    def form(self) -> tuple[Item, ...]:
+        """The fields of the form."""
 
     def prepare(self, takers: Iterable[Taker]) -> None:
         """Construct the variants of some students together."""
@@ -45,6 +50,8 @@ NUMBERS = 60
 """The most numbers of students, beside those of the class, whose data are tried."""
 NEAREST = 24
 """The most other variants that are compared closely with one sheet."""
+AS_WELL = 1.0
+"""The odds, as a logarithm, by which another cause may be likelier than the lab's own."""
 AT_OWN, AT_THEIRS = "at own scales", "at their scales"
 
 
@@ -79,6 +86,64 @@ def with_others_data(
         with alone(graded[i].taker.student.id):
             found[i] = by_others_data(book, graded[i], expected[i], others)
     return found
+
+
+def with_own_causes(
+    book: Markers,
+    graded: Sequence[Graded],
+    alone: Callable[[str], AbstractContextManager[None]],
+) -> list[Graded]:
+    """The marks, where the causes that only this lab knows explain sheets as well as any other."""
+    own, found = book.lab.rubric.own, list(graded)
+    for i, each in enumerate(graded if own else ()):
+        if each.present and any(mark.status is not Status.RIGHT for mark in each.marks):
+            with alone(each.taker.student.id):
+                found[i] = by_own_causes(book, each, own.values())
+    return found
+
+
+def by_own_causes(book: Markers, graded: Graded, own: Iterable[OwnCause]) -> Graded:
+    """The marks of a student by the lab's own cause that explains the sheet best, if any does.
+
+    Where another cause explains it as well, the lab's is named.
+    """
+    marker = book.marker_of(graded.taker)
+    first = marker.first_look({mark.item.field: mark.answer for mark in graded.marks})
+    given, missed = unread_left_out(first), frozenset(first.wrong)
+    best: SheetCauses | None = None
+    for cause in own if missed else ():
+        other = taken(book, graded.taker, cause)
+        if other is None:
+            continue
+        table = np.array([values_by(marker.standard, other, way) for way in (AT_OWN, AT_THEIRS)])
+        found = explained_by(marker.standard, given, missed, Cause(cause.name), table)
+        if found is not None and (best is None or found[1].odds > best.odds):
+            best = found[1]
+    if best is None or (graded.causes and graded.causes[0].odds > best.odds + AS_WELL):
+        return graded
+    return marker.graded(graded.taker, first, best, graded.present)
+
+
+def taken(book: Markers, taker: Taker, cause: OwnCause) -> OtherData | None:
+    """A student's data as a cause of the lab changes them; None where nothing can be drawn.
+
+    The ranges and steps of the scene do not bind a mistake.
+    """
+    scene = book.usual.scene
+    values = {**scene.values}
+    values |= {name: Fraction(text) for name, text in taker.settings.items()}
+    try:
+        changed = {name: exact(each.number(values)) for name, each in cause.settings.items()}
+        mechanism = Mechanism(replace(scene, values={**values, **changed}))
+        found = standard(mechanism, book.form, book.lab.rubric, taker.compute)
+        return OtherData((), found.key, found.paper)
+    except GraphkinError:
+        return None
+
+
+def exact(value: Any) -> Fraction:
+    """A value as an exact number, of twelve digits where it is not rational."""
+    return value if isinstance(value, Fraction) else Fraction(f"{float(value):.12g}")
 
 
 def is_open(graded: Graded, copied: Collection[str]) -> bool:
@@ -135,19 +200,19 @@ def by_others_data(
 ) -> Graded:
     """The marks of a student by the data that explain the sheet best, if any others do."""
     marker = book.marker_of(graded.taker)
-    standard = marker.standard
+    own = marker.standard
     first = marker.first_look({mark.item.field: mark.answer for mark in graded.marks})
     given, missed = unread_left_out(first), frozenset(first.wrong)
     other = [each for each in others if each.key != expected.key]
     rows = [
-        (each, way, values_by(standard, each, way))
-        for each in nearest(standard, given, other)
+        (each, way, values_by(own, each, way))
+        for each in nearest(own, given, other)
         for way in (AT_OWN, AT_THEIRS)
     ]
     if not rows or not missed:
         return graded
     table = np.array([values for _, _, values in rows])
-    best = explained_by(standard, given, missed, Cause(ANOTHER), table)
+    best = explained_by(own, given, missed, Cause(ANOTHER), table)
     if best is None:
         return graded
     place, why = best

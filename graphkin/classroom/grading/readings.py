@@ -38,6 +38,10 @@ ODD = 1.07
 """The least factor, up or down, by which a scale of one's own differs from the right one."""
 FREE = 0.2
 """How rare a factor of one's own is beside a known one."""
+ODD_PAIR = 0.3
+"""How rare it is that two cells of one row of the table are exchanged."""
+OFTEN = 3.0
+"""The deviations within which an answer is that of a drawing, but for a power of ten."""
 OTHER = {"ν": "τ", "τ": "ν"}
 """The component mistaken for another."""
 
@@ -50,8 +54,7 @@ class FormFields(Struct, frozen=True, dict=True):
     @cached_property
     def causes(self) -> tuple[Cause, ...]:
         """All causes, those in the construction first."""
-        layout, standards = self.variants.layout, self.variants.standards
-        return (*constructed(standards[0].mechanism, layout), *read_otherwise(self))
+        return (*constructed(self.variants.standards[0]), *read_otherwise(self))
 
     @cached_property
     def items(self) -> tuple[Item, ...]:
@@ -99,6 +102,12 @@ class FormFields(Struct, frozen=True, dict=True):
         return np.array([at.get(item.segment, -1) for item in self.items])
 
     @cached_property
+    def sized(self) -> Array:
+        """The place of the value of each sense; -1 where there is none."""
+        at = {item.field: i for i, item in enumerate(self.items)}
+        return np.array([at.get(i.sized, -1) if i.what == "sense" else -1 for i in self.items])
+
+    @cached_property
     def formulas(self) -> Array:
         """The values of components, which may be computed without a length of the plan."""
         return self.those(lambda item: item.vector is not None and item.vector.sign in ("ν", "c"))
@@ -108,17 +117,20 @@ class View(Struct, frozen=True, dict=True):
     """What some students have before them, and what they answered.
 
     ``answers`` are sizes, places with their sign, and senses as signs; NaN where there is none.
-    ``rows`` are their variants, ``whole`` marks numbers without a decimal point.
+    ``rows`` are their variants, ``whole`` marks numbers without a decimal point. ``errors`` are the
+    deviations of the forgiven pencil.
     """
 
     form: FormFields
     rows: Array
     answers: Array
     whole: Array
+    errors: Array
 
     def some(self, which: list[int]) -> View:
         """What some of the students have before them."""
-        return View(self.form, self.rows[which], self.answers[which], self.whole[which])
+        each = (self.rows, self.answers, self.whole, self.errors)
+        return View(self.form, *(part[which] for part in each))
 
     @cached_property
     def units(self) -> Array:
@@ -143,19 +155,25 @@ class View(Struct, frozen=True, dict=True):
             ratios = np.where(among, self.answers / abs(predicted), np.nan)
             ratios = np.where(np.isfinite(ratios) & (ratios > 0), ratios, np.nan)
             told = np.isfinite(ratios).sum(axis=1) >= FEW
-            middle = np.exp(middling(np.log(np.where(told[:, None], ratios, 1.0))))
+            long = np.where(self.units > 0, abs(predicted) / self.units, 1.0)
+            middle = np.exp(middling(np.log(np.where(told[:, None], ratios, 1.0)), long))
         found = np.where(told, middle, 1.0)
         near = abs(np.log(found)) < np.log(ODD)
         return np.where(near, 1.0, found)[:, None]
 
 
-def middling(logs: Array) -> Any:
-    """The median of each row, without NaN; 0 where there is none."""
-    ordered = np.sort(logs, axis=1)
-    count = np.isfinite(ordered).sum(axis=1)
-    low, high = (np.clip(each, 0, logs.shape[1] - 1) for each in ((count - 1) // 2, count // 2))
+def middling(logs: Array, weights: Array | None = None) -> Any:
+    """The median of each row, without NaN; 0 where there is none. Long lengths may weigh more."""
+    weights = np.ones(logs.shape) if weights is None else weights
+    order = np.argsort(logs, axis=1, kind="stable")
+    ordered, own = (np.take_along_axis(each, order, axis=1) for each in (logs, weights))
+    own = np.where(np.isfinite(ordered) & np.isfinite(own), own, 0.0)
+    share = np.cumsum(own, axis=1) / np.maximum(own.sum(axis=1, keepdims=True), 1e-300)
     rows = np.arange(len(logs))
-    return np.nan_to_num((ordered[rows, low] + ordered[rows, high]) / 2)
+    low, high = ((share < half).sum(axis=1) for half in (0.5 - 1e-9, 0.5 + 1e-9))
+    last = logs.shape[1] - 1
+    ends = (ordered[rows, np.minimum(each, last)] for each in (low, high))
+    return np.nan_to_num(sum(ends) / 2)
 
 
 Told = tuple[Array, Array | None]
@@ -407,11 +425,17 @@ def of_ten(form: FormFields, *, whole: bool = False) -> Reads:
             shift = np.where(fits & view.whole & (near > 0), near, np.nan)
             return only(np.isfinite(shift), shown * 10.0 ** np.nan_to_num(shift), shown), None
         changed = shown
+        least = np.where(np.isfinite(near) & fits, abs(near), np.inf).min(axis=1)
+        usual = np.where(np.isfinite(least), middling(np.where(fits, near, np.nan)), 0.0)
         for group in groups:
             here = fits & group
-            power = middling(np.where(here, near, np.nan))
+            power = np.where(here.any(axis=1), middling(np.where(here, near, np.nan)), usual)
             power = np.round(power)[:, None]
-            some = here & (near == power)
+            with np.errstate(all="ignore"):
+                away = abs(view.answers / 10.0**power - abs(shown))
+                beside = abs(view.answers - abs(shown)) > OFTEN * view.errors
+            unsure = group & sized & beside & (away < OFTEN * view.errors) & (power != 0)
+            some = (here & (near == power)) | unsure
             changed = only(some, shown * 10.0**power, changed)
         return changed, None
 
@@ -534,9 +558,15 @@ def of_table(form: FormFields) -> Iterator[Cause]:
         ways = {"": shared} | {
             plan: [kind for kind in shared if kind[0] == plan] for plan, _, _ in shared
         }
+        ways |= {" ".join(kind[:2]): [kind] for kind in shared if kind[1] != "place"}
         seen: list[list[tuple[int, int]]] = []
         for way, kinds in ways.items():
             pairs = [(owners[one][kind], owners[other][kind]) for kind in kinds]
             if pairs and pairs not in seen:
                 seen.append(pairs)
                 yield reading("answers_exchanged", f"{one}-{other} {way}", exchanged(pairs))
+    for owner, kinds_of in owners.items():
+        for (one_kind, i), (other_kind, k) in combinations(kinds_of.items(), 2):
+            if {one_kind[1], other_kind[1]} <= {"segment", "value"}:
+                way = f"{owner} {' '.join((*one_kind, *other_kind))}"
+                yield reading("answers_exchanged", way, exchanged([(i, k)]), ODD_PAIR)

@@ -99,16 +99,32 @@ class Fair(Struct, frozen=True):
         return self.apart is not None or self.pencil is not None
 
 
+class OwnCause(Struct, frozen=True):
+    """A mistake that a lab names: the data as a student took them, by formulas in the parameters.
+
+    ``cost`` is a grade or a share of all points. ``said`` has its sentence in each language.
+    """
+
+    name: str
+    settings: Mapping[str, Quantity]
+    cost: float | str
+    said: Mapping[str, str]
+
+
 class Rubric(Struct, frozen=True):
     """The points of each field of the form, and how they are given.
 
     ``follow`` is the share for what follows correctly from the student's own earlier values.
     ``causes`` has the share of all points that a cause costs by name, where the lab states one.
+    ``own`` are causes of this lab alone, by name.
     ``grades`` has the shares of slight, moderate and serious causes.
 
     ``point`` and ``line`` are the forgiven drawing errors, in mm and degrees. ``ruler`` is the
     reading error, in mm. ``floor`` and ``cap`` are the least and the largest tolerance, relative to
     the value.
+
+    ``digits`` are the fewest and the most significant digits of a value, where the lab wants some.
+    ``rounded`` is the share for a value that is right but for its digits.
 
     ``hold`` keeps back the marks of students whose answers seem to be another's, until the lecturer
     has decided.
@@ -124,10 +140,14 @@ class Rubric(Struct, frozen=True):
     floor: float = 0.01
     cap: float = 0.25
     hold: bool = False
+    own: Mapping[str, OwnCause] = field(default_factory=dict)
+    digits: tuple[int, int] | None = None
+    rounded: float = 0.8
 
     def cost(self, cause: str) -> float:
         """The share of all points that a cause costs."""
-        stated = self.causes.get(cause, GRADES.get(cause, "moderate"))
+        own = self.own.get(cause)
+        stated = own.cost if own else self.causes.get(cause, GRADES.get(cause, "moderate"))
         return self.grades[stated] if isinstance(stated, str) else stated
 
 

@@ -5,6 +5,7 @@ All problems of lab.toml are reported at once.
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from fractions import Fraction
 from itertools import pairwise
 from pathlib import Path
@@ -20,6 +21,7 @@ from graphkin.classroom.lab.lab_model import (
     Fair,
     Lab,
     LabRule,
+    OwnCause,
     Range,
     Rubric,
     ValueList,
@@ -35,6 +37,7 @@ from graphkin.scene.model import Parameter, Scene
 from graphkin.scene.parameters import optional, out_of_range, plain, rational
 from graphkin.scene.quantity import Quantity, expression, shortest
 from graphkin.scene.read_scene import check_version, read_scene
+from graphkin.text import LANGUAGES
 from graphkin.text.errors import NO_WORDS, Mend, Problem, SceneError, joined, message, verbatim
 
 LAB, SCENE = scene_files.LAB, scene_files.SCENE
@@ -42,6 +45,7 @@ USUAL, LIMITS = Rubric(), Fair()
 OPEN = -1.0
 """The value of a limit that is not written."""
 MOST_TRIES = 10_000
+MOST_DIGITS = 12
 MOST_VALUES = 10**9
 """The most values of a range."""
 
@@ -170,28 +174,34 @@ def read_settings(table: Table, scene: Scene) -> dict[str, Quantity]:
     return {name: found for name, found in read.items() if found is not None}
 
 
-def formula(place: str, raw: object, findings: Findings) -> Quantity | None:
-    """A number, or an expression in the student's number; None, with a problem noted, otherwise."""
+def formula(
+    place: str, raw: object, findings: Findings, known: Sequence[str] = (NUMBER,)
+) -> Quantity | None:
+    """A number, or an expression in ``known`` names; None, with a problem noted, otherwise.
+
+    Only an expression in the student's number may divide round.
+    """
+    first = next(iter(known), NUMBER)
     try:
         if isinstance(raw, str) and not isinstance(raw, FloatText):
-            read = expression(raw, "", place, counting=True)
+            read = expression(raw, "", place, counting=known == (NUMBER,))
         else:
             read = quantity(raw, "", place)
     except UnreadableError as error:
         findings.add(
             place,
             error.found,
-            message('an expression in quotes, such as "{number}"', number=NUMBER),
+            message('an expression in quotes, such as "{number}"', number=first),
             error.hint,
         )
         return None
-    strangers = sorted(read.uses() - {NUMBER})
+    strangers = sorted(read.uses() - {*known})
     for name in strangers:
-        hint = Mend(name, NUMBER)
+        hint = Mend(name, NUMBER) if known == (NUMBER,) else nearest(name, known)
         findings.add(
             place,
             message("{text} uses {name}", text=shown(read.text), name=name),
-            message("only {number}", number=NUMBER),
+            message("only {number}", number=joined(", ", known)),
             hint,
         )
     return None if strangers else read
@@ -378,7 +388,7 @@ def read_rubric(marks: Table, marking: Table, mechanism: Mechanism) -> Rubric:
         elif read is not None:
             points[name] = plain(read)
     grades = read_grades(marking.table("grades"))
-    causes = read_causes(marking.table("causes"))
+    causes, own = read_causes(marking.table("causes"), mechanism.scene)
     given = {
         "follow": number(marking, "follow", USUAL.follow, 0, 1),
         "point": number(marking, "point", USUAL.point, 0, 10),
@@ -386,7 +396,9 @@ def read_rubric(marks: Table, marking: Table, mechanism: Mechanism) -> Rubric:
         "ruler": number(marking, "ruler", USUAL.ruler, 0, 10),
         "floor": number(marking, "floor", USUAL.floor, 0, 1),
         "cap": number(marking, "cap", USUAL.cap, 0, 1),
+        "rounded": number(marking, "rounded", USUAL.rounded, 0, 1),
     }
+    digits = read_digits(marking)
     if given["floor"] > given["cap"]:
         marking.findings.add(
             marking.at("floor"),
@@ -395,7 +407,23 @@ def read_rubric(marks: Table, marking: Table, mechanism: Mechanism) -> Rubric:
         )
     hold = marking.flag("hold")
     marking.finish()
-    return Rubric(points=points, causes=causes, grades=grades, hold=hold, **given)
+    return Rubric(
+        points=points, causes=causes, grades=grades, own=own, hold=hold, digits=digits, **given
+    )
+
+
+def read_digits(table: Table) -> tuple[int, int] | None:
+    """The fewest and the most significant digits of a value; None where the lab wants none."""
+    raw = table.take("digits")
+    if raw is None:
+        return None
+    ends = raw if isinstance(raw, list) else []
+    whole = [end for end in ends if isinstance(end, int) and not isinstance(end, bool)]
+    if len(whole) != 2 or len(ends) != 2 or not 1 <= whole[0] <= whole[1] <= MOST_DIGITS:
+        expected = message("two whole numbers [fewest, most] from 1 to {most}", most=MOST_DIGITS)
+        table.findings.add(table.at("digits"), shown(raw), expected)
+        return None
+    return whole[0], whole[1]
 
 
 def read_grades(table: Table) -> dict[str, float]:
@@ -405,27 +433,51 @@ def read_grades(table: Table) -> dict[str, float]:
     return found
 
 
-def read_causes(table: Table) -> dict[str, float | str]:
-    """What causes cost by name: a grade, or a share of all points."""
+def read_causes(table: Table, scene: Scene) -> tuple[dict[str, float | str], dict[str, OwnCause]]:
+    """What causes cost by name, and the causes of this lab alone, which are tables."""
     found: dict[str, float | str] = {}
+    own: dict[str, OwnCause] = {}
     for name, raw in table.raw.items():
-        if name not in CAUSES:
+        if isinstance(raw, dict) and name not in CAUSES:
+            own[name] = read_own_cause(table.table(name), name, scene)
+        elif name not in CAUSES:
             hint = nearest(name, CAUSES)
             table.findings.add(
                 table.at(name), message("no cause has this name"), joined(", ", CAUSES), hint
             )
-        elif isinstance(raw, str) and not isinstance(raw, FloatText):
-            if raw in SHARES:
-                found[name] = raw
-            else:
-                expected = message(
-                    "{grades} or a number from 0 to 1", grades=joined(", ", tuple(SHARES))
-                )
-                hint = nearest(raw, SHARES)
-                table.findings.add(table.at(name), shown(raw), expected, hint)
         else:
-            found[name] = number(table, name, 0, 0, 1)
-    return found
+            found[name] = read_cost(table, name, 0)
+    return found, own
+
+
+def read_cost(table: Table, key: str, default: float | str) -> float | str:
+    """What a cause costs: a grade, or a share of all points."""
+    raw = table.raw.get(key)
+    if not isinstance(raw, str) or isinstance(raw, FloatText):
+        return default if raw is None else number(table, key, 0, 0, 1)
+    table.take(key)
+    if raw in SHARES:
+        return raw
+    expected = message("{grades} or a number from 0 to 1", grades=joined(", ", tuple(SHARES)))
+    table.findings.add(table.at(key), shown(raw), expected, nearest(raw, SHARES))
+    return default
+
+
+def read_own_cause(table: Table, name: str, scene: Scene) -> OwnCause:
+    """A cause of this lab: the data as they were taken, what it costs, and its sentence."""
+    inner = table.table("set")
+    known = tuple(scene.parameters)
+    read = {
+        each: formula(inner.at(each), inner.raw[each], inner.findings, known)
+        for each in known_parameters(inner, scene)
+    }
+    cost = read_cost(table, "cost", "moderate")
+    said = {each: text for each in LANGUAGES if (text := table.text(each).strip())}
+    if not said:
+        expected = message('a sentence, such as en = "the angle was measured from the vertical"')
+        table.findings.add(table.place, message("no sentence says what it was"), expected)
+    table.finish()
+    return OwnCause(name, {k: v for k, v in read.items() if v is not None}, cost, said)
 
 
 def number(table: Table, key: str, default: float, least: float, most: float) -> float:

@@ -26,17 +26,21 @@ SLIDING = Item("v_slide_2", "sense", "v", "", "slide speed", "2")
 FORM = (LENGTH, SPEED, RATE, SENSE)
 IDS = ("001", "002", "ĂÎ-3")
 NUMBERS = (
-    (LENGTH, 19.75, "19.75 | 19,75 |  19,75 mm  | 1,975cm"),
+    (LENGTH, 19.75, "19.75 | 19,75 |  19,75 mm  | 1,975cm | 19.75 mm. | 19,75 mm;"),
+    (LENGTH, 1234.5, "1.234,5 | 1,234.5 | 1 234,5 | 1\N{NO-BREAK SPACE}234.5 mm | 1'234.5"),
+    (LENGTH, 1234567.0, "1.234.567 | 1,234,567 | 1 234 567,0 | 1.234.567,0 mm."),
     (LENGTH, -5.0, "-5 | −5 | ca. -5"),
     (LENGTH, 0.5, "+.5"),
     (LENGTH, 50.8, "2 in"),
     (SPEED, 3.8, "3.8 m/s | 380 cm/s | ≈ 3,8 | ~3.8 m/s"),
     (SPEED, 380.0, "3,8e2"),
+    (SPEED, 0.429, "v=0.429 | v_D = 0,429 m/s | vD≈0.429 | V_D: 0.429 | 0.429 m/sec"),
+    (SPEED, 0.429, "4.29x10⁻¹ | 4,29 × 10⁻¹ m/s | 4.29·10^(-1) | 4.29*10**-1 | 4.29·10^−1"),
     (SPEED, 0.0508, "2 in/s"),
     (HARD, 470.0, "4,7·10^2 m/s^2 | 4.7 x 10^2 m/s2"),
     (HARD, 473.0, "473 m/s²"),
     (HARD, 0.0508, "2 in/s2"),
-    (RATE, 27.6, "27,6 1/s | 27,6 s^-1 | 27.6 (rad/s)"),
+    (RATE, 27.6, "27,6 1/s | 27,6 s^-1 | 27.6 (rad/s) | ω_3 = 27.6 | w3=27,6 | omega_3 = 27.6 s⁻¹"),
     (RATE, pi, "180 deg/s | 180 °/s | 30 rpm | 30 rot/min | 30 rev/min | 30 giri/min"),
     (Item("x", "value", "x", "m", "", "x"), 0.0508, "2 in"),
     (Item("x", "value", "x", "rad/s²", "", "x"), pi, "180 deg/s2"),
@@ -44,14 +48,15 @@ NUMBERS = (
 """What is written, by its field, and the number meant: an inch is 25.4 mm; half a turn is π rad,
 which 30 turns a minute make in a second."""
 UNREAD = (
-    (SPEED, "number", "１２.５ | 1_000 | nan | inf | 12,3,4 | 1.234,5 | 0x1F | twelve | --5 | 5.."),
+    (SPEED, "number", "１２.５ | 1_000 | nan | inf | 12,3,4 | 12.34,5 | 0x1F | twelve | --5 | 5.."),
     (SPEED, "number", "=5 | ٣ | 1o,5 | 3.8.2 | 1O | 2l | 5o0 | 5O0 m/s | 1o m/s | 47b3,2 | 4b7"),
-    (SPEED, "number", "3x12 | 1/2"),
+    (SPEED, "number", "3x12 | 1/2 | a_D = 0.43 | v=w=3"),
+    (SPEED, "number", "1.234,56,7 | 1,234.567.8 | 0.234,5 | 0.4 3"),
     (SPEED, "large", "1e400"),
     (SPEED, "open", "?"),
     (SPEED, "unit", "12 kg | 3 kg/m3 | 3 m³ | 4 N/m2 | 5 mm^2 | 2 l | 7 oz"),
     (RATE, "unit", "3 mm"),
-    (SENSE, "turning", "sus"),
+    (SENSE, "turning", "sus | 3,21 | +0 | +3 kg"),
     (SLIDING, "sliding", "orar"),
 )  # fmt: skip
 """What cannot be read, and why: a mistyped number is no matter of units."""
@@ -82,7 +87,14 @@ def test_what_stands_for_no_answer_is_none():
 
 
 @pytest.mark.parametrize(
-    ("text", "share"), [("2,1", 0.05 / 2.1), ("27", 0.5 / 27), ("4,10", 0.005 / 4.1), ("", 0.0)]
+    ("text", "share"),
+    [
+        ("2,1", 0.05 / 2.1),
+        ("27", 0.5 / 27),
+        ("4,10", 0.005 / 4.1),
+        ("1.234,5", 0.05 / 1234.5),
+        ("", 0.0),
+    ],
 )
 def test_a_number_is_rounded_by_half_a_unit_of_its_last_digit(text, share):
     assert rounding(Answer(text)) == pytest.approx(share)
@@ -94,6 +106,13 @@ def test_letters_among_the_digits_are_told_as_no_number():
     problem, said = read_answer("5o0", HARD).problem, ("nu este un număr", "is not a number")
     told = [unread(problem, HARD.unit, words(language)) for language in ("ro", "en", "it")]
     assert told == [*said, "non è un numero"]
+
+
+@pytest.mark.parametrize(
+    ("text", "value"), [("+3,21", 1), ("-3.21 rad/s", -1), ("− 3,2", -1), ("ω_3 = -3.21", -1)]
+)
+def test_a_signed_number_in_the_field_of_a_sense_states_the_sense(text, value):
+    assert read_answer(text, SENSE).value == value
 
 
 # --- tables --------------------------------------------------------------------------------------

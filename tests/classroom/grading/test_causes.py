@@ -6,6 +6,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from fractions import Fraction
 
 import numpy as np
 import pytest
@@ -13,15 +14,25 @@ from msgspec.structs import replace
 
 from graphkin.classroom.grading.answer_numbers import read_answer
 from graphkin.classroom.grading.causes import Variants
-from graphkin.classroom.grading.class_marking import graded_class
+from graphkin.classroom.grading.class_marking import Book, graded_class
 from graphkin.classroom.grading.feedback import notes, points_words, rows
 from graphkin.classroom.grading.graded import Answer
 from graphkin.classroom.grading.readings import FormFields
+from graphkin.classroom.lab.read_lab import read_lab
 from graphkin.text import words
-from graphkin.text.errors import RosterError
+from graphkin.text.errors import RosterError, SceneError
 from tests.bench.causes import a_class, is_named
+from tests.classroom.grading import hand, mistaken
 from tests.classroom.grading.mistaken import CAUSES
-from tests.classroom.grading.students import LABS, book_of, given, key_answers, marker_of, taker
+from tests.classroom.grading.students import (
+    LABS,
+    book_of,
+    given,
+    key_answers,
+    lab_of,
+    marker_of,
+    taker,
+)
 
 SLICE = (
     ("offset-slider-crank", "the crank's diameter for its radius"),
@@ -83,6 +94,30 @@ def test_a_named_cause_never_costs_more_than_the_same_values_unexplained():
             assert graded.cost + lost <= graded.points
 
 
+def test_a_second_cause_never_costs_more_than_the_first_alone():
+    """Beside a crank twice as long, the right ε of number 7 happens to be ω²."""
+    book, who = book_of("offset-slider-crank"), replace(taker(7), settings={"n": "7", "r": "61"})
+    marker = book.marker_of(who)
+    sheet = marker.standard.paper
+    scales = (sheet.mechanism, sheet.velocities, sheet.accelerations)
+    data = hand.data("offset-slider-crank", 7)
+    row = mistaken.handed_in(
+        "offset-slider-crank",
+        data,
+        scales,
+        np.random.default_rng(11),
+        mistakes=("diameter",),
+        crank=61,
+    )
+    told = {item.field: read_answer(row[item.field], item) for item in book.form}
+    one = marker.mark(who, told)
+    assert [cause.name for cause in one.causes] == ["diameter_for_radius"]
+    epsilon = marker.standard.by_field["epsilon_2"].item
+    two = marker.mark(who, told | {"epsilon_2": read_answer("41.5", epsilon)})
+    assert two.causes[0].name == "diameter_for_radius"
+    assert one.earned - two.earned <= two.mark("epsilon_2").points
+
+
 def test_feedback_begins_with_the_mistake_in_every_language():
     (graded, _), *_ = a_class("offset-slider-crank", [("diameter",)], 1, count=1)
     for language, start in (("en", "One mistake"), ("ro", "O greșeală"), ("it", "Un errore")):
@@ -128,3 +163,103 @@ def test_a_column_without_its_decimal_points_is_told():
         lost[who] = {**row, "v_D": read_answer(digits, items["v_D"])}
     with pytest.raises(RosterError, match="decimal"):
         graded_class(book_of("pump"), takers, lost)
+
+
+def written(row: Mapping[str, Answer], change) -> dict[str, Answer]:
+    """The answers of a student with each number changed, written to four digits."""
+    items = {item.field: item for item in book_of("pump").form}
+    told = {field: change(field, answer.value) for field, answer in row.items()}
+    texts = {f: f"{v:+.0f}" if f.endswith("_sense") else f"{v:.4g}" for f, v in told.items()}
+    return {field: read_answer(text, items[field]) for field, text in texts.items()}
+
+
+def whole_class(change, count: int = 12):
+    """A class all of whose answers are changed in one way, marked."""
+    takers, answers = keys_of(count)
+    return graded_class(
+        book_of("pump"), takers, {who: written(row, change) for who, row in answers.items()}
+    )
+
+
+@pytest.mark.parametrize("factor", [1.25, 0.5**0.5])
+def test_sheets_of_another_scale_are_told_and_nothing_is_marked(factor):
+    with pytest.raises(RosterError, match="scale"):
+        whole_class(lambda f, v: v * factor if f.endswith("_mm") and f[0] in "va" else v)
+
+
+def test_the_answers_of_another_lab_are_told_and_nothing_is_marked():
+    fields = [item.field for item in book_of("pump").form]
+    with pytest.raises(RosterError, match="lab"):
+        whole_class(
+            count=7, change=lambda f, v: v * (1.3 + fields.index(f) % 5) * (-1) ** fields.index(f)
+        )
+
+
+def test_rows_in_another_order_are_told_and_nothing_is_marked():
+    takers, answers = keys_of(24)
+    ids = list(answers)
+    other = dict(zip(ids, (answers[who] for who in reversed(ids)), strict=True))
+    with pytest.raises(RosterError, match="order"):
+        graded_class(book_of("pump"), takers, other)
+
+
+def test_a_class_that_shares_a_mistake_is_marked():
+    """Plans drawn 2:1, and values in mm: no mistake of the table."""
+    doubled = whole_class(lambda f, v: v * 2 if f.endswith("_mm") and f[0] in "va" else v)
+    assert {c.name for each in doubled.graded for c in each.causes} == {"own_scale"}
+    millimetres = whole_class(lambda f, v: v * 1000 if f in ("v_D", "a_D") else v)
+    assert {c.name for each in millimetres.graded for c in each.causes} == {"power_of_ten"}
+
+
+def test_a_class_may_be_marked_as_it_is():
+    takers, answers = keys_of(12)
+    ids = list(answers)
+    shifted = {who: answers[ids[(i + 1) % len(ids)]] for i, who in enumerate(ids)}
+    assert len(graded_class(book_of("pump"), takers, shifted, as_it_is=True).graded) == 12
+
+
+OWN = """
+[marking.causes.from_the_vertical]
+set = { n = "n/2 - 2" }
+cost = 0.12
+en = "the angle was measured from the other axis"
+ro = "unghiul a fost măsurat de la cealaltă axă"
+"""
+"""A cause of a lab: the crank of the pump stands at 30° + 2°·n, and turns at (300 + 10·n)/min."""
+
+
+def lab_with(tmp_path, more: str):
+    """The lab of the pump with more in its lab.toml."""
+    found = lab_of("pump")
+    (tmp_path / "scene.toml").write_text(found.scene.read_text("utf-8"), "utf-8")
+    (tmp_path / "lab.toml").write_text(found.text + more, "utf-8")
+    return read_lab(tmp_path)
+
+
+def test_a_lab_names_a_cause_of_its_own(tmp_path):
+    lab = lab_with(tmp_path, OWN)
+    book = Book(lab, lab.scene.read_text("utf-8"))
+    who = taker(17)
+    sheet = book.marker_of(who).standard.paper
+    scales = (sheet.mechanism, sheet.velocities, sheet.accelerations)
+    found = mistaken.handed_in("pump", hand.data("pump", 6.5), scales, np.random.default_rng(4))
+    answers = {item.field: read_answer(found[item.field], item) for item in book.form}
+    (graded,) = graded_class(book, [who], {who.student.id: answers}).graded
+    assert [cause.name for cause in graded.causes] == ["from_the_vertical"]
+    assert graded.cost == graded.points * Fraction("0.12")
+    assert "the other axis" in notes(graded, words("en"))[0]
+    assert "cealaltă axă" in notes(graded, words("ro"))[0]
+    assert "the other axis" in notes(graded, words("it"))[0]
+
+
+def test_every_mistake_in_a_cause_of_a_lab_is_told(tmp_path):
+    wrong = """
+[marking.causes.odd]
+set = { n = "number + 1", m = "3" }
+cost = "grave"
+"""
+    with pytest.raises(SceneError) as caught:
+        lab_with(tmp_path, wrong)
+    told = {problem.place for problem in caught.value.problems}
+    inside = "marking.causes.odd"
+    assert told == {inside, f"{inside}.cost", f"{inside}.set.n", f"{inside}.set.m"}

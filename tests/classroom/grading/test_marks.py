@@ -145,3 +145,32 @@ def test_a_point_that_may_part_thousands_is_asked_where_only_that_is_near_the_ke
     found = marker.mark(taker(7), answers).mark("v_D")
     assert found.status is status
     assert (found.answer.problem == "thousands") == (status is Status.UNREADABLE)
+
+
+@pytest.mark.parametrize(
+    ("digits", "cell", "share", "rounded"),
+    [
+        (None, "473", 1, ""),
+        (None, "400", Fraction("0.8"), "few"),
+        (None, "420", 0, ""),
+        ((3, 4), "470", 1, ""),
+        ((3, 4), "4.7e2", Fraction("0.8"), "few"),
+        ((3, 4), "473.00", Fraction("0.8"), "many"),
+    ],
+)
+def test_significant_digits_are_a_part_of_the_rubric(digits, cell, share, rounded):
+    """The piston of the pump at number 7: 473 m/s²; 400 may mean all up to 450, 420 up to 425."""
+    marker = marker_with("pump", (), digits=digits)
+    item = marker.standard.by_field["a_D"].item
+    answers = key_answers(marker.standard) | {"a_D": read_answer(cell, item)}
+    for field in ("v_D", "omega_2", "omega_3", "omega_4", "epsilon_2", "epsilon_3", "epsilon_4"):
+        answers[field] = read_answer(f"{abs(marker.standard.key[field]):.4g}", item)
+    found = marker.mark(taker(7), answers).mark("a_D")
+    assert (found.earned, found.rounded) == (share * found.points, rounded)
+
+
+def test_two_cells_of_one_row_exchanged_are_named():
+    marker = marker_of("pump", 7)
+    key = key_answers(marker.standard)
+    swapped = key | {"v_D": key["v_D_mm"], "v_D_mm": key["v_D"]}
+    assert [cause.name for cause in marker.mark(taker(7), swapped).causes] == ["answers_exchanged"]

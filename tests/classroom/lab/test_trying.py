@@ -55,6 +55,15 @@ def test_shipped_labs_keep_a_class_of_thirty_apart(shipped, name):
     assert all(each.fair for each in assigned(trial.lab, students))
 
 
+def test_a_new_lab_keeps_a_class_of_thirty_apart(tmp_path):
+    new_lab("mine", tmp_path)
+    trial = tried(read_lab(tmp_path / "mine"))
+    assert trial.lab.fair.apart == 0.5
+    assert len(trial.compared) == 30
+    assert trial.by_keys == []
+    assert np.nanmax(trial.neighbours.exact) <= 0.5
+
+
 def test_scales_are_told_with_how_many_students_have_them(shipped):
     """The pump states one scale for everybody; the slider-crank's sheets choose their own."""
     lab = read_lab("offset-slider-crank")
@@ -116,7 +125,7 @@ def test_a_new_lab_passes_with_ranges_too(tmp_path):
     text = path.read_text(encoding="utf-8")
     commented = [line for line in text.splitlines() if line.startswith("#     ")]
     block = "\n".join(line.removeprefix("#     ") for line in commented)
-    text = text.replace('[variants]\nset = { n = "number" }\n', block + "\n")
+    text = re.sub(r"(?m)^\[variants\]\nset = .*\n", block + "\n", text)
     path.write_text(text, encoding="utf-8")
     assert len(tried(read_lab(path)).many) == 1000
 
