@@ -359,17 +359,24 @@ def refined(
         if use.sum() < 5:
             return None
         spots = (weight * across).sum(axis=1)[use] / total[use]
-        rows = np.stack([1 - part[use], part[use]], axis=1)
-        trust = np.ones(len(spots))
+        along, trust = part[use], np.ones(len(spots))
         for _ in range(3):
-            fit, *_ = np.linalg.lstsq(rows * trust[:, None], spots * trust, rcond=None)
-            off = abs(spots - rows @ fit)
-            trust = 1 / (1 + (off / max(float(np.median(off)) * 2, 0.05)) ** 2)
-        near, distant = float(fit[0]), float(fit[1])
+            near, distant = line_through(along, spots, trust**2)
+            off = abs(spots - near - (distant - near) * along)
+            usual = float(np.partition(off, len(off) // 2)[len(off) // 2])
+            trust = 1 / (1 + (off / max(usual * 2, 0.05)) ** 2)
     whole = known[:, len(across) // 2] > 0
     cover = float((there & whole).sum() / max(whole.sum(), 1))
-    spread = float(np.median(off)) * 1.5
-    return near, distant, cover, max(LEAST_ERROR, spread)
+    return near, distant, cover, max(LEAST_ERROR, 1.5 * usual)
+
+
+def line_through(along: Any, spots: Any, weights: Any) -> tuple[float, float]:
+    """The weighted least-squares line through spots, by its values at 0 and at 1."""
+    total = float(weights.sum())
+    middle, height = float(weights @ along) / total, float(weights @ spots) / total
+    off = along - middle
+    slope = float((weights * off) @ spots) / max(float((weights * off) @ off), 1e-12)
+    return height - slope * middle, height + slope * (1 - middle)
 
 
 def drawn_ink(grey: Any, over: PaperMap, page: Page) -> DrawnInk:

@@ -136,6 +136,17 @@ class LetteredSheet(Struct, frozen=True, dict=True):
         )
 
     @cached_property
+    def sources(self) -> Mapping[int, frozenset[int]]:
+        """The steps from which each step that drawing errors affect is drawn."""
+        steps, exact = self.exact.program.steps, self.exact
+        found = {}
+        for number in self.order:
+            hand, tail = exact.by_hand(number), exact.tails.get(number)
+            args = {hand} if hand is not None else {*steps[number].args, tail}
+            found[number] = frozenset(arg for arg in args if arg is not None)
+        return found
+
+    @cached_property
     def corners(self) -> tuple[int, ...]:
         """The steps of the plan's corners without a letter of their own.
 

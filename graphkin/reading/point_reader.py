@@ -99,7 +99,7 @@ class PointReader(PointSearch):
                 if number not in wanted and number not in corners:
                     continue
                 if stale:
-                    self.next = self.ahead({})
+                    self.next = self.ahead()
                 cloud = np.atleast_1d(self.sheet.place(number, found[number]))
                 own = expected(cloud)
                 if number in corners:

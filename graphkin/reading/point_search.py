@@ -270,16 +270,27 @@ class PointSearch:
                 found[number] = self.drawn(number, found, DRAWINGS)
         return found
 
-    def ahead(self, more: Mapping[int, complex]) -> dict[int, Any]:
-        """The value of every step as it follows from the student's points and some more."""
+    def ahead(self) -> dict[int, Any]:
+        """The value of every step as it follows from the student's points."""
         found = dict(self.sheet.exact.trace.values)
-        own = {**self.own, **more}
         with np.errstate(all="ignore"):
             for number in self.sheet.order:
-                if number in own:
-                    found[number] = self.sheet.value(number, own[number])
+                if number in self.own:
+                    found[number] = self.sheet.value(number, self.own[number])
                 else:
                     found[number] = self.drawn(number, found, 1)
+        return found
+
+    def after(self, number: int, place: complex) -> dict[int, Any]:
+        """``ahead`` with one more point, from ``next``: only what depends on it is computed."""
+        found, fresh = dict(self.next), {number}
+        found[number] = self.sheet.value(number, place)
+        with np.errstate(all="ignore"):
+            for other in self.sheet.order:
+                follows = not fresh.isdisjoint(self.sheet.sources[other])
+                if follows and other != number and other not in self.own:
+                    found[other] = self.drawn(other, found, 1)
+                    fresh.add(other)
         return found
 
     def far_place(self, leading: Leading, values: Mapping[int, Any]) -> complex:
@@ -769,7 +780,7 @@ class PointSearch:
 
     def followed(self, number: int, place: complex) -> float:
         """How well the steps that would follow from a place are drawn."""
-        values = self.ahead({number: place})
+        values = self.after(number, place)
         covers = [
             self.cover_after(each, place, values)
             for each in self.sheet.leading[number]
@@ -790,7 +801,7 @@ class PointSearch:
 
     def settled(self, number: int, place: complex) -> LinesCrossing:
         """A found place, moved to where its lines cross exactly; else to where one of them ends."""
-        values = self.ahead({number: place})
+        values = self.after(number, place)
         lines = []
         for leading in self.sheet.leading[number]:
             far = self.far_place(leading, values)

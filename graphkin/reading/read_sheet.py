@@ -13,9 +13,8 @@ from graphkin.accuracy.pencil.pencil import Pencil
 from graphkin.classroom.grading.probes import probes
 from graphkin.classroom.lab.lab_model import Item
 from graphkin.classroom.printing.personal import without_crosses
-from graphkin.classroom.printing.print_work import FORM, PrintOrder, Sheets
+from graphkin.classroom.printing.print_work import PrintOrder, Sheets
 from graphkin.classroom.roster.taker import Taker
-from graphkin.drawing.marks import Page
 from graphkin.numbers.arithmetic import np
 from graphkin.reading.lettered_points import LetteredSheet
 from graphkin.reading.paper_map import PaperMap
@@ -181,7 +180,7 @@ def found_sheet(grey: Any, order: ReadOrder, code: str, corners: Any) -> FoundSh
     own = order.takers[code].spoken or order.order.language
     for language in dict.fromkeys((own, *LANGUAGES)):
         sheets = sheets_of(order.order, order.takers[code], language)
-        pages = dict(task_pages(sheets))
+        pages = sheets.task_pages
         shares = {
             kind: search.likeness(page, [other for other in pages.values() if other is not page])
             for kind, page in pages.items()
@@ -207,12 +206,7 @@ def of_halves(left: Any, right: Any, order: ReadOrder) -> Any:
 
     taker = next(iter(order.takers.values()))
     sheets = sheets_of(order.order, taker, order.order.language)
-    return put_together(left, right, task_pages(sheets)[0][1])
-
-
-def task_pages(sheets: Sheets) -> list[tuple[str, Page]]:
-    """The drawing sheets of a student's task, as (kind, page)."""
-    return [(sheet.kind, sheet.pages[0]) for sheet in sheets.of("task") if sheet.kind != FORM]
+    return put_together(left, right, next(iter(sheets.task_pages.values())))
 
 
 @lru_cache(maxsize=8)
