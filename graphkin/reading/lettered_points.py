@@ -59,6 +59,14 @@ class Leading(Struct, frozen=True):
     light: bool = False
 
 
+class Arrow(Struct, frozen=True):
+    """An arrow of the plan: its step, the step of its tail if that is a point, and of its tip."""
+
+    step: int
+    tail: int | None
+    tip: int
+
+
 class LetteredSheet(Struct, frozen=True, dict=True):
     """A student's sheet as it should be drawn, and the page that was printed for it."""
 
@@ -244,6 +252,27 @@ class LetteredSheet(Struct, frozen=True, dict=True):
         steps = self.exact.program.steps
         joined = (steps[n] for n in self.exact.trace.values if steps[n].action is join)
         return tuple((step.args[0], step.args[1]) for step in joined if step.arrow)
+
+    @cached_property
+    def arrows(self) -> tuple[Arrow, ...]:
+        """The arrows of the plan that end at points that are read, components included."""
+        steps, values = self.exact.program.steps, self.exact.trace.values
+        found = []
+        for number, value in values.items():
+            step = steps[number]
+            if step.arrow and step.plane is self.drawing.plane and isinstance(value, Vector):
+                tips = [n for n in step.args if n in self.points and self.is_at(n, value.tip)]
+                tails = [n for n in step.args if self.is_at(n, value.tail)]
+                found += [Arrow(number, next(iter(tails), None), tip) for tip in tips[:1]]
+        return tuple(found)
+
+    def is_at(self, number: int, place: complex) -> bool:
+        """Whether a step of the plan is a point at a place of the plan."""
+        value = self.exact.trace.values.get(number)
+        if not isinstance(value, complex):
+            return False
+        same = self.exact.program.steps[number].plane is self.drawing.plane
+        return same and abs(value - place) * self.field(number).mm < EXACT
 
     def after(self, number: int) -> Iterator[Leading]:
         """The lines drawn through a point once it exists, and the vectors laid off from it."""

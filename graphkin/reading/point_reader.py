@@ -8,16 +8,18 @@ mistake. All other places, and all doubtful ones, are left for a person to check
 from __future__ import annotations
 
 from collections.abc import Mapping
+from functools import cached_property
 from typing import Any
 
 import numpy as np
 from msgspec.structs import replace
 
 from graphkin.accuracy.pencil.pencil import Pencil
+from graphkin.accuracy.pencil.redrawing import unmarked
 from graphkin.construction.core.program import Plane
 from graphkin.numbers.plane import Line
 from graphkin.reading.drawn_ink import DrawnInk
-from graphkin.reading.lettered_points import SHORT, Leading, LetteredSheet
+from graphkin.reading.lettered_points import SHORT, Arrow, Leading, LetteredSheet
 from graphkin.reading.point_reading import PointReading, ReadVerdict, pair
 from graphkin.reading.point_search import (
     AGREED,
@@ -36,7 +38,7 @@ from graphkin.reading.point_search import (
     expected,
     sine,
 )
-from graphkin.reading.vector_ends import VectorEnd, vector_end
+from graphkin.reading.vector_ends import VectorEnd, bar_runs_on, vector_end
 
 OUTSIDE, APART = 6.5, 3.0
 """Squared distance from the key, in deviations, beyond which the pencil does not explain a place.
@@ -122,21 +124,22 @@ class PointReader(PointSearch):
         for number in self.sheet.found_by.values():
             if number in self.own and not self.is_joined(number):
                 self.readings[number] = replace(self.readings[number], ask=True)
+        self.next = self.ahead()
         for number in self.sheet.points:
             self.readings[number] = self.ended(number, self.readings[number])
         return tuple(self.readings[number] for number in self.sheet.points)
 
     def ended(self, number: int, reading: PointReading) -> PointReading:
-        """A reading, asked where a vector does not end at its point.
+        """A reading, asked where a vector or a bar does not surely end at its point.
 
         *Wrong* is proposed, at the arrowhead, where a head is clearly elsewhere.
         """
         if number not in self.own or reading.verdict not in ("right", "follows"):
             return reading
-        for tail, tip in self.sheet.vectors:
-            if tip != number or not self.is_known(Leading(tail)):
+        for arrow, begin, _ in self.drawn_arrows:
+            if arrow.tip != number or not np.isfinite(begin):
                 continue
-            end = self.end_of(tail, number)
+            end = self.end_of(arrow, begin)
             if end.is_wrong:
                 at = reading.at if end.head is None else pair(end.head)
                 off = reading.off
@@ -145,37 +148,65 @@ class PointReader(PointSearch):
                 return replace(reading, at=at, off=off, verdict="wrong", ask=True)
             if not end.is_there:
                 reading = replace(reading, ask=True)
-        return reading
+        return replace(reading, ask=True) if self.is_overdrawn(number) else reading
 
-    def end_of(self, tail: int, tip: int) -> VectorEnd:
-        """What the end of the vector between two points that were read says."""
-        begin, end = self.far_place(Leading(tail), self.next), self.own[tip]
+    @cached_property
+    def drawn_arrows(self) -> tuple[tuple[Arrow, complex, complex], ...]:
+        """The arrows of the plan with the places of their tails and tips, as far as read."""
+        exact, found = self.sheet.exact, []
+        for arrow in self.sheet.arrows:
+            if arrow.tail is not None:
+                begin = self.far_place(Leading(arrow.tail), self.next)
+            else:
+                vector = unmarked(exact, arrow.step, self.next)
+                begin = complex(np.ravel(self.sheet.place(arrow.tip, vector.tail))[0])
+            found.append((arrow, begin, self.far_place(Leading(arrow.tip), self.next)))
+        return tuple(found)
+
+    def end_of(self, arrow: Arrow, begin: complex) -> VectorEnd:
+        """What the end of an arrow to a point that was read says."""
+        end = self.own[arrow.tip]
         steps, values = self.sheet.exact.program.steps, self.next
-        plane = steps[tip].plane
-        others, along_line = list[complex](), False
-        for number in self.sheet.exact.trace.values:
-            if steps[number].plane is not plane or number in (tail, tip):
-                continue
-            value = values[number]
-            if isinstance(value, Line):
+        others, along_line = self.others(arrow.tip, arrow.tail), False
+        for number, value in values.items():
+            if steps[number].plane is steps[arrow.tip].plane and isinstance(value, Line):
                 start = complex(np.ravel(self.sheet.place(number, value))[0])
                 way = complex(np.ravel(value.along)[0]).conjugate()
                 on_it = abs(((end - start) * way.conjugate()).imag) / abs(way) < BESIDE
                 along_line |= on_it and abs(sine(way, end - begin)) < FLAT
-            elif isinstance(self.sheet.exact.trace.values[number], complex):
-                place = self.own.get(number)
-                others.append(
-                    complex(np.ravel(self.sheet.place(number, value))[0])
-                    if place is None
-                    else place
-                )
-        others = [each for each in others if np.isfinite(each) and abs(each - end) > SAME]
-        arriving = [
-            begin - self.far_place(Leading(start), values)
-            for start, at in self.sheet.vectors
-            if at == tail and self.is_known(Leading(start))
+        arriving = [begin - start for _, start, tip in self.drawn_arrows if abs(tip - begin) < SAME]
+        beside = [
+            tip - start
+            for other, start, tip in self.drawn_arrows
+            if other.tip == arrow.tip and other.step != arrow.step
         ]
-        return vector_end(self.ink, begin, end, others, arriving, along_line=along_line)
+        return vector_end(
+            self.ink, begin, end, others, arriving, along_line=along_line, beside=beside
+        )
+
+    def others(self, number: int, besides: int | None = None) -> list[complex]:
+        """The places of the other points in a point's plan, as far as read."""
+        steps, exact = self.sheet.exact.program.steps, self.sheet.exact.trace.values
+        places = (
+            self.far_place(Leading(other), self.next)
+            for other, value in exact.items()
+            if isinstance(value, complex)
+            and steps[other].plane is steps[number].plane
+            and other not in (number, besides)
+        )
+        end = self.own[number]
+        return [each for each in places if np.isfinite(each) and abs(each - end) > SAME]
+
+    def is_overdrawn(self, number: int) -> bool:
+        """Whether a bar of the mechanism is drawn on beyond a point."""
+        if self.sheet.exact.program.steps[number].plane is not Plane.MECHANISM:
+            return False
+        end, others = self.own[number], self.others(number)
+        return any(
+            bar_runs_on(self.ink, self.far_place(Leading(far), self.next), end, others)
+            for far in self.sheet.bars.get(number, ())
+            if self.is_known(Leading(far))
+        )
 
     def places(self, number: int, cloud: Any, own: ExpectedPlace, best: LinesCrossing) -> Any:
         """Where a point that was read may be: the cloud for the steps that follow from it."""
