@@ -20,14 +20,15 @@ from graphkin.classroom.printing.personal import crosses_of
 from graphkin.drawing.marks import LineMark, Page, Polyline, style_class
 from graphkin.drawing.style import style_of
 from graphkin.reading.paper_map import (
-    BENDS,
     COUNT,
+    CREASED,
     HALF,
     LENS,
     MIDDLE,
     PLAIN,
     PaperMap,
     bendings,
+    creasings,
     prior,
     seen_at,
 )
@@ -77,6 +78,11 @@ BENT = 3.0
 """Expected size of the simplest bending, in mm."""
 ROUNDS, NUDGE = 3, 1e-6
 """Gauss-Newton steps per fit, and the step of the finite differences."""
+UNEVEN, LESS = 0.12, 0.8
+"""The residual in mm from which a sheet is also read as one that was folded in four.
+
+The folded sheet counts with less than LESS of the residual.
+"""
 LEAST_FOUND, WORST = 0.45, 0.5
 """The least share of lines within the picture that must be found, and their largest residual in mm.
 """
@@ -200,12 +206,17 @@ class SheetSearch:
     ) -> None:
         self.smooth = cv2.GaussianBlur(grey, (0, 0), 0.7)
         self.corners, self.square, self.sides = corners, square, sides
-        self.frames: dict[tuple[bytes, float, bool], PaperMap] = {}
+        self.frames: dict[tuple[bytes, float, bool, bool], PaperMap] = {}
 
     def registered(self, page: Page) -> Registration | None:
         """The registration of a page; None where the page has no square to begin with."""
         first = self.fitted(page, BENT_FROM)
-        if first is None or not first.refused:
+        if first is None or not (first.refused or first.residual > UNEVEN):
+            return first
+        folded = self.fitted(page, BENT_FROM, creased=True)
+        if folded is not None and not folded.refused:
+            return folded if first.refused or folded.residual < LESS * first.residual else first
+        if not first.refused:
             return first
         for bent, faint in ((max(RINGS), False), (BENT_FROM, True)):  # bending misled it
             other = self.fitted(page, bent, faint=faint)
@@ -213,12 +224,15 @@ class SheetSearch:
                 return other
         return first
 
-    def fitted(self, page: Page, bent: float, *, faint: bool = False) -> Registration | None:
+    def fitted(
+        self, page: Page, bent: float, *, faint: bool = False, creased: bool = False
+    ) -> Registration | None:
         """The registration of a page by all its lines, starting from the map of its frame."""
-        over, lines = self.frame(page, bent, faint=faint), printed_lines(page, faint=faint)
+        over = self.frame(page, bent, faint=faint, creased=creased)
+        lines = printed_lines(page, faint=faint)
         if over is None:
             return None
-        fit = MapFit(over, self.square_of(page), self.corners)
+        fit = MapFit(over, self.square_of(page), self.corners, creased=creased)
         fit.refine(self.smooth, lines)
         last = measure(self.smooth, fit.map, lines, NEAR)
         found = judged(fit.map, last, lines, self.sides)
@@ -230,16 +244,18 @@ class SheetSearch:
         """The square from which a page is followed."""
         return square_of(page) if self.square is None else self.square
 
-    def frame(self, page: Page, bent: float, *, faint: bool = False) -> PaperMap | None:
+    def frame(
+        self, page: Page, bent: float, *, faint: bool = False, creased: bool = False
+    ) -> PaperMap | None:
         """The map by the lines that all sheets share; bending is fitted from ring ``bent`` on."""
         square = self.square_of(page)
         if square is None:
             return None
-        key = square.tobytes(), bent, faint
+        key = square.tobytes(), bent, faint, creased
         if key not in self.frames:
             lines = printed_lines(page, faint=faint)
             lines = lines.some(lines.shared)
-            over = followed(self.smooth, lines, square, self.corners, bent)
+            over = followed(self.smooth, lines, square, self.corners, bent, creased=creased)
             self.frames[key] = held_by_ticks(self.smooth, over, lines, square, self.corners)
         return self.frames[key]
 
@@ -261,10 +277,19 @@ class SheetSearch:
         return float((measured.found & measured.seen).sum() / max(measured.seen.sum(), 1))
 
 
-def followed(smooth: Any, lines: PrintedLines, square: Any, corners: Any, bent: float) -> PaperMap:
+def followed(
+    smooth: Any,
+    lines: PrintedLines,
+    square: Any,
+    corners: Any,
+    bent: float,
+    *,
+    creased: bool = False,
+) -> PaperMap:
     """The map fitted to printed lines, ring by ring; bending is fitted from ring ``bent`` on."""
     height, width = smooth.shape
-    fit = MapFit(start(width, height, square, np.asarray(corners, dtype=float)), square, corners)
+    first = start(width, height, square, np.asarray(corners, dtype=float))
+    fit = MapFit(first, square, corners, creased=creased)
     far = np.hypot(*(lines.places - square.mean(axis=0)).T)
     for ring in RINGS:
         near = lines.some(far < ring)
@@ -447,7 +472,8 @@ def peaks(dark: Any, across: Any, width: float, reach: float) -> tuple[Any, Any]
 class MapFit:
     """A map that is fitted repeatedly to measurements made with it."""
 
-    def __init__(self, over: PaperMap, square: Any, corners: Any) -> None:
+    def __init__(self, over: PaperMap, square: Any, corners: Any, *, creased: bool = False) -> None:
+        self.most = COUNT if creased else CREASED
         self.width, self.height, self.parameters = over.width, over.height, over.array.copy()
         self.square, self.corners = square, np.asarray(corners, dtype=float)
         self.expected = prior(BENT)
@@ -475,15 +501,18 @@ class MapFit:
         places = np.concatenate([lines.places, self.square])
         u, v = ((places - MIDDLE) / HALF).T
         bends = bendings(u, v)
+        if self.most == COUNT:
+            bends = np.concatenate([bends, creasings(u, v)], axis=-1)
+        kinds = bends.shape[-1]
         size = self.map.scale(self.square.mean(axis=0))
-        count = COUNT if bent else PLAIN if lens else LENS
+        count = self.most if bent else PLAIN if lens else LENS
 
         def errors(found: Any) -> Any:
             by_lines = (found[: len(pixels)] * normal).sum(1) / scale / NOISE
             return np.concatenate([by_lines, found[len(pixels) :].ravel() / size / CORNER])
 
         def pixels_with(parameters: Any, du: float = 0.0, dv: float = 0.0) -> Any:
-            shift = bends @ parameters[PLAIN:].reshape(len(BENDS), 2)
+            shift = bends @ parameters[PLAIN : self.most].reshape(kinds, 2)
             across, along = u + shift[:, 0] + du, v + shift[:, 1] + dv
             return seen_at(parameters, across, along, self.width, self.height)
 
@@ -502,7 +531,7 @@ class MapFit:
                 along = (
                     pixels_with(self.parameters, dv=NUDGE) - pixels_with(self.parameters)
                 ) / NUDGE
-                for k in range(len(BENDS)):
+                for k in range(kinds):
                     columns += [
                         errors(bends[:, k, None] * across),
                         errors(bends[:, k, None] * along),

@@ -26,7 +26,7 @@ PAST, GOES_ON = np.arange(4.4, 6.0, 0.2), 0.75
 """Distances in mm behind a tip at which a line drawn to this share is no side of a head."""
 HEADED, CLEARLY = 0.8, 0.25
 """The least share of an arrowhead that is drawn; how much clearer one head is than another."""
-OWN = 0.85
+OWN = 0.75
 """The least share of the head at a point that counts as the end of its vector without a doubt."""
 RINGS, PINS, ROUND = np.arange(0.7, 1.05, 0.1), np.arange(0.7, 1.45, 0.1), 0.9
 """Radii in mm of the rings of points and of pins; the least share of one that is drawn."""
