@@ -166,14 +166,7 @@ class PointReader(PointSearch):
     def end_of(self, arrow: Arrow, begin: complex) -> VectorEnd:
         """What the end of an arrow to a point that was read says."""
         end = self.own[arrow.tip]
-        steps, values = self.sheet.exact.program.steps, self.next
-        others, along_line = self.others(arrow.tip, arrow.tail), False
-        for number, value in values.items():
-            if steps[number].plane is steps[arrow.tip].plane and isinstance(value, Line):
-                start = complex(np.ravel(self.sheet.place(number, value))[0])
-                way = complex(np.ravel(value.along)[0]).conjugate()
-                on_it = abs(((end - start) * way.conjugate()).imag) / abs(way) < BESIDE
-                along_line |= on_it and abs(sine(way, end - begin)) < FLAT
+        others, along_line = self.others(arrow.tip, arrow.tail), self.is_on_line(arrow.tip, begin)
         arriving = [begin - start for _, start, tip in self.drawn_arrows if abs(tip - begin) < SAME]
         beside = [
             tip - start
@@ -183,6 +176,18 @@ class PointReader(PointSearch):
         return vector_end(
             self.ink, begin, end, others, arriving, along_line=along_line, beside=beside
         )
+
+    def is_on_line(self, number: int, begin: complex) -> bool:
+        """Whether a construction line runs along the line from a place to a point."""
+        steps, end = self.sheet.exact.program.steps, self.own[number]
+        for other, value in self.next.items():
+            if steps[other].plane is steps[number].plane and isinstance(value, Line):
+                start = complex(np.ravel(self.sheet.place(other, value))[0])
+                way = complex(np.ravel(value.along)[0]).conjugate()
+                on_it = abs(((end - start) * way.conjugate()).imag) / abs(way) < BESIDE
+                if on_it and abs(sine(way, end - begin)) < FLAT:
+                    return True
+        return False
 
     def others(self, number: int, besides: int | None = None) -> list[complex]:
         """The places of the other points in a point's plan, as far as read."""
@@ -203,9 +208,10 @@ class PointReader(PointSearch):
             return False
         end, others = self.own[number], self.others(number)
         return any(
-            bar_runs_on(self.ink, self.far_place(Leading(far), self.next), end, others)
+            bar_runs_on(self.ink, begin, end, others) and not self.is_on_line(number, begin)
             for far in self.sheet.bars.get(number, ())
             if self.is_known(Leading(far))
+            and np.isfinite(begin := self.far_place(Leading(far), self.next))
         )
 
     def places(self, number: int, cloud: Any, own: ExpectedPlace, best: LinesCrossing) -> Any:

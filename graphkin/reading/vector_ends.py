@@ -24,6 +24,8 @@ ASIDE = 0.55
 """How far beside the bare shaft nothing is drawn, in mm."""
 PAST, GOES_ON = np.arange(4.4, 6.0, 0.2), 0.75
 """Distances in mm behind a tip at which a line drawn to this share is no side of a head."""
+ONE_WAY, FAN = np.ones(1), np.exp(1j * np.radians([-4.0, -2.0, 0.0, 2.0, 4.0]))
+"""Turns of lines that may look like a head's sides; vectors that leave a pole turn most."""
 HEADED, CLEARLY = 0.8, 0.25
 """The least share of an arrowhead that is drawn; how much clearer one head is than another."""
 OWN = 0.75
@@ -99,11 +101,14 @@ class VectorEnd(Struct, frozen=True):
         return self.head is not None or self.reversed or beside
 
 
-def heads(ink: DrawnInk, places: Any, way: complex, pale: float = COVERED) -> Any:
+def heads(
+    ink: DrawnInk, places: Any, way: complex, pale: float = COVERED, lines: Any = ONE_WAY
+) -> Any:
     """The drawn share of an arrowhead with its tip at each place, pointing along ``way``.
 
     The weaker of both sides counts, less what is drawn beside the shaft behind the head. A side
-    that goes on behind the head is another line. Ink darker than ``pale`` counts as drawn.
+    that goes on behind the head, turned by one of the angles ``lines``, is another line. Ink darker
+    than ``pale`` counts as drawn.
     """
     best = np.zeros(len(places))
     for barb in BARBS:
@@ -112,8 +117,9 @@ def heads(ink: DrawnInk, places: Any, way: complex, pale: float = COVERED) -> An
             dark, known = ink.at(places[:, None] - way * SIDES * turn)
             seen = np.maximum(known.sum(axis=1), 1)
             enough = known.mean(axis=1) > 0.5
-            past = (ink.at(places[:, None] - way * PAST * turn)[0] > pale).mean(axis=1)
-            enough &= past < GOES_ON
+            behind = places[:, None, None] - way * turn * lines[:, None] * PAST
+            past = (ink.at(behind.reshape(len(places), -1))[0] > pale).reshape(behind.shape)
+            enough &= past.mean(axis=2).max(axis=1) < GOES_ON
             sides.append(((dark > pale) * known).sum(axis=1) / seen * enough)
         best = np.maximum(best, np.minimum(*sides))
     bare = [
@@ -151,8 +157,11 @@ def vector_end(
     share = heads(ink, tail + along * way, way, pale)
     here = float(share[abs(along - long) <= NEAR].max())
     marked = is_marked(ink, tip, RINGS)
-    alike = any(abs(np.angle(each / way)) < BESIDE for each in beside)
     others = [(each - tail) / way for each in others]
+    shared = any(
+        o.real > long + NEAR and abs(o.imag) < NEAR + LEANING * (o.real - long) for o in others
+    )
+    alike = shared or any(abs(np.angle(each / way)) < BESIDE for each in beside)
     free = abs(along - long) > CLEAR
     for other in others:
         free &= abs(along - other) > FREE
@@ -164,26 +173,24 @@ def vector_end(
         ink.cover(tail, place, 0.4, hidden=1.0) >= REACHED
     )
     close = np.arange(-AT, AT + PITCH / 2, PITCH)
-    back = heads(ink, tail + close * way, -way, pale)
+    back = heads(ink, tail + close * way, -way, pale, FAN)
+    plain = heads(ink, tail + close * way, -way, pale).max() <= PLAIN
     crowded = any(abs(o) <= FREE for o in others) or any(
         abs(np.angle(-each / way)) < CROWDED for each in arriving
     )
     turned = bool(back.max() >= TURNED and back.max() > here + CLEARLY and not crowded)
-    at_tail = steady(back).max() >= HEADED and not crowded
+    at_tail = (back.max() >= TURNED if alike else steady(back).max() >= HEADED) and not crowded
     head = complex(place) if elsewhere and (clearer or here < OWN) else None
     doubled = bool(at_tail and not turned) or (along_line and elsewhere and head is None)
-    ended = here >= OWN or (marked and back.max() <= PLAIN)
+    ended = here >= OWN or (marked and plain)
     if along_line:
         return VectorEnd(head, turned, doubled, open=not ended)
-    shared = any(
-        o.real > long + NEAR and abs(o.imag) < NEAR + LEANING * (o.real - long) for o in others
-    )
     beyond = drawn(ink, tip, way, BEYOND, pale)
     before = drawn(ink, tip, -way, BEFORE, pale)
     stops = not shared and beyond <= EMPTY and before >= RUNS_ON
     if stops:
         head = None
-    ended |= stops and back.max() <= PLAIN
+    ended |= stops and plain
     runs_on = not shared and beyond >= RUNS_ON
     return VectorEnd(head, turned, doubled, runs_on, before < STOPS, not ended)
 
