@@ -391,12 +391,31 @@ def drawn_ink(grey: Any, over: PaperMap, page: Page) -> DrawnInk:
     lines = cv2.GaussianBlur(dark, (0, 0), FINE * DENSITY)
     lines -= cv2.GaussianBlur(dark, (0, 0), COARSE * DENSITY)
     known = 1 - printed_mask(page, flat.shape)
+    known[~seen_in(grey.shape, over)] = 0
     inner = lines[known > 0]
     usual = max(float(np.percentile(inner, LINES)), FAINT)
     told = 0.0 if over.ripple is None else over.ripple.deviation
     sway = float(np.sqrt(max(told**2 - PAPER**2, 0.0)))
     drawn = np.clip(lines / usual, 0, 1.5).astype(np.float32)
     return DrawnInk(drawn, known.astype(np.float32), sway)
+
+
+def seen_in(shape: tuple[int, ...], over: PaperMap) -> Any:
+    """Which pixels of the flattened fields are within a picture."""
+    left, top, right, bottom = AREA
+    inside = np.zeros(shape[:2], np.uint8)
+    inside[1:-1, 1:-1] = 1
+    edges = [
+        (x, y)
+        for x in np.linspace(left, right, 9)
+        for y in np.linspace(top, bottom, 9)
+        if x in (left, right) or y in (top, bottom)
+    ]
+    pixels = np.rint(over(np.array(edges))).astype(int)
+    if ((pixels > 1) & (pixels < np.array(shape[1::-1]) - 2)).all():
+        size = round((bottom - top) * DENSITY), round((right - left) * DENSITY)
+        return np.ones(size, bool)
+    return flattened(inside, over, AREA, DENSITY) > 0
 
 
 def flattened(grey: Any, over: PaperMap, rect: Any, density: float) -> Any:

@@ -87,8 +87,11 @@ LEAST_FOUND, WORST = 0.45, 0.5
 """The least share of lines within the picture that must be found, and their largest residual in mm.
 """
 SIDES = ("left", "right", "upper", "lower")
-LEAST_SIDE = 0.25
-"""The least share that must be found on each side of the sheet."""
+LEAST_SIDE, SEEN = 0.25, 0.5
+"""The least share that must be found on each side of the sheet.
+
+Where less than SEEN of one side's lines is in the picture, that side is cut off.
+"""
 STRETCH, LEAST_STRETCH = 100.0, 0.35
 """The least share of frame and border that must be found along each stretch of STRETCH mm.
 
@@ -236,9 +239,17 @@ class SheetSearch:
         fit.refine(self.smooth, lines)
         last = measure(self.smooth, fit.map, lines, NEAR)
         found = judged(fit.map, last, lines, self.sides)
-        if found.refused or self.square is not None:  # a scanned half lies flat on the glass
+        if self.square is not None:  # a scanned half lies flat on the glass
             return found
-        return rippled(found, last, self.smooth, page)
+        cut = side_cut_off(last, lines)
+        if found.refused and cut:
+            found = judged(fit.map, last, lines, tuple(side for side in SIDES if side != cut))
+        if found.refused:
+            return found
+        whole = rippled(found, last, self.smooth, page)
+        if cut and not whole.crossed:  # nothing but crosses says where the fields are there
+            return judged(fit.map, last, lines, self.sides)
+        return whole
 
     def square_of(self, page: Page) -> Any:
         """The square from which a page is followed."""
@@ -583,8 +594,7 @@ def judged(
     own = seen & ~lines.shared
     own_share = float((found & own).sum() / max(own.sum(), 1))
     refused = ""
-    x, y = lines.places.T
-    parts = dict(zip(SIDES, (x < 210, x >= 210, y < 60, y > 230), strict=True))
+    parts = parts_of(lines)
     held = {side: float((found & parts[side]).sum() / parts[side].sum()) for side in wanted}
     side = min(held, key=lambda each: held[each])
     stretch = least_stretch(last, lines)
@@ -603,6 +613,18 @@ def judged(
     elif residual > WORST:
         refused = f"the paper lies too unevenly: printed lines are {residual:.1f} mm off"
     return Registration(over, share, residual, own_share, refused)
+
+
+def parts_of(lines: PrintedLines) -> dict[str, Any]:
+    """Which lines are on each side of the sheet."""
+    x, y = lines.places.T
+    return dict(zip(SIDES, (x < 210, x >= 210, y < 60, y > 230), strict=True))
+
+
+def side_cut_off(last: MeasuredLines, lines: PrintedLines) -> str:
+    """The only side of the sheet whose lines are mostly outside the picture; "" without one."""
+    cut = [side for side, some in parts_of(lines).items() if last.seen[some].mean() < SEEN]
+    return cut[0] if len(cut) == 1 else ""
 
 
 def least_stretch(last: MeasuredLines, lines: PrintedLines) -> float:

@@ -38,7 +38,7 @@ class Shot(Struct, frozen=True):
     fold: float = 0.0
     """By how many degrees the quarters of a sheet that was folded in four are still raised."""
     cut: float = 0.0
-    """How much of the sheet's left edge is not in the picture, in mm."""
+    """How much of the sheet's upper edge is not in the picture, in mm."""
 
 
 class Picture(Struct, frozen=True):
@@ -153,8 +153,8 @@ def photograph(image: Any, shot: Shot, seed: int) -> Picture:
 
 
 def without_edge(seen: Any, where: Callable[[Any], Any], cut: float) -> Any:
-    """A picture without what lies beyond ``cut`` mm from the sheet's left edge, and its places."""
-    edge = where(np.stack([np.full(9, cut), np.linspace(0, HIGH, 9)], axis=-1))
+    """A picture without what lies within ``cut`` mm of the sheet's upper edge, and its places."""
+    edge = where(np.stack([np.linspace(0, WIDE, 9), np.full(9, cut)], axis=-1))
     middle = where(np.array([WIDE / 2, HIGH / 2]))
     way = int(np.argmax(abs(edge.mean(axis=0) - middle)))
     first = bool(edge[:, way].mean() < middle[way])

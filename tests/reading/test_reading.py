@@ -45,7 +45,7 @@ from graphkin.reading.marked_drawing import (
     drawings_of_class,
     sentence,
 )
-from graphkin.reading.pictures import Unreadable, grey_of, photographs
+from graphkin.reading.pictures import Photograph, Unreadable, grey_of, photographs
 from graphkin.reading.point_reader import PointReader
 from graphkin.reading.point_reading import PointReading
 from graphkin.reading.point_search import (
@@ -57,7 +57,7 @@ from graphkin.reading.point_search import (
     expected,
 )
 from graphkin.reading.read_run import ReadOutcome, read_order
-from graphkin.reading.read_sheet import Grid, SheetRecord, code_of_halves, known_code
+from graphkin.reading.read_sheet import Grid, SheetRecord, code_of_halves, known_code, read_one
 from graphkin.reading.settled_points import (
     SETTLED,
     PointDecision,
@@ -342,6 +342,40 @@ def test_hostile_pictures_get_one_line_each(a_class: Path, tmp_path: Path) -> No
         told = json.loads((photos / f"{stem}.points.json").read_text(encoding="utf-8"))
         assert why in told["refused"]
         assert told["points"] == []
+
+
+@pytest.mark.parametrize(
+    "shot",
+    [
+        Shot(size=(3000, 2250), tilt=8, fold=10.0),
+        Shot(size=(3000, 2250), tilt=45),
+        Shot(size=(3000, 2250), tilt=8, cut=20.0),
+    ],
+    ids=["folded", "tilted", "cut"],
+)
+def test_a_hard_sheet_is_read_by_its_lines_and_crosses(
+    a_class: Path, code: str, shot: Shot, tmp_path: Path
+) -> None:
+    """Folded in four, from 45 degrees, or without its upper edge."""
+    drawing = drawn_sheet(a_class, code, "velocity", Habits(point=0.3, line=0.3), 3)
+    taken = photograph(drawing.image, shot, 11)
+    (tmp_path / "hard.jpg").write_bytes(taken.data)
+    inside = [(x, y) for x in XS for y in (60.0, 120.0, 180.0, 240.0)]
+    grid = Grid(tuple(XS), (60.0, 120.0, 180.0, 240.0))
+    read = read_one(read_order(read_edition(a_class), grid), *photographs_with_keys(tmp_path))
+    assert read.record.refused is None
+    true = np.sort(taken.where(np.array(inside)), axis=0)
+    assert np.median(np.hypot(*(np.sort(read.record.map, axis=0) - true).T)) < 0.6  # pixels
+    at = {each.step: each.at for each in read.record.points}
+    off = [np.hypot(*np.subtract(at[p.step], p.at)) for p in drawing.points if p.at and at[p.step]]
+    assert len(off) >= len(drawing.points) - 1
+    assert np.median(off) < 0.3
+
+
+def photographs_with_keys(folder: Path) -> tuple[Photograph, str]:
+    """The only photograph of a folder, with an empty key."""
+    (one,) = photographs([folder])
+    return one, ""
 
 
 def test_another_class_and_a_cut_sheet_are_refused(
