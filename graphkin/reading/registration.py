@@ -74,8 +74,8 @@ In a blurred picture, a line narrower than FULL mm absorbs proportionally less.
 """
 NOISE, CORNER = 0.05, 0.25
 """Standard deviation of a measured line, and of a corner of the square, in mm."""
-BENT = 3.0
-"""Expected size of the simplest bending, in mm."""
+BENT, STIFF = 3.0, 1.0
+"""Expected size of the simplest bending, in mm: of a sheet, and of one folded in four."""
 ROUNDS, NUDGE = 3, 1e-6
 """Gauss-Newton steps per fit, and the step of the finite differences."""
 UNEVEN, LESS = 0.12, 0.8
@@ -235,7 +235,8 @@ class SheetSearch:
         lines = printed_lines(page, faint=faint)
         if over is None:
             return None
-        fit = MapFit(over, self.square_of(page), self.corners, creased=creased)
+        crosses = np.array(crosses_of(page)).reshape(-1, 2) if creased else None
+        fit = MapFit(over, self.square_of(page), self.corners, crosses)
         fit.refine(self.smooth, lines)
         last = measure(self.smooth, fit.map, lines, NEAR)
         found = judged(fit.map, last, lines, self.sides)
@@ -266,7 +267,8 @@ class SheetSearch:
         if key not in self.frames:
             lines = printed_lines(page, faint=faint)
             lines = lines.some(lines.shared)
-            over = followed(self.smooth, lines, square, self.corners, bent, creased=creased)
+            crosses = np.array(crosses_of(page)).reshape(-1, 2) if creased else None
+            over = followed(self.smooth, lines, square, self.corners, bent, crosses)
             self.frames[key] = held_by_ticks(self.smooth, over, lines, square, self.corners)
         return self.frames[key]
 
@@ -289,18 +291,15 @@ class SheetSearch:
 
 
 def followed(
-    smooth: Any,
-    lines: PrintedLines,
-    square: Any,
-    corners: Any,
-    bent: float,
-    *,
-    creased: bool = False,
+    smooth: Any, lines: PrintedLines, square: Any, corners: Any, bent: float, crosses: Any = None
 ) -> PaperMap:
-    """The map fitted to printed lines, ring by ring; bending is fitted from ring ``bent`` on."""
+    """The map fitted to printed lines, ring by ring; bending is fitted from ring ``bent`` on.
+
+    With ``crosses``, their places in mm, the sheet was folded in four, and they are followed too.
+    """
     height, width = smooth.shape
     first = start(width, height, square, np.asarray(corners, dtype=float))
-    fit = MapFit(first, square, corners, creased=creased)
+    fit = MapFit(first, square, corners, crosses)
     far = np.hypot(*(lines.places - square.mean(axis=0)).T)
     for ring in RINGS:
         near = lines.some(far < ring)
@@ -312,6 +311,7 @@ def followed(
             measured = measure(smooth, fit.map, near, REACH, about)
             fit.to(measured, float(abs(about).max()), lens=True, bent=True)
             measured = measure(smooth, fit.map, near, REACH)
+        measured = fit.with_crosses(smooth, measured, ring)
         fit.to(measured, TRUSTED, lens=ring > LENS_FROM, bent=ring > bent)
     return fit.map
 
@@ -483,11 +483,12 @@ def peaks(dark: Any, across: Any, width: float, reach: float) -> tuple[Any, Any]
 class MapFit:
     """A map that is fitted repeatedly to measurements made with it."""
 
-    def __init__(self, over: PaperMap, square: Any, corners: Any, *, creased: bool = False) -> None:
-        self.most = COUNT if creased else CREASED
+    def __init__(self, over: PaperMap, square: Any, corners: Any, crosses: Any = None) -> None:
+        self.crosses = crosses
+        self.most = CREASED if crosses is None else COUNT
         self.width, self.height, self.parameters = over.width, over.height, over.array.copy()
         self.square, self.corners = square, np.asarray(corners, dtype=float)
-        self.expected = prior(BENT)
+        self.expected = prior(BENT if crosses is None else STIFF)
         self.expected[:6] = np.inf
 
     @property
@@ -497,7 +498,26 @@ class MapFit:
     def refine(self, smooth: Any, lines: PrintedLines) -> None:
         """Fit the map to lines near where it puts them, in ever narrower searches."""
         for reach, trusted in ((REACH, TRUSTED), (NEAR, TRUSTED), (NEAR, LAST), (NEAR, LAST)):
-            self.to(measure(smooth, self.map, lines, reach), trusted, lens=True, bent=True)
+            measured = self.with_crosses(smooth, measure(smooth, self.map, lines, reach))
+            self.to(measured, trusted, lens=True, bent=True)
+
+    def with_crosses(
+        self, smooth: Any, measured: MeasuredLines, ring: float = np.inf
+    ) -> MeasuredLines:
+        """Measurements with those of the crosses of a folded sheet, up to a distance in mm."""
+        if self.crosses is None:
+            return measured
+        near = np.hypot(*(self.crosses - self.square.mean(axis=0)).T) < ring
+        offs, _ = crosses_off(smooth, self.map, self.crosses[near])
+        more, lines = np.zeros(len(offs.off)), measured.lines
+        every = PrintedLines(
+            np.concatenate([lines.places, offs.places]),
+            np.concatenate([lines.normals, offs.ways]),
+            *(np.concatenate([own, more]) for own in (lines.widths, lines.shared, lines.dark)),
+        )
+        off = np.concatenate([measured.off, offs.off])
+        found, seen = (np.concatenate([own, more == 0]) for own in (measured.found, measured.seen))
+        return MeasuredLines(every, off, found, seen)
 
     def to(self, measured: MeasuredLines, trusted: float, *, lens: bool, bent: bool) -> None:
         """Fit the map to measurements made with it, by robust least squares."""
