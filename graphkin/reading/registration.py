@@ -387,8 +387,9 @@ def profiles(
         pixels = np.nan_to_num(pixels)
     x, y = pixels.reshape(2, -1, len(across))
     light = cv2.remap(grey, x, y, cv2.INTER_LINEAR, borderMode=cv2.BORDER_REPLICATE)
-    profile = light.reshape(pixels.shape[1:]).mean(axis=0).astype(np.float64)
-    white = np.maximum(np.percentile(profile, 90, axis=1), 20.0)
+    profile = light.reshape(pixels.shape[1:]).mean(axis=0, dtype=np.float64)
+    tenth = len(across) - 1 - len(across) // 10
+    white = np.maximum(np.partition(profile, tenth, axis=1)[:, tenth], 20.0)
     return 1 - profile / white[:, None], inside
 
 
@@ -535,6 +536,7 @@ class MapFit:
         if self.most == COUNT:
             bends = np.concatenate([bends, creasings(u, v)], axis=-1)
         kinds = bends.shape[-1]
+        rows = np.concatenate([bends[: len(pixels)], np.repeat(bends[len(pixels) :], 2, axis=0)])
         size = self.map.scale(self.square.mean(axis=0))
         count = self.most if bent else PLAIN if lens else LENS
 
@@ -562,12 +564,9 @@ class MapFit:
                 along = (
                     pixels_with(self.parameters, dv=NUDGE) - pixels_with(self.parameters)
                 ) / NUDGE
-                for k in range(kinds):
-                    columns += [
-                        errors(bends[:, k, None] * across),
-                        errors(bends[:, k, None] * along),
-                    ]
-            off, jacobian = here - goal, np.stack(columns, axis=1)
+                both = np.stack([errors(across), errors(along)], axis=1)
+                columns.append((rows[:, :, None] * both[:, None]).reshape(len(rows), -1))
+            off, jacobian = here - goal, np.column_stack(columns)
             spread = max(1.5 * float(np.median(abs(off))), trusted / NOISE / 3)
             weights = np.ones(len(off))
             weights[: len(pixels)] = 1 / (1 + (off[: len(pixels)] / (3 * spread)) ** 2) ** 2
