@@ -200,6 +200,8 @@ TURN, PACE, BEGIN = 0.3, 0.5, 2.5
 """Steps of a fan of rays, in degrees and in mm, and the distance in mm at which rays begin."""
 AGREED = 0.5
 """The least share of the lines from known ends to a point that must be drawn."""
+RECENT = 8
+"""The steps of a ray of which more than half must be drawn."""
 RAY, MOST_RAYS, PARTED, BREAK = 7.0, 16, 0.8, 8
 """The shortest ray that counts, in mm, and the most rays of a place.
 
@@ -693,8 +695,7 @@ class PointSearch:
         dark, known = self.ink.at(places)
         drawn = ((dark > COVERED) | (known == 0)) & in_fields(places)
         share = np.cumsum(drawn, axis=1) / np.arange(1, len(radii) + 1)
-        recent = np.apply_along_axis(np.convolve, 1, drawn.astype(float), np.ones(8) / 8, "same")
-        alive = (share > 0.85) & (recent > 0.5) & unbroken(drawn)
+        alive = (share > 0.85) & (recent(drawn) > RECENT / 2) & unbroken(drawn)
         lengths = np.where(alive.any(1), radii[alive.shape[1] - 1 - alive[:, ::-1].argmax(1)], 0.0)
         sums = np.cumsum(np.clip(dark, 0, 1) * known, axis=1)
         reach = np.clip(((lengths - BEGIN) / PACE).astype(int), 0, len(radii) - 1)
@@ -826,6 +827,13 @@ def unbroken(drawn: Any) -> Any:
     count[:, BREAK:] -= count[:, :-BREAK].copy()
     count[:, :BREAK] = 1
     return np.logical_and.accumulate(count > 0, axis=1)
+
+
+def recent(drawn: Any) -> Any:
+    """How many of the RECENT steps about each step of a ray are drawn."""
+    before, after = RECENT // 2, RECENT - RECENT // 2 - 1
+    count = np.cumsum(np.pad(drawn, ((0, 0), (before + 1, after))), axis=1)
+    return count[:, RECENT:] - count[:, :-RECENT]
 
 
 def is_parted(far: complex, way: complex, long: float) -> bool:

@@ -76,7 +76,7 @@ NOISE, CORNER = 0.05, 0.25
 """Standard deviation of a measured line, and of a corner of the square, in mm."""
 BENT, STIFF = 3.0, 1.0
 """Expected size of the simplest bending, in mm: of a sheet, and of one folded in four."""
-ROUNDS, NUDGE = 3, 1e-6
+ROUNDS, NUDGE = 2, 1e-6
 """Gauss-Newton steps per fit, and the step of the finite differences."""
 UNEVEN, LESS = 0.12, 0.8
 """The residual in mm from which a sheet is also read as one that was folded in four.
@@ -396,14 +396,15 @@ def profiles(
 def sides_off(grey: Any, over: PaperMap, measured: MeasuredLines) -> Any:
     """The offset in mm of the lines along each side of the sheet, and along each lost stretch.
 
-    All lines of a side, or of a stretch of which little was found, are searched for at once, frame
-    and border together. Zero where the offset is within the usual search range.
+    All lines of a side or a stretch of which little was found are searched for at once, frame and
+    border together. Zero where the offset is within the usual search range.
     """
     lines = measured.lines
     about = np.zeros(len(lines.places))
-    lost = (each for each in stretches(lines) if held_along(measured, each) < LOST)
+    every = (*(side for side, _ in edges(lines)), *stretches(lines))
+    lost = [each for each in every if held_along(measured, each) < LOST]
     across = np.arange(-FAR - 1.0, FAR + 1.0 + STEP / 2, STEP)
-    for side in (*(side for side, _ in edges(lines)), *lost):
+    for side in lost:
         some = lines.some(side)
         widths = np.unique(some.widths)
         if len(widths) < 2 or min(np.sum(some.widths == w) for w in widths) < LEAST_ALONG:
