@@ -38,7 +38,7 @@ from graphkin.reading.point_search import (
     expected,
     sine,
 )
-from graphkin.reading.vector_ends import VectorEnd, bar_runs_on, vector_end
+from graphkin.reading.vector_ends import VectorEnd, bar_runs_on, is_headed, vector_end
 
 OUTSIDE, APART = 6.5, 3.0
 """Squared distance from the key, in deviations, beyond which the pencil does not explain a place.
@@ -153,15 +153,31 @@ class PointReader(PointSearch):
     @cached_property
     def drawn_arrows(self) -> tuple[tuple[Arrow, complex, complex], ...]:
         """The arrows of the plan with the places of their tails and tips, as far as read."""
-        exact, found = self.sheet.exact, []
-        for arrow in self.sheet.arrows:
-            if arrow.tail is not None:
-                begin = self.far_place(Leading(arrow.tail), self.next)
-            else:
-                vector = unmarked(exact, arrow.step, self.next)
-                begin = complex(np.ravel(self.sheet.place(arrow.tip, vector.tail))[0])
-            found.append((arrow, begin, self.far_place(Leading(arrow.tip), self.next)))
-        return tuple(found)
+        return tuple(
+            (arrow, self.tail_of(arrow), self.far_place(Leading(arrow.tip), self.next))
+            for arrow in self.sheet.arrows
+        )
+
+    def tail_of(self, arrow: Arrow) -> complex:
+        """The place of an arrow's tail, as far as read."""
+        if arrow.tail is not None:
+            return self.far_place(Leading(arrow.tail), self.next)
+        vector = unmarked(self.sheet.exact, arrow.step, self.next)
+        return complex(np.ravel(self.sheet.place(arrow.tip, vector.tail))[0])
+
+    def is_met_by_heads(self, number: int, place: complex) -> bool:
+        """Whether two vectors that cross at a place come from points that were read and end there.
+
+        The point is then there, however vaguely it was expected.
+        """
+        tails = [
+            self.tail_of(arrow)
+            for arrow in self.sheet.arrows
+            if arrow.tip == number and arrow.tail is not None
+            if self.is_known(Leading(arrow.tail)) and arrow.tail not in self.unread
+        ]
+        ways = [tail for tail in tails if is_headed(self.ink, tail, place)]
+        return are_crossing(ways, place)
 
     def end_of(self, arrow: Arrow, begin: complex) -> VectorEnd:
         """What the end of an arrow to a point that was read says."""
@@ -413,6 +429,8 @@ class PointReader(PointSearch):
             stray = away <= FITS and not near and best.count < MEET
             # untried: depends on an auxiliary plan that was not read
             vague = not there and ((own.radius > VAGUE and not met) or untried)
+            if (vague or stray) and not self.bad and self.is_met_by_heads(number, best.place):
+                vague = stray = False
             odd = any(e.far in self.bad - behind for e in self.sheet.leading[number] if not e.after)
             ask = (
                 self.swayed(away, abs(best.place - own.middle)) > SURE

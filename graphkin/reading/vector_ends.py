@@ -38,6 +38,8 @@ TURNED, PLAIN = 0.65, 0.5
 """The least share of a head at the tail of a turned vector; the most at the tail of any other."""
 BESIDE = np.radians(20.0)
 """At a lesser angle, the head of another vector to the same point looks like a vector's own."""
+WHOLE = 0.9
+"""The least drawn share of a vector whose head alone says that its point is there."""
 LACKS = 0.3
 """The least drawn share of a vector's line; the student left out a vector with less."""
 CERTAIN = 0.9
@@ -174,15 +176,17 @@ def vector_end(
     )
     close = np.arange(-AT, AT + PITCH / 2, PITCH)
     back = heads(ink, tail + close * way, -way, pale, FAN)
-    plain = heads(ink, tail + close * way, -way, pale).max() <= PLAIN
+    unsure = heads(ink, tail + close * way, -way, pale).max()
+    plain = bool(unsure <= PLAIN or unsure < here)
     crowded = any(abs(o) <= FREE for o in others) or any(
         abs(np.angle(-each / way)) < CROWDED for each in arriving
     )
     turned = bool(back.max() >= TURNED and back.max() > here + CLEARLY and not crowded)
-    at_tail = (back.max() >= TURNED if alike else steady(back).max() >= HEADED) and not crowded
+    likely = back.max() >= TURNED if alike else steady(back).max() >= HEADED
+    at_tail = bool(likely) and not crowded
     head = complex(place) if elsewhere and (clearer or here < OWN) else None
-    doubled = bool(at_tail and not turned) or (along_line and elsewhere and head is None)
-    ended = here >= OWN or (marked and plain)
+    doubled = (at_tail and not turned) or (along_line and elsewhere and head is None)
+    ended = bool(here >= OWN or (marked and plain))
     if along_line:
         return VectorEnd(head, turned, doubled, open=not ended)
     beyond = drawn(ink, tip, way, BEYOND, pale)
@@ -193,6 +197,16 @@ def vector_end(
     ended |= stops and plain
     runs_on = not shared and beyond >= RUNS_ON
     return VectorEnd(head, turned, doubled, runs_on, before < STOPS, not ended)
+
+
+def is_headed(ink: DrawnInk, tail: complex, tip: complex) -> bool:
+    """Whether a vector is wholly drawn from a tail to a tip, and has its head there."""
+    long = abs(tip - tail)
+    if not long >= SHORTEST or ink.cover(tail, tip, 0.4) < WHOLE:
+        return False
+    way = (tip - tail) / long
+    near = np.arange(-NEAR, NEAR + PITCH / 2, PITCH)
+    return bool(heads(ink, tip + near * way, way).max() >= OWN)
 
 
 def bar_runs_on(ink: DrawnInk, tail: complex, tip: complex, others: list[complex]) -> bool:
