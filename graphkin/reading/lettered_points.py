@@ -262,7 +262,11 @@ class LetteredSheet(Struct, frozen=True, dict=True):
             step = steps[number]
             if step.arrow and step.plane is self.drawing.plane and isinstance(value, Vector):
                 tips = [n for n in step.args if n in self.points and self.is_at(n, value.tip)]
-                tails = [n for n in step.args if self.is_at(n, value.tail)]
+                tails = [
+                    n
+                    for n in (*step.args, *self.points, *self.corners)
+                    if self.is_at(n, value.tail)
+                ]
                 found += [Arrow(number, next(iter(tails), None), tip) for tip in tips[:1]]
         return tuple(found)
 

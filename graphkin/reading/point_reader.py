@@ -64,6 +64,8 @@ ELSEWHERE = 0.6
 """How much likelier another place must be than one that fits, for the vectors to go there."""
 NEARLY = 0.85
 """The drawn share of the lines to a point below which a person is asked."""
+FULLY = 0.97
+"""The drawn share of many lines that meet where a point was only vaguely expected."""
 WHOLE = 0.9
 """The drawn share of a point's lines that is needed for it to count without a question."""
 SHORTEST = 1e-3
@@ -165,11 +167,15 @@ class PointReader(PointSearch):
         vector = unmarked(self.sheet.exact, arrow.step, self.next)
         return complex(np.ravel(self.sheet.place(arrow.tip, vector.tail))[0])
 
-    def is_met_by_heads(self, number: int, place: complex) -> bool:
-        """Whether two vectors that cross at a place come from points that were read and end there.
+    def is_met(self, number: int, best: LinesCrossing) -> bool:
+        """Whether a point is surely at a crossing, however vaguely it was expected.
 
-        The point is then there, however vaguely it was expected.
+        More than MEET lines cross there, or two vectors from points that were read end there.
         """
+        place = best.place
+        wholly = min(best.cover, self.agreement(number, place)) >= FULLY
+        if best.count > MEET and wholly:
+            return True
         tails = [
             self.tail_of(arrow)
             for arrow in self.sheet.arrows
@@ -424,13 +430,11 @@ class PointReader(PointSearch):
             close = abs(best.place - own.middle) <= CLOSE_BY
             met = ((best.count >= MEET and near) or close) and not self.bad
             there = self.is_there(number, best, key)
-            ended = best.ends and close and own.radius <= VAGUE
-            ended = ended and self.is_single(number, best.place)
+            ended = close and own.radius <= VAGUE and self.is_end(number, best)
             stray = away <= FITS and not near and best.count < MEET
             # untried: depends on an auxiliary plan that was not read
             vague = not there and ((own.radius > VAGUE and not met) or untried)
-            if (vague or stray) and not self.bad and self.is_met_by_heads(number, best.place):
-                vague = stray = False
+            loose = (vague or stray) and (bool(self.bad) or not self.is_met(number, best))
             odd = any(e.far in self.bad - behind for e in self.sheet.leading[number] if not e.after)
             ask = (
                 self.swayed(away, abs(best.place - own.middle)) > SURE
@@ -444,14 +448,14 @@ class PointReader(PointSearch):
                 or doubtful
                 or (best.count == 2 and not self.is_reached(number, best.place))
             )
-            ask = ask or vague or odd or stray or bool(self.strayed & behind)
+            ask = ask or loose or odd or bool(self.strayed & behind)
             if away <= FITS and fresh and from_key > FITS:
                 verdict = "wrong"
             elif away <= FITS and not after:
                 verdict = "right"
                 far = abs(best.place - key.middle) > APART and not self.is_checked(behind)
-                ask = ask or from_key > OUTSIDE or far
-                ask = ask or (apart > FITS and bool(self.doubted & behind))
+                doubted = apart > FITS and bool(self.doubted & behind)
+                ask = ask or from_key > OUTSIDE or far or doubted
             elif away <= FITS:
                 verdict = "follows" if from_key > FITS or apart > FITS else "right"
                 ask = (
@@ -460,11 +464,11 @@ class PointReader(PointSearch):
                     or not self.bad & behind & self.readings.keys()
                 )
                 ask = ask or bool(self.vaguely & behind)  # the mistake itself may be misread
-                hangs = bool(self.bad & self.doubted & behind)
-                ask = ask or (hangs and not self.is_met(number, best.place))
+                if self.bad & self.doubted & behind:
+                    ask = ask or not self.is_crossed(number, best.place)
             else:
                 verdict, ask = "wrong", True
-            self.strayed |= {number} if stray else set()
+            self.strayed |= {number} if stray and loose else set()
         if doubtful:
             self.doubted.add(number)
         if verdict in ("wrong", "missing", "unread"):
@@ -488,7 +492,11 @@ class PointReader(PointSearch):
         """The squared distance of a place ``off`` mm away, enlarged by the paper's sway."""
         return away * (1 + self.ink.sway / max(off, SHORTEST)) ** 2
 
-    def is_met(self, number: int, place: complex) -> bool:
+    def is_end(self, number: int, best: LinesCrossing) -> bool:
+        """Whether the only line that leads to a point ends there."""
+        return best.ends and self.is_single(number, best.place)
+
+    def is_crossed(self, number: int, place: complex) -> bool:
         """Whether the drawn lines to a place cross there and its vectors end there."""
         ways = [
             self.far_place(each, self.next)
