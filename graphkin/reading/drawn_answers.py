@@ -19,7 +19,7 @@ from graphkin.classroom.printing.print_work import PrintOrder
 from graphkin.classroom.roster.taker import Taker
 from graphkin.reading.kept_readings import records_in
 from graphkin.reading.lettered_points import LetteredSheet
-from graphkin.reading.read_sheet import SheetRecord, sheets_of, task_pages
+from graphkin.reading.read_sheet import SheetRecord, sheets_of
 from graphkin.reading.settled_points import SettledPoints, Standing, latest_of, settled_points
 from graphkin.text.errors import GraphkinError, Refusals
 from graphkin.text.tables import csv_text
@@ -82,7 +82,7 @@ def drawn_row(
     sheets = sheets_of(order, taker, language)
     places: dict[int, tuple[str, complex | None]] = {}
     verdicts: dict[int, str] = {}
-    for kind, page in task_pages(sheets):
+    for kind, page in sheets.task_pages.items():
         if kind in own:
             drawing = next(each for each in sheets.drawings if each.kind == kind)
             sheet = LetteredSheet(drawing, page)

@@ -28,6 +28,8 @@ MASK = 0.35
 """Margin in mm around printed ink that is ignored."""
 STEP = 0.12
 """Spacing in mm of the samples across a line."""
+ROWS = 100
+"""A line is looked for in about so many rows across it; all rows then say where it is."""
 STRAYS = 0.3
 """A fitted line may leave its search window by this many mm; beyond that it is another line."""
 ENDS = 1.6
@@ -326,12 +328,13 @@ def fitted(
     strip = np.clip(strip, 0, 1) * known
     middle, count = len(across) // 2, len(part)
     first, last = (np.arange(-round(w / STEP), round(w / STEP) + 1) for w in windows)
-    place = first[:, None, None] * (1 - part) + last[None, :, None] * part
-    where = middle + np.rint(place).astype(np.int32)
     seen = known[:, middle].sum()
     if seen < max(5, 0.3 * count):
         return []
-    score = strip[np.arange(count), where].sum(axis=2) / seen
+    some = np.arange(0, count, max(1, count // ROWS))
+    place = first[:, None, None] * (1 - part[some]) + last[None, :, None] * part[some]
+    where = middle + np.rint(place).astype(np.int32)
+    score = strip[some, where].sum(axis=2) / max(known[some, middle].sum(), 1)
     found: list[Fitted] = []
     for _ in range(most):
         i, j = np.unravel_index(score.argmax(), score.shape)
@@ -359,17 +362,24 @@ def refined(
         if use.sum() < 5:
             return None
         spots = (weight * across).sum(axis=1)[use] / total[use]
-        rows = np.stack([1 - part[use], part[use]], axis=1)
-        trust = np.ones(len(spots))
+        along, trust = part[use], np.ones(len(spots))
         for _ in range(3):
-            fit, *_ = np.linalg.lstsq(rows * trust[:, None], spots * trust, rcond=None)
-            off = abs(spots - rows @ fit)
-            trust = 1 / (1 + (off / max(float(np.median(off)) * 2, 0.05)) ** 2)
-        near, distant = float(fit[0]), float(fit[1])
+            near, distant = line_through(along, spots, trust**2)
+            off = abs(spots - near - (distant - near) * along)
+            usual = float(np.partition(off, len(off) // 2)[len(off) // 2])
+            trust = 1 / (1 + (off / max(usual * 2, 0.05)) ** 2)
     whole = known[:, len(across) // 2] > 0
     cover = float((there & whole).sum() / max(whole.sum(), 1))
-    spread = float(np.median(off)) * 1.5
-    return near, distant, cover, max(LEAST_ERROR, spread)
+    return near, distant, cover, max(LEAST_ERROR, 1.5 * usual)
+
+
+def line_through(along: Any, spots: Any, weights: Any) -> tuple[float, float]:
+    """The weighted least-squares line through spots, by its values at 0 and at 1."""
+    total = float(weights.sum())
+    middle, height = float(weights @ along) / total, float(weights @ spots) / total
+    off = along - middle
+    slope = float((weights * off) @ spots) / max(float((weights * off) @ off), 1e-12)
+    return height - slope * middle, height + slope * (1 - middle)
 
 
 def drawn_ink(grey: Any, over: PaperMap, page: Page) -> DrawnInk:
@@ -384,6 +394,7 @@ def drawn_ink(grey: Any, over: PaperMap, page: Page) -> DrawnInk:
     lines = cv2.GaussianBlur(dark, (0, 0), FINE * DENSITY)
     lines -= cv2.GaussianBlur(dark, (0, 0), COARSE * DENSITY)
     known = 1 - printed_mask(page, flat.shape)
+    known[~seen_in(grey.shape, over)] = 0
     inner = lines[known > 0]
     usual = max(float(np.percentile(inner, LINES)), FAINT)
     told = 0.0 if over.ripple is None else over.ripple.deviation
@@ -392,7 +403,25 @@ def drawn_ink(grey: Any, over: PaperMap, page: Page) -> DrawnInk:
     return DrawnInk(drawn, known.astype(np.float32), sway)
 
 
-def flattened(grey: Any, over: PaperMap, rect: Any, density: float) -> Any:
+def seen_in(shape: tuple[int, ...], over: PaperMap) -> Any:
+    """Which pixels of the flattened fields are within a picture."""
+    left, top, right, bottom = AREA
+    inside = np.zeros(shape[:2], np.uint8)
+    inside[1:-1, 1:-1] = 1
+    edges = [
+        (x, y)
+        for x in np.linspace(left, right, 9)
+        for y in np.linspace(top, bottom, 9)
+        if x in (left, right) or y in (top, bottom)
+    ]
+    pixels = np.rint(over(np.array(edges))).astype(int)
+    if ((pixels > 1) & (pixels < np.array(shape[1::-1]) - 2)).all():
+        size = round((bottom - top) * DENSITY), round((right - left) * DENSITY)
+        return np.ones(size, bool)
+    return flattened(inside, over, AREA, DENSITY) > 0
+
+
+def flattened(picture: Any, over: PaperMap, rect: Any, density: float) -> Any:
     """A part of the sheet as seen flat from above, at ``density`` pixels per mm."""
     left, top, right, bottom = rect
     width, height = round((right - left) * density), round((bottom - top) * density)
@@ -400,11 +429,10 @@ def flattened(grey: Any, over: PaperMap, rect: Any, density: float) -> Any:
     xs = left + (np.arange(-1, width // coarse + 3) * coarse + 0.5) / density
     ys = top + (np.arange(-1, height // coarse + 3) * coarse + 0.5) / density
     pixels = over(np.stack(np.meshgrid(xs, ys), axis=-1)).astype(np.float32)
-    u, v = np.meshgrid(np.arange(width) / coarse + 1, np.arange(height) / coarse + 1)
-    u, v = u.astype(np.float32), v.astype(np.float32)
-    x = cv2.remap(pixels[..., 0], u, v, cv2.INTER_LINEAR)
-    y = cv2.remap(pixels[..., 1], u, v, cv2.INTER_LINEAR)
-    return cv2.remap(grey, x, y, cv2.INTER_LINEAR, borderMode=cv2.BORDER_REPLICATE)
+    finer = np.array([[1 / coarse, 0, 1], [0, 1 / coarse, 1]])
+    how = cv2.INTER_LINEAR | cv2.WARP_INVERSE_MAP
+    where = cv2.warpAffine(pixels, finer, (width, height), flags=how)
+    return cv2.remap(picture, where, None, cv2.INTER_LINEAR, borderMode=cv2.BORDER_REPLICATE)
 
 
 def printed_mask(page: Page, shape: Any) -> Any:

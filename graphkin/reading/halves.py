@@ -18,7 +18,7 @@ from graphkin.drawing.marks import Page, style_class
 from graphkin.drawing.style import style_of
 from graphkin.reading.drawn_ink import flattened
 from graphkin.reading.paper_map import PaperMap
-from graphkin.reading.pictures import Unreadable
+from graphkin.reading.pictures import Unreadable, darkest
 from graphkin.reading.registration import BENT_FROM, SHARED, SIDES, SheetSearch, segments
 
 CUT, HIGH = 210.0, 297.0
@@ -36,18 +36,21 @@ WHOLE = (0.0, 0.0, 420.0, 297.0)
 
 
 def put_together(left: Any, right: Any, page: Page) -> Any:
-    """The sheet joined from the grey pictures of its halves.
+    """The sheet joined from the pictures of its halves; grey where one of them is grey.
 
     ``page`` gives the frame. Raises Unreadable where a half is not found.
     """
     frame = replace(page, marks=[m for m in page.marks if style_class(m) in SHARED])
-    first, second = half_found(left, frame, "left"), half_found(right, frame, "right")
+    if left.ndim != right.ndim:
+        left, right = darkest(left), darkest(right)
+    first = half_found(darkest(left), frame, "left")
+    second = half_found(darkest(right), frame, "right")
     ours, cut = seen(first, left), round(CUT * DENSITY)
     ours[:, cut:] &= ~seen(second, right)[:, cut:]
     parts = (
-        flattened(grey, over, WHOLE, DENSITY) for grey, over in ((left, first), (right, second))
+        flattened(half, over, WHOLE, DENSITY) for half, over in ((left, first), (right, second))
     )
-    return np.where(ours, *parts)
+    return np.where(ours if left.ndim == 2 else ours[..., None], *parts)
 
 
 def half_found(grey: Any, frame: Page, half: str) -> PaperMap:
@@ -64,9 +67,9 @@ def half_found(grey: Any, frame: Page, half: str) -> PaperMap:
     raise Unreadable(f"the frame of the {half} half is not found")
 
 
-def seen(over: PaperMap, grey: Any) -> Any:
+def seen(over: PaperMap, picture: Any) -> Any:
     """Which pixels of the sheet are in the picture of a half."""
-    inside = np.zeros(grey.shape, np.uint8)
+    inside = np.zeros(picture.shape[:2], np.uint8)
     inside[1:-1, 1:-1] = 255
     return flattened(inside, over, WHOLE, DENSITY) > 0
 

@@ -59,6 +59,14 @@ class Leading(Struct, frozen=True):
     light: bool = False
 
 
+class Arrow(Struct, frozen=True):
+    """An arrow of the plan: its step, the step of its tail if that is a point, and of its tip."""
+
+    step: int
+    tail: int | None
+    tip: int
+
+
 class LetteredSheet(Struct, frozen=True, dict=True):
     """A student's sheet as it should be drawn, and the page that was printed for it."""
 
@@ -134,6 +142,17 @@ class LetteredSheet(Struct, frozen=True, dict=True):
             for number in (step, self.found_by.get(step))
             if number is not None
         )
+
+    @cached_property
+    def sources(self) -> Mapping[int, frozenset[int]]:
+        """The steps from which each step that drawing errors affect is drawn."""
+        steps, exact = self.exact.program.steps, self.exact
+        found = {}
+        for number in self.order:
+            hand, tail = exact.by_hand(number), exact.tails.get(number)
+            args = {hand} if hand is not None else {*steps[number].args, tail}
+            found[number] = frozenset(arg for arg in args if arg is not None)
+        return found
 
     @cached_property
     def corners(self) -> tuple[int, ...]:
@@ -233,6 +252,31 @@ class LetteredSheet(Struct, frozen=True, dict=True):
         steps = self.exact.program.steps
         joined = (steps[n] for n in self.exact.trace.values if steps[n].action is join)
         return tuple((step.args[0], step.args[1]) for step in joined if step.arrow)
+
+    @cached_property
+    def arrows(self) -> tuple[Arrow, ...]:
+        """The arrows of the plan that end at points that are read, components included."""
+        steps, values = self.exact.program.steps, self.exact.trace.values
+        found = []
+        for number, value in values.items():
+            step = steps[number]
+            if step.arrow and step.plane is self.drawing.plane and isinstance(value, Vector):
+                tips = [n for n in step.args if n in self.points and self.is_at(n, value.tip)]
+                tails = [
+                    n
+                    for n in (*step.args, *self.points, *self.corners)
+                    if self.is_at(n, value.tail)
+                ]
+                found += [Arrow(number, next(iter(tails), None), tip) for tip in tips[:1]]
+        return tuple(found)
+
+    def is_at(self, number: int, place: complex) -> bool:
+        """Whether a step of the plan is a point at a place of the plan."""
+        value = self.exact.trace.values.get(number)
+        if not isinstance(value, complex):
+            return False
+        same = self.exact.program.steps[number].plane is self.drawing.plane
+        return same and abs(value - place) * self.field(number).mm < EXACT
 
     def after(self, number: int) -> Iterator[Leading]:
         """The lines drawn through a point once it exists, and the vectors laid off from it."""

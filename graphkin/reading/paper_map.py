@@ -1,7 +1,9 @@
 """The map from millimetres of paper to pixels: perspective, lens distortion and bent paper.
 
 The bending of the paper is a smooth shift of its places before the camera sees them. It is a sum of
-products of Legendre polynomials, with priors that keep higher degrees smaller.
+products of Legendre polynomials, with priors that keep higher degrees smaller. A sheet that was
+folded in four has creases across its middle, where the shift turns: each quarter has its own map,
+and the quarters meet at the creases.
 """
 
 from __future__ import annotations
@@ -19,13 +21,19 @@ MIDDLE, HALF = (210.0, 148.5), 210.0
 """The middle of an A3 sheet and half its width, in mm; half the width is the unit of paper places.
 """
 FLAT = 148.5 / 210.0
+RAISED = 8.0
+"""Expected size of the shift at the edge of a folded sheet, in mm."""
 DEGREE = 5
 """Highest degree of the bending polynomials."""
 BENDS = tuple((i, j) for i, j in product(range(DEGREE + 1), repeat=2) if 2 <= i + j <= DEGREE)
 """The degrees across and down of each bending polynomial."""
 TILTS, LENS, PLAIN = slice(6, 8), 8, 9
 """Positions in the parameters: eight for perspective, one for the lens, then those of bending."""
-COUNT = PLAIN + 2 * len(BENDS)
+CREASES = 7
+"""The functions of places that have a crease across the middle of the sheet, or down it."""
+CREASED = PLAIN + 2 * len(BENDS)
+"""Position of the parameters of creases."""
+COUNT = CREASED + 2 * CREASES
 
 
 class PaperMap(Struct, frozen=True, dict=True):
@@ -63,8 +71,12 @@ def pixels_of(parameters: Any, places: Any, width: int, height: int) -> Any:
     """The pixels of places, for given parameters."""
     u = (places[..., 0] - MIDDLE[0]) / HALF
     v = (places[..., 1] - MIDDLE[1]) / HALF
-    if np.any(parameters[PLAIN:]):
-        shift = bendings(u, v) @ parameters[PLAIN:].reshape(len(BENDS), 2)
+    shift = np.zeros(2)
+    if np.any(parameters[PLAIN:CREASED]):
+        shift = bendings(u, v) @ parameters[PLAIN:CREASED].reshape(len(BENDS), 2)
+    if np.any(parameters[CREASED:]):
+        shift = shift + creasings(u, v) @ parameters[CREASED:].reshape(CREASES, 2)
+    if shift.any():
         u, v = u + shift[..., 0], v + shift[..., 1]
     return seen_at(parameters, u, v, width, height)
 
@@ -87,6 +99,14 @@ def bendings(u: Any, v: Any) -> Any:
     return np.stack([across[i] * down[j] for i, j in BENDS], axis=-1)
 
 
+def creasings(u: Any, v: Any) -> Any:
+    """The value of each function with a crease at some places: raised sides, and how they look."""
+    v = v / FLAT
+    across, down = abs(u), abs(v)
+    every = (across, down, across * u, across * v, down * u, down * v, across * down)
+    return np.stack(every, axis=-1)
+
+
 def legendre(x: Any) -> list[Any]:
     """The Legendre polynomials at some places; x is clipped just outside the sheet."""
     x = np.clip(x, -1.05, 1.05)
@@ -102,5 +122,6 @@ def prior(bent: float) -> Any:
     found[TILTS] = 0.25
     found[LENS] = 0.1
     falling = [bent / HALF * 0.4 ** (i + j - 2) for i, j in BENDS]
-    found[PLAIN:] = np.repeat(falling, 2)
+    found[PLAIN:CREASED] = np.repeat(falling, 2)
+    found[CREASED:] = RAISED / HALF
     return found

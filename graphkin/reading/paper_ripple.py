@@ -67,14 +67,14 @@ def ripple_of(lines: Offsets, crosses: Offsets) -> Ripple:
     known = Offsets(*(np.concatenate(part) for part in parts))
     seen = crosses if len(crosses.off) else lines
     height = np.sqrt(max(spread(seen.off) ** 2 - float(np.median(seen.errors**2)), LEAST**2))
+    inverse = np.linalg.inv(covariance(known, height))
     for left in reversed(range(TRIED)):
-        inverse = np.linalg.inv(covariance(known, height))
         weights = inverse @ known.off
         alone = np.diag(inverse)
         stray = abs(weights) > STRAY * np.sqrt(alone)
         if not (left and stray.any()):
             break
-        known = known.some(~stray)
+        known, inverse = known.some(~stray), without(inverse, stray)
     xs, ys = (BEGIN[k] + np.arange(COUNT[k]) * PITCH for k in range(2))
     across = likeness(xs[:, None] - known.places[:, 0])
     down = likeness(ys[:, None] - known.places[:, 1])
@@ -82,6 +82,17 @@ def ripple_of(lines: Offsets, crosses: Offsets) -> Ripple:
         [(down * (weights * known.ways[:, k])) @ across.T for k in range(2)], axis=-1
     )
     return Ripple(field, deviation(known, inverse, height))
+
+
+def without(inverse: Any, some: Any) -> Any:
+    """The inverse of a matrix without some of its rows and columns, from the inverse of the whole.
+
+    Horn and Johnson, Matrix Analysis, 2nd ed. 2013, section 0.7.3.
+    """
+    beside = inverse[np.ix_(~some, some)]
+    return inverse[np.ix_(~some, ~some)] - beside @ np.linalg.solve(
+        inverse[np.ix_(some, some)], beside.T
+    )
 
 
 def spread(off: Any) -> float:

@@ -199,6 +199,14 @@ def hash_of_file(path: Path, changed: int) -> Any:
 
 def grey_of(photograph: Photograph) -> Any:
     """The picture as an upright array of greys. Raises Unreadable with the reason."""
+    return darkest(colours_of(photograph))
+
+
+def colours_of(photograph: Photograph) -> Any:
+    """The picture as an upright array of bytes: red, green and blue, or greys alone.
+
+    Raises Unreadable with the reason.
+    """
     from PIL import Image, ImageOps, UnidentifiedImageError
 
     try:
@@ -213,7 +221,7 @@ def grey_of(photograph: Photograph) -> Any:
             warnings.simplefilter("ignore")
             image = scanned(data, photograph.page) if photograph.page is not None else opened(data)
             refuse_size(*image.size)
-            return np.ascontiguousarray(np.asarray(darkest(ImageOps.exif_transpose(image))))
+            return np.ascontiguousarray(np.asarray(in_colour(ImageOps.exif_transpose(image))))
     except Unreadable:
         raise
     except UnidentifiedImageError:
@@ -224,9 +232,17 @@ def grey_of(photograph: Photograph) -> Any:
         raise Unreadable("is cut short or damaged") from None
 
 
-def darkest(image: Any) -> Any:
-    """The darkest colour channel as grey, so that coloured pencil is as dark as grey pencil."""
-    from PIL import Image, ImageChops
+def darkest(picture: Any) -> Any:
+    """The darkest colour of each place, so that coloured pencil is as dark as grey pencil."""
+    if picture.ndim == 2:
+        return picture
+    red, green, blue = (picture[..., k] for k in range(3))
+    return np.minimum(np.minimum(red, green), blue)
+
+
+def in_colour(image: Any) -> Any:
+    """A picture in red, green and blue, or in greys where it has no colours."""
+    from PIL import Image
 
     if image.mode in ("1", "L"):
         return image.convert("L")
@@ -235,8 +251,7 @@ def darkest(image: Any) -> Any:
     if image.has_transparency_data:
         paper = Image.new("RGBA", image.size, "white")
         image = Image.alpha_composite(paper, image.convert("RGBA"))
-    red, green, blue = image.convert("RGB").split()
-    return ImageChops.darker(ImageChops.darker(red, green), blue)
+    return image.convert("RGB")
 
 
 def in_bytes(greys: Any) -> Any:

@@ -8,16 +8,18 @@ mistake. All other places, and all doubtful ones, are left for a person to check
 from __future__ import annotations
 
 from collections.abc import Mapping
+from functools import cached_property
 from typing import Any
 
 import numpy as np
 from msgspec.structs import replace
 
 from graphkin.accuracy.pencil.pencil import Pencil
+from graphkin.accuracy.pencil.redrawing import unmarked
 from graphkin.construction.core.program import Plane
 from graphkin.numbers.plane import Line
 from graphkin.reading.drawn_ink import DrawnInk
-from graphkin.reading.lettered_points import SHORT, Leading, LetteredSheet
+from graphkin.reading.lettered_points import SHORT, Arrow, Leading, LetteredSheet
 from graphkin.reading.point_reading import PointReading, ReadVerdict, pair
 from graphkin.reading.point_search import (
     AGREED,
@@ -36,7 +38,7 @@ from graphkin.reading.point_search import (
     expected,
     sine,
 )
-from graphkin.reading.vector_ends import VectorEnd, vector_end
+from graphkin.reading.vector_ends import VectorEnd, bar_runs_on, is_headed, vector_end
 
 OUTSIDE, APART = 6.5, 3.0
 """Squared distance from the key, in deviations, beyond which the pencil does not explain a place.
@@ -62,6 +64,8 @@ ELSEWHERE = 0.6
 """How much likelier another place must be than one that fits, for the vectors to go there."""
 NEARLY = 0.85
 """The drawn share of the lines to a point below which a person is asked."""
+FULLY = 0.97
+"""The drawn share of many lines that meet where a point was only vaguely expected."""
 WHOLE = 0.9
 """The drawn share of a point's lines that is needed for it to count without a question."""
 SHORTEST = 1e-3
@@ -99,7 +103,7 @@ class PointReader(PointSearch):
                 if number not in wanted and number not in corners:
                     continue
                 if stale:
-                    self.next = self.ahead({})
+                    self.next = self.ahead()
                 cloud = np.atleast_1d(self.sheet.place(number, found[number]))
                 own = expected(cloud)
                 if number in corners:
@@ -122,21 +126,22 @@ class PointReader(PointSearch):
         for number in self.sheet.found_by.values():
             if number in self.own and not self.is_joined(number):
                 self.readings[number] = replace(self.readings[number], ask=True)
+        self.next = self.ahead()
         for number in self.sheet.points:
             self.readings[number] = self.ended(number, self.readings[number])
         return tuple(self.readings[number] for number in self.sheet.points)
 
     def ended(self, number: int, reading: PointReading) -> PointReading:
-        """A reading, asked where a vector does not end at its point.
+        """A reading, asked where a vector or a bar does not surely end at its point.
 
         *Wrong* is proposed, at the arrowhead, where a head is clearly elsewhere.
         """
         if number not in self.own or reading.verdict not in ("right", "follows"):
             return reading
-        for tail, tip in self.sheet.vectors:
-            if tip != number or not self.is_known(Leading(tail)):
+        for arrow, begin, _ in self.drawn_arrows:
+            if arrow.tip != number or not np.isfinite(begin):
                 continue
-            end = self.end_of(tail, number)
+            end = self.end_of(arrow, begin)
             if end.is_wrong:
                 at = reading.at if end.head is None else pair(end.head)
                 off = reading.off
@@ -145,37 +150,91 @@ class PointReader(PointSearch):
                 return replace(reading, at=at, off=off, verdict="wrong", ask=True)
             if not end.is_there:
                 reading = replace(reading, ask=True)
-        return reading
+        return replace(reading, ask=True) if self.is_overdrawn(number) else reading
 
-    def end_of(self, tail: int, tip: int) -> VectorEnd:
-        """What the end of the vector between two points that were read says."""
-        begin, end = self.far_place(Leading(tail), self.next), self.own[tip]
-        steps, values = self.sheet.exact.program.steps, self.next
-        plane = steps[tip].plane
-        others, along_line = list[complex](), False
-        for number in self.sheet.exact.trace.values:
-            if steps[number].plane is not plane or number in (tail, tip):
-                continue
-            value = values[number]
-            if isinstance(value, Line):
-                start = complex(np.ravel(self.sheet.place(number, value))[0])
+    @cached_property
+    def drawn_arrows(self) -> tuple[tuple[Arrow, complex, complex], ...]:
+        """The arrows of the plan with the places of their tails and tips, as far as read."""
+        return tuple(
+            (arrow, self.tail_of(arrow), self.far_place(Leading(arrow.tip), self.next))
+            for arrow in self.sheet.arrows
+        )
+
+    def tail_of(self, arrow: Arrow) -> complex:
+        """The place of an arrow's tail, as far as read."""
+        if arrow.tail is not None:
+            return self.far_place(Leading(arrow.tail), self.next)
+        vector = unmarked(self.sheet.exact, arrow.step, self.next)
+        return complex(np.ravel(self.sheet.place(arrow.tip, vector.tail))[0])
+
+    def is_met(self, number: int, best: LinesCrossing) -> bool:
+        """Whether a point is surely at a crossing, however vaguely it was expected.
+
+        More than MEET lines cross there, or two vectors from points that were read end there.
+        """
+        place = best.place
+        wholly = min(best.cover, self.agreement(number, place)) >= FULLY
+        if best.count > MEET and wholly:
+            return True
+        tails = [
+            self.tail_of(arrow)
+            for arrow in self.sheet.arrows
+            if arrow.tip == number and arrow.tail is not None
+            if self.is_known(Leading(arrow.tail)) and arrow.tail not in self.unread
+        ]
+        ways = [tail for tail in tails if is_headed(self.ink, tail, place)]
+        return are_crossing(ways, place)
+
+    def end_of(self, arrow: Arrow, begin: complex) -> VectorEnd:
+        """What the end of an arrow to a point that was read says."""
+        end = self.own[arrow.tip]
+        others, along_line = self.others(arrow.tip, arrow.tail), self.is_on_line(arrow.tip, begin)
+        arriving = [begin - start for _, start, tip in self.drawn_arrows if abs(tip - begin) < SAME]
+        beside = [
+            tip - start
+            for other, start, tip in self.drawn_arrows
+            if other.tip == arrow.tip and other.step != arrow.step
+        ]
+        return vector_end(
+            self.ink, begin, end, others, arriving, along_line=along_line, beside=beside
+        )
+
+    def is_on_line(self, number: int, begin: complex) -> bool:
+        """Whether a construction line runs along the line from a place to a point."""
+        steps, end = self.sheet.exact.program.steps, self.own[number]
+        for other, value in self.next.items():
+            if steps[other].plane is steps[number].plane and isinstance(value, Line):
+                start = complex(np.ravel(self.sheet.place(other, value))[0])
                 way = complex(np.ravel(value.along)[0]).conjugate()
                 on_it = abs(((end - start) * way.conjugate()).imag) / abs(way) < BESIDE
-                along_line |= on_it and abs(sine(way, end - begin)) < FLAT
-            elif isinstance(self.sheet.exact.trace.values[number], complex):
-                place = self.own.get(number)
-                others.append(
-                    complex(np.ravel(self.sheet.place(number, value))[0])
-                    if place is None
-                    else place
-                )
-        others = [each for each in others if np.isfinite(each) and abs(each - end) > SAME]
-        arriving = [
-            begin - self.far_place(Leading(start), values)
-            for start, at in self.sheet.vectors
-            if at == tail and self.is_known(Leading(start))
-        ]
-        return vector_end(self.ink, begin, end, others, arriving, along_line=along_line)
+                if on_it and abs(sine(way, end - begin)) < FLAT:
+                    return True
+        return False
+
+    def others(self, number: int, besides: int | None = None) -> list[complex]:
+        """The places of the other points in a point's plan, as far as read."""
+        steps, exact = self.sheet.exact.program.steps, self.sheet.exact.trace.values
+        places = (
+            self.far_place(Leading(other), self.next)
+            for other, value in exact.items()
+            if isinstance(value, complex)
+            and steps[other].plane is steps[number].plane
+            and other not in (number, besides)
+        )
+        end = self.own[number]
+        return [each for each in places if np.isfinite(each) and abs(each - end) > SAME]
+
+    def is_overdrawn(self, number: int) -> bool:
+        """Whether a bar of the mechanism is drawn on beyond a point."""
+        if self.sheet.exact.program.steps[number].plane is not Plane.MECHANISM:
+            return False
+        end, others = self.own[number], self.others(number)
+        return any(
+            bar_runs_on(self.ink, begin, end, others) and not self.is_on_line(number, begin)
+            for far in self.sheet.bars.get(number, ())
+            if self.is_known(Leading(far))
+            and np.isfinite(begin := self.far_place(Leading(far), self.next))
+        )
 
     def places(self, number: int, cloud: Any, own: ExpectedPlace, best: LinesCrossing) -> Any:
         """Where a point that was read may be: the cloud for the steps that follow from it."""
@@ -371,11 +430,11 @@ class PointReader(PointSearch):
             close = abs(best.place - own.middle) <= CLOSE_BY
             met = ((best.count >= MEET and near) or close) and not self.bad
             there = self.is_there(number, best, key)
-            ended = best.ends and close and own.radius <= VAGUE
-            ended = ended and self.is_single(number, best.place)
+            ended = close and own.radius <= VAGUE and self.is_end(number, best)
             stray = away <= FITS and not near and best.count < MEET
             # untried: depends on an auxiliary plan that was not read
             vague = not there and ((own.radius > VAGUE and not met) or untried)
+            loose = (vague or stray) and (bool(self.bad) or not self.is_met(number, best))
             odd = any(e.far in self.bad - behind for e in self.sheet.leading[number] if not e.after)
             ask = (
                 self.swayed(away, abs(best.place - own.middle)) > SURE
@@ -389,14 +448,14 @@ class PointReader(PointSearch):
                 or doubtful
                 or (best.count == 2 and not self.is_reached(number, best.place))
             )
-            ask = ask or vague or odd or stray or bool(self.strayed & behind)
+            ask = ask or loose or odd or bool(self.strayed & behind)
             if away <= FITS and fresh and from_key > FITS:
                 verdict = "wrong"
             elif away <= FITS and not after:
                 verdict = "right"
                 far = abs(best.place - key.middle) > APART and not self.is_checked(behind)
-                ask = ask or from_key > OUTSIDE or far
-                ask = ask or (apart > FITS and bool(self.doubted & behind))
+                doubted = apart > FITS and bool(self.doubted & behind)
+                ask = ask or from_key > OUTSIDE or far or doubted
             elif away <= FITS:
                 verdict = "follows" if from_key > FITS or apart > FITS else "right"
                 ask = (
@@ -405,11 +464,11 @@ class PointReader(PointSearch):
                     or not self.bad & behind & self.readings.keys()
                 )
                 ask = ask or bool(self.vaguely & behind)  # the mistake itself may be misread
-                hangs = bool(self.bad & self.doubted & behind)
-                ask = ask or (hangs and not self.is_met(number, best.place))
+                if self.bad & self.doubted & behind:
+                    ask = ask or not self.is_crossed(number, best.place)
             else:
                 verdict, ask = "wrong", True
-            self.strayed |= {number} if stray else set()
+            self.strayed |= {number} if stray and loose else set()
         if doubtful:
             self.doubted.add(number)
         if verdict in ("wrong", "missing", "unread"):
@@ -433,7 +492,11 @@ class PointReader(PointSearch):
         """The squared distance of a place ``off`` mm away, enlarged by the paper's sway."""
         return away * (1 + self.ink.sway / max(off, SHORTEST)) ** 2
 
-    def is_met(self, number: int, place: complex) -> bool:
+    def is_end(self, number: int, best: LinesCrossing) -> bool:
+        """Whether the only line that leads to a point ends there."""
+        return best.ends and self.is_single(number, best.place)
+
+    def is_crossed(self, number: int, place: complex) -> bool:
         """Whether the drawn lines to a place cross there and its vectors end there."""
         ways = [
             self.far_place(each, self.next)

@@ -200,6 +200,8 @@ TURN, PACE, BEGIN = 0.3, 0.5, 2.5
 """Steps of a fan of rays, in degrees and in mm, and the distance in mm at which rays begin."""
 AGREED = 0.5
 """The least share of the lines from known ends to a point that must be drawn."""
+RECENT = 8
+"""The steps of a ray of which more than half must be drawn."""
 RAY, MOST_RAYS, PARTED, BREAK = 7.0, 16, 0.8, 8
 """The shortest ray that counts, in mm, and the most rays of a place.
 
@@ -270,16 +272,27 @@ class PointSearch:
                 found[number] = self.drawn(number, found, DRAWINGS)
         return found
 
-    def ahead(self, more: Mapping[int, complex]) -> dict[int, Any]:
-        """The value of every step as it follows from the student's points and some more."""
+    def ahead(self) -> dict[int, Any]:
+        """The value of every step as it follows from the student's points."""
         found = dict(self.sheet.exact.trace.values)
-        own = {**self.own, **more}
         with np.errstate(all="ignore"):
             for number in self.sheet.order:
-                if number in own:
-                    found[number] = self.sheet.value(number, own[number])
+                if number in self.own:
+                    found[number] = self.sheet.value(number, self.own[number])
                 else:
                     found[number] = self.drawn(number, found, 1)
+        return found
+
+    def after(self, number: int, place: complex) -> dict[int, Any]:
+        """``ahead`` with one more point, from ``next``: only what depends on it is computed."""
+        found, fresh = dict(self.next), {number}
+        found[number] = self.sheet.value(number, place)
+        with np.errstate(all="ignore"):
+            for other in self.sheet.order:
+                follows = not fresh.isdisjoint(self.sheet.sources[other])
+                if follows and other != number and other not in self.own:
+                    found[other] = self.drawn(other, found, 1)
+                    fresh.add(other)
         return found
 
     def far_place(self, leading: Leading, values: Mapping[int, Any]) -> complex:
@@ -682,8 +695,7 @@ class PointSearch:
         dark, known = self.ink.at(places)
         drawn = ((dark > COVERED) | (known == 0)) & in_fields(places)
         share = np.cumsum(drawn, axis=1) / np.arange(1, len(radii) + 1)
-        recent = np.apply_along_axis(np.convolve, 1, drawn.astype(float), np.ones(8) / 8, "same")
-        alive = (share > 0.85) & (recent > 0.5) & unbroken(drawn)
+        alive = (share > 0.85) & (recent(drawn) > RECENT / 2) & unbroken(drawn)
         lengths = np.where(alive.any(1), radii[alive.shape[1] - 1 - alive[:, ::-1].argmax(1)], 0.0)
         sums = np.cumsum(np.clip(dark, 0, 1) * known, axis=1)
         reach = np.clip(((lengths - BEGIN) / PACE).astype(int), 0, len(radii) - 1)
@@ -769,7 +781,7 @@ class PointSearch:
 
     def followed(self, number: int, place: complex) -> float:
         """How well the steps that would follow from a place are drawn."""
-        values = self.ahead({number: place})
+        values = self.after(number, place)
         covers = [
             self.cover_after(each, place, values)
             for each in self.sheet.leading[number]
@@ -790,7 +802,7 @@ class PointSearch:
 
     def settled(self, number: int, place: complex) -> LinesCrossing:
         """A found place, moved to where its lines cross exactly; else to where one of them ends."""
-        values = self.ahead({number: place})
+        values = self.after(number, place)
         lines = []
         for leading in self.sheet.leading[number]:
             far = self.far_place(leading, values)
@@ -815,6 +827,13 @@ def unbroken(drawn: Any) -> Any:
     count[:, BREAK:] -= count[:, :-BREAK].copy()
     count[:, :BREAK] = 1
     return np.logical_and.accumulate(count > 0, axis=1)
+
+
+def recent(drawn: Any) -> Any:
+    """How many of the RECENT steps about each step of a ray are drawn."""
+    before, after = RECENT // 2, RECENT - RECENT // 2 - 1
+    count = np.cumsum(np.pad(drawn, ((0, 0), (before + 1, after))), axis=1)
+    return count[:, RECENT:] - count[:, :-RECENT]
 
 
 def is_parted(far: complex, way: complex, long: float) -> bool:

@@ -13,13 +13,12 @@ from graphkin.accuracy.pencil.pencil import Pencil
 from graphkin.classroom.grading.probes import probes
 from graphkin.classroom.lab.lab_model import Item
 from graphkin.classroom.printing.personal import without_crosses
-from graphkin.classroom.printing.print_work import FORM, PrintOrder, Sheets
+from graphkin.classroom.printing.print_work import PrintOrder, Sheets
 from graphkin.classroom.roster.taker import Taker
-from graphkin.drawing.marks import Page
 from graphkin.numbers.arithmetic import np
 from graphkin.reading.lettered_points import LetteredSheet
 from graphkin.reading.paper_map import PaperMap
-from graphkin.reading.pictures import Photograph, Unreadable, grey_of
+from graphkin.reading.pictures import Photograph, Unreadable, colours_of, darkest
 from graphkin.reading.point_reading import PointReading
 from graphkin.text import LANGUAGES
 from graphkin.text.errors import problems_of
@@ -97,9 +96,11 @@ def read_one(order: ReadOrder, photograph: Photograph, key: str) -> SheetRead:
     record = SheetRecord(photograph.name, photograph.path.name, key)
     code = ""
     try:
-        grey = grey_of(photograph)
+        picture = colours_of(photograph)
         if photograph.left is not None:
-            grey = of_halves(grey_of(photograph.left), grey, order)
+            picture = of_halves(colours_of(photograph.left), picture, order)
+        grey = darkest(picture)
+        if photograph.left is not None:
             code, corners = code_of_halves(grey, order.takers)
         else:
             code, corners = known_code(grey, order.takers)
@@ -118,7 +119,7 @@ def read_one(order: ReadOrder, photograph: Photograph, key: str) -> SheetRead:
             key_lines=found.sheet.key_lines,
             residual=round(found.residual, 3),
         )
-        return SheetRead(read, flat_picture(grey, found.map))
+        return SheetRead(read, flat_picture(picture, found.map))
     except Exception as error:
         refused = str(error) if isinstance(error, Unreadable) else problems_of(error)[0].found
         who = student_label(order, code)
@@ -181,7 +182,7 @@ def found_sheet(grey: Any, order: ReadOrder, code: str, corners: Any) -> FoundSh
     own = order.takers[code].spoken or order.order.language
     for language in dict.fromkeys((own, *LANGUAGES)):
         sheets = sheets_of(order.order, order.takers[code], language)
-        pages = dict(task_pages(sheets))
+        pages = sheets.task_pages
         shares = {
             kind: search.likeness(page, [other for other in pages.values() if other is not page])
             for kind, page in pages.items()
@@ -207,12 +208,7 @@ def of_halves(left: Any, right: Any, order: ReadOrder) -> Any:
 
     taker = next(iter(order.takers.values()))
     sheets = sheets_of(order.order, taker, order.order.language)
-    return put_together(left, right, task_pages(sheets)[0][1])
-
-
-def task_pages(sheets: Sheets) -> list[tuple[str, Page]]:
-    """The drawing sheets of a student's task, as (kind, page)."""
-    return [(sheet.kind, sheet.pages[0]) for sheet in sheets.of("task") if sheet.kind != FORM]
+    return put_together(left, right, next(iter(sheets.task_pages.values())))
 
 
 @lru_cache(maxsize=8)
@@ -270,11 +266,13 @@ def mapped(over: PaperMap, grid: Grid) -> tuple[tuple[float, float], ...]:
     return tuple((round(float(x), 3), round(float(y), 3)) for x, y in over(places))
 
 
-def flat_picture(grey: Any, over: PaperMap) -> bytes:
-    """The flattened sheet as a JPEG without metadata."""
+def flat_picture(picture: Any, over: PaperMap) -> bytes:
+    """The flattened sheet as a JPEG without metadata, in the picture's colours."""
     import cv2
 
     from graphkin.reading.drawn_ink import flattened
 
-    flat = flattened(grey, over, WHOLE, SHOWN)
+    flat = flattened(picture, over, WHOLE, SHOWN)
+    if flat.ndim == 3:
+        flat = cv2.cvtColor(flat, cv2.COLOR_RGB2BGR)
     return bytes(cv2.imencode(".jpg", flat, [cv2.IMWRITE_JPEG_QUALITY, QUALITY])[1])

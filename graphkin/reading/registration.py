@@ -20,14 +20,15 @@ from graphkin.classroom.printing.personal import crosses_of
 from graphkin.drawing.marks import LineMark, Page, Polyline, style_class
 from graphkin.drawing.style import style_of
 from graphkin.reading.paper_map import (
-    BENDS,
     COUNT,
+    CREASED,
     HALF,
     LENS,
     MIDDLE,
     PLAIN,
     PaperMap,
     bendings,
+    creasings,
     prior,
     seen_at,
 )
@@ -73,16 +74,24 @@ In a blurred picture, a line narrower than FULL mm absorbs proportionally less.
 """
 NOISE, CORNER = 0.05, 0.25
 """Standard deviation of a measured line, and of a corner of the square, in mm."""
-BENT = 3.0
-"""Expected size of the simplest bending, in mm."""
-ROUNDS, NUDGE = 3, 1e-6
+BENT, STIFF = 3.0, 1.0
+"""Expected size of the simplest bending, in mm: of a sheet, and of one folded in four."""
+ROUNDS, NUDGE = 2, 1e-6
 """Gauss-Newton steps per fit, and the step of the finite differences."""
+UNEVEN, LESS = 0.12, 0.8
+"""The residual in mm from which a sheet is also read as one that was folded in four.
+
+The folded sheet counts with less than LESS of the residual.
+"""
 LEAST_FOUND, WORST = 0.45, 0.5
 """The least share of lines within the picture that must be found, and their largest residual in mm.
 """
 SIDES = ("left", "right", "upper", "lower")
-LEAST_SIDE = 0.25
-"""The least share that must be found on each side of the sheet."""
+LEAST_SIDE, SEEN = 0.25, 0.5
+"""The least share that must be found on each side of the sheet.
+
+Where less than SEEN of one side's lines is in the picture, that side is cut off.
+"""
 STRETCH, LEAST_STRETCH = 100.0, 0.35
 """The least share of frame and border that must be found along each stretch of STRETCH mm.
 
@@ -200,12 +209,17 @@ class SheetSearch:
     ) -> None:
         self.smooth = cv2.GaussianBlur(grey, (0, 0), 0.7)
         self.corners, self.square, self.sides = corners, square, sides
-        self.frames: dict[tuple[bytes, float, bool], PaperMap] = {}
+        self.frames: dict[tuple[bytes, float, bool, bool], PaperMap] = {}
 
     def registered(self, page: Page) -> Registration | None:
         """The registration of a page; None where the page has no square to begin with."""
         first = self.fitted(page, BENT_FROM)
-        if first is None or not first.refused:
+        if first is None or not (first.refused or first.residual > UNEVEN):
+            return first
+        folded = self.fitted(page, BENT_FROM, creased=True)
+        if folded is not None and not folded.refused:
+            return folded if first.refused or folded.residual < LESS * first.residual else first
+        if not first.refused:
             return first
         for bent, faint in ((max(RINGS), False), (BENT_FROM, True)):  # bending misled it
             other = self.fitted(page, bent, faint=faint)
@@ -213,33 +227,48 @@ class SheetSearch:
                 return other
         return first
 
-    def fitted(self, page: Page, bent: float, *, faint: bool = False) -> Registration | None:
+    def fitted(
+        self, page: Page, bent: float, *, faint: bool = False, creased: bool = False
+    ) -> Registration | None:
         """The registration of a page by all its lines, starting from the map of its frame."""
-        over, lines = self.frame(page, bent, faint=faint), printed_lines(page, faint=faint)
+        over = self.frame(page, bent, faint=faint, creased=creased)
+        lines = printed_lines(page, faint=faint)
         if over is None:
             return None
-        fit = MapFit(over, self.square_of(page), self.corners)
+        crosses = np.array(crosses_of(page)).reshape(-1, 2) if creased else None
+        fit = MapFit(over, self.square_of(page), self.corners, crosses)
         fit.refine(self.smooth, lines)
         last = measure(self.smooth, fit.map, lines, NEAR)
         found = judged(fit.map, last, lines, self.sides)
-        if found.refused or self.square is not None:  # a scanned half lies flat on the glass
+        if self.square is not None:  # a scanned half lies flat on the glass
             return found
-        return rippled(found, last, self.smooth, page)
+        cut = side_cut_off(last, lines)
+        if found.refused and cut:
+            found = judged(fit.map, last, lines, tuple(side for side in SIDES if side != cut))
+        if found.refused:
+            return found
+        whole = rippled(found, last, self.smooth, page)
+        if cut and not whole.crossed:  # nothing but crosses says where the fields are there
+            return judged(fit.map, last, lines, self.sides)
+        return whole
 
     def square_of(self, page: Page) -> Any:
         """The square from which a page is followed."""
         return square_of(page) if self.square is None else self.square
 
-    def frame(self, page: Page, bent: float, *, faint: bool = False) -> PaperMap | None:
+    def frame(
+        self, page: Page, bent: float, *, faint: bool = False, creased: bool = False
+    ) -> PaperMap | None:
         """The map by the lines that all sheets share; bending is fitted from ring ``bent`` on."""
         square = self.square_of(page)
         if square is None:
             return None
-        key = square.tobytes(), bent, faint
+        key = square.tobytes(), bent, faint, creased
         if key not in self.frames:
             lines = printed_lines(page, faint=faint)
             lines = lines.some(lines.shared)
-            over = followed(self.smooth, lines, square, self.corners, bent)
+            crosses = np.array(crosses_of(page)).reshape(-1, 2) if creased else None
+            over = followed(self.smooth, lines, square, self.corners, bent, crosses)
             self.frames[key] = held_by_ticks(self.smooth, over, lines, square, self.corners)
         return self.frames[key]
 
@@ -261,10 +290,16 @@ class SheetSearch:
         return float((measured.found & measured.seen).sum() / max(measured.seen.sum(), 1))
 
 
-def followed(smooth: Any, lines: PrintedLines, square: Any, corners: Any, bent: float) -> PaperMap:
-    """The map fitted to printed lines, ring by ring; bending is fitted from ring ``bent`` on."""
+def followed(
+    smooth: Any, lines: PrintedLines, square: Any, corners: Any, bent: float, crosses: Any = None
+) -> PaperMap:
+    """The map fitted to printed lines, ring by ring; bending is fitted from ring ``bent`` on.
+
+    With ``crosses``, their places in mm, the sheet was folded in four, and they are followed too.
+    """
     height, width = smooth.shape
-    fit = MapFit(start(width, height, square, np.asarray(corners, dtype=float)), square, corners)
+    first = start(width, height, square, np.asarray(corners, dtype=float))
+    fit = MapFit(first, square, corners, crosses)
     far = np.hypot(*(lines.places - square.mean(axis=0)).T)
     for ring in RINGS:
         near = lines.some(far < ring)
@@ -276,6 +311,7 @@ def followed(smooth: Any, lines: PrintedLines, square: Any, corners: Any, bent: 
             measured = measure(smooth, fit.map, near, REACH, about)
             fit.to(measured, float(abs(about).max()), lens=True, bent=True)
             measured = measure(smooth, fit.map, near, REACH)
+        measured = fit.with_crosses(smooth, measured, ring)
         fit.to(measured, TRUSTED, lens=ring > LENS_FROM, bent=ring > bent)
     return fit.map
 
@@ -351,22 +387,24 @@ def profiles(
         pixels = np.nan_to_num(pixels)
     x, y = pixels.reshape(2, -1, len(across))
     light = cv2.remap(grey, x, y, cv2.INTER_LINEAR, borderMode=cv2.BORDER_REPLICATE)
-    profile = light.reshape(pixels.shape[1:]).mean(axis=0).astype(np.float64)
-    white = np.maximum(np.percentile(profile, 90, axis=1), 20.0)
+    profile = light.reshape(pixels.shape[1:]).mean(axis=0, dtype=np.float64)
+    tenth = len(across) - 1 - len(across) // 10
+    white = np.maximum(np.partition(profile, tenth, axis=1)[:, tenth], 20.0)
     return 1 - profile / white[:, None], inside
 
 
 def sides_off(grey: Any, over: PaperMap, measured: MeasuredLines) -> Any:
     """The offset in mm of the lines along each side of the sheet, and along each lost stretch.
 
-    All lines of a side, or of a stretch of which little was found, are searched for at once, frame
-    and border together. Zero where the offset is within the usual search range.
+    All lines of a side or a stretch of which little was found are searched for at once, frame and
+    border together. Zero where the offset is within the usual search range.
     """
     lines = measured.lines
     about = np.zeros(len(lines.places))
-    lost = (each for each in stretches(lines) if held_along(measured, each) < LOST)
+    every = (*(side for side, _ in edges(lines)), *stretches(lines))
+    lost = [each for each in every if held_along(measured, each) < LOST]
     across = np.arange(-FAR - 1.0, FAR + 1.0 + STEP / 2, STEP)
-    for side in (*(side for side, _ in edges(lines)), *lost):
+    for side in lost:
         some = lines.some(side)
         widths = np.unique(some.widths)
         if len(widths) < 2 or min(np.sum(some.widths == w) for w in widths) < LEAST_ALONG:
@@ -447,10 +485,12 @@ def peaks(dark: Any, across: Any, width: float, reach: float) -> tuple[Any, Any]
 class MapFit:
     """A map that is fitted repeatedly to measurements made with it."""
 
-    def __init__(self, over: PaperMap, square: Any, corners: Any) -> None:
+    def __init__(self, over: PaperMap, square: Any, corners: Any, crosses: Any = None) -> None:
+        self.crosses = crosses
+        self.most = CREASED if crosses is None else COUNT
         self.width, self.height, self.parameters = over.width, over.height, over.array.copy()
         self.square, self.corners = square, np.asarray(corners, dtype=float)
-        self.expected = prior(BENT)
+        self.expected = prior(BENT if crosses is None else STIFF)
         self.expected[:6] = np.inf
 
     @property
@@ -460,7 +500,26 @@ class MapFit:
     def refine(self, smooth: Any, lines: PrintedLines) -> None:
         """Fit the map to lines near where it puts them, in ever narrower searches."""
         for reach, trusted in ((REACH, TRUSTED), (NEAR, TRUSTED), (NEAR, LAST), (NEAR, LAST)):
-            self.to(measure(smooth, self.map, lines, reach), trusted, lens=True, bent=True)
+            measured = self.with_crosses(smooth, measure(smooth, self.map, lines, reach))
+            self.to(measured, trusted, lens=True, bent=True)
+
+    def with_crosses(
+        self, smooth: Any, measured: MeasuredLines, ring: float = np.inf
+    ) -> MeasuredLines:
+        """Measurements with those of the crosses of a folded sheet, up to a distance in mm."""
+        if self.crosses is None:
+            return measured
+        near = np.hypot(*(self.crosses - self.square.mean(axis=0)).T) < ring
+        offs, _ = crosses_off(smooth, self.map, self.crosses[near])
+        more, lines = np.zeros(len(offs.off)), measured.lines
+        every = PrintedLines(
+            np.concatenate([lines.places, offs.places]),
+            np.concatenate([lines.normals, offs.ways]),
+            *(np.concatenate([own, more]) for own in (lines.widths, lines.shared, lines.dark)),
+        )
+        off = np.concatenate([measured.off, offs.off])
+        found, seen = (np.concatenate([own, more == 0]) for own in (measured.found, measured.seen))
+        return MeasuredLines(every, off, found, seen)
 
     def to(self, measured: MeasuredLines, trusted: float, *, lens: bool, bent: bool) -> None:
         """Fit the map to measurements made with it, by robust least squares."""
@@ -475,15 +534,19 @@ class MapFit:
         places = np.concatenate([lines.places, self.square])
         u, v = ((places - MIDDLE) / HALF).T
         bends = bendings(u, v)
+        if self.most == COUNT:
+            bends = np.concatenate([bends, creasings(u, v)], axis=-1)
+        kinds = bends.shape[-1]
+        rows = np.concatenate([bends[: len(pixels)], np.repeat(bends[len(pixels) :], 2, axis=0)])
         size = self.map.scale(self.square.mean(axis=0))
-        count = COUNT if bent else PLAIN if lens else LENS
+        count = self.most if bent else PLAIN if lens else LENS
 
         def errors(found: Any) -> Any:
             by_lines = (found[: len(pixels)] * normal).sum(1) / scale / NOISE
             return np.concatenate([by_lines, found[len(pixels) :].ravel() / size / CORNER])
 
         def pixels_with(parameters: Any, du: float = 0.0, dv: float = 0.0) -> Any:
-            shift = bends @ parameters[PLAIN:].reshape(len(BENDS), 2)
+            shift = bends @ parameters[PLAIN : self.most].reshape(kinds, 2)
             across, along = u + shift[:, 0] + du, v + shift[:, 1] + dv
             return seen_at(parameters, across, along, self.width, self.height)
 
@@ -502,12 +565,9 @@ class MapFit:
                 along = (
                     pixels_with(self.parameters, dv=NUDGE) - pixels_with(self.parameters)
                 ) / NUDGE
-                for k in range(len(BENDS)):
-                    columns += [
-                        errors(bends[:, k, None] * across),
-                        errors(bends[:, k, None] * along),
-                    ]
-            off, jacobian = here - goal, np.stack(columns, axis=1)
+                both = np.stack([errors(across), errors(along)], axis=1)
+                columns.append((rows[:, :, None] * both[:, None]).reshape(len(rows), -1))
+            off, jacobian = here - goal, np.column_stack(columns)
             spread = max(1.5 * float(np.median(abs(off))), trusted / NOISE / 3)
             weights = np.ones(len(off))
             weights[: len(pixels)] = 1 / (1 + (off[: len(pixels)] / (3 * spread)) ** 2) ** 2
@@ -554,8 +614,7 @@ def judged(
     own = seen & ~lines.shared
     own_share = float((found & own).sum() / max(own.sum(), 1))
     refused = ""
-    x, y = lines.places.T
-    parts = dict(zip(SIDES, (x < 210, x >= 210, y < 60, y > 230), strict=True))
+    parts = parts_of(lines)
     held = {side: float((found & parts[side]).sum() / parts[side].sum()) for side in wanted}
     side = min(held, key=lambda each: held[each])
     stretch = least_stretch(last, lines)
@@ -574,6 +633,18 @@ def judged(
     elif residual > WORST:
         refused = f"the paper lies too unevenly: printed lines are {residual:.1f} mm off"
     return Registration(over, share, residual, own_share, refused)
+
+
+def parts_of(lines: PrintedLines) -> dict[str, Any]:
+    """Which lines are on each side of the sheet."""
+    x, y = lines.places.T
+    return dict(zip(SIDES, (x < 210, x >= 210, y < 60, y > 230), strict=True))
+
+
+def side_cut_off(last: MeasuredLines, lines: PrintedLines) -> str:
+    """The only side of the sheet whose lines are mostly outside the picture; "" without one."""
+    cut = [side for side, some in parts_of(lines).items() if last.seen[some].mean() < SEEN]
+    return cut[0] if len(cut) == 1 else ""
 
 
 def least_stretch(last: MeasuredLines, lines: PrintedLines) -> float:

@@ -24,8 +24,24 @@ ASIDE = 0.55
 """How far beside the bare shaft nothing is drawn, in mm."""
 PAST, GOES_ON = np.arange(4.4, 6.0, 0.2), 0.75
 """Distances in mm behind a tip at which a line drawn to this share is no side of a head."""
+ONE_WAY, FAN = np.ones(1), np.exp(1j * np.radians([-4.0, -2.0, 0.0, 2.0, 4.0]))
+"""Turns of lines that may look like a head's sides; vectors that leave a pole turn most."""
 HEADED, CLEARLY = 0.8, 0.25
 """The least share of an arrowhead that is drawn; how much clearer one head is than another."""
+OWN = 0.75
+"""The least share of the head at a point that counts as the end of its vector without a doubt."""
+RINGS, PINS, ROUND = np.arange(0.7, 1.05, 0.1), np.arange(0.7, 1.45, 0.1), 0.9
+"""Radii in mm of the rings of points and of pins; the least share of one that is drawn."""
+ASTRAY = 0.3
+"""How far from its point, in mm, the middle of a ring may be."""
+TURNED, PLAIN = 0.65, 0.5
+"""The least share of a head at the tail of a turned vector; the most at the tail of any other."""
+BESIDE = np.radians(20.0)
+"""At a lesser angle, the head of another vector to the same point looks like a vector's own."""
+WHOLE = 0.9
+"""The least drawn share of a vector whose head alone says that its point is there."""
+LACKS = 0.3
+"""The least drawn share of a vector's line; the student left out a vector with less."""
 CERTAIN = 0.9
 """The least drawn share, in three places in a row, of a head besides that at the point."""
 PALE = 0.35
@@ -65,6 +81,7 @@ class VectorEnd(Struct, frozen=True):
     - ``reversed``: its head is at its tail.
     - ``doubled``: it seems to have a head at its point and another one elsewhere.
     - ``runs_on``, ``stops_short``: its stroke goes on beyond the point, or ends before it.
+    - ``open``: neither a head, nor a mark of the point, nor the end of its stroke is at the point.
     """
 
     head: complex | None = None
@@ -72,6 +89,7 @@ class VectorEnd(Struct, frozen=True):
     doubled: bool = False
     runs_on: bool = False
     stops_short: bool = False
+    open: bool = False
 
     @property
     def is_there(self) -> bool:
@@ -81,14 +99,18 @@ class VectorEnd(Struct, frozen=True):
     @property
     def is_wrong(self) -> bool:
         """Whether the end says that the vector is wrong."""
-        return self.head is not None or self.reversed
+        beside = self.open and (self.runs_on or self.stops_short)
+        return self.head is not None or self.reversed or beside
 
 
-def heads(ink: DrawnInk, places: Any, way: complex, pale: float = COVERED) -> Any:
+def heads(
+    ink: DrawnInk, places: Any, way: complex, pale: float = COVERED, lines: Any = ONE_WAY
+) -> Any:
     """The drawn share of an arrowhead with its tip at each place, pointing along ``way``.
 
     The weaker of both sides counts, less what is drawn beside the shaft behind the head. A side
-    that goes on behind the head is another line. Ink darker than ``pale`` counts as drawn.
+    that goes on behind the head, turned by one of the angles ``lines``, is another line. Ink darker
+    than ``pale`` counts as drawn.
     """
     best = np.zeros(len(places))
     for barb in BARBS:
@@ -97,8 +119,9 @@ def heads(ink: DrawnInk, places: Any, way: complex, pale: float = COVERED) -> An
             dark, known = ink.at(places[:, None] - way * SIDES * turn)
             seen = np.maximum(known.sum(axis=1), 1)
             enough = known.mean(axis=1) > 0.5
-            past = (ink.at(places[:, None] - way * PAST * turn)[0] > pale).mean(axis=1)
-            enough &= past < GOES_ON
+            behind = places[:, None, None] - way * turn * lines[:, None] * PAST
+            past = (ink.at(behind.reshape(len(places), -1))[0] > pale).reshape(behind.shape)
+            enough &= past.mean(axis=2).max(axis=1) < GOES_ON
             sides.append(((dark > pale) * known).sum(axis=1) / seen * enough)
         best = np.maximum(best, np.minimum(*sides))
     bare = [
@@ -116,15 +139,17 @@ def vector_end(
     arriving: Sequence[complex] = (),
     *,
     along_line: bool,
+    beside: Sequence[complex] = (),
 ) -> VectorEnd:
     """What the end of a vector from a tail says of the point at its tip.
 
     ``others`` are the places of the other points, ``arriving`` the directions in which vectors end
-    at the tail. With ``along_line``, a construction line is drawn along the vector, so that only
-    the head shows where the vector ends.
+    at the tail, ``beside`` those of the other vectors to the tip. With ``along_line``, a
+    construction line is drawn along the vector, so that only the head shows where the vector ends.
+    A vector of which hardly anything is drawn says nothing.
     """
     long = abs(tip - tail)
-    if not long >= SHORTEST:
+    if not long >= SHORTEST or ink.cover(tail, tip, 0.4, hidden=1.0) < LACKS:
         return VectorEnd()
     way = (tip - tail) / long
     shaft, known = ink.at(tail + way * np.arange(RING, long - SIDES[-1], PITCH))
@@ -133,37 +158,83 @@ def vector_end(
     along = np.arange(max(NEAREST * long, 5.0), FARTHEST * long + PITCH, PITCH)
     share = heads(ink, tail + along * way, way, pale)
     here = float(share[abs(along - long) <= NEAR].max())
+    marked = is_marked(ink, tip, RINGS)
     others = [(each - tail) / way for each in others]
+    shared = any(
+        o.real > long + NEAR and abs(o.imag) < NEAR + LEANING * (o.real - long) for o in others
+    )
+    alike = shared or any(abs(np.angle(each / way)) < BESIDE for each in beside)
     free = abs(along - long) > CLEAR
     for other in others:
         free &= abs(along - other) > FREE
     there = np.where(free, share, -1.0)
-    clearer = there.max() >= HEADED and there.max() > here + CLEARLY
-    rival = there if clearer else steady(there)
+    clearer = there.max() >= HEADED and there.max() > here + CLEARLY and not marked
+    rival = there if clearer or alike else steady(there)
     place = tail + float(along[int(rival.argmax())]) * way
     elsewhere = (clearer or rival.max() >= CERTAIN) and (
         ink.cover(tail, place, 0.4, hidden=1.0) >= REACHED
     )
     close = np.arange(-AT, AT + PITCH / 2, PITCH)
-    back = heads(ink, tail + close * way, -way, pale)
+    back = heads(ink, tail + close * way, -way, pale, FAN)
+    unsure = heads(ink, tail + close * way, -way, pale).max()
+    plain = bool(unsure <= PLAIN or unsure < here)
     crowded = any(abs(o) <= FREE for o in others) or any(
         abs(np.angle(-each / way)) < CROWDED for each in arriving
     )
-    turned = bool(back.max() >= HEADED and back.max() > here + CLEARLY and not crowded)
-    at_tail = steady(back).max() >= HEADED and not crowded
-    head = complex(place) if clearer and elsewhere else None
-    doubled = bool(at_tail and not turned) or (along_line and elsewhere and not clearer)
+    turned = bool(back.max() >= TURNED and back.max() > here + CLEARLY and not crowded)
+    likely = back.max() >= TURNED if alike else steady(back).max() >= HEADED
+    at_tail = bool(likely) and not crowded
+    head = complex(place) if elsewhere and (clearer or here < OWN) else None
+    doubled = (at_tail and not turned) or (along_line and elsewhere and head is None)
+    ended = bool(here >= OWN or (marked and plain))
     if along_line:
-        return VectorEnd(head, turned, doubled)
-    shared = any(
-        o.real > long + NEAR and abs(o.imag) < NEAR + LEANING * (o.real - long) for o in others
-    )
+        return VectorEnd(head, turned, doubled, open=not ended)
     beyond = drawn(ink, tip, way, BEYOND, pale)
     before = drawn(ink, tip, -way, BEFORE, pale)
-    if not shared and beyond <= EMPTY and before >= RUNS_ON:
+    stops = not shared and beyond <= EMPTY and before >= RUNS_ON
+    if stops:
         head = None
+    ended |= stops and plain
     runs_on = not shared and beyond >= RUNS_ON
-    return VectorEnd(head, turned, doubled, runs_on, before < STOPS)
+    return VectorEnd(head, turned, doubled, runs_on, before < STOPS, not ended)
+
+
+def is_headed(ink: DrawnInk, tail: complex, tip: complex) -> bool:
+    """Whether a vector is wholly drawn from a tail to a tip, and has its head there."""
+    long = abs(tip - tail)
+    if not long >= SHORTEST or ink.cover(tail, tip, 0.4) < WHOLE:
+        return False
+    way = (tip - tail) / long
+    near = np.arange(-NEAR, NEAR + PITCH / 2, PITCH)
+    return bool(heads(ink, tip + near * way, way).max() >= OWN)
+
+
+def bar_runs_on(ink: DrawnInk, tail: complex, tip: complex, others: list[complex]) -> bool:
+    """Whether a bar is drawn on beyond the point at its end, and no mark says where it ends."""
+    long = abs(tip - tail)
+    if not long >= SHORTEST:
+        return False
+    way = (tip - tail) / long
+    shared = any(
+        o.real > long + NEAR and abs(o.imag) < NEAR + LEANING * (o.real - long)
+        for o in ((each - tail) / way for each in others)
+    )
+    whole = ink.cover(tail, tip, 0.4) >= RUNS_ON
+    runs_on = whole and not shared and drawn(ink, tip, way, BEYOND, COVERED) >= RUNS_ON
+    return runs_on and not is_marked(ink, tip, PINS)
+
+
+def is_marked(ink: DrawnInk, place: complex, radii: Any) -> bool:
+    """Whether a dot or a ring of one of some radii (mm) is drawn about a place."""
+    near = np.arange(-ASTRAY, ASTRAY + 0.01, 0.15)
+    middles = (place + near[:, None] + 1j * near[None, :]).ravel()
+    turns = np.exp(1j * np.radians(np.arange(0.0, 360.0, 15.0)))
+    rings = middles[:, None, None] + radii[:, None] * turns
+    dark, known = ink.at(rings.reshape(len(middles), -1))
+    seen = (known > 0).reshape(rings.shape)
+    dark = (dark > COVERED).reshape(rings.shape) & seen
+    full = dark.sum(axis=2) / np.maximum(seen.sum(axis=2), 1)
+    return bool((full * (seen.mean(axis=2) > 0.5)).max() >= ROUND)
 
 
 def steady(share: Any) -> Any:

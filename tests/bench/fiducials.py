@@ -22,7 +22,7 @@ from graphkin.classroom.printing.personal import without_crosses
 from graphkin.drawing.marks import Page
 from graphkin.reading.codes import codes_in
 from graphkin.reading.read_run import read_order
-from graphkin.reading.read_sheet import Grid, task_pages
+from graphkin.reading.read_sheet import Grid
 from graphkin.reading.registration import Registration, SheetSearch
 from tests.bench.reading import XS, YS, folder_of
 from tests.reading.camera import Shot, photograph
@@ -58,7 +58,7 @@ def main(count: int, seed: int) -> None:
     with TemporaryDirectory() as where:
         folder = folder_of("pump", Path(where), seed)
         code = next(iter(read_order(read_edition(folder), Grid()).takers))
-        _, page = task_pages(sheets_of(folder, code))[0]
+        page = next(iter(sheets_of(folder, code).task_pages.values()))
         both = {"without": without_crosses(page), "with": page}
         images = {name: printed_page(own) for name, own in both.items()}
         for case, more in CASES.items():

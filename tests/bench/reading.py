@@ -39,7 +39,7 @@ from graphkin.reading.pictures import Photograph
 from graphkin.reading.point_reader import forecast_points
 from graphkin.reading.point_reading import PointReading
 from graphkin.reading.read_run import read_order
-from graphkin.reading.read_sheet import Grid, ReadOrder, SheetRecord, read_one, task_pages
+from graphkin.reading.read_sheet import Grid, ReadOrder, SheetRecord, read_one
 from graphkin.reading.read_sheet import sheets_of as key_sheets
 from tests.reading.camera import Shot, photograph, scan
 from tests.reading.hand import Habits, TruePoint, drawn_sheet, sheets_of
@@ -206,7 +206,7 @@ def tolerances(order: ReadOrder, record: SheetRecord) -> dict[int, float]:
     taker = order.takers[record.code]
     sheets = key_sheets(order.order, taker, taker.spoken or order.order.language)
     drawing = next(each for each in sheets.drawings if each.kind == record.kind)
-    sheet = LetteredSheet(drawing, dict(task_pages(sheets))[record.kind])
+    sheet = LetteredSheet(drawing, sheets.task_pages[record.kind])
     pencil = Pencil(sheets.lab.rubric.point, sheets.lab.rubric.line)
     return {point.step: point.error for point in forecast_points(sheet, pencil)}
 

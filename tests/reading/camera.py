@@ -35,6 +35,10 @@ class Shot(Struct, frozen=True):
     table: float = 90.0
     grain: float = 0.0
     """Of the paper, in greys."""
+    fold: float = 0.0
+    """By how many degrees the quarters of a sheet that was folded in four are still raised."""
+    cut: float = 0.0
+    """How much of the sheet's upper edge is not in the picture, in mm."""
 
 
 class Picture(Struct, frozen=True):
@@ -61,14 +65,17 @@ def forward(shot: Shot, rng: Any) -> Callable[[Any], Any]:
     place = np.array([rng.uniform(-8, 8), rng.uniform(-8, 8), distance])
     bent = rng.uniform(0, 2 * np.pi)
     phases = rng.uniform(0, 2 * np.pi, 2)
+    raised = np.radians(shot.fold) * rng.choice([-1.0, -0.6, 0.6, 1.0], 2)
 
     def where(points: Any) -> Any:
         x, y = points[..., 0] - WIDE / 2, points[..., 1] - HIGH / 2
         u = (x * np.cos(bent) + y * np.sin(bent)) / 210
         z = shot.bow * (1 - u**2)
         shorter = -2 * shot.bow**2 / (3 * 210) * u**3
+        z = z - np.tan(raised[0]) * abs(x) - np.tan(raised[1]) * abs(y)
         z = z + shot.ripple * np.sin(x / 25 + phases[0]) * np.sin(y / 30 + phases[1])
         x, y = x + shorter * np.cos(bent), y + shorter * np.sin(bent)
+        x, y = x * np.cos(raised[0]), y * np.cos(raised[1])
         space = np.stack([x, y, -z], axis=-1) @ turned.T + place
         flat = space[..., :2] / space[..., 2:]
         half = np.hypot(width, height) / 2 / focal
@@ -136,11 +143,26 @@ def photograph(image: Any, shot: Shot, seed: int) -> Picture:
         cv2.ellipse(seen, (int(spot[0]), int(spot[1])), (130, 200), 20, 0, 360, 140, -1)
     seen = cv2.GaussianBlur(seen, (0, 0), shot.blur)
     seen = seen + rng.normal(0, shot.noise, seen.shape).astype(np.float32)
+    if shot.cut:
+        seen, where = without_edge(seen, where, shot.cut)
     ok, data = cv2.imencode(
         ".jpg", np.clip(seen, 0, 255).astype(np.uint8), [cv2.IMWRITE_JPEG_QUALITY, shot.quality]
     )
     assert ok
     return Picture(data.tobytes(), where)
+
+
+def without_edge(seen: Any, where: Callable[[Any], Any], cut: float) -> Any:
+    """A picture without what lies within ``cut`` mm of the sheet's upper edge, and its places."""
+    edge = where(np.stack([np.linspace(0, WIDE, 9), np.full(9, cut)], axis=-1))
+    middle = where(np.array([WIDE / 2, HIGH / 2]))
+    way = int(np.argmax(abs(edge.mean(axis=0) - middle)))
+    first = bool(edge[:, way].mean() < middle[way])
+    at = int(edge[:, way].max() if first else edge[:, way].min())
+    part = slice(at, None) if first else slice(None, at)
+    shift = np.where(np.arange(2) == way, at if first else 0, 0)
+    kept = seen[:, part] if way == 0 else seen[part]
+    return np.ascontiguousarray(kept), lambda places: where(places) - shift
 
 
 def scan(

@@ -45,7 +45,7 @@ from graphkin.reading.marked_drawing import (
     drawings_of_class,
     sentence,
 )
-from graphkin.reading.pictures import Unreadable, grey_of, photographs
+from graphkin.reading.pictures import Photograph, Unreadable, grey_of, photographs
 from graphkin.reading.point_reader import PointReader
 from graphkin.reading.point_reading import PointReading
 from graphkin.reading.point_search import (
@@ -57,7 +57,7 @@ from graphkin.reading.point_search import (
     expected,
 )
 from graphkin.reading.read_run import ReadOutcome, read_order
-from graphkin.reading.read_sheet import Grid, SheetRecord, code_of_halves, known_code
+from graphkin.reading.read_sheet import Grid, SheetRecord, code_of_halves, known_code, read_one
 from graphkin.reading.settled_points import (
     SETTLED,
     PointDecision,
@@ -342,6 +342,40 @@ def test_hostile_pictures_get_one_line_each(a_class: Path, tmp_path: Path) -> No
         told = json.loads((photos / f"{stem}.points.json").read_text(encoding="utf-8"))
         assert why in told["refused"]
         assert told["points"] == []
+
+
+@pytest.mark.parametrize(
+    "shot",
+    [
+        Shot(size=(3000, 2250), tilt=8, fold=10.0),
+        Shot(size=(3000, 2250), tilt=45),
+        Shot(size=(3000, 2250), tilt=8, cut=20.0),
+    ],
+    ids=["folded", "tilted", "cut"],
+)
+def test_a_hard_sheet_is_read_by_its_lines_and_crosses(
+    a_class: Path, code: str, shot: Shot, tmp_path: Path
+) -> None:
+    """Folded in four, from 45 degrees, or without its upper edge."""
+    drawing = drawn_sheet(a_class, code, "velocity", Habits(point=0.3, line=0.3), 3)
+    taken = photograph(drawing.image, shot, 11)
+    (tmp_path / "hard.jpg").write_bytes(taken.data)
+    inside = [(x, y) for x in XS for y in (60.0, 120.0, 180.0, 240.0)]
+    grid = Grid(tuple(XS), (60.0, 120.0, 180.0, 240.0))
+    read = read_one(read_order(read_edition(a_class), grid), *photographs_with_keys(tmp_path))
+    assert read.record.refused is None
+    true = np.sort(taken.where(np.array(inside)), axis=0)
+    assert np.median(np.hypot(*(np.sort(read.record.map, axis=0) - true).T)) < 0.6  # pixels
+    at = {each.step: each.at for each in read.record.points}
+    off = [np.hypot(*np.subtract(at[p.step], p.at)) for p in drawing.points if p.at and at[p.step]]
+    assert len(off) >= len(drawing.points) - 1
+    assert np.median(off) < 0.3
+
+
+def photographs_with_keys(folder: Path) -> tuple[Photograph, str]:
+    """The only photograph of a folder, with an empty key."""
+    (one,) = photographs([folder])
+    return one, ""
 
 
 def test_another_class_and_a_cut_sheet_are_refused(
@@ -649,9 +683,32 @@ def lever_sheet(
 def test_what_is_expected_where_nothing_is_read_is_the_key(levers: Path, kind: str) -> None:
     """The rates of trial plans are chosen and printed: they do not follow from what is drawn."""
     sheet, numbers, places = lever_sheet(levers, kind)
-    expects = PointSearch(sheet, ink_of(), Pencil(0.4, 0.4)).ahead({})
+    expects = PointSearch(sheet, ink_of(), Pencil(0.4, 0.4)).ahead()
     for name, number in numbers.items():
         assert abs(alone(sheet.place(number, expects[number])) - places[name]) < 0.01, name
+
+
+@pytest.mark.parametrize("kind", ["velocity", "acceleration"])
+def test_one_more_point_changes_what_follows_from_it_alone(levers: Path, kind: str) -> None:
+    """What is computed from the point alone is what all steps give when drawn again."""
+    sheet, numbers, places = lever_sheet(levers, kind)
+    search = PointSearch(sheet, ink_of(), Pencil(0.4, 0.4))
+    for name, place in places.items():
+        number = numbers[name]
+        if number not in sheet.points:
+            continue
+        search.next = search.ahead()
+        found = search.after(number, place + 2 - 1j)
+        search.own[number] = place + 2 - 1j
+        for other, value in search.ahead().items():
+            np.testing.assert_equal(alone(sheet_value(found[other])), alone(sheet_value(value)))
+
+
+def sheet_value(value: object) -> object:
+    """A number of a step: where a line, circle or vector begins."""
+    for part in ("point", "centre", "tip", "start"):
+        value = getattr(value, part, value)
+    return value[0] if isinstance(value, tuple) else value
 
 
 def test_a_point_is_read_when_a_hand_finds_it(levers: Path) -> None:
@@ -675,7 +732,7 @@ def test_a_point_found_by_hand_is_asked_where_its_vectors_go_elsewhere(
     p, q = places["p"], places["q"]
     reader = PointReader(sheet, ink_of((p, q if joined else q + 12j)), Pencil(0.4, 0.4))
     reader.own = {numbers["p"]: p, numbers["q"]: q}
-    reader.next = reader.drawings = reader.ahead({})
+    reader.next = reader.drawings = reader.ahead()
     assert reader.is_joined(numbers["q"]) is joined
 
 
@@ -685,7 +742,7 @@ def test_a_drawn_line_runs_through_the_point_that_was_read_on_it(levers: Path) -
     reader = PointReader(sheet, ink_of(), Pencil(0.4, 0.4))
     for shift, turned in ((1 + 2j, True), (0.8 * (places["A"] - places["P"]), False)):
         reader.own = {a: places["A"], p: places["P"] + shift}
-        found = reader.ahead({})
+        found = reader.ahead()
         lines = reader.lines_through(p, found)
         assert bool(lines) is turned  # from near by nobody tells a direction
         for number, line in lines.items():
@@ -702,7 +759,7 @@ def test_where_known_points_and_those_of_trial_plans_lie_is_no_place_of_another(
     o, a, p, tried = (places[name] for name in ("o", "a", "p", "p¹"))
     search = PointSearch(sheet, ink_of((o, tried), (a, tried), (p, tried)), Pencil(0.4, 0.4))
     search.own = {numbers[name]: places[name] for name in ("a", "p")}
-    search.next = search.drawings = search.ahead({})
+    search.next = search.drawings = search.ahead()
     assert any(abs(place - tried) < 0.01 for place in search.tried_points(numbers["a_3"]))
     found = search.best_far(numbers["a_3"], ExpectedPlace(places["a_3"], np.eye(2) * 0.2))
     assert found is None or abs(found.place - tried) > 3
@@ -715,7 +772,7 @@ def test_where_known_points_and_those_of_trial_plans_lie_is_no_place_of_another(
         sheet, ink_of((at["o"], at["a"]), (at["o"], at["b"]), (at["a"], at["b"])), Pencil(0.4, 0.4)
     )
     search.own = {steps_of[name]: at[name] for name in "ab"}
-    search.next = search.drawings = search.ahead({})
+    search.next = search.drawings = search.ahead()
     found = search.best_far(steps_of["c"], ExpectedPlace(at["c"], np.eye(2) * 0.2))
     assert found is None or abs(found.place - at["o"]) > 3
 
@@ -736,7 +793,7 @@ def test_a_line_that_ends_before_a_point_does_not_lead_to_it(
     bar = at["A"], at["C"] + 20 * (at["C"] - at["A"]) / abs(at["C"] - at["A"])
     reader = PointReader(sheet, ink_of(bar, (begins, at["D"])), Pencil(0.4, 0.4))
     reader.own = {named["A"]: at["A"]}
-    reader.next = reader.drawings = reader.ahead({})
+    reader.next = reader.drawings = reader.ahead()
     assert reader.is_reached(named["C"], at["C"]) is reached
     there = ExpectedPlace(at["C"], np.eye(2) * 0.05)
     told = reader.told(named["C"], there, there, LinesCrossing(at["C"], np.eye(2) * 0.01, 2, 1.0))
@@ -754,7 +811,7 @@ def test_what_fits_and_lies_far_from_the_key_is_asked(a_class: Path, code: str) 
     number, pole = (next(n for n in values if steps[n].name == name) for name in "ao")
     o = complex(sheet.place(pole, values[pole]))
     reader = PointReader(sheet, ink_of((o, 300 + 100j)), Pencil(0.4, 0.4))
-    reader.next = reader.ahead({})
+    reader.next = reader.ahead()
     read = LinesCrossing(300 + 100j, np.eye(2) * 0.01, 3, 1.0)
     own = ExpectedPlace(300.2 + 100j, np.eye(2) * 0.2)
     for off, asked in ((1.0, False), (3.2, True)):
@@ -795,7 +852,7 @@ def test_what_hangs_on_a_doubtful_mistake_waits_for_its_own_lines(
     lines = [(at[each], 300 + 100j + runs_on * way) for each, way in ways.items()]
     reader = PointReader(sheet, ink_of(*lines), Pencil(0.4, 0.4))
     reader.own = {a: at["a"]}
-    reader.next = reader.drawings = reader.ahead({})
+    reader.next = reader.drawings = reader.ahead()
     reader.bad, reader.doubted, reader.readings = {a}, {a}, {a: point(a)}
     monkeypatch.setattr(reader, "agreement", lambda *_, **__: 1.0)
     own = ExpectedPlace(300 + 100j, np.eye(2) * 0.2)
@@ -817,7 +874,7 @@ def test_a_vector_apart_from_the_point_with_which_its_own_is_one_is_asked(rack: 
         reader = PointReader(sheet, ink_of(*lines), Pencil(0.4, 0.4))
         reader.own = {n: places[n] for n in (a, t)}
         reader.readings = {n: point(n, ask=False) for n in (a, t)}
-        reader.next = reader.drawings = reader.ahead({})
+        reader.next = reader.drawings = reader.ahead()
         own = ExpectedPlace(places[b], np.eye(2) * 0.05)
         found = reader.rival(b, places[b], own)
         assert (found is not None) is rival
@@ -840,7 +897,7 @@ def test_a_rival_of_a_place_is_another_place(
 ) -> None:
     """What is found some way off may be settled by its lines where the point itself lies."""
     number, reader = reader_of_b(a_class, code)
-    reader.next = reader.drawings = reader.ahead({})
+    reader.next = reader.drawings = reader.ahead()
     here = 320 + 120j
     settled = LinesCrossing(here + back, np.eye(2) * 0.01, 2, 1.0)
     monkeypatch.setattr(reader, "candidates", lambda *_: [here + 9])
@@ -875,7 +932,7 @@ def test_a_place_to_which_all_ways_are_drawn_needs_no_more_than_one_to_which_the
 ) -> None:
     """What is expected has else something in advance of what is a little likelier."""
     number, reader = reader_of_b(a_class, code)
-    reader.next = reader.drawings = reader.ahead({})
+    reader.next = reader.drawings = reader.ahead()
     here, there = 300 + 100j, 312 + 100j
     found = {each: LinesCrossing(each, np.eye(2) * 0.01, 2, 1.0) for each in (here, there)}
     monkeypatch.setattr(reader, "best_near", lambda *_: found[here])
@@ -895,7 +952,7 @@ def test_a_single_way_leads_where_it_ends(a_class: Path, code: str) -> None:
     number, pole = (next(n for n in values if steps[n].name == name) for name in "ao")
     a, o = (complex(sheet.place(n, values[n])) for n in (number, pole))
     search = PointSearch(sheet, ink_of((o, a)), Pencil(0.4, 0.4))
-    search.next = search.drawings = search.ahead({})
+    search.next = search.drawings = search.ahead()
     short = a - 6 * (a - o) / abs(a - o)  # as a ray that runs a little aslant leaves the line
     assert abs(search.settled(number, short).place - a) < 0.6
 
@@ -923,7 +980,7 @@ def test_a_vector_that_runs_on_beyond_a_place_is_seen(a_class: Path, code: str) 
     o, a = (complex(sheet.place(n, values[n])) for n in (pole, number))
     for long, beyond in ((1.0, 0.0), (1.3, 1.0)):
         search = PointSearch(sheet, ink_of((o, o + long * (a - o))), Pencil(0.4, 0.4))
-        search.next = search.ahead({})
+        search.next = search.ahead()
         assert search.beyond(number, a) == [pytest.approx(beyond, abs=0.1)]
         far = search.best_far(number, expected(np.array([a])), a)
         assert far is None or abs(far.place - a) > 2
@@ -941,7 +998,7 @@ def test_a_place_where_vectors_end_fits_better_than_one_that_they_pass(
     o, a = (complex(sheet.place(n, values[n])) for n in (pole, number))
     for long in (1.0, 1.3):
         search = PointSearch(sheet, ink_of((o, o + long * (a - o))), Pencil(0.4, 0.4))
-        search.next = search.ahead({})
+        search.next = search.ahead()
         fits.append(search.stopped(number, a))
     assert fits[0] > fits[1] + 0.2
     search.own = {number: 340 + 120j}

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from graphkin.drawing.symbols import head
-from graphkin.reading.vector_ends import HEADED, VectorEnd, heads, vector_end
+from graphkin.reading.vector_ends import FAN, HEADED, VectorEnd, bar_runs_on, heads, vector_end
 from tests.reading.test_reading import ink_of
 
 TAIL, TIP = 120 + 150j, 180 + 110j
@@ -40,7 +40,7 @@ def read(
     return vector_end(ink, TAIL, TIP, list(others), arriving, along_line=along)
 
 
-FAN = [(TIP, TIP - 40 * WAY * np.exp(1j * np.radians(each))) for each in (-17, 17)]
+BOTH_SIDES = [(TIP, TIP - 40 * WAY * np.exp(1j * np.radians(each))) for each in (-17, 17)]
 """Lines that leave a point on both sides of the vector to it."""
 OWN = vector(TAIL, TIP)[1:]
 """Only the head of the vector."""
@@ -82,7 +82,7 @@ def test_the_head_of_another_point_on_the_same_line_is_not_the_vectors() -> None
 @pytest.mark.parametrize("along", [False, True])
 def test_lines_beside_the_vector_do_not_excuse_a_head_at_its_tail(*, along: bool) -> None:
     """Lines leave the point where the sides of a head would be."""
-    assert not read(vector(TAIL, TIP, headed=TAIL) + FAN, along=along).is_there
+    assert not read(vector(TAIL, TIP, headed=TAIL) + BOTH_SIDES, along=along).is_there
 
 
 @pytest.mark.parametrize("share", [0.0, 0.6, 1.4])
@@ -112,3 +112,49 @@ def test_a_stroke_that_ends_at_its_point_needs_no_head() -> None:
 def test_long_lines_on_both_sides_are_no_head() -> None:
     lines = [(TIP, TIP - 40 * WAY * np.exp(1j * np.radians(each))) for each in (-28, 28)]
     assert heads(ink_of((TAIL, TIP), *lines), np.array([TIP]), WAY)[0] < HEADED
+
+
+LINE: Strokes = [(TAIL, TIP + 50 * WAY)]
+RING: Strokes = [
+    (TIP + 0.85 * np.exp(1j * turn), TIP + 0.85 * np.exp(1j * (turn + 0.3)))
+    for turn in np.arange(0, 2 * np.pi, 0.3)
+]
+
+
+def test_a_point_on_a_line_without_head_and_mark_is_open() -> None:
+    """Nothing that is drawn says that the vector ends there, so a person is asked."""
+    assert read(LINE, along=True).open
+    assert read(LINE + RING, along=True).is_there
+    assert read(vector(TAIL, TIP) + LINE, along=True).is_there
+
+
+def test_a_ring_does_not_excuse_a_head_at_the_tail() -> None:
+    assert not read(vector(TAIL, TIP, headed=TAIL) + RING).is_there
+
+
+def test_where_a_vector_is_not_drawn_nothing_is_said_of_its_end() -> None:
+    assert read([]).is_there
+
+
+@pytest.mark.parametrize("share", [0.7, 1.3])
+def test_the_head_of_another_vector_to_the_point_is_not_the_vectors(share: float) -> None:
+    """Two vectors nearly along one another: one ends at the point, the other elsewhere."""
+    moved = TAIL + share * (TIP - TAIL)
+    other = TIP - 45 * WAY * np.exp(1j * np.radians(8))
+    ink = ink_of(*vector(TAIL, moved), *vector(other, TIP), *LINE)
+    end = vector_end(ink, TAIL, TIP, [], along_line=True, beside=[TIP - other])
+    assert not end.is_there
+
+
+def test_vectors_that_leave_a_pole_on_both_sides_are_no_head() -> None:
+    for turn in (15, 19, 25):
+        fan = [(TIP, TIP - 40 * WAY * np.exp(1j * np.radians(each))) for each in (-turn, turn)]
+        assert heads(ink_of((TAIL, TIP), *fan), np.array([TIP]), WAY, lines=FAN)[0] < HEADED
+
+
+def test_a_bar_that_runs_on_beyond_a_point_without_a_mark_is_seen() -> None:
+    far = TIP + 20 * WAY
+    assert bar_runs_on(ink_of((TAIL, far), ACROSS), TAIL, TIP, [])
+    assert not bar_runs_on(ink_of((TAIL, far), ACROSS, *RING), TAIL, TIP, [])
+    assert not bar_runs_on(ink_of((TAIL, TIP), ACROSS), TAIL, TIP, [])
+    assert not bar_runs_on(ink_of((TAIL, far), ACROSS), TAIL, TIP, [far])

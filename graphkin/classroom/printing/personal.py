@@ -19,6 +19,7 @@ from graphkin.drawing.frame import STUDENT, STUDENTS, fitting, room_in
 from graphkin.drawing.marks import LineMark, Mark, Page, Point, Polyline, Text, box, reach
 from graphkin.drawing.richtext import known, measures
 from graphkin.drawing.symbol_markup import escape
+from graphkin.numbers.arithmetic import np
 from graphkin.scene.model import Scene
 from graphkin.text.errors import PageError
 
@@ -248,11 +249,11 @@ MIDDLE = (210.0, 148.5)
 
 def crossed(page: Page) -> Page:
     """The page with crosses in its fields, below everything else, where nothing is printed."""
-    full = [each for mark in page.marks for each in boxes(mark)]
+    left, top, right, bottom = np.array([each for mark in page.marks for each in boxes(mark)]).T
     marks = []
     for x, y in places():
-        near = (x - ARM - CLEAR, y - ARM - CLEAR, x + ARM + CLEAR, y + ARM + CLEAR)
-        if not any(overlap(near, other) for other in full):
+        across = (x - ARM - CLEAR < right) & (left < x + ARM + CLEAR)
+        if not (across & (y - ARM - CLEAR < bottom) & (top < y + ARM + CLEAR)).any():
             marks.append(LineMark(x - ARM, y, x + ARM, y, REGISTER))
             marks.append(LineMark(x, y - ARM, x, y + ARM, REGISTER))
     return replace(page, marks=(*marks, *page.marks))

@@ -131,15 +131,24 @@ class Sheets:
             for part in motion_sheets(Mechanism(scene), view, self.words):
                 yield SheetDocument(*part)
             return
-        own = [replace(owned(each, self.whose), computed=self.computed) for each in self.drawings]
-        for sheet in drawn_sheets(own, view):
-            first, *more = signed(sheet.pages, view, self.whose)
-            yield SheetDocument(sheet.kind, (crossed(first) if view == "task" else first, *more))
+        yield from self.drawn(view)
         if view in ("task", "key"):
             pages = calculation(owned_pages(self.drawings, self.whose), view, self.computed)
             pages = tuple(signed(pages, view, self.whose))
             kind = FORM if view == "task" else "calculation"
             yield SheetDocument(kind, (*pages, *self.answers()) if view == "task" else pages)
+
+    def drawn(self, view: str) -> Iterator[SheetDocument]:
+        """Draw only the A3 drawings of a view."""
+        own = [replace(owned(each, self.whose), computed=self.computed) for each in self.drawings]
+        for sheet in drawn_sheets(own, view):
+            first, *more = signed(sheet.pages, view, self.whose)
+            yield SheetDocument(sheet.kind, (crossed(first) if view == "task" else first, *more))
+
+    @cached_property
+    def task_pages(self) -> dict[str, Page]:
+        """The pages to draw on, by kind."""
+        return {sheet.kind: sheet.pages[0] for sheet in self.drawn("task")}
 
     def page(self, view: str, stem: str, ink: Ink) -> str:
         """The page for a browser: the task with the form to fill in, or the key step by step."""
