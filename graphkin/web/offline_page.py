@@ -120,6 +120,7 @@ STEP_PAGE = (
     "checking.js",
     "answers.js",
     "hints.js",
+    "levels.js",
     "your_turn.js",
     "aiming.js",
     "keys.js",

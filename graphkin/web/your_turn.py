@@ -13,7 +13,7 @@ from graphkin.construction.core.component import Component, LaidOff, TriangleCom
 from graphkin.construction.core.drawn_scene import NOISE, Drawing
 from graphkin.construction.core.kind import Construction, PlanPole, construction, constructions
 from graphkin.construction.core.naming import rate_symbol, sense, vector_of
-from graphkin.construction.core.palette import Move
+from graphkin.construction.core.palette import SIMILAR, Move, images_and_place
 from graphkin.construction.core.plan_vector import plan_vector
 from graphkin.construction.core.program import Part, Plane, Step
 from graphkin.construction.core.quantities import OMEGA, unit_words
@@ -100,7 +100,8 @@ class YourTurn(Struct, frozen=True):
     ``places`` are the points of the mechanism by the step of their image. ``shares`` are the steps
     for the ratios that divide lines of auxiliary plans, with the moves that each needs. ``alike``
     says whether a link has a third point, whose image is similar to the link. ``errors`` are the
-    known wrong moves in place of a move.
+    known wrong moves in place of a move. ``shorter`` are the inputs of a similar figure that gives
+    a point for which the sheet draws two lines.
     """
 
     moves: Mapping[int, PaletteMove]
@@ -112,6 +113,7 @@ class YourTurn(Struct, frozen=True):
     planes: Mapping[int, Plane]
     alike: bool
     errors: Mapping[int, Sequence[Error]]
+    shorter: Mapping[int, tuple[str, ...]]
 
 
 class MoveFinder:
@@ -157,7 +159,19 @@ class MoveFinder:
         return YourTurn(
             *(self.moves, self.picks, along, self.places, shares, self.values, planes, alike),
             self.errors(),
+            self.shorter(),
         )
+
+    def shorter(self) -> dict[int, tuple[str, ...]]:
+        """The inputs by which similarity gives a point that crossing lines find by hand."""
+        found = {}
+        for number, move in self.moves.items():
+            step = self.steps[number]
+            if move.action == "cut" and step.action is similar_point and step.plane in PLANES[1:3]:
+                way = self.all_of(SIMILAR.key, *images_and_place(self, number, step.args))
+                if way:
+                    found[number] = way[1]
+        return found
 
     def errors(self) -> dict[int, list[Error]]:
         """The known wrong moves by the move that each is made for; right moves are none of them."""
@@ -627,6 +641,8 @@ SAID = (
     "turn.say.undone",
     "turn.say.redone",
     "turn.say.hint_action",
+    "turn.say.level",
+    "turn.say.reached",
     "turn.say.other_cut",
     "turn.say.other_lay_off",
     "turn.say.other_turned",
@@ -691,6 +707,8 @@ def record(
         ],
         "owner": [owner.stem, owner.id, owner.code],
         "seconds": seconds(sheets, turn),
+        "shorter": turn.shorter,
+        "plans": [words(f"sheet.{kind}") for kind in ("velocity", "acceleration")],
         "units": [unit_words(words, unit) for unit in ("m/s", "m/s²")],
         "fields": [
             [plane_of(sheet), *map(frame, (sheet.layout.mechanism, sheet.layout.plan))]

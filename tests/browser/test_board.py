@@ -20,8 +20,6 @@ from tests.browser.opening import PAINTED, Opened
 from tests.browser.test_your_turn import begun as begun_at
 
 EN = words("en")
-RIGHT = ("right.", ": all drawn.", EN("turn.say.complete"))
-"""How the answer to a right move ends."""
 FROM = 5
 """The step of the pump from which its plans are drawn."""
 
@@ -43,6 +41,11 @@ def moves() -> tuple[list[ScreenSheet], YourTurn, list[PaletteMove]]:
     return sheets, turn, [move for move in own if move.at >= FROM]
 
 
+def is_right(said: str) -> bool:
+    """Whether that is the answer to a right move."""
+    return "right." in said or EN("turn.say.complete") in said
+
+
 def begun(opened: Opened, path: Path, step: int = FROM) -> Any:
     """A page on which the student draws from a step on."""
     return begun_at(opened, path.parent, path.stem, step)
@@ -56,7 +59,7 @@ def test_both_plans_of_the_pump_in_sixty_presses_of_the_mouse(opened: Opened, pu
     hand.done |= {move.step for move in turn.moves.values() if move.at < FROM}
     counts = {}
     for move in own:
-        assert hand.draw(move).endswith(RIGHT), (move, hand.said)
+        assert is_right(hand.draw(move)), (move, hand.said)
         counts[move.at] = hand.presses
     assert page.locator("#turn-count").inner_text() == ""
     print(len(own), counts[11], hand.presses)
@@ -69,11 +72,50 @@ def test_both_plans_of_the_pump_in_250_keys(opened: Opened, pump: Path, moves):
     page = begun(opened, pump)
     hand = TypingHand(page, sheets, turn)
     for move in own:
-        assert hand.draw(move).endswith(RIGHT), (move, hand.said)
+        assert is_right(hand.draw(move)), (move, hand.said)
     assert page.locator("#turn-count").inner_text() == ""
     print(sum(hand.presses), median(hand.presses), hand.presses)
     assert sum(hand.presses) <= 250
     assert median(hand.presses) <= 6
+
+
+# --- levels ---------------------------------------------------------------------------------------
+
+
+SHORT = ("o vA", "1", "perp AB a", "O2Bo", "x", "sim abC", "perp CDc", "par o5", "x")
+"""The velocity plan of the pump in the fewest moves: c by similarity, without its two lines."""
+LONG = (*SHORT[:5], "perp AC a", "BC b", "x", *SHORT[6:])
+
+
+def levels(page: Any) -> list[str]:
+    """What is said of each level."""
+    return [text.split(": ", 1)[1] for text in page.locator("#levels .unseen").all_inner_texts()]
+
+
+def test_levels_count_moves_against_the_fewest_known(kept: Opened, pump: Path):
+    page = begun(kept, pump)
+    assert levels(page)[:2] == [
+        "0 of 3 stars. Moves: 0; fewest known: 4.",
+        "0 of 3 stars. Moves: 0; fewest known: 8.",
+    ]
+    assert typed(page, *SHORT[:5]).endswith("is complete: moves 4, fewest known 4.")
+    typed(page, SHORT[5])
+    assert "belong to one rigid link" in page.locator("#turn-sentence").inner_text()
+    assert "both lines meet" not in page.locator("#turn-sentence").inner_text()
+    assert typed(page, *SHORT[6:]).endswith("Velocity plan is complete: moves 8, fewest known 8.")
+    assert levels(page)[:2] == [
+        "3 of 3 stars. Moves: 4; fewest known: 4.",
+        "3 of 3 stars. Moves: 8; fewest known: 8.",
+    ]
+
+
+def test_a_longer_way_and_a_wrong_turn_cost_a_star_each(kept: Opened, pump: Path):
+    page = begun(kept, pump)
+    typed(page, *LONG[:2], "par AB a", *LONG[2:])
+    assert levels(page)[:2] == [
+        "2 of 3 stars. Moves: 4; fewest known: 4.",
+        "1 of 3 stars. Moves: 10; fewest known: 8.",
+    ]
 
 
 # --- taking back, and keeping ---------------------------------------------------------------------
@@ -100,7 +142,7 @@ def test_each_move_can_be_taken_back_and_drawn_again_also_after_a_reload(kept: O
     page = begun(kept, pump, 6)
     states = [drawn(page)]
     for line in ("perp AB a", "perp O2B o", "x", "perp AC a"):
-        assert typed(page, line).endswith("right.")
+        assert "right." in typed(page, line)
         states.append(drawn(page))
     assert len({*states}) == len(states)
     undo, redo = page.locator("#turn-undo"), page.locator("#turn-redo")

@@ -119,8 +119,8 @@ function lines_alike(step) {
 
 /** Say what a move has found, its sentence, and the reason of the way taken. */
 function explain_move(step, way, unknown) {
-  const { at } = moves[step], sentence = document.createElement("p");
-  if (!moves_left().some(one => moves[one].at === at)) sentence.append(...copies(places[at - 1].say));
+  const { at, action } = moves[step], sentence = document.createElement("p"), whole = !moves_left().some(one => moves[one].at === at);
+  if (whole && way.action === action) sentence.append(...copies(places[at - 1].say));
   byId("turn-sentence").replaceChildren(...told_found(unknown), sentence, ...reasons_of_way(step, way));
 }
 

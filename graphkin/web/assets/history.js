@@ -25,13 +25,6 @@ function step_in_time(from, to) {
 const undo = () => step_in_time("past", "future");
 const redo = () => step_in_time("future", "past");
 
-/** Discard what is drawn and begin at the step shown before the turn; this can be undone. */
-function begin_again() {
-  const { came, tool } = turn;
-  new_turn(came);
-  turn.tool = turn.action = tool;
-}
-
 /** Take the lines that no sentence draws off the picks. */
 function forget_own_lines() {
   for (const key of Object.keys(picks)) if (key.startsWith("own")) delete picks[key];

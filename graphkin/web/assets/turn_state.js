@@ -68,7 +68,7 @@ function new_turn(came) {
 /** On the second request, discard the turn and begin at the step shown before it. */
 function turn_again() {
   const { sure } = turn;
-  if (sure) begin_again();
+  if (sure) new_turn(turn.came);
   tell_turn(worded(sure ? "begin" : "sure"));
   turn.sure = !sure;
   if (sure) show_turn();
@@ -154,7 +154,9 @@ function show_turn() {
   light_up();
   show_inputs();
   show_again();
+  const level = show_levels();
   if (next === undefined || !byId("score").hidden) show_score();
+  if (level && turn.log.length) byId("turn-say").innerHTML += ` ${worded("reached", level)}`;
 }
 
 /** Store the turn, and offer to begin again. */
