@@ -554,8 +554,8 @@ def test_each_scene_from_its_first_step_in_any_order(kept: Opened, pages: Path, 
             heard = page.evaluate(DRAW, [action, inputs, which])
             if "right." in heard:
                 break
-        drawn = ("right.", ": all drawn.", "is drawn already.", EN("turn.say.complete"))
-        assert heard.endswith(drawn), (step, heard)
+        drawn = ("right.", "is drawn already.", EN("turn.say.complete"))
+        assert any(answer in heard for answer in drawn), (step, heard)
         done.add(step)
     assert page.locator("#turn-count").inner_text() == ""
     assert page.locator("#score").is_visible()
