@@ -26,9 +26,11 @@ FROM = 5
 
 @pytest.fixture(scope="module")
 def pump(tmp_path_factory) -> Path:
-    """The page of the pump."""
-    path = tmp_path_factory.mktemp("board") / "pump.html"
-    path.write_text(step_page(load("pump"), "en"), encoding="utf-8")
+    """The page of the pump, with that of the slotted lever beside it."""
+    folder = tmp_path_factory.mktemp("board")
+    for name in ("slotted-lever", "pump"):
+        path = folder / f"{name}.html"
+        path.write_text(step_page(load(name), "en"), encoding="utf-8")
     return path
 
 
@@ -250,3 +252,27 @@ def test_a_wrong_line_is_answered_with_what_would_come_of_it(kept: Opened, pump:
     assert drawn(page) == known
     page.locator("#hint").click()
     assert page.locator(".halo .wrong").count() == 0
+
+
+TURNED = {
+    "pump": (29, "a'aBAn", "21", "The normal component points towards the centre of rotation."),
+    "slotted-lever": (23, "a'aAA3c", "12", "The Coriolis component points as"),
+}
+"""Components laid off backwards: the step at which each is due, its line, two digits, the answer."""
+
+
+@pytest.mark.parametrize("name", TURNED)
+def test_a_component_laid_off_backwards_is_answered(kept: Opened, pump: Path, name: str):
+    step, line, (wrong, right), answer = TURNED[name]
+    page = begun(kept, pump.with_stem(name), step)
+    said = typed(page, line, wrong)
+    assert "points the other way" in said
+    assert answer in said
+    assert typed(page, line, right).endswith("right.")
+
+
+def test_coriolis_forgotten_is_answered(kept: Opened, pump: Path):
+    page = begun(kept, pump.with_stem("slotted-lever"), 23)
+    said = typed(page, "par a' guide 2")
+    assert "leaves out the Coriolis component" in said
+    assert re.search(r"The block would leave its guide by [\d.]+ m/s²\.$", said)
