@@ -258,7 +258,7 @@ TURNED = {
     "pump": (29, "a'aBAn", "21", "The normal component points towards the centre of rotation."),
     "slotted-lever": (23, "a'aAA3c", "12", "The Coriolis component points as"),
 }
-"""Components laid off backwards: the step at which each is due, its line, two digits, the answer."""
+"""Components laid off backwards: the step at which each is due, its line, digits, the answer."""
 
 
 @pytest.mark.parametrize("name", TURNED)
