@@ -185,6 +185,7 @@ class MoveFinder:
                 line = self.same.get(error.line, error.line)
                 way = self.all_of(error.action.key, *error.inputs)
                 if way and line in self.moves and way not in right:
+                    right.add(way)  # of two names for one wrong move the first holds
                     found.setdefault(line, []).append((error.key, *way))
         return found
 
