@@ -131,11 +131,14 @@ class CoriolisComponent(TriangleComponent, frozen=True, kw_only=True):
         "coriolis_reversed": Slip(-1, "moderate"),
         "coriolis_halved": Slip(0.5, "moderate"),
     }
+    forgotten: ClassVar[str] = "turn.wrong.coriolis_forgotten"
+    turned: ClassVar[str] = "turn.wrong.coriolis_turned"
     palette: ClassVar[PaletteAction] = PaletteAction(
         "coriolis",
         (("rate", ("rate",)), ("velocity", ("arrow",))),
         "(rate, velocity) => [scaled(quarter(value_of(velocity)), 2 * value_of(rate))]",
         plane=NUMBERS,
+        typed=("cor",),
     )
     titled: ClassVar[str] = "the Coriolis triangles of {pin_name} about {pivot_name}"
 

@@ -111,8 +111,16 @@ STEP_PAGE = (
     "playing.js",
     "palette.js",
     "turn_state.js",
+    "history.js",
+    "pick_shapes.js",
     "picking.js",
+    "turn_marks.js",
+    "pointing.js",
+    "typing.js",
     "checking.js",
+    "answers.js",
+    "hints.js",
+    "levels.js",
     "your_turn.js",
     "aiming.js",
     "keys.js",
@@ -132,6 +140,11 @@ WRITTEN_IN = {
             for key, each in PALETTE.items()
             if (each.shape, each.plane, each.lies_with) != ("point", None, 0)
         },
+        separators=(",", ":"),
+    ),
+    "$TYPED": json.dumps(
+        {key: each.typed for key, each in PALETTE.items()},
+        ensure_ascii=False,
         separators=(",", ":"),
     ),
     "...$DRAW,": "\n".join(

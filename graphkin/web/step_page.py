@@ -10,14 +10,17 @@ from typing import TYPE_CHECKING
 
 from msgspec import Struct
 
+from graphkin.construction.core.drawn_scene import Drawing
 from graphkin.construction.core.given_data import Datum, data, given
 from graphkin.construction.core.naming import name_of_sheet, scale_of
 from graphkin.construction.core.plan_vector import PlanVector, plan_vector
 from graphkin.construction.core.program import Part, Step
 from graphkin.construction.core.quantities import CENTRES
 from graphkin.construction.result_tables import unread
+from graphkin.documents.scheme import scheme
 from graphkin.documents.sheet import HEADING, apart, asked_words, title_of
-from graphkin.drawing.field import Rect
+from graphkin.drawing.field import SCHEME, Rect
+from graphkin.drawing.marks import Mark
 from graphkin.drawing.style import BY_SIGN, Ink
 from graphkin.drawing.symbol_markup import symbol
 from graphkin.mechanism import Mechanism
@@ -287,6 +290,7 @@ def task_page(
     mechanism = own.measured
     sheets = screen_sheets(mechanism, language, "task")
     tell_unread(sheets, tell)
+    shown = scheme(sheets[0].drawing)
     body = from_template(
         "web/templates/task.html",
         **common(sheets),
@@ -295,10 +299,20 @@ def task_page(
             for place, sheet in enumerate(sheets)
         ],
         data=given(sheets[0].drawing),
+        scheme=scheme_figure(sheets[0].drawing, shown),
         form=form.body if form else "",
     )
     styles, scripts = ([form.style], [form.script]) if form else ([], [])
-    return written(sheets, body, ink, styles, scripts)
+    return written(sheets, body, ink, styles, scripts, shown)
+
+
+def scheme_figure(drawing: Drawing, marks: Sequence[Mark]) -> tuple[str, str]:
+    """The caption and the picture of the kinematic scheme; both empty where it found no room."""
+    title, *drawn = marks or (None,)
+    if title is None:
+        return "", ""
+    timed = [("", Timed(mark, 0, None)) for mark in drawn]
+    return drawing.words("task.scheme"), field_picture(timed, SCHEME, "caption-scheme")
 
 
 def tell_unread(sheets: Sequence[ScreenSheet], tell: Tell) -> None:
@@ -314,9 +328,10 @@ def written(
     ink: Ink,
     styles: Sequence[str],
     scripts: Sequence[str],
+    more: Sequence[Mark] = (),
 ) -> str:
-    """A page with the styles of the sheets."""
-    marks = [mark for sheet in sheets for mark in sheet.marks]
+    """A page with the styles of the sheets, and of ``more`` marks."""
+    marks = [*(mark for sheet in sheets for mark in sheet.marks), *more]
     drawing = sheets[0].drawing
     looks = (ink_sheet(marks, ink), part("page.css"), shapes(sheets), *styles)
     return offline_page(title_of(drawing), drawing.words.language, body, looks, scripts)

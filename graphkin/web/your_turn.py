@@ -11,12 +11,12 @@ from msgspec import Struct
 from graphkin.construction.centres.centre import VelocityNormal
 from graphkin.construction.core.component import Component, LaidOff, TriangleComponent
 from graphkin.construction.core.drawn_scene import NOISE, Drawing
-from graphkin.construction.core.kind import Construction, construction
+from graphkin.construction.core.kind import Construction, PlanPole, construction, constructions
 from graphkin.construction.core.naming import rate_symbol, sense, vector_of
-from graphkin.construction.core.palette import Move
+from graphkin.construction.core.palette import SIMILAR, Move, images_and_place
 from graphkin.construction.core.plan_vector import plan_vector
 from graphkin.construction.core.program import Part, Plane, Step
-from graphkin.construction.core.quantities import OMEGA
+from graphkin.construction.core.quantities import OMEGA, unit_words
 from graphkin.construction.core.segments import letter_at
 from graphkin.construction.core.vocabulary import (
     Action,
@@ -72,7 +72,9 @@ class PaletteMove(Struct, frozen=True):
     ``about`` is the subject of the message for a wrong choice; ``at`` is the sentence that draws
     the step; ``needs`` are the moves before it. A ``goal`` is drawn for its own sake, other moves
     only towards a goal. ``turns`` are the rate of a velocity laid off perpendicular to its bar, and
-    its sense.
+    its sense. ``turned`` is the key of the sentence for a component that is laid off backwards.
+    ``keeps`` are the bar or guide that the motion on a line respects, and the step of the end of
+    the bar whose image the line starts from.
     """
 
     step: int
@@ -84,6 +86,12 @@ class PaletteMove(Struct, frozen=True):
     needs: tuple[int, ...]
     goal: bool
     turns: tuple[str, ...] = ()
+    turned: str = ""
+    keeps: tuple[str, int] | None = None
+
+
+Error = tuple[str, str, tuple[str, ...]]
+"""The key of a known wrong move, its action, and its inputs."""
 
 
 class YourTurn(Struct, frozen=True):
@@ -91,7 +99,9 @@ class YourTurn(Struct, frozen=True):
 
     ``places`` are the points of the mechanism by the step of their image. ``shares`` are the steps
     for the ratios that divide lines of auxiliary plans, with the moves that each needs. ``alike``
-    says whether a link has a third point, whose image is similar to the link.
+    says whether a link has a third point, whose image is similar to the link. ``errors`` are the
+    known wrong moves in place of a move. ``shorter`` are the inputs of a similar figure that gives
+    a point for which the sheet draws two lines.
     """
 
     moves: Mapping[int, PaletteMove]
@@ -102,6 +112,8 @@ class YourTurn(Struct, frozen=True):
     values: Mapping[int, Any]
     planes: Mapping[int, Plane]
     alike: bool
+    errors: Mapping[int, Sequence[Error]]
+    shorter: Mapping[int, tuple[str, ...]]
 
 
 class MoveFinder:
@@ -145,8 +157,37 @@ class MoveFinder:
             for n in self.moves
         )
         return YourTurn(
-            self.moves, self.picks, along, self.places, shares, self.values, planes, alike
+            *(self.moves, self.picks, along, self.places, shares, self.values, planes, alike),
+            self.errors(),
+            self.shorter(),
         )
+
+    def shorter(self) -> dict[int, tuple[str, ...]]:
+        """The inputs by which similarity gives a point that crossing lines find by hand."""
+        found = {}
+        for number, move in self.moves.items():
+            step = self.steps[number]
+            if move.action == "cut" and step.action is similar_point and step.plane in PLANES[1:3]:
+                way = self.all_of(SIMILAR.key, *images_and_place(self, number, step.args))
+                if way:
+                    found[number] = way[1]
+        return found
+
+    def errors(self) -> dict[int, list[Error]]:
+        """The known wrong moves by the move that each is made for; right moves are none of them."""
+        right = {(move.action, move.inputs) for move in self.moves.values()}
+        found: dict[int, list[Error]] = {}
+        kinds = constructions(self.drawings[0].trace.program, Construction)
+        for kind in kinds:
+            if not any(self.same.get(step, step) in self.moves for _, step in kind.given()):
+                continue
+            for error in kind.errors(self, self.steps):
+                line = self.same.get(error.line, error.line)
+                way = self.all_of(error.action.key, *error.inputs)
+                if way and line in self.moves and way not in right:
+                    right.add(way)  # of two names for one wrong move the first holds
+                    found.setdefault(line, []).append((error.key, *way))
+        return found
 
     # --- dependencies ----------------------------------------------------------------------------
 
@@ -220,7 +261,10 @@ class MoveFinder:
         goal = bool(step.name) and step.plane is not Plane.NUMBERS
         at = self.sentence(number)
         self.moves[number] = PaletteMove(
-            number, action, inputs, name, about, at, tuple(sorted(needs)), goal, self.turns(number)
+            *(number, action, inputs, name, about, at, tuple(sorted(needs)), goal),
+            turns=self.turns(number),
+            turned=self.turned(number),
+            keeps=self.keeps(number, action, inputs),
         )
         if step.plane is not Plane.NUMBERS and action != "transfer":
             self.point_or_line(number, name)
@@ -407,6 +451,14 @@ class MoveFinder:
         places = self.places.get(image)
         return self.point_or_line(places[0]) if places else None
 
+    def pole_of(self, number: int) -> str | None:
+        """The pole of the plan in which a step lies."""
+        plane, aside = self.steps[number].plane, self.steps[number].aside
+        for each, step in enumerate(self.steps):
+            if (step.plane, step.aside) == (plane, aside) and isinstance(step.of, PlanPole):
+                return self.point_or_line(each)
+        return None
+
     def shown_vector(self, number: int) -> str | None:
         """The vector of a plan that a step sets on the mechanism."""
         vector = plan_vector(self.steps[number])
@@ -517,6 +569,21 @@ class MoveFinder:
         way = sense(drawing.words, drawing.trace.values[kind.omega])
         return (rate_symbol(drawing, kind.omega), way) if way else ()
 
+    def turned(self, number: int) -> str:
+        """The key of the sentence for a component of an acceleration laid off backwards."""
+        kind = construction(self.steps[number])
+        return kind.component.turned if isinstance(kind, LaidOff) else ""
+
+    def keeps(self, number: int, action: str, inputs: Sequence[str]) -> tuple[str, int] | None:
+        """The bar that keeps its length on a line of a plan, or the guide that a block stays on."""
+        step = self.steps[number]
+        if action not in ("perpendicular", "parallel") or step.plane not in PLANES[1:3]:
+            return None
+        what, args = inputs[1], step.args
+        if self.picks[what].kind == "bar" and action == "perpendicular":
+            return what, self.same.get(args[1], args[1])
+        return (what, 0) if self.picks[what].kind == "guide" else None
+
     def words_of(self, number: int, action: str, inputs: Sequence[str]) -> tuple[str, str]:
         """The name of a move's result, and its subject in the message for a wrong choice."""
         names = [self.picks[name].name for name in inputs]
@@ -569,6 +636,14 @@ SAID = (
     "turn.say.already",
     "turn.say.own",
     "turn.say.nowhere",
+    "turn.say.nowhere_line",
+    "turn.say.either",
+    "turn.say.unread",
+    "turn.say.undone",
+    "turn.say.redone",
+    "turn.say.hint_action",
+    "turn.say.level",
+    "turn.say.reached",
     "turn.say.other_cut",
     "turn.say.other_lay_off",
     "turn.say.other_turned",
@@ -583,6 +658,10 @@ SAID = (
     "turn.say.wrong",
 )
 """The messages of the script, whatever the palette holds."""
+
+
+CONSEQUENCES = ("turn.wrong.stretches", "turn.wrong.shrinks", "turn.wrong.leaves")
+"""What would come of a wrong line: a bar that changes its length, a block off its guide."""
 
 
 class TurnOwner(Struct, frozen=True):
@@ -629,16 +708,37 @@ def record(
         ],
         "owner": [owner.stem, owner.id, owner.code],
         "seconds": seconds(sheets, turn),
+        "shorter": turn.shorter,
+        "plans": [words(f"sheet.{kind}") for kind in ("velocity", "acceleration")],
+        "units": [unit_words(words, unit) for unit in ("m/s", "m/s²")],
         "fields": [
             [plane_of(sheet), *map(frame, (sheet.layout.mechanism, sheet.layout.plan))]
             for sheet in sheets
         ],
         "words": {
-            key.rpartition(".")[2]: words.sentences[key]
-            for key in (*SAID, *(key for action in used for key in reasons(action, words)))
+            last_part(key): words.sentences[key]
+            for key in (
+                *SAID,
+                *wrong_keys(turn),
+                *(key for action in used for key in reasons(action, words)),
+            )
         }
+        | {"way_similar": words.sentences["why.similar"]}
+        | {f"ask_{action}": words.sentences[f"turn.ask.{action}"] for action in used}
         | beginning(sheets),
     }
+
+
+def last_part(key: str) -> str:
+    """The name by which the script knows a sentence."""
+    return key.rpartition(".")[2]
+
+
+def wrong_keys(turn: YourTurn) -> list[str]:
+    """The keys of the sentences for known errors, and for what would come of them."""
+    found = {key for errors in turn.errors.values() for key, *_ in errors}
+    found |= {move.turned for move in turn.moves.values() if move.turned}
+    return sorted(found | set(CONSEQUENCES))
 
 
 def beginning(sheets: Sequence[ScreenSheet]) -> dict[str, str]:
@@ -691,6 +791,12 @@ def written_move(turn: YourTurn, move: PaletteMove) -> dict[str, object]:
         found["goal"] = 1
     if move.turns:
         found["turns"] = [*map(marked_up, move.turns)]
+    if move.turned:
+        found["turned"] = last_part(move.turned)
+    if move.keeps:
+        found["keeps"] = move.keeps
+    if errors := turn.errors.get(move.step):
+        found["errors"] = [[last_part(key), action, *inputs] for key, action, inputs in errors]
     return found
 
 

@@ -50,11 +50,9 @@ def draw_turn(page: Any, path: Path) -> None:
     """A student's turn at the image of C: one line is right, the next is not."""
     page.goto(f"{pump_page()}#step=8")
     page.locator("#turn").click()
-    for point, bar in (("a", "AC"), ("b", "CD")):
-        page.locator("[data-action=perpendicular]").click()
-        for place, name in enumerate((point, bar)):
-            page.locator("#inputs select").nth(place).select_option(label=name)
-        page.locator("#turn-draw").click()
+    for line in ("perp AC a", "BC a"):
+        page.keyboard.type(line)
+        page.keyboard.press("Enter")
     page.wait_for_timeout(500)
     page.screenshot(path=path)
 

@@ -18,7 +18,7 @@ from tests.browser.building_hand import (
     build_pump,
     four_bar,
 )
-from tests.browser.opening import barred, watched
+from tests.browser.opening import PAINTED, barred, watched
 
 
 @pytest.fixture
@@ -218,3 +218,37 @@ def test_one_starts_from_a_gallery_with_a_picture_of_each(hand, served, tmp_path
     page.click("#from-nothing")
     page.wait_for_selector("#canvas svg[viewBox]")
     assert "[" not in hand.text
+
+
+def share(hand: Hand) -> float:
+    """The part of the field's width, or of its height, that the pins take."""
+    _, _, width, height = map(
+        float, hand.page.locator("#canvas svg").get_attribute("viewBox").split()
+    )
+    spread = hand.place("A") - hand.place("O1")
+    return max(abs(spread.real) / width, abs(spread.imag) / height)
+
+
+def test_the_field_is_fitted_panned_and_zoomed_by_hand_and_by_keys(hand):
+    hand.pivot(0j)
+    hand.bar("O1", complex(120, 30))
+    fit, field = hand.page.locator("#fit"), hand.page.locator("#canvas svg")
+    fit.click()
+    whole = share(hand)
+    assert 0.5 < whole <= 1
+    free = complex(60, -12)
+    before = complex(*hand.pixel(0j))
+    hand.drag("move", free, free + complex(-20, 10))
+    moved = complex(*hand.pixel(0j)) - before
+    assert moved.real < -5 and moved.imag < -5  # the field follows the pointer, left and up
+    field.focus()
+    hand.page.keyboard.press("+")
+    assert share(hand) > 1.2 * whole
+    hand.page.keyboard.press("0")
+    assert share(hand) == pytest.approx(whole, rel=0.1)
+    hand.page.keyboard.press("3")
+    assert hand.page.locator("#tools input[value='bar']").is_checked()
+    hand.page.set_viewport_size({"width": 1100, "height": 900})
+    hand.page.wait_for_function("innerWidth === 1100")
+    hand.page.evaluate(PAINTED)
+    assert share(hand) == pytest.approx(whole, rel=0.2)

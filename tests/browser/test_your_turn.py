@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 import random
+import re
 from pathlib import Path
 from typing import Any
 
@@ -173,7 +174,7 @@ def test_the_velocity_plan_of_the_pump_by_right_choices(kept: Opened, pages: Pat
     assert not ends.is_visible()  # a line does not show where the point on it lies
     assert by_lists(page, "perpendicular", "o", "O2B") == "⊥ O2B (o): right."
     assert page.evaluate(SEEN, "b") == 0
-    assert by_lists(page, "cut", "⊥ AB (a)", "⊥ O2B (o)") == "b: right."
+    assert by_lists(page, "cut", "⊥ AB (a)", "⊥ O2B (o)").startswith("b: right.")
     assert page.evaluate(SEEN, "b") > 0
     assert ends.is_visible()
     assert page.locator(".sheet:not([hidden]) line.open").count() == 0
@@ -184,7 +185,7 @@ def test_the_velocity_plan_of_the_pump_by_right_choices(kept: Opened, pages: Pat
     by_lists(page, "perpendicular", "c", "CD")
     by_lists(page, "parallel", "o", "guide 5")
     told = by_lists(page, "cut", "⊥ CD (c)", "∥ guide 5 (o)")
-    assert told == "d: right. Velocities: all drawn."
+    assert told.startswith("d: right. Velocities: all drawn.")
     by_lists(page, "perpendicular", "A", "vA")
     by_lists(page, "perpendicular", "B", "vB")
     assert by_lists(page, "cut", "⊥ vA (A)", "⊥ vB (B)") == "I3: right. Centres: all drawn."
@@ -208,11 +209,12 @@ def test_a_wrong_choice_is_told_why_in_one_line(kept: Opened, pages: Path):
     assert told == "vBA is perpendicular to AB, not to O2B."
     assert "Wrong turns: 1." in counts.inner_text()
     told = by_lists(page, "perpendicular", "o", "AB")
-    assert told == "vB is perpendicular to O2B, not to AB."
-    assert "O2 is at rest, so in the plan its image is o" in why(page)
-    assert by_lists(page, "parallel", "a", "guide 5") == (
-        "The parallel to guide 5 is drawn through o, not through a."
-    )
+    assert told.startswith("A line through o is right only where the other end of AB is at rest.")
+    assert re.search(r"AB would (stretch|shorten) by [\d.]+ m/s\.$", told)
+    assert "relative to A, B can move only perpendicular to it" in why(page)
+    told = by_lists(page, "parallel", "a", "guide 5")
+    assert told.startswith("The parallel to guide 5 is drawn through o, not through a.")
+    assert re.search(r"The block would leave its guide by [\d.]+ m/s\.$", told)
     assert why(page) == "relative to guide 5 its block can move only along it"
     page.locator("#inputs select").first.select_option(label="o")
     assert said(page) == "Parallel: through o, to …"
@@ -231,7 +233,7 @@ def test_another_order_and_another_way_are_right(kept: Opened, pages: Path):
     by_lists(page, "perpendicular", "a", "AB")
     by_lists(page, "cut", "∥ guide 5 (o)", "⊥ AB (a)")
     assert page.evaluate(SEEN, "d") == 0
-    assert by_lists(page, "cut", "⊥ O2B (o)", "⊥ AB (a)") == "b: right."
+    assert by_lists(page, "cut", "⊥ O2B (o)", "⊥ AB (a)").startswith("b: right.")
     assert by_lists(page, "similar", "a", "b", "C") == "c: right."  # no perpendiculars
     assert by_lists(page, "perpendicular", "C", "vC").startswith("A line of your own")
     by_lists(page, "perpendicular", "A", "vA")
@@ -240,7 +242,14 @@ def test_another_order_and_another_way_are_right(kept: Opened, pages: Path):
 
 def test_a_hint_lights_where_a_step_starts(kept: Opened, pages: Path):
     page = begun(kept, pages, "pump", 6)
-    page.locator("#hint").click()
+    hint = page.locator("#hint")
+    hint.click()
+    assert said(page) == "Does vBA lie along AB, or perpendicular to it?"
+    assert why(page) == ""
+    hint.click()
+    assert said(page) == "b: the next action is “Perpendicular”."
+    assert page.locator(".sheet:not([hidden]) .halo .new").count() == 0
+    hint.click()
     assert said(page) == "Perpendicular: through a, to AB"
     assert page.locator(".sheet:not([hidden]) .halo .new").count() == 2
     by_lists(page, "perpendicular", "a", "AB")
@@ -337,7 +346,7 @@ def test_a_turn_that_was_left_goes_on(opened: Opened, pages: Path):
     assert page.locator("#score").inner_text() == score
     assert page.evaluate(SEEN, "b") == 0
     by_lists(page, "perpendicular", "o", "O2B")
-    assert by_lists(page, "cut", "⊥ AB (a)", "⊥ O2B (o)") == "b: right."
+    assert by_lists(page, "cut", "⊥ AB (a)", "⊥ O2B (o)").startswith("b: right.")
     page.locator("#turn-end").click()
     assert page.locator("#count").inner_text() == "Step 42 of 42"
     page.locator('[data-stop="5"]').first.click()
@@ -371,7 +380,7 @@ def test_a_turn_outlives_its_page(opened: Opened, pages: Path):
     assert other.locator("#turn").get_attribute("title") == EN("turn.resume")
     other.locator("#turn").click()
     by_lists(other, "perpendicular", "o", "O2B")
-    assert by_lists(other, "cut", "⊥ AB (a)", "⊥ O2B (o)") == "b: right."
+    assert by_lists(other, "cut", "⊥ AB (a)", "⊥ O2B (o)").startswith("b: right.")
     again = other.locator("#turn-again")
     again.click()
     assert said(other) == EN("turn.say.sure")
@@ -545,8 +554,8 @@ def test_each_scene_from_its_first_step_in_any_order(kept: Opened, pages: Path, 
             heard = page.evaluate(DRAW, [action, inputs, which])
             if "right." in heard:
                 break
-        drawn = ("right.", ": all drawn.", "is drawn already.", EN("turn.say.complete"))
-        assert heard.endswith(drawn), (step, heard)
+        drawn = ("right.", "is drawn already.", EN("turn.say.complete"))
+        assert any(answer in heard for answer in drawn), (step, heard)
         done.add(step)
     assert page.locator("#turn-count").inner_text() == ""
     assert page.locator("#score").is_visible()

@@ -71,7 +71,9 @@ class TurningHand:
 
     def by_pointer(self, move: PaletteMove) -> str:
         """Choose the action, point at its inputs, and at the one that is meant of two."""
-        self.point_at(self.page.locator(f"[data-action={move.action}]"))
+        button = self.page.locator(f"[data-action={move.action}]")
+        if button.get_attribute("aria-pressed") == "false":
+            self.point_at(button)
         inputs = [self.turn.picks[key].by or key for key in move.inputs]
         for place, key in enumerate(inputs):
             if self.turn.picks[key].kind in UNSEEN or not self.field(self.plane(key)):
@@ -141,8 +143,10 @@ class TurningHand:
             return sheet.layout.mechanism
         return sheet.layout.plan if plane is sheet.drawing.plane else None
 
-    def placed(self, plane: Plane, value: complex) -> list[float]:
+    def placed(self, plane: Plane, value: Any) -> list[float]:
         """The place of a value in its field, in mm."""
+        if isinstance(value, Ratio):
+            value = value.start + value.shift / value.size
         return [float(x) for x in self.field(plane)(value)]
 
     def drawn(self, key: str) -> tuple[int, dict[str, Any]]:
@@ -152,8 +156,6 @@ class TurningHand:
         if pick.on:
             return side, {"seg": [self.placed(plane, self.turn.values[end]) for end in pick.on]}
         value = pick.value if pick.value is not None else self.turn.values[int(key)]
-        if isinstance(value, Ratio):
-            value = value.start + value.shift / value.size
         if isinstance(value, Line):
             unit = value.along / abs(value.along)
             line = [self.placed(plane, value.point), [unit.real, -unit.imag]]

@@ -149,7 +149,7 @@ def literals() -> set[str]:
 def palette_keys() -> set[str]:
     """The keys of the actions of the palette, of what they start from, and of what is wrong."""
     slots = {f"turn.slot.{name}" for own in PALETTE.values() for name, _ in own.slots}
-    actions = {f"turn.action.{action}" for action in PALETTE}
+    actions = {f"turn.{said}.{action}" for said in ("action", "ask") for action in PALETTE}
     return slots | actions | {key for each in PALETTE for key in reasons(each, words("en"))}
 
 

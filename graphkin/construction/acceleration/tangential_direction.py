@@ -6,7 +6,7 @@ normal component.
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from typing import ClassVar
 
 from msgspec import Struct
@@ -14,14 +14,20 @@ from msgspec import Struct
 from graphkin.construction.core.arrows import acceleration_arrow, component_arrow
 from graphkin.construction.core.component import component_ending_at
 from graphkin.construction.core.drawn_scene import Drawing
+from graphkin.construction.core.palette import PERPENDICULAR, KnownError, Picks
 from graphkin.construction.core.pen import Pen, about, letter
+from graphkin.construction.core.program import Step
 from graphkin.construction.core.segments import letter_at
 from graphkin.construction.normal_component.normal_component import (
     lay_off_normal,
     normal_component,
 )
 from graphkin.construction.plan import ACCELERATION
-from graphkin.construction.velocity.lines_through import PerpendicularThrough, square_to
+from graphkin.construction.velocity.lines_through import (
+    PerpendicularThrough,
+    forgotten,
+    square_to,
+)
 from graphkin.scene.link_points import is_under, lettered
 from graphkin.scene.requests import KLEIN
 from graphkin.structure.pairs import Joint
@@ -31,6 +37,7 @@ class TangentialDirection(PerpendicularThrough, frozen=True, kw_only=True):
     """The ``line`` along which the tangential component of a pin about a pivot lies."""
 
     reasons: ClassVar[Mapping[str, str]] = {"line": "why.tangential"}
+    along_bar: ClassVar[str] = "turn.wrong.tangential_along_bar"
 
     def clause(self, drawing: Drawing, role: str) -> str:
         """The clause: through the normal component's end, or its start if it is too short."""
@@ -41,6 +48,14 @@ class TangentialDirection(PerpendicularThrough, frozen=True, kw_only=True):
             return drawing.words("step.square-to", s=start, **fields)
         foot = drawing.symbol(letter_at(drawing, self.start))
         return drawing.words(f"step.square-to-{'foot' if foot else 'end'}", s=foot, **fields)
+
+    def errors(self, picks: Picks, steps: Sequence[Step]) -> Iterator[KnownError]:
+        """A line without the normal component, along the bar, or from the pole."""
+        if before := forgotten(picks, steps, self.start):
+            _, *ends = steps[self.line].args
+            key, start = before
+            yield KnownError(key, self.line, PERPENDICULAR, (start, picks.bar(*ends)))
+        yield from super().errors(picks, steps)
 
 
 def tangential_direction(pen: Pen, pivot: str, pin: str, corner: int) -> int:

@@ -53,6 +53,7 @@ CURVATURE = PaletteAction(
       return [plus(value_of(p), scaled(quarter(v), dot(v, v) / cross(v, a)))];
     }""",
     plane=MECHANISM,
+    typed=("curv",),
 )
 
 

@@ -79,6 +79,8 @@ class Component(Construction, frozen=True, kw_only=True):
     same vector off a triangle on the mechanism; None where no triangle is drawn. ``palette`` is the
     page action that draws the component, if there is one. ``limited`` names the figure where its
     proportions decide whether it can be drawn. ``slips`` are common mistakes of students in it.
+    ``forgotten`` and ``turned`` are the keys of the sentences of a page for a student who goes on
+    without it, or lays it off backwards.
     """
 
     limited: ClassVar[str] = ""
@@ -92,6 +94,8 @@ class Component(Construction, frozen=True, kw_only=True):
     gives_way: ClassVar[bool] = False
 
     slips: ClassVar[Mapping[str, Slip]] = {}
+    forgotten: ClassVar[str] = ""
+    turned: ClassVar[str] = ""
 
     index: str
     vector: int | None = None

@@ -12,6 +12,7 @@ from msgspec.structs import asdict
 
 from graphkin.construction.core.canvas import Canvas
 from graphkin.construction.core.drawn_scene import Drawing
+from graphkin.construction.core.palette import KnownError, Picks
 from graphkin.construction.core.program import Program, Roles, Step
 from graphkin.construction.core.relation import Relation
 from graphkin.text.errors import message
@@ -122,6 +123,10 @@ class Construction(Roles, frozen=True):
 
     def equations(self, drawing: Drawing, role: str) -> Iterator[Relation]:
         """The vector equations of a plan, or of a centre, that belong to the step of a role."""
+        yield from ()
+
+    def errors(self, picks: Picks, steps: Sequence[Step]) -> Iterator[KnownError]:
+        """The wrong moves that students make in place of those that draw its steps."""
         yield from ()
 
     def marks(self, canvas: Canvas, role: str) -> None:

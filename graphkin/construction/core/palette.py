@@ -24,7 +24,7 @@ class PaletteAction(Struct, frozen=True):
     result has the given ``shape``. It lies in the drawing number ``plane``; where that is None, in
     the drawing of the input number ``lies_with``. ``named`` says that the script makes the name of
     the result from the names of the inputs. ``said_as`` is the action whose error messages this one
-    shares.
+    shares. ``typed`` are the signs and ASCII words by which it is written on the keyboard.
     """
 
     key: str
@@ -35,6 +35,7 @@ class PaletteAction(Struct, frozen=True):
     lies_with: int = 0
     named: bool = False
     said_as: str = ""
+    typed: tuple[str, ...] = ()
 
 
 class Picks(Protocol):
@@ -64,6 +65,9 @@ class Picks(Protocol):
     def place_of(self, image: int) -> str | None:
         """The point of the mechanism whose image a step is."""
 
+    def pole_of(self, number: int) -> str | None:
+        """The pole of the plan in which a step lies."""
+
 
 Picked = tuple[str | None, ...]
 
@@ -82,12 +86,26 @@ class Move(Struct, frozen=True):
     at_once: bool = False
 
 
+class KnownError(Struct, frozen=True):
+    """A wrong move that students make in place of the move that draws the step ``line``.
+
+    ``key`` is that of the sentence that answers it. It is the ``action`` with its
+    ``inputs`` among the picks; an error with an input that cannot be picked is left out.
+    """
+
+    key: str
+    line: int
+    action: PaletteAction
+    inputs: Picked
+
+
 PERPENDICULAR = PaletteAction(
     "perpendicular",
-    (("through", ("point", "image")), ("square", ("bar", "arrow"))),
+    (("through", ("point", "image")), ("square", ("bar", "arrow", "guide"))),
     "(p, to) => [[value_of(p), quarter(way(to))]]",
     "line",
     named=True,
+    typed=("⊥", "perp", "_"),
 )
 PARALLEL = PaletteAction(
     "parallel",
@@ -95,16 +113,19 @@ PARALLEL = PaletteAction(
     "(p, to) => [[value_of(p), way(to)]]",
     "line",
     named=True,
+    typed=("∥", "par", "//"),
 )
 CUT = PaletteAction(
     "cut",
     (("line", CURVE), ("and", CURVE)),
     "(m, n) => m === n ? [] : cuts(value_of(m), value_of(n))",
+    typed=("×", "cut", "x"),
 )
 LAY_OFF = PaletteAction(
     "lay_off",
     (("from", ("image",)), ("vector", ("vector",))),
     "(p, v) => [plus(value_of(p), value_of(v)), minus(value_of(p), value_of(v))]",
+    typed=("→", "lay", "+"),
 )
 COMPASS = PaletteAction(
     "compass",
@@ -112,6 +133,7 @@ COMPASS = PaletteAction(
     "(p, opening) => [{ c: value_of(p), r: value_of(opening) }]",
     "circle",
     named=True,
+    typed=("arc",),
 )
 MARK_OFF = PaletteAction(
     "mark_off",
@@ -120,6 +142,7 @@ MARK_OFF = PaletteAction(
       const [point, along] = value_of(line);
       return [plus(point, scaled(along, value_of(length) / long(along)))];
     }""",
+    typed=("len",),
 )
 SIMILAR = PaletteAction(
     "similar",
@@ -127,12 +150,14 @@ SIMILAR = PaletteAction(
     """(i, j, point) => places_of(i).flatMap(p =>
       places_of(j).filter(q => long(minus(q, p))).map(q => plus(value_of(i), times(
         minus(value_of(j), value_of(i)), over(minus(value_of(point), p), minus(q, p))))))""",
+    typed=("∼", "sim", "~"),
 )
 COINCIDE = PaletteAction(
     "coincide",
     (("point", ("point",)), ("image", ("image",))),
     "(point, image) => [value_of(image)]",
     lies_with=1,
+    typed=("≡", "falls"),
 )
 JOIN = PaletteAction(
     "join",
@@ -140,12 +165,14 @@ JOIN = PaletteAction(
     "(p, q) => p === q ? [] : [[value_of(p), minus(value_of(q), value_of(p))]]",
     "line",
     named=True,
+    typed=("join",),
 )
 DIVIDE = PaletteAction(
     "divide",
     (("image", ("image",)), ("and", ("image",))),
     """(p, q) => shares.filter(([plane,, needs]) => plane === picks[p].plane && all_done(needs))
       .map(([, share]) => plus(value_of(p), scaled(minus(value_of(q), value_of(p)), share)))""",
+    typed=("div",),
 )
 POLE = PaletteAction(
     "pole",
@@ -155,6 +182,7 @@ POLE = PaletteAction(
       return plus(p, times(minus(q, p), over(scaled(image, -1), minus(value_of(j), image))));
     })""",
     plane=MECHANISM,
+    typed=("pole",),
 )
 TRANSFER = PaletteAction(
     "transfer",
@@ -166,6 +194,7 @@ TRANSFER = PaletteAction(
     "vector",
     plane=MECHANISM,
     named=True,
+    typed=("set", "@"),
 )
 
 

@@ -121,7 +121,7 @@ class KleinComponent(NormalComponent, frozen=True, kw_only=True):
     }
     lettered: ClassVar[tuple[str, ...]] = ("corner", "foot", "whole")
     palette: ClassVar[PaletteAction] = PaletteAction(
-        "klein", PICKED, SCRIPT, plane=NUMBERS, said_as="triangle"
+        "klein", PICKED, SCRIPT, plane=NUMBERS, said_as="triangle", typed=("klein",)
     )
     titled: ClassVar[str] = "Klein's construction for {q} about {p}"
 

@@ -115,7 +115,11 @@ class NormalComponent(TriangleComponent, frozen=True, kw_only=True):
         "normal_missing": Slip(0, "serious"),
         "normal_reversed": Slip(-1, "moderate"),
     }
-    palette: ClassVar[PaletteAction] = PaletteAction("triangle", PICKED, SCRIPT, plane=NUMBERS)
+    forgotten: ClassVar[str] = "turn.wrong.normal_forgotten"
+    turned: ClassVar[str] = "turn.wrong.normal_turned"
+    palette: ClassVar[PaletteAction] = PaletteAction(
+        "triangle", PICKED, SCRIPT, plane=NUMBERS, typed=("△", "tri")
+    )
     titled: ClassVar[str] = "the right triangle of {q} about {p}"
 
     p: str

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from itertools import combinations
 from typing import Any, ClassVar
 
@@ -15,8 +15,16 @@ from graphkin.construction.core.kind import (
     FindsImage,
     construction,
 )
-from graphkin.construction.core.palette import COINCIDE, Move, place_and_image
+from graphkin.construction.core.palette import (
+    COINCIDE,
+    PERPENDICULAR,
+    KnownError,
+    Move,
+    Picks,
+    place_and_image,
+)
 from graphkin.construction.core.pen import Pen
+from graphkin.construction.core.program import Step
 from graphkin.construction.core.relation import Relation, Term, VectorEquation
 from graphkin.construction.core.vocabulary import action, meet, similar_point
 from graphkin.construction.velocity.relative_motion import as_relation, known_term
@@ -144,6 +152,16 @@ class ImageOfLink(Construction, frozen=True, kw_only=True):
         kind = construction(drawing.trace.program.steps[self.hand])
         assert isinstance(kind, CrossedImage)
         return kind
+
+    def errors(self, picks: Picks, steps: Sequence[Step]) -> Iterator[KnownError]:
+        """The sides of its link drawn from each other's images: the triangle on the other side."""
+        if self.hand is None:
+            return
+        lines = steps[self.hand].args
+        for line, other in (lines, lines[::-1]):
+            _, *ends = steps[line].args
+            start = picks.point_or_line(steps[other].args[0])
+            yield KnownError("turn.wrong.mirrored", line, PERPENDICULAR, (start, picks.bar(*ends)))
 
     def is_in_line(self, drawing: Drawing) -> bool:
         """Whether the point is collinear with the two points from which it follows."""

@@ -6,16 +6,24 @@ slide moves.
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from typing import ClassVar
 
 from graphkin.construction.core.canvas import Canvas
-from graphkin.construction.core.component import component_ending_at, end_before
+from graphkin.construction.core.component import LaidOff, component_ending_at, end_before
 from graphkin.construction.core.drawn_scene import Drawing
 from graphkin.construction.core.kind import FindsImage, Run, construction
-from graphkin.construction.core.palette import PARALLEL, PERPENDICULAR, Move, point_and_bar, two
+from graphkin.construction.core.palette import (
+    PARALLEL,
+    PERPENDICULAR,
+    KnownError,
+    Move,
+    Picks,
+    point_and_bar,
+    two,
+)
 from graphkin.construction.core.pen import Pen, against, image, letter
-from graphkin.construction.core.program import Plane
+from graphkin.construction.core.program import Plane, Step
 from graphkin.construction.core.relation import Relation
 from graphkin.construction.core.segments import letter_at
 from graphkin.construction.core.vocabulary import action
@@ -42,6 +50,7 @@ class PerpendicularThrough(AboutPivot, frozen=True, kw_only=True):
     reasons: ClassVar[Mapping[str, str]] = {"line": "why.perpendicular"}
     lines: ClassVar[Mapping[str, str]] = {"line": "⊥ {p}{q}"}
     told_after: ClassVar[tuple[str, ...]] = ("start",)
+    along_bar: ClassVar[str] = "turn.wrong.along_bar"
 
     start: int
     line: int
@@ -74,6 +83,14 @@ class PerpendicularThrough(AboutPivot, frozen=True, kw_only=True):
         """Euler's theorem."""
         yield self.euler(drawing)
 
+    def errors(self, picks: Picks, steps: Sequence[Step]) -> Iterator[KnownError]:
+        """A line along the bar, and one from the pole, as if the moving pivot were at rest."""
+        start, square = point_and_bar(picks, self.line, steps[self.line].args)
+        yield KnownError(self.along_bar, self.line, PARALLEL, (start, square))
+        yield KnownError(
+            "turn.wrong.pole", self.line, PERPENDICULAR, (picks.pole_of(self.line), square)
+        )
+
 
 def perpendicular_through(pen: Pen, pivot: str, pin: str) -> int:
     """The perpendicular to a bar through the velocity image of one of its ends."""
@@ -86,6 +103,14 @@ def perpendicular_through(pen: Pen, pivot: str, pin: str) -> int:
     names = {"p": p, "q": q, "index": index, "whole": q, "base": p}
     pen.make(PerpendicularThrough(**names, start=start, line=line, touch=touch))
     return line
+
+
+def forgotten(picks: Picks, steps: Sequence[Step], number: int) -> tuple[str, str | None] | None:
+    """The component that ends at a step as one left out: its key, and the point before it."""
+    laid = construction(steps[number])
+    if not isinstance(laid, LaidOff) or not laid.component.forgotten:
+        return None
+    return laid.component.forgotten, picks.point_or_line(laid.start)
 
 
 @action("parallel-to", move=Move(PARALLEL, two, in_plan=True))
@@ -134,6 +159,14 @@ class ParallelThrough(AlongGuide, frozen=True, kw_only=True):
         """The motion along the guide of the point that is found on the line."""
         if sought := self.found_on_it(drawing):
             yield self.motion_of(drawing, sought)
+
+    def errors(self, picks: Picks, steps: Sequence[Step]) -> Iterator[KnownError]:
+        """A line across the guide, and one without the known component."""
+        inputs = start, guide = two(picks, self.line, steps[self.line].args)
+        yield KnownError("turn.wrong.across_guide", self.line, PERPENDICULAR, inputs)
+        if before := forgotten(picks, steps, self.start):
+            key, start = before
+            yield KnownError(key, self.line, PARALLEL, (start, guide))
 
     def found_on_it(self, drawing: Drawing) -> str:
         """The point whose image is found on the line; empty where there is none."""

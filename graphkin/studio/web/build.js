@@ -1,6 +1,7 @@
 // The field in which a mechanism is built by hand: each action is sent to the studio as an edit.
 
 import { replace, written } from "./editor.js";
+import { keyed, panned, wheeled } from "./view.js";
 import { sentence } from "./mistakes.js";
 import { ask, find, onSpeaking, say, tell } from "./talk.js";
 import { corners, onPicture, scale, shift, under } from "./underlay.js";
@@ -21,6 +22,7 @@ const SMALL = [180, 110]; // px of a small picture
 const stood = new Map(); // places of points, by the text
 let sketch = null;
 let view = null; // left and upper edge and width of the view, in the unit of the scene
+let byHand = false; // whether the reader has zoomed or panned: then the view stays
 let press = null; // the start of a drag
 let busy = false;
 let changed = () => {};
@@ -73,13 +75,56 @@ function fit(anew = false) {
   const [right, lower] = [view.x + view.width, view.y + view.width * steep];
   const inside = ([x, y]) =>
     x > view.x + edge && x < right - edge && -y > view.y + edge && -y < lower - edge;
-  if (!anew && at.every(inside)) return;
+  const seen = byHand ? at.some(inside) : at.every(inside); // a view chosen by hand may cut something off
+  if (!at.length || (!anew && seen)) return;
   const [xs, ys] = [at.map((p) => p[0]), at.map((p) => -p[1])];
   const middle = (all) => (Math.min(...all) + Math.max(...all)) / 2;
   const size = (all) => (Math.max(...all) - Math.min(...all)) * (1 + 2 * ROOM);
   const across = Math.max(size(xs), size(ys) / steep, (WIDE * sketch.grid) / 4, anew ? 0 : view.width);
   view = { x: middle(xs) - across / 2, y: middle(ys) - (across * steep) / 2, width: across };
 }
+
+/** Show another part of the plane, as the reader wants it. */
+function see(next) {
+  view = next;
+  byHand = true;
+  draw();
+}
+
+/** Show the whole mechanism again. */
+function showAll() {
+  byHand = false;
+  if (!sketch || !svg.clientWidth) return;
+  fit(true);
+  draw();
+}
+
+/** Keep the mechanism as large as the field allows when the field changes its size. */
+function resized() {
+  if (byHand || !view) draw();
+  else showAll();
+}
+
+/** Keys of the field: digits choose tools, 0 shows all, + and - zoom, arrows pan. */
+function onKey(event) {
+  if (event.ctrlKey || event.metaKey || event.altKey || !view) return;
+  const named = find("tools").elements.tool[Number(event.key) - 1];
+  const next = keyed(view, event.key, svg.clientHeight / svg.clientWidth);
+  if (event.key === "0") showAll();
+  else if (event.key !== " " && named) choose(named);
+  else if (next) see(next);
+  else return;
+  event.preventDefault();
+}
+
+/** Choose a tool as if it were pressed. */
+function choose(button) {
+  button.checked = true;
+  button.dispatchEvent(new Event("change", { bubbles: true }));
+}
+
+/** Whether a press with the tool that moves holds nothing but the field. */
+const holdsField = ({ tool, point, link, ghost }) => tool === "move" && !point && !link && !ghost;
 
 function element(name, look, attributes, words = "") {
   const made = document.createElementNS("http://www.w3.org/2000/svg", name);
@@ -347,6 +392,7 @@ svg.addEventListener("pointermove", (event) => {
     const goal = pointAt(at, press.point);
     draw({ [press.point]: goal ? sketch.points[goal] : at }, goal ? [ringed(goal)] : []);
   }
+  if (holdsField(press)) see(panned(view, press.at, at));
   if (press.tool === "shift") {
     shift([at[0] - press.last[0], at[1] - press.last[1]]);
     press.last = at;
@@ -425,10 +471,7 @@ svg.addEventListener(
   (event) => {
     if (!sketch || !view) return;
     event.preventDefault();
-    const [x, y] = spot(event);
-    const factor = 1.0015 ** event.deltaY;
-    view = { x: x + (view.x - x) * factor, y: -y + (view.y + y) * factor, width: view.width * factor };
-    draw();
+    see(wheeled(view, event.deltaY, spot(event)));
   },
   { passive: false },
 );
@@ -467,6 +510,8 @@ onPicture(
   () => ({ ...view, height: svg.clientHeight * pixel() }),
 );
 toggle.addEventListener("click", () => building(!isBuilding()));
-new ResizeObserver(() => draw()).observe(svg);
+new ResizeObserver(resized).observe(svg);
+svg.addEventListener("keydown", onKey);
+find("fit").addEventListener("click", showAll);
 onSpeaking(explain);
 explain();

@@ -22,7 +22,7 @@ function carry(steps) {
   aside.hidden = !pairs.length || state.dead;
   if (aside.hidden) return;
   const lit = new Set(pairs.flat()), svg = plan.svg.cloneNode(true);
-  for (const group of svg.querySelectorAll(".halo")) group.remove();
+  for (const group of svg.querySelectorAll(".halo,.aims")) group.remove();
   for (const mark of svg.querySelectorAll("[data-at]")) {
     mark.classList.remove(...LIFTED);
     if (mark.matches("text,.leader,.construction,.square-mark") && !lit.has(mark.dataset.of)) mark.remove();

@@ -1,12 +1,11 @@
-// What a student draws is checked by its value; for a wrong choice the page says why.
+// What a student draws is checked by its value; a right move is made, a wrong one answered.
 function draw_move() {
   if (!is_complete()) return;
-  const { action } = turn, given = turn.inputs.slice(0, slots().length), plane = plane_of(action, given);
+  const { action } = turn, given = turn.inputs.slice(0, slots_of(action).length), plane = plane_of(action, given);
   const found = results_of(action, given);
   if (CHOICE.includes(action) && found.length > 1 && !all_alike(action, found, plane)) {
-    const apart = found.filter((one, i) => found.findIndex(other => same_value(action, one, other, plane)) === i);
     const at_keys = keys_within();
-    turn.asked = Object.assign(apart, { plane, given });
+    turn.asked = Object.assign(different(action, found, plane), { plane, given });
     tell_turn(worded("which"));
     show_picks();
     if (at_keys) byId("which").querySelector("button").focus({ preventScroll: true });
@@ -16,14 +15,15 @@ function draw_move() {
 }
 
 const all_alike = (action, found, plane) => found.every(one => same_value(action, one, found[0], plane));
+const different = (action, found, plane) => found.filter((one, i) => found.findIndex(other => same_value(action, one, other, plane)) === i);
 
 /** Go on with the result that the student has chosen out of two. */
 function settle_which(which) {
   const { given, plane } = turn.asked, found = [turn.asked[which]];
-  const other = turn.asked[1 - which];
+  const other = turn.asked[1 - which], { action } = turn;
   if (keys_within()) byId("inputs").querySelector("select").focus({ preventScroll: true });
   turn.asked = null;
-  check_move(turn.action, given, found, plane, other);
+  check_move(action, given, found, plane, other);
 }
 
 /** Whether the keyboard focus is in the lists, where it must stay. */
@@ -38,32 +38,30 @@ function giving(action, given, found, plane, among) {
   return ends.find(step => alike_inputs(moves[step], action, given) === given.length) ?? ends.find(step => turn.rest.has(step)) ?? ends[0];
 }
 
-/** The number of inputs of a move that equal those given; commuting inputs count in either order. */
-function alike_inputs(move, action, given) {
-  if (move.action !== action) return -1;
+/** The inputs of a move in the order in which most of them equal those given: commuting ones may change places. */
+function own_inputs(move, given) {
   const own = move.inputs.map(key => picks[key].by || key);
-  const count = inputs => inputs.filter((key, i) => key === given[i]).length;
-  return commutes(action) ? Math.max(count(own), count([own[1], own[0], ...own.slice(2)])) : count(own);
+  const turned = commutes(move.action) ? [own[1], own[0], ...own.slice(2)] : own;
+  return count_alike(turned, given) > count_alike(own, given) ? turned : own;
 }
 
+const count_alike = (inputs, given) => inputs.filter((key, i) => key === given[i]).length;
+const alike_inputs = (move, action, given) => move.action === action ? count_alike(own_inputs(move, given), given) : -1;
 const commutes = action => ["cut", "join", "divide", "similar"].includes(action);
 
 function check_move(action, given, found, plane, other) {
   turn.rest = new Set(moves_left());
   const open = ORDER.filter(step => !turn.done.has(step));
   const step = giving(action, given, found, plane, open);
-  if (step !== undefined) return make_move(step, turn.hinted === step ? "hint" : "alone", worded("right", { name: moves[step].name }));
+  if (step !== undefined) return make_move(step, turn.hinted === step ? "hint" : "alone", worded("right", { name: moves[step].name }), { action, given });
   const before = giving(action, given, found, plane, [...turn.done].filter(one => moves[one]));
   if (before !== undefined) return refuse_move(worded("already", { name: moves[before].name }));
-  if (other && giving(action, given, [other], plane, open) !== undefined) {
-    const meant = giving(action, given, [other], plane, open);
-    const [omega, sense] = moves[meant].turns ?? [];
-    const { name, about = name } = moves[meant];
-    return refuse_move(worded(omega ? "other_turned" : `other_${action}`, { name, about, omega, sense }), meant);
-  }
-  const lies = found.length && shape_of(action) !== "point" && shape_of(action) !== "vector" && leads_to(found[0], plane, open);
-  if (lies !== undefined && lies !== false && found.length) return keep_own(action, given, lies);
-  return why_wrong(action, given);
+  const meant = other && giving(action, given, [other], plane, open);
+  if (meant !== undefined) return refuse_other(meant, action, found[0], plane, given);
+  const curve = found.length && !["point", "vector"].includes(shape_of(action));
+  const lies = curve ? leads_to(found[0], plane, open) : undefined;
+  if (lies !== undefined) return keep_own(action, given, lies);
+  return why_wrong(action, given, found, plane);
 }
 
 /** A point that is still to be found and lies on a line or arc. */
@@ -74,6 +72,7 @@ function leads_to(curve, plane, open) {
 
 /** Keep a line that no sentence draws but that passes through a wanted point; it can be picked. */
 function keep_own(action, given, step) {
+  keep_past();
   add_line(action, given, here());
   turn.fresh = [];
   forget_inputs();
@@ -87,86 +86,52 @@ function add_line(action, given, sheet) {
   picks[`own${turn.lines.push([action, given, sheet])}`] = { kind: shape_of(action) === "circle" ? "circle" : "locus", name, plane: plane_of(action, given), needs: [], value, sheet };
 }
 
-/** Say why a choice is wrong, by the move most similar to it. */
-function why_wrong(action, given) {
-  const near = moves_left().filter(step => moves[step].action === action).map(step => {
-    const own = moves[step].inputs.map(key => picks[key].by || key);
-    const turned = commutes(action) ? [own[1], own[0], ...own.slice(2)] : own;
-    const count = inputs => inputs.filter((key, i) => key === given[i]).length;
-    const inputs = count(turned) > count(own) ? turned : own;
-    const first = inputs.findIndex((key, i) => key !== given[i]);
-    return { step, inputs, first, weight: 4 * count(inputs) + 2 * (inputs[0] === given[0]) + all_done(moves[step].needs) };
-  }).filter(({ weight, first }) => weight >= 4 && first >= 0).sort((a, b) => b.weight - a.weight)[0];
-  if (!near) return refuse_move(worded("nowhere"), null);
-  const { step, inputs, first } = near, name = key => picks[key].name;
-  const others = inputs.filter((_, i) => i !== first).map(name).join(", ");
-  refuse_move(worded(reason_key(action, first), { name: moves[step].name, about: moves[step].about ?? moves[step].name, right: name(inputs[first]), chosen: name(given[first]), other: others }), step);
-}
-
-/** The message key for an input: equal inputs share one, and Klein's construction uses the triangle's. */
-function reason_key(action, slot) {
-  const own = `${action === "klein" ? "triangle" : action}_`;
-  return own + Array.from({ length: slot + 1 }, (_, i) => slot - i).find(i => `${own}${i}` in turning.words);
-}
+/** The ways in which a move can be found, the least of a student's own work last. */
+const HOW = ["alone", "hint", "help"];
 
 /** Record a move and draw what comes along with it. */
-function make_move(step, how, words) {
-  const before = new Set(turn.done), { value, plane, action } = moves[step];
+function make_move(step, how, words, way = moves[step]) {
+  const before = new Set(turn.done), { action } = moves[step];
+  const at_keys = keys_within(), unknown = found.filter(row => row.matches(".unknown"));
+  keep_past();
   turn.done.add(step);
-  if (["line", "circle"].includes(shape_of(action))) { // lines or circles at one place are drawn together
-    for (const one of ORDER) if (shape_of(moves[one].action) === shape_of(action) && moves[one].plane === plane && all_done(moves[one].needs) && same_value(action, moves[one].value, value, plane)) turn.done.add(one);
-  }
-  turn.log.push({ step, how, wrong: turn.wrong });
+  if (["line", "circle"].includes(shape_of(action))) lines_alike(step).forEach(one => turn.done.add(one));
+  turn.helped[step] = HOW[Math.max(HOW.indexOf(how), HOW.indexOf(turn.helped[step]))];
+  turn.log.push({ step, how: turn.helped[step], wrong: turn.wrong });
   turn.wrong = 0;
   turn.hinted = null;
   const came = ([, needs]) => needs.length && all_done(needs) && !needs.every(one => before.has(one));
-  const at_keys = keys_within(), unknown = found.filter(row => row.matches(".unknown"));
   turn.fresh = [step, ...Object.entries(turning.along).filter(came).map(([one]) => Number(one))];
   turn.sheet = null;
   forget_inputs();
   const done = moves_left().every(one => part_of(one) !== part_of(step));
   tell_turn(done ? `${words} ${worded("part_drawn", { part: part_name(step) })}` : words);
   show_turn();
-  const { at } = moves[step], rest = moves_left(), sentence = document.createElement("p");
-  if (!rest.some(one => moves[one].at === at)) sentence.append(...copies(places[at - 1].say));
-  byId("turn-sentence").replaceChildren(...told_found(unknown), sentence, ...reasons_of(step));
+  explain_move(step, way, unknown);
   if (at_keys) byId("palette").querySelector(`[data-action=${action}]`).focus({ preventScroll: true });
 }
 
-/** Refuse a move and give the reason for the intended step, if any; repeating a step is no error. */
-function refuse_move(words, meant) {
-  const at_keys = keys_within();
-  if (meant !== undefined) turn.wrong += 1;
-  byId("turn-sentence").replaceChildren(...(meant ? reasons_of(meant) : []));
-  turn.inputs = [];
-  turn.fresh = [];
-  tell_turn(words);
-  show_picks();
-  show_again();
-  if (!byId("score").hidden) show_score();
-  if (at_keys) byId("inputs").querySelector("select").focus({ preventScroll: true });
+/** Lines or circles at the place of a move's, which are drawn together with it. */
+function lines_alike(step) {
+  const { action, plane, value } = moves[step];
+  return ORDER.filter(one => shape_of(moves[one].action) === shape_of(action) && moves[one].plane === plane && all_done(moves[one].needs) && same_value(action, moves[one].value, value, plane));
 }
 
-/** Highlight the inputs of a possible next step and name its action. */
-function give_hint() {
-  const step = next_move();
-  if (step === undefined) return;
-  turn.hinted = step;
-  turn.sheet = null;
-  forget_inputs();
-  show_turn();
-  tell_hint();
-  byId("turn-sentence").replaceChildren(...reasons_of(step));
+/** Say what a move has found, its sentence, and the reason of the way taken. */
+function explain_move(step, way, unknown) {
+  const { at, action } = moves[step], sentence = document.createElement("p"), whole = !moves_left().some(one => moves[one].at === at);
+  if (whole && way.action === action) sentence.append(...copies(places[at - 1].say));
+  byId("turn-sentence").replaceChildren(...told_found(unknown), sentence, ...reasons_of_way(step, way));
 }
 
-/** Name the action of the hint and its inputs. */
-function tell_hint() {
-  const { action, inputs } = moves[turn.hinted], words = slot_words(action), list = inputs.map((key, i) => `${words[i]} ${picks[picks[key].by || key].name}`).join(", ");
-  tell_turn(worded("hint", { action: action_name(action), list }));
+/** The reasons of a move as it was made: those of its step, or of the other way that was taken. */
+function reasons_of_way(step, { action, given }) {
+  if (action === moves[step].action) return reasons_of(step);
+  const key = `way_${action}`, line = document.createElement("p");
+  if (!(key in turning.words)) return [];
+  line.innerHTML = worded(key, { name: moves[step].name, p: place_named(given[0]), q: place_named(given[1]), r: picks[given[2]]?.name });
+  return [line];
 }
 
-/** Draw a possible next step. */
-function draw_it() {
-  const step = next_move();
-  if (step !== undefined) make_move(step, "help", worded("helped", { name: moves[step].name, action: action_name(moves[step].action) }));
-}
+/** The name of the point of the mechanism whose image a pick is. */
+const place_named = image => picks[turning.places[image]?.[0]]?.name ?? "";

@@ -142,5 +142,5 @@ function palette_of(record, all_done) {
     return Math.abs(cross(minus(point, curve[0]), curve[1])) / long(curve[1]);
   }
 
-  return { plus, minus, scaled, dot, cross, length_of: long, value_of, plane_of, results_of: results, same_value: same, on_line, shape_of, size_of: plane => sizes[plane], SAME };
+  return { plus, minus, scaled, dot, cross, cuts, length_of: long, value_of, plane_of, results_of: results, same_value: same, on_line, shape_of, size_of: plane => sizes[plane], SAME };
 }

@@ -19,11 +19,13 @@ function field(svg) {
   const above = [...svg.children].find(mark => !mark.matches(".plate,.disc,.gear-disc")) ?? null; // not beneath filled areas
   const halo = svg.insertBefore(document.createElementNS(SVG, "g"), above);
   const front = svg.appendChild(document.createElementNS(SVG, "g"));
+  const aims = svg.appendChild(document.createElementNS(SVG, "g")); // what a pointer or a typed line would take
   for (const group of [halo, front]) group.setAttribute("class", "halo");
+  aims.setAttribute("class", "aims");
   const { x, y, width, height } = svg.viewBox.baseVal;
   svg.style.aspectRatio = `${width} / ${height}`; // whatever part of it is shown
   const sizes = [...svg.querySelectorAll(".lettering :is([font-size])")].map(run => Number(run.getAttribute("font-size")));
-  return { svg, halo, front, whole: [x, y, width, height], drawn: extent(svg, PLACED), labels: labels_in(svg, ".void,[visibility]"), least: Math.min(...sizes, 3), view: null, edges: null };
+  return { svg, halo, front, aims, whole: [x, y, width, height], drawn: extent(svg, PLACED), labels: labels_in(svg, ".void,[visibility]"), least: Math.min(...sizes, 3), view: null, edges: null };
 }
 
 /** The labels of a picture or part with their boxes; notes are flagged, since they grow right and upwards. */

@@ -1,11 +1,11 @@
 // The state of a student's turn: what is done, what is left, and how it is shown.
 const turning = JSON.parse(byId("turning").textContent), { moves, picks } = turning;
-const NEAR = { mouse: 14, touch: 26 }; // dots around a point that is meant
 const ORDER = Object.keys(moves).map(Number).sort((a, b) => moves[a].at - moves[b].at || a - b);
 
-const { plus, minus, scaled, dot, cross, length_of, value_of, plane_of, results_of, same_value, on_line, shape_of, size_of, SAME } = palette_of(turning, steps => all_done(steps));
+const { plus, minus, scaled, dot, cross, cuts: cut_at, length_of, value_of, plane_of, results_of, same_value, on_line, shape_of, size_of, SAME } = palette_of(turning, steps => all_done(steps));
 for (const move of Object.values(moves)) move.sheet = data.bounds.findIndex(([, end]) => move.at <= end);
 const CHOICE = ["cut", "lay_off"]; // actions for which the student chooses between two results
+const NUMBERS_PLANE = 3; // what is computed lies in no drawing
 
 let turn = null, left_turn = null; // the current turn with its moves and picks; a turn that was left
 const all_done = steps => steps.every(step => turn.done.has(step));
@@ -58,8 +58,9 @@ function begin_turn() {
 
 /** Begin a turn at a step, with nothing drawn from there on. */
 function new_turn(came) {
-  for (const key of Object.keys(picks)) if (key.startsWith("own")) delete picks[key];
-  turn = { done: new Set(ORDER.filter(step => moves[step].at < came)), from: came, came, near: turn?.near, log: [], action: null, inputs: [], lines: [], wrong: 0, hinted: null, asked: null, fresh: [], open: new Set(), sheet: null };
+  forget_own_lines();
+  const done = new Set(ORDER.filter(step => moves[step].at < came)), taking = { tool: null, action: null, taken: [], inputs: [], asked: null, aim: null };
+  turn = { done, from: came, came, near: turn?.near, log: [], lines: [], wrong: 0, hinted: null, grade: 0, helped: {}, past: [], future: [], fresh: [], open: new Set(), sheet: null, wrong_line: null, ...taking };
   byId("score").hidden = byId("turn-save").hidden = true;
   byId("turn-sentence").replaceChildren();
 }
@@ -74,7 +75,7 @@ function turn_again() {
 }
 
 /** Whether the turn holds anything that would be lost. */
-const is_begun = one => one.log.length + one.lines.length + one.wrong > 0;
+const is_begun = one => one.log.length + one.lines.length + one.wrong + one.past.length > 0;
 
 const MEMORY = `graphkin turn ${[...byId("turning").textContent].reduce((sum, letter) => Math.imul(31, sum) + letter.codePointAt(0) | 0, 7)}`; // equal pages share it
 
@@ -83,8 +84,8 @@ function keep_turn() {
   const one = turn ?? left_turn;
   try {
     if (!one || !is_begun(one)) return localStorage.removeItem(MEMORY);
-    const { done, from, log, lines, wrong, hinted } = one;
-    localStorage.setItem(MEMORY, JSON.stringify({ done: [...done], from, log, lines, wrong, hinted, open: turn !== null }));
+    const { done, from, log, lines, wrong, hinted, grade, helped, past, future } = one;
+    localStorage.setItem(MEMORY, JSON.stringify({ done: [...done], from, log, lines, wrong, hinted, grade, helped, past, future, open: turn !== null }));
   } catch { /* it is lost with the page */ }
 }
 
@@ -153,13 +154,16 @@ function show_turn() {
   light_up();
   show_inputs();
   show_again();
+  const level = show_levels();
   if (next === undefined || !byId("score").hidden) show_score();
+  if (level && turn.log.length) byId("turn-say").innerHTML += ` ${worded("reached", level)}`;
 }
 
 /** Store the turn, and offer to begin again. */
 function show_again() {
   byId("turn-again").hidden = !is_begun(turn);
   byId("turn-again").textContent = worded("again", { number: Math.max(turn.came, 1) });
+  show_time();
   keep_turn();
 }
 

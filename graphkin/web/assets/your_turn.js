@@ -36,38 +36,43 @@ async function seal_of(text) {
   return bytes ? [...new Uint8Array(bytes)].map(byte => byte.toString(16).padStart(2, "0")).join("") : "";
 }
 
-/** During a turn, keep keys and clicks on the drawing from other handlers. */
+/** During a turn, keep keys and pointers on the drawing from other handlers. */
 function in_turn(event) {
   if (!turn) return;
-  const drawing = event.target.closest?.(".sheet"), typed = event.type === "keydown";
-  if (typed ? event.key === "F5" : !drawing) return;
-  if (event.type === "pointerdown" && !event.target.closest("[data-of]")) return; // the field itself may be panned
-  event.stopPropagation();
-  if (event.type === "click") take_at(event);
-  if (typed && event.key === "Escape") {
-    forget_inputs();
-    show_picks();
+  const typed = event.type === "keydown", drawing = event.target.closest?.(".sheet");
+  if (typed) {
+    const zooms = event.target.closest?.("svg") && ["+", "=", "-", "0"].includes(event.key);
+    if (event.key === "F5" || zooms) return;
+    event.stopPropagation();
+    return key_in_turn(event);
   }
+  if (event.type.startsWith("pointer") && event.type !== "pointerover") {
+    if ((drawing || press) && point_in_turn(event)) event.stopPropagation();
+    if (!drawing && !press && turn.aim && event.type === "pointermove") show_aim(null);
+    return;
+  }
+  const fits_all = event.type === "dblclick" && !hits_at(spot_at(event)).length; // nothing is meant but the whole field
+  if (drawing && !fits_all) event.stopPropagation();
 }
+
+const EVENTS = ["keydown", "click", "dblclick", "pointerover", "pointerdown", "pointermove", "pointerup", "pointercancel"];
 
 /** Start listening where there is something to draw. */
 if (byId("turn")) {
-  for (const type of ["keydown", "click", "pointerover", "pointerdown"]) document.addEventListener(type, in_turn, true);
-  byId("turn").addEventListener("click", begin_turn);
-  byId("turn-end").addEventListener("click", end_turn);
-  byId("turn-again").addEventListener("click", turn_again);
-  byId("turn-score").addEventListener("click", show_score);
-  byId("turn-save").addEventListener("click", save_score);
-  byId("hint").addEventListener("click", give_hint);
-  byId("draw-it").addEventListener("click", draw_it);
+  for (const type of EVENTS) document.addEventListener(type, in_turn, true);
+  const acts = { turn: begin_turn, "turn-end": end_turn, "turn-again": turn_again, "turn-score": show_score, "turn-save": save_score, hint: give_hint, "draw-it": draw_it, "turn-undo": undo, "turn-redo": redo };
+  for (const [name, act] of Object.entries(acts)) byId(name).addEventListener("click", act);
   byId("turn-sheet").addEventListener("click", () => {
     turn.sheet = (here() + 1) % sheets.length;
     show_turn();
   });
-  byId("turn-form").addEventListener("submit", event => {
-    event.preventDefault();
-    draw_move();
-  });
+  for (const [name, act] of [["turn-form", draw_move], ["turn-type", draw_typed]]) {
+    byId(name).addEventListener("submit", event => {
+      event.preventDefault();
+      act();
+    });
+  }
+  byId("turn-typed").addEventListener("input", show_typed);
   for (const button of byId("palette").children) button.addEventListener("click", () => choose_action(button.dataset.action));
   addEventListener("hashchange", () => {
     if (!turn) return;

@@ -1,0 +1,38 @@
+// The part of the plane that the builder's field shows: its left and upper edge, and its width, in the unit of the scene.
+
+const NOTCH = 1.25; // zoom of a key
+const STRIDE = 0.1; // parts of the width by which an arrow key pans
+const WHEEL = 1.0015; // zoom for a dot of the wheel
+
+/** A view zoomed by a factor; a place of the scene stays where it is. */
+export const zoomed = ({ x, y, width }, factor, [u, v]) => ({
+  x: u + (x - u) * factor,
+  y: -v + (y + v) * factor,
+  width: width * factor,
+});
+
+/** A view after a turn of the wheel over a place. */
+export const wheeled = (view, delta, at) => zoomed(view, WHEEL ** delta, at);
+
+/** A view moved so that a place held by the pointer follows it. */
+export const panned = (view, held, at) => ({
+  ...view,
+  x: view.x + held[0] - at[0],
+  y: view.y - held[1] + at[1],
+});
+
+/** A view after a key, for a field of some height in parts of its width; undefined for other keys. */
+export function keyed(view, key, steep) {
+  const { x, y, width } = view;
+  const middle = [x + width / 2, -(y + (width * steep) / 2)];
+  const step = width * STRIDE;
+  return {
+    "+": () => zoomed(view, 1 / NOTCH, middle),
+    "=": () => zoomed(view, 1 / NOTCH, middle),
+    "-": () => zoomed(view, NOTCH, middle),
+    ArrowLeft: () => ({ ...view, x: x - step }),
+    ArrowRight: () => ({ ...view, x: x + step }),
+    ArrowUp: () => ({ ...view, y: y - step }),
+    ArrowDown: () => ({ ...view, y: y + step }),
+  }[key]?.();
+}
