@@ -8,6 +8,7 @@ one, the driver turns back along the path; that fold is the extreme point of a s
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
+from functools import cached_property
 from itertools import combinations
 from typing import Any, Literal, NamedTuple
 
@@ -280,19 +281,32 @@ class GroupOnWay(Struct, frozen=True, dict=True):
         with np.errstate(all="ignore"):
             return self.trying.every(self.known(at), len(at))
 
+    @cached_property
+    def searched(self) -> dict[float, Reals]:
+        """The closures at each u that was searched."""
+        return {}
+
+    def every(self, at: Reals) -> list[Reals]:
+        """The closures at each u, in rows (M, n + k + 1); no u is searched twice."""
+        new = np.array([each for each in dict.fromkeys(at.tolist()) if each not in self.searched])
+        if new.size:
+            found = self.closures(new)
+            self.searched.update((each, found.of(n)) for n, each in enumerate(new.tolist()))
+        return [self.searched[each] for each in at.tolist()]
+
     def numbers(self, way: FollowedClosure, at: Reals) -> Reals:
         """The number of a followed closure at each u; 0 where rounding leaves it open."""
         rows = way.rows(self, at)
-        every = self.closures(at)
-        return np.array([self.number(every.of(n), row) for n, row in enumerate(rows)])
+        every = zip(self.every(at), rows, strict=True)
+        return np.array([self.number(closures, row) for closures, row in every], dtype=int)
 
-    def met(self, at: tuple[float, float], first: Reals, last: Reals) -> float | None:
+    def met(self, low: float, high: float) -> float | None:
         """The u at which two closures meet that exist at only one of two places.
 
-        ``first`` and ``last`` hold the closures at both places in rows (M, ...). None where the
-        counts do not differ by two.
+        None where the counts do not differ by two.
         """
-        here, there = at if len(first) > len(last) else at[::-1]
+        first, last = self.every(np.array([low, high]))
+        here, there = (low, high) if len(first) > len(last) else (high, low)
         more, fewer = (first, last) if len(first) > len(last) else (last, first)
         if len(more) != len(fewer) + 2:
             return None
@@ -313,11 +327,12 @@ class GroupOnWay(Struct, frozen=True, dict=True):
         others = np.delete(away, best)
         return best + 1 if away[best] < min(SURE * 10, others.min(initial=np.inf)) else 0
 
-    def paired(self, at: tuple[float, float], first: Reals, second: Reals) -> PairedClosures | None:
+    def paired_at(self, low: float, high: float) -> PairedClosures | None:
         """All closures at two u, each of the first (M, n) paired with the nearest of the second.
 
         None where they do not match one to one with the same signs.
         """
+        first, second = self.every(np.array([low, high]))
         if len(first) != len(second) or not len(first):
             return None
         away = np.array([self.apart(second, row) for row in first])
@@ -328,7 +343,7 @@ class GroupOnWay(Struct, frozen=True, dict=True):
         after = after[nearest]
         turning = np.array([one.turns for one in self.trying.unknowns])
         after = np.where(turning, before + wrapped(after - before), after)
-        return PairedClosures(at, before, after, signs)
+        return PairedClosures((low, high), before, after, signs)
 
     def numbers_led(self, pairs: PairedClosures, way: FollowedClosure, at: Reals) -> Reals | None:
         """As ``numbers``, from closures interpolated between two places; None if uncertain."""
