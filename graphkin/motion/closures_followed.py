@@ -13,6 +13,7 @@ import numpy as np
 
 from graphkin.construction.higher_class.closure_solver import closing
 from graphkin.construction.higher_class.following import (
+    MERGED,
     FollowedClosure,
     GroupOnWay,
     PairedClosures,
@@ -222,16 +223,20 @@ def numbers_at(group: GroupOnWay, way: FollowedClosure, at: Reals) -> Reals:
 
     Where several links are tried, a search costs a hundredfold. All closures are then searched at a
     few positions and followed between them. Where they do not continue one to one, or come too
-    near one another, the middle is searched, too.
+    near one another, the middle is searched, too. All numbers are open where a third of the
+    searches do not find the followed closure.
     """
     if not group.trying.several:
         return group.numbers(way, at)
     rows, numbers = way.rows(group, at), np.zeros(len(at), dtype=int)
     nodes = np.unique(np.append(np.arange(0, len(at) - 1, STRIDE), len(at) - 1))
-    wide = [*zip(nodes.tolist(), nodes[1:].tolist(), strict=False)]
+    wide, searched = [*zip(nodes.tolist(), nodes[1:].tolist(), strict=False)], nodes[:0]
     while nodes.size:
         every = group.every(at[nodes])
         numbers[nodes] = [group.number(e, r) for e, r in zip(every, rows[nodes], strict=True)]
+        searched = np.append(searched, nodes)
+        if 3 * ((numbers[searched] == 0) & (rows[searched, -1] > MERGED)).sum() > searched.size:
+            return np.zeros(len(at), dtype=int)
         halves = list[tuple[int, int]]()
         for first, last in wide:
             inside = np.arange(first + 1, last)

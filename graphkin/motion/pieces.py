@@ -115,6 +115,19 @@ class Path(Struct, frozen=True):
         return next((place for place in every if low <= place <= high), at)
 
 
+def range_about(sweep: Sweep) -> Path | None:
+    """The range of a mechanism with followed closures that contains the scene's position.
+
+    The closures have no numbers along it. None where nothing closes in that position.
+    """
+    course = Course(sweep, sweep.original.branches)
+    start = beside_touch(course, sweep.stands)
+    if start is None:
+        return None
+    turns = turns_back(led(course, sweep.stands, sweep.start), sweep.start) if sweep.whole else 0
+    return from_start(carried_about(course, start), start, turns)
+
+
 def reachable_ranges(sweep: Sweep, branches: Branches | None = None) -> Path:
     """The reachable ranges of a sweep, from the scene's position and with its closures.
 

@@ -58,7 +58,7 @@ SHORTER = 8
 STEP = 1e-6
 """Half the step of the differences for slopes, in radians or shares of a way."""
 NARROW = 1e-8
-"""STEP beside a root. Where one link hardly turns while others turn far, misfits bend within STEP."""
+"""STEP beside a root: where one link hardly turns and others turn far, misfits bend within STEP."""
 FLAT = 3.0
 """Distance of a cell from a flat dyad, in cell sizes, up to which it is examined there."""
 LEADING = 5

@@ -55,6 +55,8 @@ BETWEEN = 0.3
 """Largest distance from an interpolated closure, as a fraction of its neighbours' distance."""
 MERGED = 1e-4
 """Sine of crossing below which the numbers of two closures that meet are open."""
+SHORT = 4
+"""Steps that lead from the places of a path to one between."""
 AT_FOLD = 1e-7
 """Fraction of the path near a fold in which the interpolation is used without refinement."""
 
@@ -497,7 +499,8 @@ class FollowedClosure(Struct, frozen=True, eq=False):
         """The rows (K, n + k + 1) where Newton's method fails.
 
         Near a fold, the interpolation is used. Elsewhere, the nearest of all closures is taken; NaN
-        where that is not certain.
+        where that is not certain. Where several links are tried, a search costs a hundredfold, and
+        the path is followed again from the place before.
         """
         trying, count = group.trying, self.tried.shape[1]
         rows = np.full((len(at), count + self.signs.shape[1] + 1), np.nan)
@@ -511,6 +514,10 @@ class FollowedClosure(Struct, frozen=True, eq=False):
         rest = np.flatnonzero(~near)
         if not rest.size or len(self.at) < ORDER:
             return rows
+        if trying.several:
+            for k in rest:
+                rows[k] = self.reached(group, float(at[k]), int(after[k]))
+            return rows
         every = group.closures(at[rest])
         for n, k in enumerate(rest):
             found = every.of(n)
@@ -521,6 +528,24 @@ class FollowedClosure(Struct, frozen=True, eq=False):
                     rows[k] = found[away.argmin()]
                     break
         return rows
+
+    def reached(self, group: GroupOnWay, at: float, after: int) -> Reals:
+        """The row (n + k + 1) at one u, by short steps from the places before; NaN where lost."""
+        trying, some = group.trying, slice(max(after - ORDER, 0), after)
+        with np.errstate(all="ignore"):
+            angles = group.drawn(self.at[some], self.tried[some], self.signs[some])
+        columns = self.at[some], self.tried[some], self.signs[some], np.unwrap(angles, axis=0)
+        found = [Place(*each) for each in zip(*columns, strict=True)]
+        size = group.sizes(np.array([at]))
+        for each in np.linspace(found[-1].at, at, SHORT + 1)[1:]:
+            place, _ = group.step_to(float(each), found, size, NEAR)
+            if place is None:
+                return np.full(self.width + 1, np.nan)
+            found.append(place)
+        tried, signs = found[-1].tried[None], found[-1].signs[None]
+        with np.errstate(all="ignore"):
+            sine = trying.sines(group.known(np.array([at])), tried, signs)
+        return np.concatenate([tried[0], signs[0], np.where(sine > HIDDEN, sine, np.nan)])
 
     def between(self, at: Reals, after: Reals) -> Reals:
         """The trial values (K, n) at some u, by the polynomial through the nearest places.
