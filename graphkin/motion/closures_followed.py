@@ -228,7 +228,8 @@ def numbers_at(group: GroupOnWay, way: FollowedClosure, at: Reals) -> Reals:
     """
     if not group.trying.several:
         return group.numbers(way, at)
-    rows, numbers = way.rows(group, at), np.zeros(len(at), dtype=int)
+    rows: Reals = way.rows(group, at)
+    numbers: Reals = np.zeros(len(at), dtype=int)
     nodes = np.unique(np.append(np.arange(0, len(at) - 1, STRIDE), len(at) - 1))
     wide, searched = [*zip(nodes.tolist(), nodes[1:].tolist(), strict=False)], nodes[:0]
     while nodes.size:
@@ -236,7 +237,7 @@ def numbers_at(group: GroupOnWay, way: FollowedClosure, at: Reals) -> Reals:
         numbers[nodes] = [group.number(e, r) for e, r in zip(every, rows[nodes], strict=True)]
         searched = np.append(searched, nodes)
         if 3 * ((numbers[searched] == 0) & (rows[searched, -1] > MERGED)).sum() > searched.size:
-            return np.zeros(len(at), dtype=int)
+            return 0 * numbers
         halves = list[tuple[int, int]]()
         for first, last in wide:
             inside = np.arange(first + 1, last)
