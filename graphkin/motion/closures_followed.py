@@ -37,7 +37,7 @@ ENOUGH = 1e-10
 ROUGH = 1e-4
 """ENOUGH where several links are tried and the closures do not continue one to one."""
 STRIDE = 10
-"""Positions between two at which all closures are searched for, where several links are tried."""
+"""Steps between two positions at which all closures are searched for."""
 PARTS, HALVES = 16, 2
 """Parts into which an interval with a new number is cut, all tried at once.
 
@@ -210,9 +210,8 @@ def changes(course: Course, k: int, low: float, high: float) -> list[tuple[float
     while wide:
         done += [each for each in wide if each.high - each.low <= enough(group, each)]
         wide = narrowed(group, way, [each for each in wide if each not in done])
-        if group.trying.several:
-            led = [each for each in wide if each.pairs is not None]
-            wide = led + at_meetings(group, way, [each for each in wide if each.pairs is None])
+        led = [each for each in wide if each.pairs is not None]
+        wide = led + at_meetings(group, way, [each for each in wide if each.pairs is None])
     brackets = sorted(done, key=lambda each: each.low)
     marks = ((each.low + each.high) / 2 for each in brackets)
     return settled(low, int(numbers[0]), [*zip(marks, brackets, strict=True)], usual * TIED)
@@ -221,13 +220,10 @@ def changes(course: Course, k: int, low: float, high: float) -> list[tuple[float
 def numbers_at(group: GroupOnWay, way: FollowedClosure, at: Reals) -> Reals:
     """The number of a followed closure at each u; 0 where that is open.
 
-    Where several links are tried, a search costs a hundredfold. All closures are then searched at a
-    few positions and followed between them. Where they do not continue one to one, or come too
-    near one another, the middle is searched, too. All numbers are open where a third of the
-    searches do not find the followed closure.
+    All closures are searched for at a few positions and followed between them. Where they do not
+    continue one to one, or come too near one another, the middle is searched, too. All numbers are
+    open where a third of the searches do not find the followed closure.
     """
-    if not group.trying.several:
-        return group.numbers(way, at)
     rows: Reals = way.rows(group, at)
     numbers: Reals = np.zeros(len(at), dtype=int)
     nodes = np.unique(np.append(np.arange(0, len(at) - 1, STRIDE), len(at) - 1))
