@@ -41,12 +41,14 @@ class ClosingRanges(Struct, frozen=True):
 
     ``searched`` counts the positions searched where a bound on the work left some out, else it is
     0. ``tried`` counts the links tried at once where these are too many for a search; there are no
-    ranges then.
+    ranges then. ``followed`` means that the only range is the one through which the motion goes
+    from the scene's position, where a search at every position would cost too much.
     """
 
     ranges: list[Range]
     searched: int = 0
     tried: int = 0
+    followed: bool = False
 
     @property
     def bound(self) -> Message:
@@ -171,6 +173,8 @@ def closing(scene: Scene, number: int = 1) -> ClosingRanges:
     try:
         if course.sweep.whole and wheels(course) and not course.closing_work:
             return ClosingRanges(ranges_followed(course))
+        if course.tries_several and (reached := range_reached(course)):
+            return ClosingRanges(reached, followed=True)
         if course.tried_at_once > SOUGHT:
             return ClosingRanges([], tried=course.tried_at_once)
         fewest = FEWER if course.tries_several else FEWEST
@@ -231,6 +235,17 @@ def ranges_followed(course: Course) -> list[Range]:
     if path.whole:
         return [(0.0, TURN)]
     return sorted(path.spans)
+
+
+def range_reached(course: Course) -> list[Range]:
+    """The range through which the motion goes from the scene's position; empty without one."""
+    from graphkin.motion.driving import TURN
+    from graphkin.motion.pieces import range_about
+
+    path = range_about(course.sweep)
+    if path is None:
+        return []
+    return [(0.0, TURN)] if path.whole else [*path.spans]
 
 
 def swept(scene: Scene, number: int) -> Sweep:

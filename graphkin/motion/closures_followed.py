@@ -13,6 +13,7 @@ import numpy as np
 
 from graphkin.construction.higher_class.closure_solver import closing
 from graphkin.construction.higher_class.following import (
+    MERGED,
     FollowedClosure,
     GroupOnWay,
     PairedClosures,
@@ -33,6 +34,10 @@ They are fewer where several links are tried at once, because each then costs a 
 """
 ENOUGH = 1e-10
 """Share of the usual sweep to which changes of number are located."""
+ROUGH = 1e-4
+"""ENOUGH where several links are tried and the closures do not continue one to one."""
+STRIDE = 10
+"""Steps between two positions at which all closures are searched for."""
 PARTS, HALVES = 16, 2
 """Parts into which an interval with a new number is cut, all tried at once.
 
@@ -199,13 +204,56 @@ def changes(course: Course, k: int, low: float, high: float) -> list[tuple[float
     if count > MOST:
         raise too_many(course)
     grid = np.linspace(low, high, count + 1)
-    numbers = known_numbers(group.numbers(way, grid), course.branches[course.numbered[k]])
-    brackets = at_meetings(group, way, parted(grid, numbers))
-    while wide := [each for each in brackets if each.high - each.low > ENOUGH * usual]:
-        done = [each for each in brackets if each not in wide]
-        brackets = sorted([*done, *narrowed(group, way, wide)], key=lambda each: each.low)
+    numbers = known_numbers(numbers_at(group, way, grid), course.branches[course.numbered[k]])
+    done = list[Bracket]()
+    wide = at_meetings(group, way, parted(grid, numbers))
+    while wide:
+        done += [each for each in wide if each.high - each.low <= enough(group, each)]
+        wide = narrowed(group, way, [each for each in wide if each not in done])
+        led = [each for each in wide if each.pairs is not None]
+        wide = led + at_meetings(group, way, [each for each in wide if each.pairs is None])
+    brackets = sorted(done, key=lambda each: each.low)
     marks = ((each.low + each.high) / 2 for each in brackets)
     return settled(low, int(numbers[0]), [*zip(marks, brackets, strict=True)], usual * TIED)
+
+
+def numbers_at(group: GroupOnWay, way: FollowedClosure, at: Reals) -> Reals:
+    """The number of a followed closure at each u; 0 where that is open.
+
+    All closures are searched for at a few positions and followed between them. Where they do not
+    continue one to one, or come too near one another, the middle is searched, too. All numbers are
+    open where a third of the searches do not find the followed closure.
+    """
+    rows: Reals = way.rows(group, at)
+    numbers: Reals = np.zeros(len(at), dtype=int)
+    nodes = np.unique(np.append(np.arange(0, len(at) - 1, STRIDE), len(at) - 1))
+    wide, searched = [*zip(nodes.tolist(), nodes[1:].tolist(), strict=False)], nodes[:0]
+    while nodes.size:
+        every = group.every(at[nodes])
+        numbers[nodes] = [group.number(e, r) for e, r in zip(every, rows[nodes], strict=True)]
+        searched = np.append(searched, nodes)
+        if 3 * ((numbers[searched] == 0) & (rows[searched, -1] > MERGED)).sum() > searched.size:
+            return 0 * numbers
+        halves = list[tuple[int, int]]()
+        for first, last in wide:
+            inside = np.arange(first + 1, last)
+            if not inside.size or not (numbers[first] or numbers[last]):
+                continue
+            pairs = group.paired_at(float(at[first]), float(at[last]))
+            led = None if pairs is None else group.numbers_led(pairs, way, at[inside])
+            if led is None:
+                middle = (first + last) // 2
+                halves += [(first, middle), (middle, last)]
+            else:
+                numbers[inside] = led
+        wide, nodes = halves, np.array([last for _, last in halves[::2]], dtype=int)
+    return numbers
+
+
+def enough(group: GroupOnWay, bracket: Bracket) -> float:
+    """The width at which a bracket locates a change of number."""
+    searched = group.trying.several and bracket.pairs is None
+    return (ROUGH if searched else ENOUGH) * group.usual
 
 
 def settled(
@@ -250,20 +298,16 @@ def at_meetings(group: GroupOnWay, way: FollowedClosure, wide: Sequence[Bracket]
 
     Where two closures appear or vanish in between, it is the place at which these meet.
     """
-    if not wide:
-        return []
     found = list[Bracket]()
-    every = group.closures(np.array([(each.low, each.high) for each in wide]).ravel())
-    for n, each in enumerate(wide):
-        first, last = (every.of(2 * n + k) for k in (0, 1))
-        at = each.low, each.high
-        pairs, meeting = group.paired(at, first, last), group.met(at, first, last)
+    group.every(np.array([(each.low, each.high) for each in wide]).ravel())
+    for each in wide:
+        meeting = group.met(each.low, each.high)
         if meeting is not None:
             beside = meeting + BESIDE * group.usual * np.array([-1, 1])
             if (each.first, each.last) == tuple(group.numbers(way, beside)):
                 found.append(each._replace(low=meeting, high=meeting))
                 continue
-        found.append(each._replace(pairs=pairs))
+        found.append(each._replace(pairs=group.paired_at(each.low, each.high)))
     return found
 
 

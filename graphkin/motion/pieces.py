@@ -115,6 +115,19 @@ class Path(Struct, frozen=True):
         return next((place for place in every if low <= place <= high), at)
 
 
+def range_about(sweep: Sweep) -> Path | None:
+    """The range of a mechanism with followed closures that contains the scene's position.
+
+    The closures have no numbers along it. None where nothing closes in that position.
+    """
+    course = Course(sweep, sweep.original.branches)
+    start = beside_touch(course, sweep.stands)
+    if start is None:
+        return None
+    turns = turns_back(led(course, sweep.stands, sweep.start), sweep.start) if sweep.whole else 0
+    return from_start(carried_about(course, start), start, turns)
+
+
 def reachable_ranges(sweep: Sweep, branches: Branches | None = None) -> Path:
     """The reachable ranges of a sweep, from the scene's position and with its closures.
 
@@ -281,7 +294,8 @@ def from_start(course: Course, start: float, turns: int) -> Path:
     A motion that comes back is given from 0 degrees to the end of its circle. A motion that goes on
     without coming back is given for one turn, from the last whole turn before the position. Where
     the wheels' period is unknown, a dead point may lie many turns away. With a group of higher
-    class, it is sought there only once a dead point within one turn shows that the motion ends.
+    class, it is sought there only where the followed closure ends; the other side is given for one
+    turn.
     """
     sweep = course.sweep
     if not sweep.whole:
@@ -289,23 +303,34 @@ def from_start(course: Course, start: float, turns: int) -> Path:
         return Path((found,), False, False)
     first = max(turns, 1)
     far = (turns or MOST_TURNS) * TURN if wheels(course) else TURN
-    enough = far if turns or not course.closers else TURN  # each position of a group is dear
     ahead = marched(course, start, start + first * TURN)
     if goes_on(ahead):
         for count in counts(ahead, course, start, first):
             way = ahead if count == first else marched(course, start, start + count * TURN)
             if comes_back(way, course, start, start + count * TURN):
                 return Path((counted_from_zero(way, start, count * TURN),), True, True, count)
-        if goes_on(marched(course, start, start + enough)):
-            last = TURN * floor(start / TURN)
-            found = both_ways(course, start, last + TURN, last)
-            if found[0].low.kind != "window" or not goes_on(found):
-                found = marched(course, start, start + TURN)
-            return Path((found,), True, False)
-    found = both_ways(course, start, start + far, start - far)
+    on, back = (far if turns or ends_within(course, start, way) else TURN for way in (far, -far))
+    if goes_on(ahead) and on >= back and goes_on(marched(course, start, start + on)):
+        last = TURN * floor(start / TURN)
+        found = both_ways(course, start, last + TURN, last)
+        if found[0].low.kind != "window" or not goes_on(found):
+            found = marched(course, start, start + TURN)
+        return Path((found,), True, False)
+    found = both_ways(course, start, start + on, start - back)
     period = turns * TURN
     gone = gone_in(course, course, sweep.start, period)
     return Path((about_zero(found, period, gone),), False, False, turns)
+
+
+def ends_within(course: Course, start: float, way: float) -> bool:
+    """Whether a motion may end within a way from one u, as far as followed closures show.
+
+    Without a group of higher class it may: each position is cheap.
+    """
+    if not course.closers or abs(way) <= TURN:
+        return True
+    closures = carried(course, start, start + way).closures
+    return any(each.lost(np.array([start + way]))[0] for each in closures)
 
 
 def goes_on(found: Range) -> bool:

@@ -57,6 +57,8 @@ SHORTER = 8
 """Halvings of a step that leaves the drawable range or does not come nearer."""
 STEP = 1e-6
 """Half the step of the differences for slopes, in radians or shares of a way."""
+NARROW = 1e-8
+"""STEP beside a root: where one link hardly turns and others turn far, misfits bend within STEP."""
 FLAT = 3.0
 """Distance of a cell from a flat dyad, in cell sizes, up to which it is examined there."""
 LEADING = 5
@@ -217,41 +219,29 @@ def closed_in(
 
 
 def roots_beside(missed: Misses, start: Array) -> Array:
-    """The limits of Newton's method from starts (K, n); NaN where it does not converge.
-
-    Where the slopes on one side mislead it, because the misfits are almost dependent and bend, it
-    begins again with slopes from both sides.
-    """
+    """The limits of Newton's method from starts (K, n); NaN where it does not converge."""
     share, left = start.copy(), np.arange(len(start))
-    for steps in (steps_from, steps_about):
-        share[left] = start[left]
-        for _ in range(ROUNDS):
-            way = steps(missed, left, share[left])
-            share[left] += way
-            left = left[~(abs(way) < STILL).all(axis=1) & np.isfinite(way).all(axis=1)]
-            if not left.size:
-                return share
+    for _ in range(ROUNDS):
+        way = steps_about(missed, left, share[left])
+        share[left] += way
+        left = left[~(abs(way) < STILL).all(axis=1) & np.isfinite(way).all(axis=1)]
+        if not left.size:
+            return share
     share[left] = np.nan
     return share
 
 
-def steps_from(missed: Misses, row: Array, share: Array) -> Array:
-    """The steps of ``steps_of``, with the misfits and all slopes evaluated together."""
-    size = share.shape[1]
-    value = missed_beside(missed, row, share, STEP * np.vstack([np.zeros(size), np.eye(size)]))
-    if np.isnan(value[1:]).any():
-        return steps_of(missed, row, share, value[0])
-    slope = np.moveaxis(value[1:] - value[0], 0, -1) / STEP
-    return solutions(slope, -value[0])
-
-
 def steps_about(missed: Misses, row: Array, share: Array) -> Array:
-    """The steps of Newton's method with slopes from both sides, which the misfits do not bend."""
+    """The steps of Newton's method, with slopes from both sides; from one side at an edge."""
     size = share.shape[1]
-    away = STEP * np.vstack([np.zeros(size), np.eye(size), -np.eye(size)])
+    away = NARROW * np.vstack([np.zeros(size), np.eye(size), -np.eye(size)])
     value = missed_beside(missed, row, share, away)
-    slope = np.moveaxis(value[1 : size + 1] - value[size + 1 :], 0, -1) / (2 * STEP)
-    return solutions(slope, -value[0])
+    slope = np.moveaxis(value[1 : size + 1] - value[size + 1 :], 0, -1) / (2 * NARROW)
+    way = solutions(slope, -value[0])
+    edge = np.isnan(way).any(axis=1) & np.isfinite(value[0]).all(axis=1)
+    if edge.any():
+        way[edge] = steps_of(missed, row[edge], share[edge], value[0, edge])
+    return way
 
 
 def missed_beside(missed: Misses, row: Array, share: Array, away: Array) -> Array:

@@ -11,8 +11,11 @@ from msgspec.structs import replace
 
 from graphkin.cli.report.cycle_report import pieces_words
 from graphkin.mechanism import load
+from graphkin.motion.closures_followed import carried_about, numbers_at
+from graphkin.motion.course import Course
 from graphkin.motion.cycle import cycle
 from graphkin.motion.follower_limits import followers
+from graphkin.motion.sweep import sweep_of
 from graphkin.scene.model import Closure
 
 
@@ -128,6 +131,29 @@ def alike(both, alone, points: str, rows=slice(None)) -> None:
             assert np.broadcast_to(motion.position, both.at.shape) == pytest.approx(
                 other, abs=1e-9
             ), name
+
+
+def test_numbers_between_a_few_searches_are_those_of_a_search_at_every_place():
+    mechanism = load("examples/scenes/plates-ring.toml")
+    sweep = sweep_of(mechanism.scene)
+    course = carried_about(Course(sweep, sweep.original.branches), sweep.stands)
+    group, way = course.group(0), course.closures[0]
+    grid = np.linspace(405, 490, 31)  # |it has a new number four times
+    found = numbers_at(group, way, grid)
+    fresh = course.group(0)
+    assert (np.diff(found) != 0).sum() >= 4
+    assert len(group.searched) < len(grid)
+    assert found.tolist() == fresh.numbers(way, grid).tolist()
+
+
+def test_a_ring_with_a_link_that_hardly_turns_is_followed_to_its_dead_points():
+    """Link 9 turns by 1e-4 where link 8 turns by 1; a search misses its closure at most places."""
+    found = cycle(load("tests/motion/scenes/ring-near-parallel.toml"), steps=90)
+    (low, high), *others = found.ranges
+    assert low < 1.0  # |the lines of P13 are parallel near 0.8°
+    assert high == pytest.approx(65.328975, abs=1e-5)
+    assert not others
+    assert found.witnessed.agrees.all()
 
 
 def test_two_groups_on_one_crank_move_as_each_does_alone():

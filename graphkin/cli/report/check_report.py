@@ -488,6 +488,11 @@ def range_words(mechanism: Mechanism, found: ClosingRanges) -> str:
     scene, ranges = mechanism.scene, found.ranges
     turns = scene.drivers[0].kind == "turn"
     what = "angle" if turns else "position"
+    if found.followed:
+        reach = (
+            "a whole turn" if turns and ranges == [(0.0, 360.0)] else reached_words(scene, ranges)
+        )
+        return f"the motion goes from the position of the scene through {reach} of the driver"
     if any(isinstance(group, Higher) for group in mechanism.groups) and ranges:
         where = "every" if ranges == [(0.0, 360.0)] else "some"
         words = f"has the closure of that number for {where} {what} of the driver"

@@ -8,6 +8,7 @@ one, the driver turns back along the path; that fold is the extreme point of a s
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
+from functools import cached_property
 from itertools import combinations
 from typing import Any, Literal, NamedTuple
 
@@ -22,7 +23,7 @@ Reals = Any
 End = Literal["open", "fold", "stop"]
 """How a path ends: it goes on, it meets another closure, or nothing closes beyond."""
 
-FIRST, LONGEST = 1e-6, 1 / 90
+FIRST, LONGEST = 1e-6, 1 / 24
 """The first and the longest step, as fractions of the usual range of the driver."""
 LEAST, ENOUGH = 1e-3, 1e-10
 """The step below which a fold or a leap is tried, and the step below which the path ends."""
@@ -54,6 +55,8 @@ BETWEEN = 0.3
 """Largest distance from an interpolated closure, as a fraction of its neighbours' distance."""
 MERGED = 1e-4
 """Sine of crossing below which the numbers of two closures that meet are open."""
+SHORT = 4
+"""Steps that lead from the places of a path to one between."""
 AT_FOLD = 1e-7
 """Fraction of the path near a fold in which the interpolation is used without refinement."""
 
@@ -280,19 +283,32 @@ class GroupOnWay(Struct, frozen=True, dict=True):
         with np.errstate(all="ignore"):
             return self.trying.every(self.known(at), len(at))
 
+    @cached_property
+    def searched(self) -> dict[float, Reals]:
+        """The closures at each u that was searched."""
+        return {}
+
+    def every(self, at: Reals) -> list[Reals]:
+        """The closures at each u, in rows (M, n + k + 1); no u is searched twice."""
+        new = np.array([each for each in dict.fromkeys(at.tolist()) if each not in self.searched])
+        if new.size:
+            found = self.closures(new)
+            self.searched.update((each, found.of(n)) for n, each in enumerate(new.tolist()))
+        return [self.searched[each] for each in at.tolist()]
+
     def numbers(self, way: FollowedClosure, at: Reals) -> Reals:
         """The number of a followed closure at each u; 0 where rounding leaves it open."""
         rows = way.rows(self, at)
-        every = self.closures(at)
-        return np.array([self.number(every.of(n), row) for n, row in enumerate(rows)])
+        every = zip(self.every(at), rows, strict=True)
+        return np.array([self.number(closures, row) for closures, row in every], dtype=int)
 
-    def met(self, at: tuple[float, float], first: Reals, last: Reals) -> float | None:
+    def met(self, low: float, high: float) -> float | None:
         """The u at which two closures meet that exist at only one of two places.
 
-        ``first`` and ``last`` hold the closures at both places in rows (M, ...). None where the
-        counts do not differ by two.
+        None where the counts do not differ by two.
         """
-        here, there = at if len(first) > len(last) else at[::-1]
+        first, last = self.every(np.array([low, high]))
+        here, there = (low, high) if len(first) > len(last) else (high, low)
         more, fewer = (first, last) if len(first) > len(last) else (last, first)
         if len(more) != len(fewer) + 2:
             return None
@@ -313,11 +329,12 @@ class GroupOnWay(Struct, frozen=True, dict=True):
         others = np.delete(away, best)
         return best + 1 if away[best] < min(SURE * 10, others.min(initial=np.inf)) else 0
 
-    def paired(self, at: tuple[float, float], first: Reals, second: Reals) -> PairedClosures | None:
+    def paired_at(self, low: float, high: float) -> PairedClosures | None:
         """All closures at two u, each of the first (M, n) paired with the nearest of the second.
 
         None where they do not match one to one with the same signs.
         """
+        first, second = self.every(np.array([low, high]))
         if len(first) != len(second) or not len(first):
             return None
         away = np.array([self.apart(second, row) for row in first])
@@ -328,7 +345,7 @@ class GroupOnWay(Struct, frozen=True, dict=True):
         after = after[nearest]
         turning = np.array([one.turns for one in self.trying.unknowns])
         after = np.where(turning, before + wrapped(after - before), after)
-        return PairedClosures(at, before, after, signs)
+        return PairedClosures((low, high), before, after, signs)
 
     def numbers_led(self, pairs: PairedClosures, way: FollowedClosure, at: Reals) -> Reals | None:
         """As ``numbers``, from closures interpolated between two places; None if uncertain."""
@@ -482,7 +499,8 @@ class FollowedClosure(Struct, frozen=True, eq=False):
         """The rows (K, n + k + 1) where Newton's method fails.
 
         Near a fold, the interpolation is used. Elsewhere, the nearest of all closures is taken; NaN
-        where that is not certain.
+        where that is not certain. Where several links are tried, a search costs a hundredfold, and
+        the path is followed again from the place before.
         """
         trying, count = group.trying, self.tried.shape[1]
         rows = np.full((len(at), count + self.signs.shape[1] + 1), np.nan)
@@ -496,6 +514,10 @@ class FollowedClosure(Struct, frozen=True, eq=False):
         rest = np.flatnonzero(~near)
         if not rest.size or len(self.at) < ORDER:
             return rows
+        if trying.several:
+            for k in rest:
+                rows[k] = self.reached(group, float(at[k]), int(after[k]))
+            return rows
         every = group.closures(at[rest])
         for n, k in enumerate(rest):
             found = every.of(n)
@@ -506,6 +528,24 @@ class FollowedClosure(Struct, frozen=True, eq=False):
                     rows[k] = found[away.argmin()]
                     break
         return rows
+
+    def reached(self, group: GroupOnWay, at: float, after: int) -> Reals:
+        """The row (n + k + 1) at one u, by short steps from the places before; NaN where lost."""
+        trying, some = group.trying, slice(max(after - ORDER, 0), after)
+        with np.errstate(all="ignore"):
+            angles = group.drawn(self.at[some], self.tried[some], self.signs[some])
+        columns = self.at[some], self.tried[some], self.signs[some], np.unwrap(angles, axis=0)
+        found = [Place(*each) for each in zip(*columns, strict=True)]
+        size = group.sizes(np.array([at]))
+        for each in np.linspace(found[-1].at, at, SHORT + 1)[1:]:
+            place, _ = group.step_to(float(each), found, size, NEAR)
+            if place is None:
+                return np.full(self.width + 1, np.nan)
+            found.append(place)
+        tried, signs = found[-1].tried[None], found[-1].signs[None]
+        with np.errstate(all="ignore"):
+            sine = trying.sines(group.known(np.array([at])), tried, signs)
+        return np.concatenate([tried[0], signs[0], np.where(sine > HIDDEN, sine, np.nan)])
 
     def between(self, at: Reals, after: Reals) -> Reals:
         """The trial values (K, n) at some u, by the polynomial through the nearest places.
