@@ -237,7 +237,7 @@ def pair(z: complex) -> str:
 
 
 def number(x: float) -> str:
-    """A number as the scene writes it, all digits; what only rounding left is nought."""
+    """A number as the scene writes it, all digits; what only rounding left is zero."""
     return repr(x if abs(x) > 1e-30 else 0.0)
 
 

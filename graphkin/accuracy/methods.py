@@ -367,7 +367,7 @@ def difference_rows(reference: Reference, effort: Effort) -> Iterator[Method]:
     for share in STEPS:
         name = f"central differences, h = {plain(share)}"
         if natural == 0:
-            note = "every driver stands still: there is nothing to differ"
+            note = "every driver is at rest: there is nothing to difference"
             yield Method(MethodRow("differences", name, NOTHING, None, count, note=note))
             continue
         work = difference_work(reference, values, share * natural, way)

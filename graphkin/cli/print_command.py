@@ -148,9 +148,9 @@ def lost_words(student: Student) -> str:
     from graphkin.classroom.printing.personal import UNKNOWN, is_readable, lost
 
     whole = ", ".join(filter(None, (student.name, student.group)))
-    signs, instead = " ".join(lost(whole)), f"{UNKNOWN} stands for each"
+    signs, instead = " ".join(lost(whole)), f"{UNKNOWN} replaces each"
     if student.name and not is_readable(student.name):
-        instead = "the id stands for the name"
+        instead = "the id replaces the name"
     return f'{student.id}: the font of the sheets lacks {signs} of "{whole}"; {instead}'
 
 

@@ -67,7 +67,7 @@ class GroupImages(Struct, frozen=True):
                 found = summed_rate(pen, driver, link, other, found)
         elif driver.link != link:
             with pen.on(Part.SHAPE, Plane.NUMBERS):
-                found = pen.draw(difference, pen.given("nought"), found)
+                found = pen.draw(difference, pen.given("zero"), found)
         pen.want(rate, link, found)
 
     def driven(self, pen: Pen, group: Driven) -> None:

@@ -133,7 +133,7 @@ class AccelerationPlan(Plan, frozen=True):
     def is_steady(self, pen: Pen, link: str) -> bool:
         """Whether a driver turns the link at a constant rate."""
         omega_of(pen, link)
-        return pen.is_nought(omega_of(pen, link, EPSILON))
+        return pen.is_zero(omega_of(pen, link, EPSILON))
 
 
 def shown(kind: str) -> tuple[str, str, str, str, Part, Plane]:
@@ -151,7 +151,7 @@ BY_RATE: dict[str, Plan] = {plan.rate: plan for plan in (VELOCITY, ACCELERATION)
 def omega_of(pen: Pen, link: str, quantity: str = VELOCITY.rate) -> int:
     """The angular velocity or acceleration of a link, from its base or from its leading link."""
     if link == FRAME:
-        return pen.given("nought")
+        return pen.given("zero")
     if not pen.has(quantity, link):
         pen.want(quantity, link, rate_of(pen, link, quantity))
     return pen.the(quantity, link)
@@ -160,7 +160,7 @@ def omega_of(pen: Pen, link: str, quantity: str = VELOCITY.rate) -> int:
 def rate_of(pen: Pen, link: str, quantity: str) -> int:
     """The step that finds an angular velocity or acceleration that is not known yet."""
     if not pen.turns(link):
-        return pen.given("nought", name=f"no {quantity}")
+        return pen.given("zero", name=f"no {quantity}")
     base, plan = pen.bases[link], BY_RATE[quantity]
     if base.end is None:
         return omega_of(pen, pen.leads[link], quantity)

@@ -259,7 +259,7 @@ def not_found(
     kind = construction(step)
     what: str = step.name or message("a value")
     if not step.name and isinstance(kind, PlacesLink) and kind.found_link:
-        what = message("how link {link} stands", link=kind.found_link)
+        what = message("the angle of link {link}", link=kind.found_link)
     found = message("{what} cannot be found: {reason}", what=what, reason=reason)
     return Problem(place, found, expected, hint, about=(Sought(names),))
 

@@ -29,7 +29,7 @@ class GroupClosure(Struct, frozen=True):
 
     ``fails`` names what cannot be drawn in this closure, and ``unfit`` an idle link that does not
     fit. Both are empty when everything else closes. Then ``points`` holds the positions of all
-    points (m), except for the selected closure. ``stands`` holds the positions of the group's
+    points (m), except for the selected closure. ``placed`` holds the positions of the group's
     points and the directions of its links, as far as they are known.
     """
 
@@ -38,7 +38,7 @@ class GroupClosure(Struct, frozen=True):
     picked: bool
     fails: str
     points: Mapping[str, complex] = MappingProxyType({})
-    stands: Mapping[Target, complex] = MappingProxyType({})
+    placed: Mapping[Target, complex] = MappingProxyType({})
     unfit: str = ""
 
 
@@ -102,13 +102,13 @@ def choices(
         if number is None:
             continue
         taken.add(number)
-        told = told_by(scene, group, program)
+        targets = told_by(scene, group, program)
         if isinstance(group, Dyad):
-            both = [dyad_closure(positions, number, group, told, way) for way in (1, -1)]
+            both = [dyad_closure(positions, number, group, targets, way) for way in (1, -1)]
             closures, complete = tuple(both), None
         else:
-            closures, complete = numbered(positions, number, told, proving=proving)
-        choice = told_apart(group.links, told, closures, key_of(scene, group) or "")
+            closures, complete = numbered(positions, number, targets, proving=proving)
+        choice = told_apart(group.links, targets, closures, key_of(scene, group) or "")
         found.append(replace(choice, is_complete=complete))
     return tuple(found)
 
@@ -124,17 +124,17 @@ def told_by(scene: Scene, group: Group, program: Program) -> tuple[Target, ...]:
 
 def told_apart(
     links: tuple[str, ...],
-    told: tuple[Target, ...],
+    targets: tuple[Target, ...],
     closures: tuple[GroupClosure, ...],
     key: str,
 ) -> Choice:
     """The closures of a group, shown by the first point or link that differs in all."""
-    drawn = [each.stands for each in closures if each.place is not None]
-    shared = [target for target in told if all(target in stands for stands in drawn)]
-    clear = [target for target in shared if are_apart([stands[target] for stands in drawn])]
-    what, name = next(iter(clear), told[0])
+    drawn = [each.placed for each in closures if each.place is not None]
+    shared = [target for target in targets if all(target in placed for placed in drawn)]
+    clear = [target for target in shared if are_apart([placed[target] for placed in drawn])]
+    what, name = next(iter(clear), targets[0])
     shown = tuple(
-        each if each.place is None else replace(each, place=each.stands.get((what, name)))
+        each if each.place is None else replace(each, place=each.placed.get((what, name)))
         for each in closures
     )
     return Choice(links, name, shown, key, what == "axis")
@@ -195,23 +195,23 @@ def shown_point(scene: Scene, group: Group, program: Program) -> str:
 
 
 def dyad_closure(
-    positions: Positions, number: int, dyad: Dyad, told: tuple[Target, ...], way: int
+    positions: Positions, number: int, dyad: Dyad, targets: tuple[Target, ...], way: int
 ) -> GroupClosure:
     """One closure of a dyad: the selected crossing (way +1) or the other one (-1)."""
     scene, program, stated = positions.scene, positions.program, positions.stated
     words = words_of(scene, dyad, way)
     if way > 0 and stated:
-        stands = dict(found_of(program, told, stated))
-        place, unfit = stands.get(told[0]), positions.unfit(stated)
-        return GroupClosure(words, place, True, "", stands=stands, unfit=unfit)
+        placed = dict(found_of(program, targets, stated))
+        place, unfit = placed.get(targets[0]), positions.unfit(stated)
+        return GroupClosure(words, place, True, "", placed=placed, unfit=unfit)
     step = program.steps[number]
     other = replaced(program, number, replace(step, extra=(way * step.extra[0], *step.extra[1:])))
     own = replace(positions, program=other)
-    return closure(own, number, words, told, chosen=way > 0, before=stated)
+    return closure(own, number, words, targets, chosen=way > 0, before=stated)
 
 
 def numbered(
-    positions: Positions, number: int, told: tuple[Target, ...], *, proving: bool
+    positions: Positions, number: int, targets: tuple[Target, ...], *, proving: bool
 ) -> tuple[tuple[GroupClosure, ...], bool | None]:
     """The closures of a group of higher class, in the order of their numbers; whether they are
     proved to be all."""
@@ -229,7 +229,7 @@ def numbered(
         action = replace(step.action, value=replace(closer, number=k))
         own = replace(positions, program=replaced(program, number, replace(step, action=action)))
         chosen = k == closer.number
-        found.append(closure(own, number, f"closure {k}", told, chosen=chosen))
+        found.append(closure(own, number, f"closure {k}", targets, chosen=chosen))
     return tuple(found), is_complete(closer.trying, args) if proving else None
 
 
@@ -257,7 +257,7 @@ def closure(
     positions: Positions,
     number: int,
     words: str,
-    told: tuple[Target, ...],
+    targets: tuple[Target, ...],
     *,
     chosen: bool,
     before: Mapping[int, Any] = MappingProxyType({}),
@@ -277,16 +277,16 @@ def closure(
     except StepFailed as failed:
         failing = letter_of(program, failed.number) or f"step {failed.number}"
         try:
-            trace = run_settled(scene, program, program.needed(told[:1]), overrides=known)
+            trace = run_settled(scene, program, program.needed(targets[:1]), overrides=known)
         except StepFailed:
             return GroupClosure(words, None, chosen, failing)
-    stands = dict(found_of(program, told, trace.values))
+    placed = dict(found_of(program, targets, trace.values))
     if failing:
-        return GroupClosure(words, stands.get(told[0]), chosen, failing, stands=stands)
+        return GroupClosure(words, placed.get(targets[0]), chosen, failing, placed=placed)
     if unfit := positions.unfit(trace.values):
-        return GroupClosure(words, stands.get(told[0]), chosen, "", stands=stands, unfit=unfit)
+        return GroupClosure(words, placed.get(targets[0]), chosen, "", placed=placed, unfit=unfit)
     points = {name: at for (_, name), at in found_of(program, positions_of(program), trace.values)}
-    return GroupClosure(words, stands.get(told[0]), chosen, "", points, stands)
+    return GroupClosure(words, placed.get(targets[0]), chosen, "", points, placed)
 
 
 def found_of(

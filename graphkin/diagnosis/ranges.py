@@ -115,7 +115,7 @@ def closes_for(scene: Scene, known: Sequence[ClosingRanges]) -> Message:
             "no driver alone can close it: check lengths, sides and the drivers' positions"
         )
     return message(
-        "it closes, the other drivers as they stand, for {ranges}",
+        "with the other drivers where they are, it closes for {ranges}",
         ranges=reduce(
             lambda one, other: message("{one}; or for {other}", one=one, other=other), told
         ),

@@ -151,8 +151,8 @@ def set_on_mechanism(drawing: Drawing, turning: str, only: Collection[int] | Non
         listed = words("list_mark").join(names)
         return words(key, list=listed, shorter=shorter, turning=turning)
     metres = drawing.scales.pace(drawing.kind)
-    nought = not any(drawing.settled(length / metres) for _, length in lengths)
-    return words(f"step.read-{'none' if nought else 'short'}", turning=turning)
+    zero = not any(drawing.settled(length / metres) for _, length in lengths)
+    return words(f"step.read-{'none' if zero else 'short'}", turning=turning)
 
 
 def said_of_steps(drawing: Drawing) -> Iterator[Sentence]:

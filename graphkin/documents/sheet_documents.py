@@ -174,7 +174,7 @@ def disagreements(scene: Scene, verdict: Verdict) -> Iterator[Problem]:
             "{branches} does not hold by the vector loops",
             branches=verdict.not_as_stated(scene.branches),
         )
-        yield Problem("branches", found, message("a construction that stands as stated"), refused)
+        yield Problem("branches", found, message("a construction that closes as stated"), refused)
 
 
 def nearly_singular(mechanism: Mechanism) -> Problem:

@@ -213,7 +213,7 @@ def pieces(markup: str) -> list[TextPiece]:
 def literal(markup: str, token: str) -> str:
     """The characters of a token."""
     if token in ("", "*", "_", "^", "\\"):
-        raise broken(markup, message("a sign of the markup that stands alone"))
+        raise broken(markup, message("a sign of the markup on its own"))
     return known(token[1:] if token[0] == "\\" else token)
 
 

@@ -360,7 +360,7 @@ def distance(writer: SceneWriter, choice: Choice, closure: GroupClosure) -> floa
         for one in places.values()
     )
     total = 0.0
-    for (what, name), value in closure.stands.items():
+    for (what, name), value in closure.placed.items():
         if what == "position" and name in places:
             total += abs(value / metre - places[name])
         elif what == "axis" and name in owns:

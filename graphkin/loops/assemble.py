@@ -84,8 +84,8 @@ def other_closure(loops: Equations, motion: Motion, dyad: Group) -> tuple[Reals,
     guide = loops.guides[slide.slide]
     heading = motion.heading[:, motion.index[guide.on]] * guide.along
     way = span(motion, dyad, slide, guide.block)
-    stands = motion.slide(slide.slide).position
-    return stands, stands - 2 * (way * heading.conj()).real
+    current = motion.slide(slide.slide).position
+    return current, current - 2 * (way * heading.conj()).real
 
 
 def span(motion: Motion, dyad: Group, slide: Joint, block: str) -> Complexes:
@@ -159,10 +159,10 @@ def facing(loops: Equations, motion: Motion, name: str) -> Reals | None:
     return np.asarray((way * heading.conj()).real)
 
 
-def facing_alike(part: Equations, stands: Reals, rows: Reals, group: Group) -> Mask:
-    """The closures of a group in which links guided by two pins face as they do in ``stands``."""
+def facing_alike(part: Equations, current: Reals, rows: Reals, group: Group) -> Mask:
+    """The closures of a group in which links guided by two pins face as they do in ``current``."""
     alike = np.ones(len(rows), dtype=np.bool_)
-    now, others = places_of(part, stands), places_of(part, rows)
+    now, others = places_of(part, current), places_of(part, rows)
     for link in group.links:
         ahead, every = (facing(part, motion, link) for motion in (now, others))
         if ahead is not None and every is not None:
@@ -186,12 +186,12 @@ def closure_numbers(loops: Equations, group: Group, row: Reals, setting: int) ->
     """
     values = setting_of(loops, setting)
     part = part_of(loops, group.known | set(group.links), values)
-    stands, moving = unknowns_of(part, pose_of(loops, row, setting)), moved_by(part, group)
-    every = closures(part, stands, group)
+    current, moving = unknowns_of(part, pose_of(loops, row, setting)), moved_by(part, group)
+    every = closures(part, current, group)
     if not len(every):
         return range(0)
-    settle(part, stands, np.ones_like(moving), ~moving, moving)
-    away = np.abs(wrapped(part, every - stands)).max(axis=1)
+    settle(part, current, np.ones_like(moving), ~moving, moving)
+    away = np.abs(wrapped(part, every - current)).max(axis=1)
     nearest = int(np.argmin(away))
     if not away[nearest] < SAME:
         return range(0)
@@ -201,10 +201,10 @@ def closure_numbers(loops: Equations, group: Group, row: Reals, setting: int) ->
     return range(nearest + 1 - hidden, nearest + 2 + hidden)
 
 
-def closures(part: Equations, stands: Reals, group: Group) -> Reals:
+def closures(part: Equations, current: Reals, group: Group) -> Reals:
     """All closures of a group in one scene: (closures, K + m), in order.
 
-    Newton's method searches from many starts with everything but the group held as in ``stands``
+    Newton's method searches from many starts with everything but the group held as in ``current``
     (1, K + m). The order is by the angle, from 0 to 360°, of the link written first; the next link
     breaks ties. Wheels that only follow come last. Where wheels count turns, an angle that only
     pins determine is counted within half a turn of its start.
@@ -215,7 +215,7 @@ def closures(part: Equations, stands: Reals, group: Group) -> Reals:
     distinct: list[Reals] = []
     idle = 0
     for number in range(ROUNDS if size > 2 or turned else 1):
-        thrown = scattered(part, stands, moving, starts, number)
+        thrown = scattered(part, current, moving, starts, number)
         before = len(distinct)
         rows = closed_of(part, thrown, moving)
         slack = slack_of(part, rows)
@@ -279,17 +279,17 @@ def settled_of(part: Equations, found: Reals, moving: Mask) -> Reals:
     return found[~moves] if len(found) else found
 
 
-def scattered(loops: Equations, stands: Reals, moving: Mask, count: int, seed: int = 0) -> Reals:
+def scattered(loops: Equations, current: Reals, moving: Mask, count: int, seed: int = 0) -> Reals:
     """The given position, and ``count`` more with the group's unknowns at random values.
 
     All of them satisfy the linear equations, which the steps of Newton's method preserve.
     """
-    thrown = np.random.default_rng(seed).uniform(-1, 1, (count, stands.shape[1]))
+    thrown = np.random.default_rng(seed).uniform(-1, 1, (count, current.shape[1]))
     thrown[:, : loops.turning_count] *= np.pi
     for k, start in loops.slips.counted.items():
         thrown[:, k - 1] += start
     thrown[:, loops.turning_count :] *= 2 * reach(loops)
-    thrown = np.concatenate([stands, np.where(moving, thrown, stands)])
+    thrown = np.concatenate([current, np.where(moving, thrown, current)])
     settle(loops, thrown, np.ones_like(moving), ~moving, moving)
     return led(loops, thrown, moving)
 
@@ -375,14 +375,14 @@ def completed_start(scene: Scene, loops: Equations, start: Start) -> Reals:
 
     These unknowns stay zero where the loops cannot be assembled.
     """
-    if start.told.all():
+    if start.determined.all():
         return start.unknowns
     try:
         own = starting(scene, loops)
     except GraphkinError:
         return start.unknowns
     own = np.where(np.isfinite(own), own, start.unknowns)
-    return np.where(start.told, start.unknowns, own)
+    return np.where(start.determined, start.unknowns, own)
 
 
 def anywhere(loops: Equations) -> Reals:
@@ -496,8 +496,8 @@ def stated(
     if isinstance(branch, Side):
         mine = {point for link in group.links for point in part.bodies[link]}
         before = {point for link in group.known for point in part.bodies.get(link, ())}
-        told = {branch.first, branch.second, name} <= set(motion.names)
-        if name not in mine - before or not told:
+        placed = {branch.first, branch.second, name} <= set(motion.names)
+        if name not in mine - before or not placed:
             return everything
         side = turned_side(motion, branch.first, branch.second, name)
         return np.asarray(branch.side * side > -ON_LINE)

@@ -26,35 +26,35 @@ LOOSE = 1e-9
 """Share of a unit direction below which the linear equations determine an unknown."""
 
 
-def settled(loops: Equations, read: Reals, told: Mask) -> tuple[Reals, Mask]:
+def settled(loops: Equations, read: Reals, determined: Mask) -> tuple[Reals, Mask]:
     """The unknowns (N, K + m) read off positions, with their full turns, and which are now known.
 
     The linear equations add to the unknowns that are known.
     """
     if not loops.slips.counted:
-        return read, told
-    values, told, known = read.copy(), told.copy(), np.zeros_like(told)
+        return read, determined
+    values, determined, known = read.copy(), determined.copy(), np.zeros_like(determined)
     for group in stages(loops.scene, loops):
-        settle(loops, values, told, known, moved_by(loops, group))
-    settle(loops, values, told, known, np.ones_like(told))
-    return values, told
+        settle(loops, values, determined, known, moved_by(loops, group))
+    settle(loops, values, determined, known, np.ones_like(determined))
+    return values, determined
 
 
-def settle(loops: Equations, values: Reals, told: Mask, known: Mask, part: Mask) -> None:
+def settle(loops: Equations, values: Reals, determined: Mask, known: Mask, part: Mask) -> None:
     """Settle one group's unknowns: first by linear equations, then counted from their start."""
     turning = np.arange(len(part)) < loops.turning_count
     within = np.abs(np.nan_to_num(loops.slips.rows[0][:, ~(known | part)])).max(1, initial=0) == 0
-    known |= part & told & ~turning & ~unrolled(loops, part)
+    known |= part & determined & ~turning & ~unrolled(loops, part)
     while (free := part & ~known).any():
         straight, solved = solved_straight(loops, np.where(free, 0, values), free, known)
         if solved.any():
             full = 2 * np.pi * np.rint((straight - values) / (2 * np.pi))
-            led = np.where(told & turning, values + full, straight)
+            led = np.where(determined & turning, values + full, straight)
             values[:, solved] = led[:, solved]
-            told |= solved
+            determined |= solved
             known |= solved
             continue
-        if not (ready := free & told & turning).any():
+        if not (ready := free & determined & turning).any():
             known |= free
             return
         k = min(np.flatnonzero(ready).tolist(), key=lambda k: precedence(loops, k, within))
@@ -148,10 +148,10 @@ Places = Mapping[str, Complexes]
 
 
 class Start(Struct, frozen=True, eq=False):
-    """Unknowns (N, K + m) to start from; ``told`` marks those the positions determine (K + m,)."""
+    """Unknowns (N, K + m) to start from; ``determined`` marks those the positions determine (K + m,)."""
 
     unknowns: Reals
-    told: Mask
+    determined: Mask
 
 
 def start_values(
@@ -182,10 +182,10 @@ def start_values(
     turns = numbers.columns([turn.get(k, 1.0) for k in range(1, loops.turned.count)])
     coordinates = [slide_start(loops, j, known, given, turn) for j in range(len(loops.guides))]
     slid = numbers.columns([0.0 if s is None else s for s in coordinates], float)
-    told = [k in turn and k not in guessed for k in range(1, loops.turned.count)]
-    told += [s is not None for s in coordinates]
+    determined = [k in turn and k not in guessed for k in range(1, loops.turned.count)]
+    determined += [s is not None for s in coordinates]
     unknowns = np.concatenate([np.angle(turns), slid], axis=1)
-    return Start(*settled(loops, unknowns, np.array(told, dtype=np.bool_)))
+    return Start(*settled(loops, unknowns, np.array(determined, dtype=np.bool_)))
 
 
 def driven_coordinate(loops: Equations, j: int) -> Reals | None:
@@ -476,9 +476,9 @@ def linear_solve(matrix: Reals, right: Reals) -> Reals:
     coefficients in all settings are left out.
     """
     finite = finite_rows(matrix) & finite_rows(right)
-    told = matrix[finite].any(axis=(0, 2))
-    if np.count_nonzero(told) == matrix.shape[2]:
-        matrix, right = matrix[:, told], right[:, told]
+    determined = matrix[finite].any(axis=(0, 2))
+    if np.count_nonzero(determined) == matrix.shape[2]:
+        matrix, right = matrix[:, determined], right[:, determined]
     matrix = np.where(finite[:, None, None], matrix, np.eye(*matrix.shape[1:]))
     right = np.where(finite[:, None, None], right, np.nan)
     if matrix.shape[1] == matrix.shape[2]:

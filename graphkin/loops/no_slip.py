@@ -158,8 +158,8 @@ class Tree:
         for index in self.led.get(link, ()):
             guide = self.guides[index]
             if guide.on == link and guide.block not in self.origins:
-                stand = self.on_guide(index).along(index, 1)
-                self.origins[guide.block] = self.step(stand, guide.block, -self.head(index))
+                place = self.on_guide(index).along(index, 1)
+                self.origins[guide.block] = self.step(place, guide.block, -self.head(index))
                 reached.append(guide.block)
             elif guide.block == link and guide.on not in self.origins:
                 way = self.step(self.origins[link], link, self.head(index)).along(index, -1)
@@ -207,7 +207,7 @@ class Tree:
                     found[words] = self.at(holder[point], point).minus(self.at(link, point))
         for index, guide in enumerate(self.guides):
             if index not in self.passed:
-                stand = self.on_guide(index).along(index, 1)
+                place = self.on_guide(index).along(index, 1)
                 head = self.step(self.origins[guide.block], guide.block, self.head(index))
                 words = message(
                     "guide {number} of link {block} on link {on}"
@@ -217,7 +217,7 @@ class Tree:
                     block=guide.block,
                     on=guide.on,
                 )
-                found[words] = head.minus(stand)
+                found[words] = head.minus(place)
         return found
 
 

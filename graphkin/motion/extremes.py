@@ -46,6 +46,8 @@ GROWS = 3.0
 """Ratio of the values there from which on a value grows without bound; 10 and more if it does."""
 AMBIGUOUS = 5e-4
 """Distance from change points, as a share of a full sweep, within which accelerations are lost."""
+ACROSS = np.array([-4.0, -3.0, -2.0, -1.0, 1.0, 2.0, 3.0, 4.0])
+"""Places about a change point, in that distance: a polynomial through them gives what is lost."""
 STEP = 1e-3
 """Step of central differences: radians, the range of a slide or of the time taken as a turn."""
 SAME = 1e-9
@@ -251,21 +253,36 @@ class Search:
         targets = dict.fromkeys(target for each in self.measures for target in each.targets)
         with np.errstate(all="ignore"):
             columns = self.columns(at, tuple(targets))
-            lost = self.beside_change(at)
-            return [np.where(lost, np.nan, each.value(columns)) for each in self.measures]
-
-    def beside_change(self, at: Reals) -> Flags:
-        """Which u are so near a change point that rounding decides their values."""
-        lost = np.zeros(at.shape, dtype=bool)
-        for event in self.changes:
-            for way in self.cycle.path.shifts(at):
-                lost |= np.abs(at + way - event) < AMBIGUOUS * self.cycle.sweep.usual
-        return lost
+            return [each.value(columns) for each in self.measures]
 
     def columns(self, at: Reals, targets: Sequence[Target], geometric: bool = False) -> Columns:
-        """Some targets at some u, next to singular places, too."""
+        """Some targets at some u, next to singular places, too.
+
+        Rounding decides what is constructed beside a change point. The motion passes it smoothly,
+        so the values there come from a polynomial through those on both sides.
+        """
+        columns = self.constructed(at, targets, geometric)
+        for event in self.changes:
+            apart = AMBIGUOUS * self.cycle.sweep.usual
+            away = [(at + way - event) / apart for way in self.cycle.path.shifts(at)]
+            nearest = np.min(np.abs(away), axis=0)
+            lost = nearest < 1
+            if not lost.any():
+                continue
+            share = np.choose(np.argmin(np.abs(away), axis=0), away)[lost]
+            beside = self.constructed(event + ACROSS * apart, targets, geometric)
+            for target, value in beside.items():
+                row = np.array(np.broadcast_to(columns[target], at.shape))
+                row[lost] = lagrange(ACROSS, share) @ np.broadcast_to(value, ACROSS.shape)
+                columns[target] = row
+        return columns
+
+    def constructed(
+        self, at: Reals, targets: Sequence[Target], geometric: bool
+    ) -> dict[Target, Any]:
+        """Some targets at some u, as the construction gives them."""
         sweep, path = self.cycle.sweep, self.cycle.path
-        return columns_at(sweep, path, at, targets, geometric=geometric, near=0.0).columns
+        return dict(columns_at(sweep, path, at, targets, geometric=geometric, near=0.0).columns)
 
     def all(self) -> Iterator[Extremes | None]:
         """The extremes of every measure, in their order; None for one without values."""
@@ -486,6 +503,15 @@ def size_of(row: Reals) -> float:
     sizes = np.abs(row[np.isfinite(row)])
     largest, usual = float(sizes.max()), float(np.median(sizes))
     return min(largest, MOST * usual) if usual else largest
+
+
+def lagrange(nodes: Reals, at: Reals) -> Reals:
+    """The weights (N, M) of the values at M nodes in the polynomial through them, at N places."""
+    apart = nodes[:, None] - nodes
+    np.fill_diagonal(apart, 1.0)
+    away = at[:, None, None] - nodes
+    ways = np.where(np.eye(len(nodes), dtype=bool), 1.0, away / apart)
+    return np.asarray(np.prod(ways, axis=-1))
 
 
 def by_slope(

@@ -15,7 +15,7 @@ from graphkin.motion.cycle import Cycle, columns_at
 from graphkin.motion.driving import TURN
 from graphkin.motion.period import BACK
 from graphkin.motion.pieces import ALIKE, Range
-from graphkin.motion.refine import crossings_of_nought
+from graphkin.motion.refine import crossings_of_zero
 from graphkin.scene.model import Link, Scene
 
 FINE = 3600
@@ -292,7 +292,7 @@ def turning_places(
     if not owner.size:
         return [at[:0] for _ in movers]
     low, high = (np.concatenate(side) for side in zip(*brackets, strict=True))
-    found = crossings_of_nought(speed, low, high, enough)
+    found = crossings_of_zero(speed, low, high, enough)
     sure = np.abs(speed(found)) < np.array(most)[owner]
     return [found[sure & (owner == n)] for n in range(len(movers))]
 
@@ -320,7 +320,7 @@ def resting(
     place = at.copy()
     if inner.size:
         speed = mover.speed
-        place[inner] = crossings_of_nought(
+        place[inner] = crossings_of_zero(
             lambda u: moves(values(cycle, u, [speed], moving=True)[speed]),
             np.minimum(at[inner], at[outer]),
             np.maximum(at[inner], at[outer]),

@@ -224,7 +224,7 @@ def refuse_far(sweep: Sweep) -> None:
             unit=unit,
             start=sweep.start,
         )
-        hint = message("give a window that is narrower, or nearer to where the scene stands")
+        hint = message("give a window that is narrower, or nearer to the position of the scene")
         raise SceneError(Problem("--from, --to", found, most, hint))
 
 
@@ -295,7 +295,7 @@ def from_start(course: Course, start: float, turns: int) -> Path:
         for count in counts(ahead, course, start, first):
             way = ahead if count == first else marched(course, start, start + count * TURN)
             if comes_back(way, course, start, start + count * TURN):
-                return Path((counted_from_nought(way, start, count * TURN),), True, True, count)
+                return Path((counted_from_zero(way, start, count * TURN),), True, True, count)
         if goes_on(marched(course, start, start + enough)):
             last = TURN * floor(start / TURN)
             found = both_ways(course, start, last + TURN, last)
@@ -305,7 +305,7 @@ def from_start(course: Course, start: float, turns: int) -> Path:
     found = both_ways(course, start, start + far, start - far)
     period = turns * TURN
     gone = gone_in(course, course, sweep.start, period)
-    return Path((about_nought(found, period, gone),), False, False, turns)
+    return Path((about_zero(found, period, gone),), False, False, turns)
 
 
 def goes_on(found: Range) -> bool:
@@ -330,7 +330,7 @@ def comes_back(found: Range, course: Course, start: float, stop: float) -> bool:
     return max(misses(found[0].course, start, found[-1].course, stop).values()) <= BACK
 
 
-def about_nought(found: Range, period: float, gone: dict[str, float]) -> Range:
+def about_zero(found: Range, period: float, gone: dict[str, float]) -> Range:
     """A range between dead points, shifted round the driver's circle to contain 0.
 
     If it cannot contain 0, it is shifted so that it begins nearest to 0.
@@ -366,7 +366,7 @@ def ways_joined(before: Course, after: Course) -> tuple[FollowedClosure, ...]:
     return tuple(first.joined(second, turning) for first, second, turning in ways)
 
 
-def counted_from_nought(pieces: Range, start: float, period: float) -> Range:
+def counted_from_zero(pieces: Range, start: float, period: float) -> Range:
     """The pieces of a recurring circle, rearranged to run from 0 degrees to the circle's end."""
     gone = gone_in(pieces[0].course, pieces[-1].course, start, period)
     turns = floor(start / period)

@@ -39,7 +39,7 @@ def last_closing(closes: Callable[[Reals], Any], inside: float, outside: float) 
     return inside
 
 
-def crossings_of_nought(
+def crossings_of_zero(
     value: Callable[[Reals], Reals], low: Reals, high: Reals, enough: float = 0.0
 ) -> Reals:
     """The sign change of a function in each bracket, by halving, all brackets at once.

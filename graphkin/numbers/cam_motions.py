@@ -36,8 +36,8 @@ Motion = Callable[[Real], Rise]
 
 def half_turn(u: Real) -> Real:
     """Pi as a number of the same kind as ``u``."""
-    nought = abs(u) * 0
-    return phase(at(nought - 1, nought))
+    zero = abs(u) * 0
+    return phase(at(zero - 1, zero))
 
 
 def chosen(condition: object, yes: Rise, no: Rise) -> Rise:
@@ -189,11 +189,11 @@ def displaced_along(
     whole, share = ends[-1], way / ends[-1]
     inside = pieced(share, [end / whole for end in ends], rises, motions)
     found = Rise(inside.at, inside.rate / whole, inside.bend / (whole * whole))
-    nought = share * 0
-    before_it = Rise(rises[0] * nought, nought, nought)
-    past_it = Rise(sum(rises[1:], rises[0]) + nought, nought, nought)
-    found = chosen(below(share, nought + (1 - BORDER)), found, past_it)
-    return chosen(below(share, nought - BORDER), before_it, found)
+    zero = share * 0
+    before_it = Rise(rises[0] * zero, zero, zero)
+    past_it = Rise(sum(rises[1:], rises[0]) + zero, zero, zero)
+    found = chosen(below(share, zero + (1 - BORDER)), found, past_it)
+    return chosen(below(share, zero - BORDER), before_it, found)
 
 
 def pieced(

@@ -247,10 +247,8 @@ DATE = message("a date is no value of a scene: put it in quotes")
 UNSEEN = message("remove the invisible character here")
 COMMENT = message("a comment begins with #")
 NOUGHT = message("write the number without a leading zero: 12")
-NUMBER = message(
-    'a number stands here, in the unit that units states, or an expression in quotes: "2*n"'
-)
-PLAIN = message("a number stands here: 12")
+NUMBER = message('a number, in the unit that units states, or an expression in quotes: "2*n"')
+PLAIN = message("a number: 12")
 MEASURED = frozenset(
     ("angle", "speed", "acceleration", "position", "offset", "length", "radius", "module")
 )
@@ -270,7 +268,7 @@ ADVICE = (
         message("the list above is not closed: ] or a comma is missing before this place"),
     ),
     ("unclosed inline table", message("the table {{ }} is not closed: }} or a comma is missing")),
-    ("duplicate inline table key", message("the same key stands twice between the braces")),
+    ("duplicate inline table key", message("the same key occurs twice between the braces")),
     (
         "cannot mutate immutable",
         message("what is written between braces cannot be added to elsewhere"),

@@ -265,8 +265,8 @@ def bar_between(wheel: Wheel, track: Wheel, measures: Measures) -> Link | None:
 
 def origin(point: str, measures: Measures) -> At:
     """A point at the origin of its link."""
-    nought = exact(0, measures.units["length"])
-    return At(point, nought, nought)
+    zero = exact(0, measures.units["length"])
+    return At(point, zero, zero)
 
 
 def combined(sign: str, one: Quantity, other: Quantity) -> Quantity:

@@ -442,8 +442,8 @@ class Placer:
                     message("a length or coordinates of other points above {first}", first=first),
                 )
             self.sketch.broken = True
-        nought = exact(0, unit, place)
-        self.placings[first] = At(first, nought, nought)
+        zero = exact(0, unit, place)
+        self.placings[first] = At(first, zero, zero)
         self.layout.add(self.placings[first], self.sketch.between)
 
     def is_placed_by_itself(self, point: str) -> bool:

@@ -444,7 +444,7 @@ def seat_of(follower: str, on: str, table: Table, links: Mapping[str, Link]) -> 
             return seat
     who = either(map(link_words, carriers))
     if on == FRAME and any(s.on == FRAME for name in carriers for s in links[name].slides):
-        hint = message("let the plate slide and the follower's guide stand still: both move alike")
+        hint = message("let the plate slide and keep the follower's guide fixed: both move alike")
         findings.add(
             table.at("on"),
             message("a plate at rest along which {who} slides", who=who),
@@ -533,7 +533,7 @@ def check_law(place: str, pieces: list[CamPiece], measures: Measures, *, slides:
         low, lift = to, lift + float(piece.rise.number(values))
         if lift < -1e-9 * abs(float(piece.rise.number(values))):
             where = f"{numbered(place, index, len(pieces))}.rise"
-            found = message("the follower stands {lift:g} below where the law begins", lift=-lift)
+            found = message("the follower is {lift:g} below where the law begins", lift=-lift)
             hint = message("the base circle is the smallest: let the law begin at its lowest place")
             findings.add(where, found, message("0 or more"), hint)
     if slides:
@@ -549,4 +549,4 @@ def check_law(place: str, pieces: list[CamPiece], measures: Measures, *, slides:
     size = max(abs(float(piece.rise.number(values))) for piece in pieces)
     if abs(lift) > 1e-9 * size:
         found = message("the rises add up to {lift:g}", lift=lift)
-        findings.add(place, found, message("0: after a whole turn the follower stands as before"))
+        findings.add(place, found, message("0: after a whole turn the follower is where it began"))

@@ -424,7 +424,7 @@ def read_motion(
         measures.findings.add(
             table.place,
             message("no speed"),
-            message("speed = … in {speed}, 0 if it stands", speed=speed),
+            message("speed = … in {speed}, 0 if it is at rest", speed=speed),
         )
     rate = measures.number(table.at("speed"), 0 if raw is None else raw, speed)
     raw = table.take("acceleration")

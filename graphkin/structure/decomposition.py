@@ -398,7 +398,7 @@ def far_from_plate(scene: Scene, follower: str, cam: Cam) -> Problem | None:
         return None
     bar = f"{cam.lever.pin}-{cam.point}"
     found = message(
-        "{pin} stands {above:.6g} mm from the path of {pivot}, {bar} is {arm:.6g} mm long",
+        "{pin} is {above:.6g} mm from the path of {pivot}, {bar} is {arm:.6g} mm long",
         pin=cam.lever.pin,
         above=1e3 * above,
         pivot=cam.pivot,
@@ -435,7 +435,7 @@ def far_lever(scene: Scene, follower: str, cam: Cam) -> Problem | None:
     apart = abs(fixed[lever.pin] - fixed[cam.pivot])
     prime = metres(scene, cam.base) + metres(scene, cam.roller)
     pins = message(
-        "{pivot} and {pin} stand {apart:.6g} mm apart",
+        "{pivot} and {pin} are {apart:.6g} mm apart",
         pivot=cam.pivot,
         pin=lever.pin,
         apart=1e3 * apart,

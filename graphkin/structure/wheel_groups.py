@@ -102,7 +102,7 @@ class Tie(OneLink, frozen=True):
         if isinstance(self.first, Sliding):
             led = f"link {self.link} led by {held}"
             return f"{led}: both tell how it is turned, so that one is idle"
-        return f"link {self.link} between {held}, which stand already: it must be idle"
+        return f"link {self.link} between {held}, which are placed already: it must be idle"
 
 
 class TriedLink(OneLink, frozen=True):

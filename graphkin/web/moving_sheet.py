@@ -71,8 +71,8 @@ class MovingSheet(Struct, frozen=True, dict=True):
         if not isinstance(value, Ratio):
             return dot(self.tape.lifted(value) - line.point, way) * mm
         start, shift, size = (self.tape.lifted(part) for part in value)
-        reach, nought = self.drawing.reach, self.tape.lifted(0.0)
-        far, step = nought, self.drawing.trace.program.steps[point]
+        reach, zero = self.drawing.reach, self.tape.lifted(0.0)
+        far, step = zero, self.drawing.trace.program.steps[point]
         steps = self.drawing.trace.program.steps
         if step.part is Part.CENTRE and step.by_hand and number in steps[step.by_hand].args:
             ahead = pick(abs(size) == 0, shift, shift * size.conjugate())
@@ -81,7 +81,7 @@ class MovingSheet(Struct, frozen=True, dict=True):
         here = dot(place_of(Ratio(start, shift, size)) - line.point, way) * mm
         least = NOISE * (self.drawing.largest or 1.0)
         everywhere = (abs(size) <= least) & (abs(shift) <= least * reach)
-        return pick(everywhere, nought, pick(near, here, far))
+        return pick(everywhere, zero, pick(near, here, far))
 
     @cached_property
     def ways(self) -> dict[int, Any]:

@@ -70,7 +70,7 @@ def test_a_double_beside_the_truth_would_be_seen():
 
 
 @pytest.mark.parametrize("times", [1e-3, 1e3])
-def test_the_scale_of_an_acceleration_that_is_nearly_nought_grows_with_the_mechanism(times):
+def test_the_scale_of_an_acceleration_that_is_nearly_zero_grows_with_the_mechanism(times):
     """Lengths, speeds and accelerations of a mechanism so many times as large, at the same ω."""
     sizes = np.array([[0.2, 3.0, 1e-9], [0.2, 3.0, 40.0]])
     assert sizeable(times * sizes) == pytest.approx(times * sizeable(sizes), rel=1e-12)

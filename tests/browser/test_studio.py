@@ -106,7 +106,7 @@ def test_a_mistake_is_marked_at_its_place_and_gone_when_it_is_mended(studio):
         page.locator("#problems", has_text=words).wait_for(timeout=LONG)
         page.wait_for_selector("body[data-settled=true]", timeout=LONG)
     page.select_option("#language", "en")
-    page.locator("#problems", has_text="a number stands here").wait_for(timeout=LONG)
+    page.locator("#problems", has_text="a number, in the unit").wait_for(timeout=LONG)
     assert page.inner_text("#problems") == english
     page.click("#problems button")
     assert selection(page) == "forty"

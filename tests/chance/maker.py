@@ -412,5 +412,5 @@ class AsPlaced:
         return cam.base, cam.roller, start - turned, cam.pieces, face
 
     def drive(self, drive: Drive, time: float) -> float:
-        """Turning drivers stand at nought here."""
+        """Turning drivers stand at zero here."""
         return 0.0 if drive.kind == "turn" else drive.position

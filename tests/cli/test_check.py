@@ -96,7 +96,7 @@ def test_an_idle_crank_is_told_apart_from_a_jam(run: Run, cranks: Callable[..., 
     assert result.exit_code == 0
     assert part(result.stdout, "count") == ["3·4 − 2·6 = 0, mobility by the count"]
     assert part(result.stdout, "groups")[-1] == (
-        "3. link 4 between pin S and pin M, which stand already: it must be idle"
+        "3. link 4 between pin S and pin M, which are placed already: it must be idle"
     )
     assert part(result.stdout, "rank") == [
         "1, true mobility by the rank of the constraints",
@@ -108,7 +108,7 @@ def test_an_idle_crank_is_told_apart_from_a_jam(run: Run, cranks: Callable[..., 
 def test_a_third_crank_that_does_not_fit_is_named(run: Run, cranks: Callable[..., Path]) -> None:
     result = run("check", cranks(third=11))
     assert result.exit_code == 2
-    assert "links.4: S and M stand 10 mm apart without it" in result.stderr
+    assert "links.4: S and M are 10 mm apart without it" in result.stderr
 
 
 def test_a_group_that_closes_nowhere_has_no_closure_that_the_scene_says(
@@ -161,7 +161,7 @@ P = "SIDE of B-C"
 
 @pytest.mark.parametrize(
     ("side", "told"),
-    [("left", ""), ("right", "links.8: P stands 18.9549 mm beside its guide without it")],
+    [("left", ""), ("right", "links.8: P is 18.9549 mm beside its guide without it")],
 )
 def test_an_idle_block_fits_in_one_closure_and_in_the_other_it_is_named(
     side: str, told: str, run: Run, tmp_path: Path

@@ -46,12 +46,12 @@ def test_it_warns_by_the_error_of_what_is_asked_and_not_by_how_flat_lines_cross(
     assert by_pencil(run, "pump", "--set", "n=25", "--pencil", 0.25)["warnings"]
 
 
-def test_an_answer_that_is_nought_has_no_error_in_percent_and_is_not_warned_of(run: Run) -> None:
+def test_an_answer_that_is_zero_has_no_error_in_percent_and_is_not_warned_of(run: Run) -> None:
     scene = "examples/scenes/mobility-parallel-cranks.toml"
     found = by_pencil(run, scene, "--pencil", 0.5)
-    nought = found["answers"]["omega"]["4"]
-    assert nought["relative"] is None
-    assert nought["predicted"] > 0
+    zero = found["answers"]["omega"]["4"]
+    assert zero["relative"] is None
+    assert zero["predicted"] > 0
     assert not any("omega of 4" in warning for warning in found["warnings"])
 
 

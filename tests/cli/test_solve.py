@@ -160,7 +160,7 @@ def test_an_open_chain_of_which_no_velocity_is_asked_is_solved(run: Run, tmp_pat
 def test_what_a_driver_gives_along_a_guide_that_turns_is_told_as_given(
     run: Run, name: str, given: dict[str, tuple[float, float, float]]
 ) -> None:
-    """A nought stands as 0, not as what rounding leaves: in JSON, table and proved digits."""
+    """A zero stands as 0, not as what rounding leaves: in JSON, table and proved digits."""
     scene = FOLDER / f"{name}.toml"
     found = json.loads(run("solve", scene, "--json").stdout)["slides"]
     for block, motion in given.items():

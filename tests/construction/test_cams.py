@@ -99,7 +99,7 @@ def by_hand(data, at):
 
 
 @pytest.mark.parametrize("name", MOTIONS)
-def test_a_motion_rises_from_nought_to_one_and_its_derivatives_are_right(name):
+def test_a_motion_rises_from_zero_to_one_and_its_derivatives_are_right(name):
     motion, step = MOTIONS[name], 1e-5
     assert motion(0.0).at == pytest.approx(0, abs=1e-12)
     assert motion(1.0).at == pytest.approx(1, abs=1e-12)

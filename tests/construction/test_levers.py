@@ -110,6 +110,6 @@ def test_a_guide_that_its_pin_cannot_reach_is_told_by_its_link():
     with pytest.raises(ClosureError) as caught:
         mechanism_of(text).solve()
     assert str(caught.value).startswith(
-        "position of link 3: how link 3 stands cannot be found: "
-        "A stands nearer to Q than the guide passes it; "
+        "position of link 3: the angle of link 3 cannot be found: "
+        "A is nearer to Q than the guide passes it; "
     )

@@ -78,7 +78,7 @@ def test_a_profile_of_the_frame_is_drawn_and_one_without_a_radius_refused():
     arc = profiles["0"]
     assert apart((arc.cx, arc.cy), places["P"]) < 1e-9
     assert isclose(arc.r, apart(places["A"], places["P"]))
-    with pytest.raises(PageError, match="P and A stand at one place; expected an arc") as told:
+    with pytest.raises(PageError, match="P and A coincide; expected an arc") as told:
         list(drawn(meeting(0)))
     assert told.value.problems[0].place == "frame.profiles"
 

@@ -82,7 +82,7 @@ def test_wheels_that_hardly_speed_up_have_their_values_and_senses():
     assert cells["ε3"] == ("1.829", "counter-clockwise")
 
 
-def test_what_is_only_rounding_is_nought_even_where_nothing_else_is_there():
+def test_what_is_only_rounding_is_zero_even_where_nothing_else_is_there():
     first, then = found = scene_of("a bar that shifts", SHIFTED)
     assert cells_of(first)["v_BA"][1:] == ("0", "0")
     assert cells_of(first)["ω2"] == cells_of(then)["ε2"] == ("0", "")

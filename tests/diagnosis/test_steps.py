@@ -159,7 +159,7 @@ def kept_parallel(scene: Scene) -> bool:
 
 @EVERY
 def test_every_block_on_a_guide_that_turns_has_its_coriolis_component(name):
-    """2 ω × v_rel, as the independent route finds it, is nought for every block that has none.
+    """2 ω × v_rel, as the independent route finds it, is zero for every block that has none.
 
     A wheel's centre slides along a track as the unseen link does that keeps it on that track.
     """
@@ -257,7 +257,7 @@ def test_a_law_of_time_takes_the_place_of_the_numbers_that_it_gives():
     assert timed["driver acceleration"] == 1
 
 
-def test_a_driver_whose_acceleration_is_a_parameter_keeps_its_step_at_nought():
+def test_a_driver_whose_acceleration_is_a_parameter_keeps_its_step_at_zero():
     text = CRANK.replace("[frame]", "[parameters]\ne = {{ value = 0 }}\n[frame]")
     driver = 'angle = 40\nspeed = 3\nacceleration = "e"'
     mechanism = Mechanism(read_text(text.format(driver=driver, time=""), "slot"))

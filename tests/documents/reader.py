@@ -51,7 +51,7 @@ class Reader(Trials):
         "draw the path of .*",
         "nothing is set on the mechanism, because .*",
         "join ⟨p⟩⟨q⟩: link ⟨k:number⟩ is idle and fits by itself",
-        "join ⟨p⟩⟨q⟩: link .*? stands for the contact at this instant",
+        "join ⟨p⟩⟨q⟩: link .*? replaces the contact at this instant",
         "the perpendiculars are parallel: .* is at infinity",
     )
     def nothing(self, **_: str) -> None:
@@ -282,8 +282,8 @@ class Reader(Trials):
         self.lies[k] = self.tangent = found[0]
 
     @says(
-        "guide ⟨k:number⟩ is the face of link ⟨f:number⟩, on which block ⟨k2:number⟩ in ⟨p⟩ stands "
-        "for the contact at this instant"
+        "guide ⟨k:number⟩ is the face of link ⟨f:number⟩, on which block ⟨k2:number⟩ in ⟨p⟩ "
+        "replaces the contact at this instant"
     )
     def face(self, k: str, f: str, **_: str) -> None:
         """Square to the guide of a follower, or along the bar of a lever."""
@@ -432,7 +432,7 @@ class Reader(Trials):
                 raise DefectError(f"link {g} was found {off:.2f}° from where it is laid off")
         self.loci.append(drawn)
 
-    @says("link ⟨k:number⟩ stands as at the start: from ⟨p⟩ lay off (?P<names>[^;]*) as given")
+    @says("link ⟨k:number⟩ is placed as at the start: from ⟨p⟩ lay off (?P<names>[^;]*) as given")
     def as_at_start(self, k: str, p: str, names: str) -> None:
         rolls = self.told_of(rf"wheel {k} rolls")
         start = re.search(rf"when the x axis of link {k} is at ({NUMBER}°)", rolls)

@@ -147,7 +147,7 @@ def follows(
 ) -> None:
     """A point's position, velocity and acceleration are those of a law in mm.
 
-    Where one of the three passes through nought the others tell what is small: v² is near a·z.
+    Where one of the three passes through zero the others tell what is small: v² is near a·z.
     """
     exact = [value / 1000 for value in rates(law, *drives)]
     z, v, a = map(abs, exact)

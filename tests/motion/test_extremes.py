@@ -215,3 +215,44 @@ def test_a_place_has_more_digits_than_its_value_can_show(label):
     found = found_in(Mechanism(read_text(text, "shaper")))[label]
     every = [each.at for each in (*found.least.places, *found.largest.places)]
     assert min(abs(at - 270) for at in every) < 1e-9
+
+
+def test_an_extreme_at_a_change_point_is_found_there():
+    """An isosceles slider-crank moves as x = 2 r cos: its extremes lie where crank and rod fold."""
+    scene = """graphkin = 1
+title = "Isosceles"
+units = { length = "mm", angle = "deg", speed = "rad/s" }
+[frame]
+O = [0, 0]
+[links.1]
+O-A = 60
+[links.2]
+A-B = 60
+A-P = 60
+P = "beyond A on B-A"
+[links.3]
+B = [0, 0]
+slides = { on = 0, through = "O", angle = 0 }
+[[drivers]]
+turn = 1
+angle = 40
+speed = 4
+[branches]
+3 = "forward"
+[ask]
+velocity = ["P", "B"]
+acceleration = ["P", "B"]
+"""
+    found = found_in(Mechanism(read_text(scene, "isosceles.toml")))
+    for label, size, turned in (
+        ("|v_B|", 0.48, True),
+        ("|v_P|", 0.48, False),
+        ("|a_B|", 1.92, False),
+        ("|a_P|", 1.92, True),
+    ):
+        across, along = (90.0, 270.0), (0.0, 180.0)
+        most, least = (across, along) if turned else (along, across)
+        assert found[label].largest.value == pytest.approx(size, rel=1e-9)
+        assert found[label].least.value == pytest.approx(0, abs=1e-9)
+        assert [each.at for each in found[label].largest.places] == pytest.approx(most, abs=1e-4)
+        assert [each.at for each in found[label].least.places] == pytest.approx(least, abs=1e-4)

@@ -247,7 +247,7 @@ def test_what_is_followed_runs_between_places_as_the_polynomial_through_the_near
 
 
 def test_curves_that_run_to_infinity_leave_the_axes_and_the_rest_of_them_stays_in_sight():
-    """Five sixths of 1/x at least; what runs nowhere, and a peak on nought, are shown whole."""
+    """Five sixths of 1/x at least; what runs nowhere, and a peak on zero, are shown whole."""
     at = np.linspace(-1, 1, 400)
     low, high = span_of(at, [1 / at, np.sin(at)])
     inside = (low <= 1 / at) & (1 / at <= high)

@@ -11,7 +11,7 @@ from graphkin.mechanism import Mechanism, load
 from graphkin.motion import follower_limits
 from graphkin.motion.cycle import cycle
 from graphkin.motion.follower_limits import followers, movers_of
-from graphkin.motion.refine import crossings_of_nought
+from graphkin.motion.refine import crossings_of_zero
 from graphkin.motion.single_loop import class_of, loop_of
 from graphkin.scene.read_scene import read_text
 from tests.bench.chain import scene as chain
@@ -133,9 +133,9 @@ def test_a_crossing_does_not_depend_on_the_brackets_beside_it(enough):
         return np.cos(u)
 
     lows, highs = np.array([1.0, 4.0, -100.0]), np.array([2.0, 5.0, -98.0])
-    together = crossings_of_nought(value, lows, highs, enough)
+    together = crossings_of_zero(value, lows, highs, enough)
     alone = [
-        crossings_of_nought(value, lows[k : k + 1], highs[k : k + 1], enough)[0] for k in range(3)
+        crossings_of_zero(value, lows[k : k + 1], highs[k : k + 1], enough)[0] for k in range(3)
     ]
     assert together.tolist() == alone
 

@@ -55,7 +55,7 @@ def told(found) -> list[str]:
     """The lines about the closures."""
     label, lines = pieces_words(found)
     assert label == "closures"
-    assert lines[0] == "one motion through the whole range; to stand in it, write in [branches]"
+    assert lines[0] == "one motion through the whole range; to select it, write in [branches]"
     return lines[1:]
 
 

@@ -1,4 +1,4 @@
-"""Ranges: about nought, from either side of it, and where pins fall together beyond their end."""
+"""Ranges: about zero, from either side of it, and where pins fall together beyond their end."""
 
 from math import acos, degrees
 from pathlib import Path
@@ -32,7 +32,7 @@ A = "left of O-B"
 
 
 @pytest.mark.parametrize("angle", [-60, -20, -5, 20, 340])
-def test_a_rocker_that_swings_about_nought_is_followed_from_anywhere(angle):
+def test_a_rocker_that_swings_about_zero_is_followed_from_anywhere(angle):
     """B is 0.12·cos(φ/2) from O and at least 0.18 - 0.08: cos(φ/2) = 5/6 at the ends."""
     found = cycle(mechanism_of(TRIPLE_ROCKER.format(angle=angle)), steps=36)
     (low, high), *rest = found.ranges

@@ -113,7 +113,7 @@ def test_what_is_exact_looks_exact():
     assert found["undecided"] == {}
 
 
-def test_a_number_that_only_comes_to_nought_in_fractions_is_nought():
+def test_a_number_that_only_comes_to_zero_in_fractions_is_zero():
     """A plate stands 90 mm back and its wheel's zero 90 mm ahead: 0.09 is no binary number."""
     found = certified(load(SCENES / "roller-plates.toml"), 20)
     assert found["points"]["O"]["position"] == ["0", "0.10000000000000000000"]
@@ -131,12 +131,12 @@ def test_a_number_that_only_comes_to_nought_in_fractions_is_nought():
         "roller-plates",
     ],
 )
-def test_what_vanishes_by_construction_is_nought(name):
+def test_what_vanishes_by_construction_is_zero(name):
     """ε of gears that turn steadily, a rack across its track, a centre on the rail."""
     assert certified(load(SCENES / f"{name}.toml"), 20)["undecided"] == {}
 
 
-def test_a_velocity_across_a_level_guide_is_nought():
+def test_a_velocity_across_a_level_guide_is_zero():
     """Of the valve rod of a Walschaerts gear, whose links are all oblique."""
     found = certified(load(MECHANISMS / "walschaerts.toml"), 20)
     assert found["points"]["V"]["velocity"][1] == found["points"]["V"]["acceleration"][1] == "0"
@@ -275,7 +275,7 @@ def test_an_irrational_length_is_not_rounded():
 # --- the command ---------------------------------------------------------------------------------
 
 
-def test_the_command_prints_strings_and_leaves_with_nought(run):
+def test_the_command_prints_strings_and_leaves_with_zero(run):
     result = run("solve", "pump", "--set", "n=7", "--asked", "--digits", 30, "--json")
     assert (result.exit_code, result.stderr) == (0, "")
     found = json.loads(result.stdout)

@@ -138,7 +138,7 @@ def test_a_falling_misfit_is_proved_as_a_rising_one_is():
     [
         (lambda x: x * x + 1, 1),  # positive everywhere
         (lambda x: -x * x - 1, 1),  # negative everywhere
-        (lambda x: x * x + 2.0**-150, 2.0**-75),  # all but touches nought
+        (lambda x: x * x + 2.0**-150, 2.0**-75),  # all but touches zero
         (lambda x: x * x, 0),  # touches it: two closures meet
         (lambda x: (x - 1) * (x - 1), 1 + 2.0**-40),
     ],

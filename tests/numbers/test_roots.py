@@ -21,7 +21,7 @@ def test_simple_roots_are_found_to_all_digits():
 
 @pytest.mark.parametrize("gap", [1e-1, 1e-3, 1e-5, 1e-7])
 def test_two_roots_close_together_are_both_found(gap):
-    """A parabola that dips below nought between two places of the grid."""
+    """A parabola that dips below zero between two places of the grid."""
     middle = 3.14
     place = found(lambda x: (x - middle) ** 2 - (gap / 2) ** 2)
     assert place == pytest.approx([middle - gap / 2, middle + gap / 2], abs=1e-9)
@@ -40,7 +40,7 @@ def test_a_function_so_many_times_as_large_has_the_same_roots_to_the_last_bit(po
 
 
 def test_two_roots_are_two_where_rounding_moves_the_sides_of_a_dip():
-    """A place that rounding alone puts below nought beside one root does not part the two."""
+    """A place that rounding alone puts below zero beside one root does not part the two."""
     grain = 2.0**-40
     for gap in np.linspace(5e-6, 1e-5, 200):
         place = found(lambda x, gap=gap: np.rint(((x - 3.14) ** 2 - gap**2 / 4) / grain) * grain)
@@ -48,7 +48,7 @@ def test_two_roots_are_two_where_rounding_moves_the_sides_of_a_dip():
 
 
 @pytest.mark.parametrize("miss", [1e-3, 1e-9])
-def test_a_function_that_only_comes_near_nought_has_no_root(miss):
+def test_a_function_that_only_comes_near_zero_has_no_root(miss):
     assert found(lambda x: (x - 3.14) ** 2 + miss).size == 0
 
 
@@ -76,7 +76,7 @@ def test_a_root_on_a_place_of_the_grid_counts_once():
 
 
 def test_an_interval_without_a_root_gives_none():
-    """A jump across nought, which is no root either."""
+    """A jump across zero, which is no root either."""
     place = closed_in(
         lambda _, x: np.where(x < 0.3, -1.0, 2.0), np.array([0]), np.array([0.0]), np.array([1.0])
     )
@@ -90,5 +90,5 @@ def test_a_root_just_before_a_jump_is_found_to_all_digits():
     assert place == pytest.approx([root], abs=4e-15)
 
 
-def test_a_jump_across_nought_is_no_root():
+def test_a_jump_across_zero_is_no_root():
     assert found(lambda x: np.where(x < 3.14, -1.0, 231.0)).size == 0

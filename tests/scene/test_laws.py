@@ -139,7 +139,7 @@ def test_a_derivative_that_is_infinite_is_told_with_its_place(
     assert ("finite at its time" in problem.hint) == (first != "law")
 
 
-def test_a_power_that_is_smooth_at_nought_is_followed() -> None:
+def test_a_power_that_is_smooth_at_zero_is_followed() -> None:
     """t^2½ has the speed 2.5·t^1½ and the acceleration 3.75·√t, both 0 at 0."""
     text = LAW.format(driver='turn = 1\nangle = "t**2.5"').replace("n/14", "0")
     driver = read_text(text, "law").drivers[0]

@@ -30,13 +30,13 @@ def test_the_pump(data: Path) -> None:
         ("C", "D"),
         ("D",),
     ]
-    nought = exact(0, "cm")
+    zero = exact(0, "cm")
     assert pump.links["3"].placings == (
-        At("A", nought, nought),
+        At("A", zero, zero),
         Apart("B", "A", exact(40, "cm")),
         Triangle("C", "A", "B", exact(20, "cm"), exact(25, "cm"), 1),
     )
-    guide = Slide("0", "O1", exact(0, "deg"), None, nought)
+    guide = Slide("0", "O1", exact(0, "deg"), None, zero)
     assert pump.links["5"].slides == (guide,)
     assert pump.branches == {"B": Side("A", "O2", -1), "5": Way(1)}
     assert pump.ask.velocity == pump.ask.acceleration == ("D",)

@@ -193,7 +193,7 @@ class Lever(Case, frozen=True):
 
 
 def span(*lengths: Any) -> tuple[float, float]:
-    """The largest and the least of some lengths that are not nought."""
+    """The largest and the least of some lengths that are not zero."""
     known = [float(abs(length)) for length in lengths if length]
     return max(known), min(known)
 

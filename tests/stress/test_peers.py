@@ -1,6 +1,6 @@
 """What other programs are known to get wrong, one test for each failure.
 
-A slider-crank in line divides by nought; angles by the arc cosine lose half their digits at 180°;
+A slider-crank in line divides by zero; angles by the arc cosine lose half their digits at 180°;
 positions found each from the last drift away. (Tolerances that are lengths: see test_sizes.py.)
 """
 

@@ -39,7 +39,7 @@ ASKED = "velocity = ['B']\nacceleration = ['B']\ncentres = [2]\npoles = [2]\ninf
 @pytest.mark.parametrize("case", CASES, ids=lambda case: type(case).__name__)
 @pytest.mark.parametrize("at", QUARTERS)
 def test_at_whole_quarters_of_a_turn(case, at):
-    """An angle of 90° is 90°, also after ten million billion turns: cosine nought, no 6e-17."""
+    """An angle of 90° is 90°, also after ten million billion turns: cosine zero, no 6e-17."""
     solution = held(replace(case, at=at))
     pin, pivot = solution.points["A"], complex(0)
     x, y = (pin.position - pivot).real, (pin.position - pivot).imag
@@ -51,7 +51,7 @@ def test_at_whole_quarters_of_a_turn(case, at):
 
 @pytest.mark.parametrize(("at", "place", "pull"), [("0", 4.0, -4 / 3), ("180", 2.0, 2 / 3)])
 def test_the_slider_crank_in_line_stands_moves_and_turns_round_exactly(at, place, pull):
-    """At its dead points the block is at rest: r + l, nought, and r·ω²(±1 + r/l)."""
+    """At its dead points the block is at rest: r + l, zero, and r·ω²(±1 + r/l)."""
     block = held(replace(SliderCrank(), at=at)).points["B"]
     assert block.position == place
     assert block.velocity == 0
@@ -62,8 +62,8 @@ def test_the_slider_crank_in_line_stands_moves_and_turns_round_exactly(at, place
 
 
 @pytest.mark.parametrize("case", [*CASES, DrivenSlide()], ids=lambda case: type(case).__name__)
-def test_a_driver_at_rest_gives_noughts(case, tmp_path):
-    """Velocity nought and acceleration nought: every plan is a point, and no number is NaN."""
+def test_a_driver_at_rest_gives_zeros(case, tmp_path):
+    """Velocity zero and acceleration zero: every plan is a point, and no number is NaN."""
     still = replace(case, speed="0", ask="velocity = ['B']\nacceleration = ['B']")
     solution = held(still)
     for point in solution.points.values():
@@ -85,7 +85,7 @@ def test_a_driver_that_starts_from_rest_has_accelerations_only(case):
 
 
 def test_a_block_at_constant_speed_has_no_acceleration():
-    """Driven evenly: acceleration exactly nought, its pole nowhere, no ε from 0/0."""
+    """Driven evenly: acceleration exactly zero, its pole nowhere, no ε from 0/0."""
     block = held(DrivenSlide()).points["B"]
     assert (block.velocity, block.acceleration) == (1, 0)
 

@@ -55,7 +55,7 @@ def test_the_count_and_the_loops_of_a_scene(text, words, loops):
     assert found.loops == loops
 
 
-def test_a_structure_that_cannot_move_counts_below_nought():
+def test_a_structure_that_cannot_move_counts_below_zero():
     assert Count(2, 4).words == "3·2 − 2·4 = −2"
 
 

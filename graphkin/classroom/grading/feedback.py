@@ -252,7 +252,7 @@ def far(mark: EarnedMark, words: Words) -> str:
     size, right = abs(mark.answer.value or 0.0), abs(mark.expected)
     if mark.item.what != "place" and right:
         if not size:
-            return words("feedback.nought")
+            return words("feedback.zero")
         if size >= MANIFOLD * right:
             return words("feedback.too_large", times=times(size / right, words))
         if right >= MANIFOLD * size:

@@ -120,8 +120,8 @@ def caused(marker: Marker, item: Item, ways: Sequence[CauseWay], words: Words) -
         size, allowed = item.size(way.values[field]), own * way.times[field]
         if isnan(size) or abs(size - right) <= own + allowed:
             continue
-        is_nought = item.what != "place" and size <= allowed
-        if is_nought or any(abs(size - other) <= near for other, near in seen):
+        is_zero = item.what != "place" and size <= allowed
+        if is_zero or any(abs(size - other) <= near for other, near in seen):
             continue
         seen.append((size, allowed))
         share = 1 - Fraction(str(standard.rubric.cost(way.names[0])))

@@ -79,12 +79,12 @@ def read_roster(
     who has a number. ``tell`` receives notes: ids that may have lost their leading zeros, and
     columns that are not understood.
     """
-    told = TableProblems(Path(path).name)
+    faults = TableProblems(Path(path).name)
     sheet = read_sheet(
-        Path(path), [name for what, every in NAMES.items() for name in (what, *every)], told
+        Path(path), [name for what, every in NAMES.items() for name in (what, *every)], faults
     )
-    where = found_columns(sheet, told, numbered)
-    reading = RosterReading(sheet, where, told, numbered)
+    where = found_columns(sheet, faults, numbered)
+    reading = RosterReading(sheet, where, faults, numbered)
     students: list[Student] = []
     for row in sheet.rows:
         if POSSIBLE in row.cells[:1]:
@@ -92,12 +92,12 @@ def read_roster(
         one = reading.student(row)
         students.append(one)
         for problem in check(one) if check is not None and one.number is not None else ():
-            told.add(sheet.place(row), problem.found, problem.expected, problem.hint)
-    if not sheet.rows and not told.problems:
-        told.add(
+            faults.add(sheet.place(row), problem.found, problem.expected, problem.hint)
+    if not sheet.rows and not faults.problems:
+        faults.add(
             sheet.name, message("no student below the head"), message("a row for each student")
         )
-    told.stop()
+    faults.stop()
     for note in (lost_zeros(sheet, where["id"]), not_understood(sheet, where)):
         if note and tell is not None:
             tell(note)
@@ -132,7 +132,7 @@ def lost_zeros(sheet: Spreadsheet, column: int) -> str:
     )
 
 
-def found_columns(sheet: Spreadsheet, told: TableProblems, numbered: bool) -> dict[str, int]:
+def found_columns(sheet: Spreadsheet, faults: TableProblems, numbered: bool) -> dict[str, int]:
     """The column of each kind of data; a missing required column is recorded."""
     where = columns(sheet, NAMES)
     wanted = {"id": ("matricol", "matricola")}
@@ -145,7 +145,7 @@ def found_columns(sheet: Spreadsheet, told: TableProblems, numbered: bool) -> di
             free = [cell for i, cell in enumerate(sheet.head) if i not in where.values()]
             hints = (meant(cell, what) for cell in free if is_head)
             hint = next(filter(None, hints), message("the first row names the columns"))
-            told.add(
+            faults.add(
                 sheet.name,
                 message(
                     "no column {what}; the lab's formula needs the student's number; the head is "
@@ -178,7 +178,7 @@ class RosterReading(Struct, frozen=True):
 
     sheet: Spreadsheet
     where: Mapping[str, int]
-    told: TableProblems
+    faults: TableProblems
     numbered: bool
     first: dict[str, Student] = field(default_factory=dict)
 
@@ -201,9 +201,9 @@ class RosterReading(Struct, frozen=True):
         for what, text, most in (("id", own, LONGEST_ID), ("name", full, LONGEST_NAME)):
             if len(text) > most:
                 found = message("{count} characters", count=len(text))
-                self.told.add(self.place(row, what), found, message("at most {most}", most=most))
+                self.faults.add(self.place(row, what), found, message("at most {most}", most=most))
         if not own and "id" in self.where:
-            self.told.add(self.place(row, "id"), message("is missing"), message("the student's id"))
+            self.faults.add(self.place(row, "id"), message("is missing"), message("the student's id"))
         extra = {
             self.sheet.head[i] or f"column {i + 1}": text
             for i, text in enumerate(row.cells)
@@ -214,14 +214,14 @@ class RosterReading(Struct, frozen=True):
         other = self.first.setdefault(own.casefold(), one)
         if own and other is not one:
             found = message(
-                "{id} stands in row {row} already"
+                "{id} is in row {row} already"
                 if other.id == own
-                else "{id}, written {other}, stands in row {row} already",
+                else "{id}, written {other}, is in row {row} already",
                 id=shown(own),
                 other=shown(other.id),
                 row=other.row,
             )
-            self.told.add(
+            self.faults.add(
                 self.place(row, "id"), found, message("an id of its own for each student")
             )
         return one
@@ -234,13 +234,13 @@ class RosterReading(Struct, frozen=True):
         if WHOLE.fullmatch(text) and len(text) <= MOST_DIGITS:
             return int(text)
         if text and self.numbered:
-            self.told.add(
+            self.faults.add(
                 place,
                 message("{text} is no whole number from 0 on", text=shown(text)),
                 message("a number such as 7"),
             )
         elif self.numbered and "number" in self.where:
-            self.told.add(
+            self.faults.add(
                 place,
                 message("is missing"),
                 message("the student's number, which the lab's formula needs"),

@@ -142,8 +142,8 @@ class TableProblems(Findings):
     @property
     def merged(self) -> list[Problem]:
         """The problems in the order of the rows, those of one cause together."""
-        told = [line for alike in self.causes.values() for line in together(alike.values())]
-        return sorted(told, key=row_of)
+        faults = [line for alike in self.causes.values() for line in together(alike.values())]
+        return sorted(faults, key=row_of)
 
     def stop(self) -> None:
         """Raise RosterError with the problems in the order of the rows, if there are any."""
@@ -192,22 +192,22 @@ def row_of(problem: Problem) -> int:
 
 
 def read_sheet(
-    path: Path, heads: Sequence[str] = (), told: TableProblems | None = None
+    path: Path, heads: Sequence[str] = (), faults: TableProblems | None = None
 ) -> Spreadsheet:
     """The table in a CSV or XLSX file; raises RosterError with every row that cannot be read.
 
     ``heads`` are names of columns, which help to find the separator. Cells are normalised (NFC).
-    With ``told``, unreadable rows are skipped and recorded there: the caller finds the other
+    With ``faults``, unreadable rows are skipped and recorded there: the caller finds the other
     problems and then stops.
     """
-    return sheet_in(bytes_of(Path(path)), Path(path).name, heads, told)
+    return sheet_in(bytes_of(Path(path)), Path(path).name, heads, faults)
 
 
 def sheet_in(
-    data: bytes, name: str, heads: Sequence[str] = (), told: TableProblems | None = None
+    data: bytes, name: str, heads: Sequence[str] = (), faults: TableProblems | None = None
 ) -> Spreadsheet:
     """The table in the bytes of a file, otherwise as ``read_sheet``; errors use ``name``."""
-    own, told = told is None, told or TableProblems(name)
+    own, faults = faults is None, faults or TableProblems(name)
     rows: Iterable[SheetRow]
     if data.startswith(OLD_EXCEL):
         hint = message("save it as .xlsx or as CSV UTF-8")
@@ -219,10 +219,10 @@ def sheet_in(
     else:
         text = text_of(data, name)
         separator = separator_of(text, heads)
-        rows = csv_rows(text, separator, told)
-    sheet = sheet_of(name, rows, separator, told, heads)
+        rows = csv_rows(text, separator, faults)
+    sheet = sheet_of(name, rows, separator, faults, heads)
     if own:
-        told.stop()
+        faults.stop()
     return sheet
 
 
@@ -302,7 +302,7 @@ def known_in(cells: Iterable[str], known: Collection[str]) -> int:
     return sum(bool(cell) and folded(cell) in known for cell in cells)
 
 
-def csv_rows(text: str, separator: str, told: TableProblems) -> Iterator[SheetRow]:
+def csv_rows(text: str, separator: str, faults: TableProblems) -> Iterator[SheetRow]:
     """The rows of a CSV text by the lines on which they begin; broken records are recorded.
 
     A broken record gives one broken row for each of its lines. A quote that is never closed breaks
@@ -319,17 +319,17 @@ def csv_rows(text: str, separator: str, told: TableProblems) -> Iterator[SheetRo
                 cells = next(reader)
             except csv.Error as error:
                 fault = str(error)
-                told.add(InTable(told.name, begins), *broken(fault))
+                faults.add(InTable(faults.name, begins), *broken(fault))
             ends = before + reader.line_num
             if ends > LAST_ROW:
-                raise too_large(told.name, message("more than {last_row} lines", last_row=LAST_ROW))
+                raise too_large(faults.name, message("more than {last_row} lines", last_row=LAST_ROW))
             is_open = "unexpected end" in fault or "field larger" in fault
             ends = begins if is_open else ends
             goes_on = ends > begins and any("\n" in c or "\r" in c for c in cells)
             if not fault and goes_on:
                 found = message("a cell goes on to row {ends}", ends=ends)
                 hint = message("is a closing quote missing?")
-                told.add(InTable(told.name, begins), found, message("a cell on one row"), hint)
+                faults.add(InTable(faults.name, begins), found, message("a cell on one row"), hint)
             if fault or goes_on:
                 for i in range(begins, ends + 1):
                     yield SheetRow(i, tuple(loose_cells(lines[i - 1], separator)), broken=begins)
@@ -344,7 +344,7 @@ def csv_rows(text: str, separator: str, told: TableProblems) -> Iterator[SheetRo
             message("more than {most} quotes that are never closed", most=MOST),
             message("the rest is not read"),
         )
-        raise RosterError(Problem(told.name, found, message('a closing " in each cell'), hint))
+        raise RosterError(Problem(faults.name, found, message('a closing " in each cell'), hint))
 
 
 def loose_cells(line: str, separator: str) -> list[str]:
@@ -371,16 +371,16 @@ def sheet_of(
     name: str,
     rows: Iterable[SheetRow],
     separator: str,
-    told: TableProblems,
+    faults: TableProblems,
     heads: Sequence[str] = (),
 ) -> Spreadsheet:
     """The table made of these rows, without empty ones: its head, and the rows below the head."""
     left_out: list[SheetRow] = []
     head, body = below_titles(whole_rows(map(tidied, rows), left_out), heads)
     if left_out and (head is None or left_out[0].line < head.line):
-        raise RosterError(told.problems)
+        raise RosterError(faults.problems)
     if head is None:
-        told.stop()
+        faults.stop()
         raise RosterError(
             Problem(
                 name, message("the table is empty"), message("a head, then a row for each student")
@@ -391,10 +391,10 @@ def sheet_of(
         raise too_large(name, message("{width} columns", width=width))
     twice = repeated([folded(cell) for cell in head.cells if cell])
     for i, cell in enumerate(head.cells):
-        refuse_hidden(told, InTable(name, head.line, i + 1), cell)
+        refuse_hidden(faults, InTable(name, head.line, i + 1), cell)
         if folded(cell) in twice:
             found = message('two columns are called "{cell}"', cell=visible(cell))
-            told.add(InTable(name, head.line), found, message("one"))
+            faults.add(InTable(name, head.line), found, message("one"))
             twice.discard(folded(cell))
     rows_found = []
     for count, row in enumerate(body, 1):
@@ -412,7 +412,7 @@ def sheet_of(
                 "a cell that holds {separators} is written in quotes",
                 separators=SEPARATORS[separator],
             )
-            told.add(
+            faults.add(
                 InTable(name, row.line),
                 words,
                 message("at most {most}", most=width),
@@ -421,7 +421,7 @@ def sheet_of(
             left_out.append(replace(row, broken=row.line))
             continue
         for i, cell in enumerate(cells):
-            refuse_hidden(told, InTable(name, row.line, visible(head.cells[i])), cell)
+            refuse_hidden(faults, InTable(name, row.line, visible(head.cells[i])), cell)
         whole = cells + ("",) * (width - len(cells))
         rows_found.append(SheetRow(row.line, whole, row.numbers))
     return Spreadsheet(name, head.cells, tuple(rows_found), separator, tuple(left_out))
@@ -472,10 +472,10 @@ def repeated(names: Sequence[str]) -> set[str]:
     return {name for name in names if names.count(name) > 1}
 
 
-def refuse_hidden(told: TableProblems, place: InTable, cell: str) -> None:
+def refuse_hidden(faults: TableProblems, place: InTable, cell: str) -> None:
     """Record a cell that is too long or has control or bidirectional characters."""
     if len(cell) > LONGEST:
-        told.add(
+        faults.add(
             place,
             message("{count} characters", count=len(cell)),
             message("at most {most}", most=LONGEST),
@@ -483,7 +483,7 @@ def refuse_hidden(told: TableProblems, place: InTable, cell: str) -> None:
         return
     for character in cell:
         if character not in "\n\r\t" and unicodedata.category(character) in ("Cc", "Cf", "Cs"):
-            told.add(
+            faults.add(
                 place,
                 message("the control character {character!a}", character=character),
                 message("printable text"),

@@ -513,7 +513,7 @@ def turns_lines(trace: Trace, scene: Scene) -> list[str]:
             continue
         angle, near = degrees(trace.value("turned", link)), degrees(trace.values[step.args[-1]])
         found += [
-            f"link {link} stands at {angle:.2f}°, the angle within half a turn of {near:g}°",
+            f"link {link} is at {angle:.2f}°, the angle within half a turn of {near:g}°",
             "  its pins do not show how often it went round since the start of "
             f"{place_of_turns(scene, link)};",
             f"  turns = {{ {link} = … }} there says how many whole turns are to be added",

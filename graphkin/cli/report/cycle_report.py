@@ -195,7 +195,7 @@ def number_words(cycle: Cycle, pieces: Sequence[Piece]) -> Iterator[str]:
 
     Consecutive pieces with the same numbers share a line; pieces that are too short have none.
     """
-    yield "one motion through the whole range; to stand in it, write in [branches]"
+    yield "one motion through the whole range; to select it, write in [branches]"
     for numbers, run in groupby(pieces, numbered):
         part = list(run)
         low, high = part[0].low.at, part[-1].high.at
@@ -295,7 +295,7 @@ def sweep_words(cycle: Cycle) -> Iterator[str]:
         f"{short(float(driver.acceleration.si(cycle.scene.values)))} {unit}/s²"
     )
     if len(cycle.scene.drivers) > 1:
-        yield "the other drivers stand still where the scene puts them"
+        yield "the other drivers are at rest where the scene puts them"
 
 
 def range_words(cycle: Cycle) -> list[str]:
@@ -341,14 +341,14 @@ def return_words(path: Path) -> Iterator[str]:
         return
     links = strangers(path)
     if dict(path.ranges[0][0].branches) != dict(path.ranges[0][-1].branches) or not links:
-        yield "after one turn the mechanism stands in another closure"
+        yield "after one turn the mechanism is in another closure"
     else:
-        stand = "links {} stand" if len(links) > 1 else "link {} stands"
-        yield f"after one turn {stand.format(listed(links))} otherwise than before"
+        stand = "links {} are" if len(links) > 1 else "link {} is"
+        yield f"after one turn {stand.format(listed(links))} in another position than before"
     if path.turns:
-        yield f"after {path.turns} turns all stands as before"
+        yield f"after {path.turns} turns everything is where it was"
     elif links:
-        yield f"nor does all stand as before within {MOST_TURNS} turns: one turn is shown"
+        yield f"everything is not back where it was within {MOST_TURNS} turns: one turn is shown"
 
 
 def circle_words(path: Path) -> Iterator[str]:
@@ -358,7 +358,7 @@ def circle_words(path: Path) -> Iterator[str]:
     if path.turns > 1:
         yield f"they come again after every {path.turns} turns of the driver, as the wheels do"
     elif not path.turns and path.ranges[0][0].course.sweep.whole:
-        yield f"wheels do not stand as before within {MOST_TURNS} turns: further ranges may follow"
+        yield f"wheels are not back in place within {MOST_TURNS} turns: further ranges may follow"
 
 
 def singular_words(cycle: Cycle, found: Singular) -> str:

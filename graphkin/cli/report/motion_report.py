@@ -191,7 +191,7 @@ def verdict_words(verdict: Verdict | None, scene: Scene) -> str:
         return f"agrees: {found}"
     says = f"the numbers {'differ' if verdict.differs else 'agree'}: {found}"
     if not isfinite(verdict.limit):
-        says = "lines stand in line, where no difference can be judged"
+        says = "bars are in line, where no difference can be judged"
     if verdict.branches:
         says += f"; does not hold of [branches]: {verdict.not_as_stated(scene.branches)}"
     if verdict.differs and verdict.digits:

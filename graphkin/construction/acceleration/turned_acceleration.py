@@ -220,6 +220,6 @@ def accelerated(pen: Pen, rate: int) -> bool:
     step = pen.steps[rate]
     if step.given is not None:
         given = {drive.acceleration for drive in pen.drives.values()}
-        return rate in given and not pen.is_nought(rate)
+        return rate in given and not pen.is_zero(rate)
     passed_on = step.action in (sum_of, difference, speed_at_rim)
     return passed_on and any(accelerated(pen, arg) for arg in step.args)

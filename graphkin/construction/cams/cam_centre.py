@@ -304,10 +304,10 @@ class CurvatureCentre(Determined, frozen=True, kw_only=True):
         """The problem of a straight pitch curve, which no circle can replace."""
         plate = isinstance(args[0], Line)
         hint = message(
-            "the follower moves by its law, but no circle stands for the cam here: move the "
+            "the follower moves by its law, but no circle replaces the cam here: move the "
             "driver, or write a straight flank as a guide on the plate"
             if plate
-            else "the follower moves by its law, but no circle stands for the cam here: move the "
+            else "the follower moves by its law, but no circle replaces the cam here: move the "
             "driver"
         )
         return Problem(

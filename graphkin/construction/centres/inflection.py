@@ -242,7 +242,7 @@ def draw_circle(pen: Pen, base: Base) -> None:
         found = pen.draw(inflection_pole, *ends, name=names["name"], by_hand=crossing)
         called = f"inflection {base.link}"
         circle = pen.arrow(inflection_circle, place, image, turning, found, name=called)
-        zero = pen.given("nought")
+        zero = pen.given("zero")
         opposite = pen.draw(relative_centre, place, image, turning, o, o, zero)
     pen.make(
         InflectionCircle(

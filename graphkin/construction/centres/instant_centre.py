@@ -170,7 +170,7 @@ def draw_centre(pen: Pen, base: Base) -> None:
 
 def by_turning(pen: Pen, base: Base) -> int:
     """The centre of a link with one known point, from its rate, which its guide gives."""
-    o, zero, name = pen.pole(Plane.VELOCITIES), pen.given("nought"), centre_name("I", base.link)
+    o, zero, name = pen.pole(Plane.VELOCITIES), pen.given("zero"), centre_name("I", base.link)
     ends = [pen.the(what, base.start) for what in ("position", "velocity")]
     with pen.on(Part.CENTRE, Plane.MECHANISM):
         turning = pen.the(OMEGA, base.link)

@@ -287,7 +287,7 @@ class Finder:
         """The steps of place and velocity of a point of a link, and of its angular velocity."""
         o = self.pen.pole(Plane.VELOCITIES)
         if link == FRAME:
-            return (self.pen.the("position", point) if point else o), o, self.pen.given("nought")
+            return (self.pen.the("position", point) if point else o), o, self.pen.given("zero")
         point = point or self.points(link)[0]
         place, image = self.pen.the("position", point), self.pen.the("velocity", point)
         return place, image, self.pen.the(OMEGA, link)

@@ -148,7 +148,7 @@ def note_tiny(plot: Plot, name: str, length: OnPaper) -> None:
     """Add a note at the foot of the field for a vector too short to be seen."""
     words, drawing = plot.drawing.words, plot.drawing
     factor = scale_of(drawing, drawing.plane)
-    key = "page.tiny" if drawing.settled(length * factor / 1000) else "page.nought"
+    key = "page.tiny" if drawing.settled(length * factor / 1000) else "page.zero"
     note = FootNote(words(key, name=name, length=in_mm(words, length)), name)
     if note not in plot.board.notes:
         plot.board.notes.append(note)

@@ -204,7 +204,7 @@ class Pen:
         """The steps that hold a quantity of two points or links."""
         return self.the(quantity, p), self.the(quantity, q)
 
-    def is_nought(self, number: int) -> bool:
+    def is_zero(self, number: int) -> bool:
         """Whether a step holds a given rate that is zero for all parameters."""
         given = self.steps[number].given
         quantities = given.quantities if given is not None else ()

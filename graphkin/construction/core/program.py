@@ -66,7 +66,7 @@ class Plane(Enum):
     ACCELERATIONS = "accelerations"
 
 
-CONSTANTS: Mapping[str, Any] = {"one": 1.0, "nought": 0.0, "origin": 0j, "ahead": 1 + 0j}
+CONSTANTS: Mapping[str, Any] = {"one": 1.0, "zero": 0.0, "origin": 0j, "ahead": 1 + 0j}
 """Values that need nothing from the scene; ahead is the direction of the x axis."""
 
 

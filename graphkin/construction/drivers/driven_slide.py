@@ -105,9 +105,9 @@ class DrivenSlide(AlongGuide, LaidOffByRate, frozen=True, kw_only=True):
         key, driver = falls_key(drawing, self.image, start), driver_of_rate(drawing, self.speed)
         name = drawing.trace.program.steps[self.speed].name
         if driver is None:
-            return key.removesuffix("-nought"), ""
+            return key.removesuffix("-zero"), ""
         steady = name in SPEEDS and driver.acceleration.is_zero()
-        key = key.replace("-nought", "-constant") if steady else key
+        key = key.replace("-zero", "-constant") if steady else key
         letter = (SPEEDS if steady else LETTERS)[name]
         return key, f"*{letter}*_{{{driver_index(driver)}}}"
 

@@ -252,7 +252,7 @@ def height_between(pen: Pen, line: PinLine) -> int | None:
             for pair, pin in zip((ahead, behind), line.pins, strict=True)
         )
         if are_opposed(pen, line):
-            there = pen.draw(difference, pen.given("nought"), there)
+            there = pen.draw(difference, pen.given("zero"), there)
         return pen.draw(difference, there, here)
 
 
@@ -280,7 +280,7 @@ def height_over(pen: Pen, pair: Sliding, pin: str, rail: str, point: str) -> int
         return pen.draw(gap, offset, here, beside_guide_of(pen, rail, point, ends))
     there = beside_guide_of(pen, carrier, pin, ends)
     lower = pen.draw(across, first, local_place(pen, block, point))
-    return pen.draw(difference, there, pen.draw(gap, lower, offset, pen.given("nought")))
+    return pen.draw(difference, there, pen.draw(gap, lower, offset, pen.given("zero")))
 
 
 def are_opposed(pen: Pen, line: PinLine) -> bool:

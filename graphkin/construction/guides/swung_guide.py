@@ -254,7 +254,7 @@ class TangentGuide(SwungGuide, frozen=True, kw_only=True):
     def failing(self) -> Message:
         """The words for a pin within the circle that the guide touches."""
         return message(
-            "{pin} stands nearer to {pivot} than the guide passes it",
+            "{pin} is nearer to {pivot} than the guide passes it",
             pin=self.pin,
             pivot=self.pivot,
         )

@@ -114,8 +114,8 @@ def turn_of_tried(pen: Pen, group: CoupledTrain) -> int:
     """The angle of the tried link, in radians, at which the error at the last contact is zero."""
     own = group.closing
     with pen.on(Part.POSITION, Plane.NUMBERS):
-        nought, one = pen.given("nought"), pen.given("one")
-    turns, rates = {group.tried.link: nought}, {group.tried.link: one}
+        zero, one = pen.given("zero"), pen.given("one")
+    turns, rates = {group.tried.link: zero}, {group.tried.link: one}
     for wheel in group.chain:
         turns[wheel.link] = rolled_to(pen, wheel.contact, wheel.link, turns)
         rates[wheel.link] = rate_rolled(pen, wheel.contact, wheel.link, rates)
@@ -134,7 +134,7 @@ def rate_rolled(pen: Pen, contact: Contact, link: str, rates: Mapping[str, int])
     """The rate at which a wheel turns while only the links of ``rates`` turn (Willis)."""
     side = seen_from(pen, contact, link)
     with pen.on(Part.POSITION, Plane.NUMBERS):
-        found = (rates.get(each, pen.given("nought")) for each in (contact.arm or "", side.other))
+        found = (rates.get(each, pen.given("zero")) for each in (contact.arm or "", side.other))
         return pen.draw(rolled_on_wheel, *found, side.track_radius, side.radius)
 
 

@@ -356,7 +356,7 @@ def plans_of(pen: Pen, group: CoupledTrain | Higher, plan: Plan) -> tuple[TrialP
     assert whole is None or isinstance(whole, TrialPlan)
     tag = whole.tag if whole is not None else ""
     with pen.on(Part.SHAPE, Plane.NUMBERS):
-        at_rest = pen.given("nought", name=f"{plan.rate} tried of {link}{tag}")
+        at_rest = pen.given("zero", name=f"{plan.rate} tried of {link}{tag}")
         value = trial_value(pen, group, plan)
     alike = whole.first.within[group.links] if whole is not None and whole.first else None
     first = TrialPlan(tag + TAGS[0], link, at_rest, alike, whole)

@@ -161,7 +161,7 @@ class DyadByArcs(Determined, frozen=True, kw_only=True):
         return Problem(
             message("position of {name}", name=pin),
             message(
-                "{p} falls on {q}, and {p}{pin} is as long as {q}{pin}: {pin} may stand anywhere "
+                "{p} falls on {q}, and {p}{pin} is as long as {q}{pin}: {pin} may be anywhere "
                 "about it",
                 p=p,
                 q=q,

@@ -171,7 +171,7 @@ def refuse_misfit(pen: Pen, group: Tie) -> None:
         if None in (place, end, length) or abs(abs(end - place) - length) <= FITS * length:
             return
         found = message(
-            "{p} and {q} stand {value:.6g} mm apart without it, but it is {length:.6g} mm long",
+            "{p} and {q} are {value:.6g} mm apart without it, but it is {length:.6g} mm long",
             p=p,
             q=q,
             value=1e3 * abs(end - place),
@@ -205,7 +205,7 @@ def off_guide_words(pen: Pen, pair: Sliding, link: str, point: str) -> Message:
     if away <= FITS * breadth_about(pen, at):
         return NO_WORDS
     return message(
-        "{point} stands {away:.6g} mm beside its guide without it", point=point, away=1e3 * away
+        "{point} is {away:.6g} mm beside its guide without it", point=point, away=1e3 * away
     )
 
 

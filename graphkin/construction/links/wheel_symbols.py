@@ -319,7 +319,7 @@ def edges_of(link: Link, places: Mapping[str, complex]) -> Iterator[Edge]:
 def without_radius(edge: Edge) -> Problem:
     """The problem of a profile whose centre lies on it."""
     about, through = edge.profile.about, edge.profile.through
-    found = message("{about} and {through} stand at one place", about=about, through=through)
+    found = message("{about} and {through} coincide", about=about, through=through)
     hint = message("change the position, or leave the profile out")
     return Problem(f"{place_of(edge.link)}.profiles", found, message("an arc with a radius"), hint)
 

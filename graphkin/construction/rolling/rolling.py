@@ -194,7 +194,7 @@ def start_turn(pen: Pen, contact: Contact, link: str) -> int:
     """The angle in radians of a link's x axis in the position from which the rolling is counted."""
     angle = contact.rolling.start.get(link)
     with pen.on(Part.SHAPE, Plane.NUMBERS):
-        return pen.given("nought") if angle is None else pen.given("number", angle)
+        return pen.given("zero") if angle is None else pen.given("number", angle)
 
 
 @by_contact
@@ -445,7 +445,7 @@ def angle_of(pen: Pen, link: str) -> int:
     """
     with pen.on(Part.POSITION, Plane.NUMBERS):
         if link == FRAME:
-            return pen.given("nought")
+            return pen.given("zero")
         if pen.has("turned", link):
             return pen.the("turned", link)
         if (driver := driven_from(pen, link)) is not None:

@@ -78,7 +78,7 @@ class RateByRadii(GivesRate, frozen=True, kw_only=True):
 @by_contact
 def turned_by_radii(pen: Pen, contact: Contact, link: str, turning: int) -> int:
     """The rate of a wheel on a fixed pin; the other's rate itself where that is always zero."""
-    if pen.is_nought(turning):
+    if pen.is_zero(turning):
         return turning
     side = seen_from(pen, contact, link)
     radii = side.track_radius, side.radius

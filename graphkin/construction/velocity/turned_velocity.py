@@ -115,7 +115,7 @@ def falls_key(drawing: Drawing, number: int, start: str) -> str:
     """
     if not start:
         return "step.falls-end"
-    return "step.falls" if number in drawing.auxiliary else "step.falls-nought"
+    return "step.falls" if number in drawing.auxiliary else "step.falls-zero"
 
 
 def rate_words(drawing: Drawing, number: int, rate: int, link: str, letter: str) -> str:

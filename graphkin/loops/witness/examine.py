@@ -226,9 +226,9 @@ def way_of_dyad(branch: Way, solved: LoopSolution, group: Group) -> Flags:
     loops = solved.loops
     if len(group.slides) != 1:
         return np.ones(loops.numbers.count, dtype=np.bool_)
-    stands, other = other_closure(loops, solved.motion, group)
+    current, other = other_closure(loops, solved.motion, group)
     error = solved.rounding.slide(group.slides[0].slide).position
-    return np.asarray(branch.way * (stands - other) > -ON_LINE * loops.size - 4 * error)
+    return np.asarray(branch.way * (current - other) > -ON_LINE * loops.size - 4 * error)
 
 
 def picked_rows(
@@ -262,15 +262,15 @@ def farthest(branch: Way, solved: LoopSolution, group: Group, name: str, n: int)
 
     loops = solved.loops
     part = part_of(loops, group.known | set(group.links), setting_of(loops, n))
-    stands = unknowns_of(part, pose_of(loops, solved.unknowns[n], n))
+    current = unknowns_of(part, pose_of(loops, solved.unknowns[n], n))
     j = led_by(name, group, loops, part)
     if j is None:
         return True
     column = part.turning_count + j
-    rows = closures(part, stands, group)
-    every = rows[facing_alike(part, stands, rows, group)][:, column]
+    rows = closures(part, current, group)
+    every = rows[facing_alike(part, current, rows, group)][:, column]
     end = every.max(initial=-np.inf) if branch.way > 0 else every.min(initial=np.inf)
-    return bool(abs(stands[0, column] - end) <= 1e-6 * part.size[0])
+    return bool(abs(current[0, column] - end) <= 1e-6 * part.size[0])
 
 
 def compare(
@@ -361,7 +361,7 @@ def started(scene: Scene, loops: Equations, solution: Solution) -> tuple[Reals, 
     named = {name: place for name, place in places.items() if not is_under(name)}
     with np.errstate(all="ignore"):
         start = start_values(loops, named, slides)
-    if start.told.all():
+    if start.determined.all():
         return start.unknowns, ()
     from graphkin.loops.assemble import completed_start
 
@@ -370,12 +370,12 @@ def started(scene: Scene, loops: Equations, solution: Solution) -> tuple[Reals, 
 
 def untold(loops: Equations, start: Start) -> tuple[str, ...]:
     """The links whose angle, and the blocks whose coordinate, no position determines."""
-    turnings = {k + 1 for k in range(loops.turning_count) if not start.told[k]}
+    turnings = {k + 1 for k in range(loops.turning_count) if not start.determined[k]}
     links = [link for link, k in loops.turned.of.items() if k in turnings and link != FRAME]
     blocks = [
         guide.block
         for j, guide in enumerate(loops.guides)
-        if not start.told[loops.turning_count + j]
+        if not start.determined[loops.turning_count + j]
     ]
     return tuple(dict.fromkeys([*links, *blocks]))
 

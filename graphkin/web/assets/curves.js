@@ -41,7 +41,7 @@ function chart(unit, some, series, places) {
   const svg = make("svg", { viewBox: `0 0 ${WIDE} ${HIGH}`, role: "slider", tabindex: 0,
     "aria-label": `${caption.textContent}, ${byId("curves").dataset.name}`, "aria-valuemin": data.low, "aria-valuemax": data.high });
   for (const x of steps(data.low, data.high, 7, data.degrees)) tick(svg, "across", u(x), written(x, places_of(span)) + (data.degrees ? "°" : ""));
-  for (const y of steps(low, high, 5)) tick(svg, y === 0 ? "level nought" : "level", v(y), significant(y, 3).replace(/[.,]0+$/, ""));
+  for (const y of steps(low, high, 5)) tick(svg, y === 0 ? "level zero" : "level", v(y), significant(y, 3).replace(/[.,]0+$/, ""));
   const inner = make("svg", { x: LEFT, y: TOP, width: WIDE - LEFT - RIGHT, height: HIGH - TOP - FOOT,
     viewBox: `${LEFT} ${TOP} ${WIDE - LEFT - RIGHT} ${HIGH - TOP - FOOT}` });
   series.forEach((values, i) => inner.append(make("path", { class: `curve c${i % 4}`, d: curve(values, places, u, v, high - low) })));

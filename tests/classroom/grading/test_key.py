@@ -49,7 +49,7 @@ def test_the_key_earns_all_points_in_every_variant(name):
 
 
 def test_where_no_drawing_tells_a_sense_both_are_right():
-    """A rate that is nought within what a hand as coarse as six millimetres makes of it."""
+    """A rate that is zero within what a hand as coarse as six millimetres makes of it."""
     marker = marker_with("pump", (), point=6.0, line=6.0)
     key, found = marker.standard.key, {}
     for field in (f for f in key if f.endswith("_sense")):
@@ -138,7 +138,7 @@ def test_tolerances_do_not_hang_on_where_the_origin_lies():
 
 
 def test_a_computed_value_is_held_to_the_cap():
-    """Student 25 cannot measure the piston's acceleration: nought is not right for 30 m/s²."""
+    """Student 25 cannot measure the piston's acceleration: zero is not right for 30 m/s²."""
     book = book_of("pump")
     measured = book.marker({"n": "25"}).standard
     computed = book.marker({"n": "25"}, ("a_D_mm", "a_D")).standard

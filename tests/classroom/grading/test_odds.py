@@ -80,7 +80,7 @@ def drawings(lab: str, kind: Kind, given: Sequence[tuple[int, str | None]], seed
 
 
 def odds(lab: str, graded: Sequence[Graded], is_pair=lambda i, j: True) -> list[float]:
-    """The odds of a copy of all pairs; nought where too few digits are the same."""
+    """The odds of a copy of all pairs; zero where too few digits are the same."""
     book = book_of(lab)
     standards = [book.expectation(each.taker) for each in graded]
     own, mine = distinct(standards)
@@ -184,7 +184,7 @@ def test_how_often_two_who_misunderstand_alike_write_the_same_digits(
     times, coarse, less, apart, digits
 ):
     """The difference of two drawings, each rounded, is spread as the sum of their variances (a
-    rounding by up to r has r²/3); digits are the same within twice a rounding about nought."""
+    rounding by up to r has r²/3); digits are the same within twice a rounding about zero."""
     pencil, least, spread = 0.8, 0.25, np.array([0.3, 0.6])
     sizes = np.array([[60.0, 80.0], [60.0 + apart, 80.0 - apart]])
     places, mean = np.zeros(2, dtype=bool), sizes.mean(axis=0)

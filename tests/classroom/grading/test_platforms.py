@@ -228,7 +228,7 @@ def test_from_moodles_zip_to_its_worksheet_and_its_feedback(folder):
     assert read_marks((folder / "out" / "marks.csv").read_bytes())["01003"]["points"] == "20.5"
 
 
-def test_a_scale_is_a_number_above_nought(folder):
+def test_a_scale_is_a_number_above_zero(folder):
     answers = packed(folder / "s.zip", MOODLE)
     for scale in ("0", "ten", "1e9"):
         found = grade(folder, answers, f"--scale={scale}")

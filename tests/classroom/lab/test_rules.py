@@ -87,7 +87,7 @@ def test_a_formula_is_exact():
     }
 
 
-def test_a_rest_goes_round_from_nought_and_binds_as_a_product():
+def test_a_rest_goes_round_from_zero_and_binds_as_a_product():
     rule = LabRule(settings={"n": expression("2 + 7*number mod 30", counting=True)})
     found = [settings(lab(rule), Student(2, "x", k))["n"] for k in (1, 4, 5, 34)]
     assert found == [9, 30, 7, 30]

@@ -50,7 +50,7 @@ def test_a_name_with_signs_that_the_font_lacks_is_told(make):
     result = ran(make("a", ["7", "8", "9"], names=["李 小龍", "Ana 王王", "Ana"]), "--jobs", 1)
     assert result.exit_code == 0
     lacks = "the font of the sheets lacks"
-    assert f'7: {lacks} 李 小 龍 of "李 小龍, 331 A"; the id stands for the name' in result.stderr
+    assert f'7: {lacks} 李 小 龍 of "李 小龍, 331 A"; the id replaces the name' in result.stderr
     assert f'8: {lacks} 王 of "Ana 王王, 331 A"; ? stands for each' in result.stderr
     assert "9: " not in result.stderr
 

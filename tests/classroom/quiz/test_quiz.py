@@ -88,7 +88,7 @@ def test_a_single_wrong_value_is_right_or_not_as_in_grading(name):
             assert (share == 1) == (mark.status is Status.RIGHT), (field, off)
 
 
-def test_a_rate_near_nought_is_right_with_either_sign_as_in_grading():
+def test_a_rate_near_zero_is_right_with_either_sign_as_in_grading():
     standard, field = replace(marker_of("pump", 7).standard), "omega_3"
     allowed = marker_of("pump", 7).standard.tolerance
     for part in (-0.9, -0.3, 0.0, 0.3, 0.9, 1.1):

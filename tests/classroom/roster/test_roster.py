@@ -209,8 +209,8 @@ HOSTILE = {
     "number,name\n1,Ann\n": 'no column id; the head is "number", "name"',
     "id,name\n1,Ann\n": "no column number; the lab's formula needs the student's number",
     "nunber,id\n1,1\n": 'is it "nunber"? then call that column "number"',
-    "number,id\n1,7\n2,7\n": 'row 3, column "id": "7" stands in row 2 already',
-    "number,id\n1,ab\n2,AB\n": 'row 3, column "id": "AB", written "ab", stands in row 2 already',
+    "number,id\n1,7\n2,7\n": 'row 3, column "id": "7" is in row 2 already',
+    "number,id\n1,ab\n2,AB\n": 'row 3, column "id": "AB", written "ab", is in row 2 already',
     "number,id\n,7\n": 'row 2, column "number": is missing',
     "Nr.,id\nx,7\n": 'row 2, column "Nr.": "x" is no whole number',
     "number,id\n-1,7\n": '"-1" is no whole number',
@@ -346,7 +346,7 @@ def test_ids_that_are_numbers_of_a_workbook_may_have_lost_their_zeros(book):
 def test_problems_of_a_workbook_name_its_rows(book):
     found = problems(book([["number", "id"], [1, 7], [None, None], ["x", 7]]))
     assert 'roster.xlsx, row 4, column "number": "x" is no whole number' in found[0]
-    assert 'row 4, column "id": "7" stands in row 2 already' in found[1]
+    assert 'row 4, column "id": "7" is in row 2 already' in found[1]
 
 
 def test_a_broken_workbook_and_a_bomb_are_told(saved):
@@ -427,7 +427,7 @@ def test_mistakes_of_all_sorts_are_told_at_once_in_the_order_of_the_rows(saved):
     """A row too long, a number missing, none, an id twice, an id missing, a quote left open."""
     rows = ["Nr;id;nume", "1;2;x;1", ";3;a", ",5;4;b", "5;6;c", "6;6;d", '7;;"e f"', '8;9;"open']
     found = problems(saved("\n".join(rows)))
-    expected = ["4 cells", "is missing", "no whole number", "stands in row 5", "missing", "quote"]
+    expected = ["4 cells", "is missing", "no whole number", "is in row 5", "missing", "quote"]
     assert all(f"row {row}" in line for row, line in zip((2, 3, 4, 6, 7, 8), found, strict=True))
     assert all(word in line for word, line in zip(expected, found, strict=True)), found
 

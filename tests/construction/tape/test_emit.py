@@ -90,7 +90,7 @@ def flat(trace) -> list[tuple[int, np.ndarray]]:
 
 def nowhere(columns: list[tuple[int, np.ndarray]]) -> dict[int, np.ndarray]:
     """Where a value has a part that is NaN: the centre of a link that turns about a fixed pin that
-    is nowhere itself is nought times something over NaN, and so is nowhere."""
+    is nowhere itself is zero times something over NaN, and so is nowhere."""
     found: dict[int, np.ndarray] = {}
     for number, values in columns:
         found[number] = found.get(number, False) | np.isnan(values)
