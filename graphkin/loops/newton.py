@@ -148,7 +148,7 @@ Places = Mapping[str, Complexes]
 
 
 class Start(Struct, frozen=True, eq=False):
-    """Unknowns (N, K + m) to start from; ``determined`` marks those the positions determine (K + m,)."""
+    """Unknowns (N, K + m) to start from; the positions give those of ``determined`` (K + m,)."""
 
     unknowns: Reals
     determined: Mask

@@ -10,6 +10,7 @@ from graphkin.classroom.roster.student import Student
 HEADS = ("language", "lang", "limba", "limbă", "lingua", "roster language", "roster limba")
 """The names of a column of languages."""
 NAMES = {
+    "de": "de ger deu german deutsch germana tedesco tedesca",
     "ro": "ro rou ron rum roman romana romanian romanesc romaneste romeno rumeno",
     "en": "en eng english engleza englez inglese",
     "it": "it ita italian italiana italiano italieneste",

@@ -203,7 +203,9 @@ class RosterReading(Struct, frozen=True):
                 found = message("{count} characters", count=len(text))
                 self.faults.add(self.place(row, what), found, message("at most {most}", most=most))
         if not own and "id" in self.where:
-            self.faults.add(self.place(row, "id"), message("is missing"), message("the student's id"))
+            self.faults.add(
+                self.place(row, "id"), message("is missing"), message("the student's id")
+            )
         extra = {
             self.sheet.head[i] or f"column {i + 1}": text
             for i, text in enumerate(row.cells)

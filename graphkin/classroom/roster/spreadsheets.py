@@ -322,7 +322,9 @@ def csv_rows(text: str, separator: str, faults: TableProblems) -> Iterator[Sheet
                 faults.add(InTable(faults.name, begins), *broken(fault))
             ends = before + reader.line_num
             if ends > LAST_ROW:
-                raise too_large(faults.name, message("more than {last_row} lines", last_row=LAST_ROW))
+                raise too_large(
+                    faults.name, message("more than {last_row} lines", last_row=LAST_ROW)
+                )
             is_open = "unexpected end" in fault or "field larger" in fault
             ends = begins if is_open else ends
             goes_on = ends > begins and any("\n" in c or "\r" in c for c in cells)
