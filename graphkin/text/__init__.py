@@ -12,7 +12,7 @@ from typing import Any
 from graphkin.text.markup import Markup, names_in, saying
 from graphkin.text.school_signs import USUAL, SchoolSigns
 
-LANGUAGES = ("de", "en", "it", "ro")
+LANGUAGES = ("de", "en", "es", "fr", "it", "ro", "ru")
 ENGLISH = "en"
 """The language of the sentences that another one does not have yet."""
 MINUS = "\N{MINUS SIGN}"

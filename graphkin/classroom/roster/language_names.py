@@ -11,6 +11,9 @@ HEADS = ("language", "lang", "limba", "limbă", "lingua", "roster language", "ro
 """The names of a column of languages."""
 NAMES = {
     "de": "de ger deu german deutsch germana tedesco tedesca",
+    "es": "es spa spanish espanol spaniola spagnolo spagnola",
+    "fr": "fr fre fra french francais franceza francese",
+    "ru": "ru rus russian русскии русский rusa russo russa",
     "ro": "ro rou ron rum roman romana romanian romanesc romaneste romeno rumeno",
     "en": "en eng english engleza englez inglese",
     "it": "it ita italian italiana italiano italieneste",
@@ -46,4 +49,4 @@ def unknown_lines(named: Iterable[tuple[str, str]]) -> Iterator[str]:
         more = f" and {len(every) - FEW} more" if len(every) > FEW else ""
         found = f'"{text[:40]}" is no language of the pages'
         whose = f"{'; '.join(every[:FEW])}{more}"
-        yield f"{whose}: {found} (ro, en, it); theirs are in that of the class"
+        yield f"{whose}: {found} ({', '.join(sorted(NAMES))}); theirs are in that of the class"
