@@ -49,4 +49,5 @@ def unknown_lines(named: Iterable[tuple[str, str]]) -> Iterator[str]:
         more = f" and {len(every) - FEW} more" if len(every) > FEW else ""
         found = f'"{text[:40]}" is no language of the pages'
         whose = f"{'; '.join(every[:FEW])}{more}"
-        yield f"{whose}: {found} ({', '.join(sorted(NAMES))}); theirs are in that of the class"
+        known = ", ".join(sorted(NAMES))
+        yield f"{whose}: {found} ({known}); theirs are in that of the class"

@@ -16,7 +16,8 @@ from hypothesis import strategies as some
 
 from graphkin.classroom.lab.read_lab import read_lab
 from graphkin.classroom.roster import spreadsheets
-from graphkin.classroom.roster.language_names import NAMES, language_in
+from graphkin.classroom.roster.language_names import NAMES as LANGUAGE_NAMES
+from graphkin.classroom.roster.language_names import language_in
 from graphkin.classroom.roster.read_roster import NAMES, read_roster
 from graphkin.classroom.roster.spreadsheets import (
     MOST_CELLS,
@@ -451,5 +452,5 @@ def test_a_column_that_is_missing_hides_no_other_mistake(saved):
 
 
 def test_every_language_of_the_pages_has_names_in_class_lists():
-    assert set(NAMES) == set(LANGUAGES)
+    assert set(LANGUAGE_NAMES) == set(LANGUAGES)
     assert {language_in(words(code)("language")) for code in LANGUAGES} == set(LANGUAGES)
