@@ -48,6 +48,7 @@ LATER = {
     "studio": "graphkin.cli.studio_command:studio",
     "manual": "graphkin.cli.manual_command:manual",
     "help": "graphkin.cli.manual_command:help_on",
+    "words": "graphkin.cli.words_command:words",
 }
 """The commands of other modules, as ``module:function``."""
 HELP = {"help_option_names": ["-h", "--help"], "max_content_width": 96}

@@ -18,7 +18,7 @@ from click.exceptions import Exit
 from msgspec.structs import replace
 
 from graphkin.scene.findings import near_name
-from graphkin.text import paths
+from graphkin.text import LANGUAGES, paths
 from graphkin.text.errors import (
     PLAIN_TRACEBACK,
     ClosureError,
@@ -351,8 +351,7 @@ def jobs_option(
 
 def lang_option(help: str, default: str | None = None) -> Option:
     """The option --lang: a language of pages."""
-    kinds = click.Choice(["ro", "en", "it"])
-    return click.option("--lang", type=kinds, default=default, help=help)
+    return click.option("--lang", type=click.Choice(LANGUAGES), default=default, help=help)
 
 
 language_option = lang_option("Language of the pages; the scene's by default.")

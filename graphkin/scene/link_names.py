@@ -10,7 +10,7 @@ from graphkin.scene.findings import Findings, Table, shown
 from graphkin.scene.known_names import known_link
 from graphkin.scene.model import Ask, Driver, Scene
 from graphkin.scene.phrases import FRAME_WORD, LONGEST_NAME
-from graphkin.scene.requests import LANGUAGES
+from graphkin.text import LANGUAGES
 from graphkin.text.errors import message
 
 Names = Mapping[str, str]

@@ -36,9 +36,9 @@ from graphkin.scene.phrases import (
     point_name,
 )
 from graphkin.scene.quantity import Quantity, exact
+from graphkin.text import LANGUAGES
 from graphkin.text.errors import Hint, Message, Written, either, joined, message
 
-LANGUAGES = ("en", "it", "ro")
 PATHS_ASKED = "curves"
 CENTRES_ASKED, PAIRS = "centres", "pairs"
 """The key that may also hold pairs of links, and where the scene keeps these."""

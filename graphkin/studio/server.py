@@ -20,7 +20,7 @@ from graphkin.studio.guard import FRAMED, Guard, new_token
 from graphkin.studio.local_pages import JSON, KINDS, answer, answering, new_application
 from graphkin.studio.look import spoken_in
 from graphkin.studio.session import MOST_BYTES, OPENED, Opened, PageRequest, Session
-from graphkin.text import LANGUAGES, Words
+from graphkin.text import LANGUAGES, Words, keys
 from graphkin.text.errors import GraphkinError, PageError, Problem, message
 from graphkin.writers.templates import from_template
 
@@ -56,7 +56,7 @@ def page(opened: Opened, words: Words) -> str:
 def said_in(language: str) -> dict[str, str]:
     """The sentences of the page in one language."""
     words = spoken_in(language)
-    own = (key for key in words.sentences if key.startswith(SPOKEN))
+    own = (key for key in keys() if key.startswith(SPOKEN))
     return {key: words.open(key) for key in (*own, *PLANS)}
 
 

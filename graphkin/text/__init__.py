@@ -12,7 +12,9 @@ from typing import Any
 from graphkin.text.markup import Markup, names_in, saying
 from graphkin.text.school_signs import USUAL, SchoolSigns
 
-LANGUAGES = ("en", "it", "ro")
+LANGUAGES = ("de", "en", "es", "fr", "it", "ro", "ru")
+ENGLISH = "en"
+"""The language of the sentences that another one does not have yet."""
 MINUS = "\N{MINUS SIGN}"
 METRE = re.compile(r"(?<![\w*{'’])m(?=/s|/mm|$)")
 """A metre in a unit: m, m/s, (m/s²)/mm, m/mm."""
@@ -21,6 +23,22 @@ RATE = re.compile(r"(?<![\w*{'’])m(?=/s)")
 SUPERSCRIPTS = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
 EUPHONIC = r"(?<!\S)([ae]) (?=\*?(?i:\1))"
 """The Italian words for "to" and "and" before a word that begins with the same vowel."""
+
+
+class Sentences(dict[str, str]):
+    """The sentences of one language by key; one that it lacks is the English one.
+
+    ``lacking`` holds the keys of those that were asked for.
+    """
+
+    lacking: frozenset[str] = frozenset()
+
+    def __missing__(self, key: str) -> str:
+        said = words(ENGLISH).sentences
+        if self is said or not dict.__contains__(said, key):
+            raise KeyError(key)
+        self.lacking |= {key}
+        return said[key]
 
 
 class Words:
@@ -39,17 +57,17 @@ class Words:
         return words(language, self.signs, self.length)
 
     @cached_property
-    def sentences(self) -> Mapping[str, str]:
+    def sentences(self) -> Sentences:
         """Every sentence by its key, read from its file on first use."""
         import tomllib
         from pathlib import Path
 
         text = (Path(__file__).parent / f"{self.language}.toml").read_text(encoding="utf-8")
-        found = dict(flattened(tomllib.loads(text)))
+        found = Sentences(flattened(tomllib.loads(text)))
         if self.signs is USUAL and self.length == "m":
             return found
         signed = {key: self.signs.in_sentence(said) for key, said in found.items()}
-        return {key: RATE.sub(self.length, said) for key, said in signed.items()}
+        return Sentences({key: RATE.sub(self.length, said) for key, said in signed.items()})
 
     def unit(self, unit: str) -> str:
         """A unit of results, whose metres are these lengths: in/s for m/s."""
@@ -74,7 +92,7 @@ class Words:
 
     def has(self, key: str) -> bool:
         """Whether there is a sentence under a key."""
-        return key in self.sentences
+        return key in self.sentences or key in words(ENGLISH).sentences
 
     def decimal(self, text: str) -> str:
         """A number with a decimal point, in this language's format, with a true minus sign."""
@@ -115,6 +133,17 @@ def words(language: str, signs: SchoolSigns = USUAL, length: str = "m") -> Words
     if language not in LANGUAGES:
         raise KeyError(language)
     return Words(language, USUAL if signs == USUAL else signs, length)
+
+
+def keys() -> list[str]:
+    """The keys of all sentences."""
+    return list(words(ENGLISH).sentences)
+
+
+def untranslated(language: str) -> dict[str, str]:
+    """The English sentences by key that a language does not have yet."""
+    own = words(language).sentences
+    return {key: said for key, said in words(ENGLISH).sentences.items() if key not in own}
 
 
 def flattened(tree: Mapping[str, Any], prefix: str = "") -> list[tuple[str, str]]:

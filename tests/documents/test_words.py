@@ -4,16 +4,19 @@ from __future__ import annotations
 
 import ast
 import re
+import tomllib
 from collections.abc import Sequence
 from functools import partial
 from pathlib import Path
 from string import Formatter
 
 import pytest
+from click.testing import CliRunner
 
 import graphkin
 from graphkin.classroom.lab.cause_names import NAMES as CAUSES
 from graphkin.classroom.lab.fairness import WORDS as LIMITS
+from graphkin.cli.main import app
 from graphkin.construction.core.drawn_scene import Drawing
 from graphkin.construction.core.given_data import variant
 from graphkin.construction.core.quantities import CENTRES, OnPaper, in_mm
@@ -38,7 +41,7 @@ from graphkin.numbers.cam_motions import MOTIONS
 from graphkin.numbers.plane import Ratio
 from graphkin.reading.desk_app import SAID
 from graphkin.scene.read_scene import read_text
-from graphkin.text import LANGUAGES, Words, words
+from graphkin.text import LANGUAGES, Words, flattened, untranslated, words
 from graphkin.text.errors import PageError
 from graphkin.web.your_turn import reasons
 from tests.chosen import CHOSEN, FOLDER, SCENES
@@ -58,7 +61,7 @@ from tests.scene_files import scene_texts
 
 CODE = Path(graphkin.__file__).parent
 FORCES = Path(__file__).parents[1] / "scenes" / "forces"
-MARKS = {"en": ".", "ro": ",", "it": ","}
+MARKS = {language: "." if language == "en" else "," for language in LANGUAGES}
 OTHER_LANGUAGES = [language for language in LANGUAGES if language != "en"]
 
 RARE = scene_texts("documents/rare")
@@ -163,10 +166,34 @@ def spoken_keys() -> set[str]:
     return found - set(LANGUAGES)
 
 
+@pytest.mark.parametrize("language", ["it", "ro"])
+def test_these_languages_have_every_sentence(language):
+    assert not untranslated(language)
+
+
 @pytest.mark.parametrize("language", OTHER_LANGUAGES)
-def test_every_language_has_the_same_keys(language):
-    english, others = words("en").sentences.keys(), words(language).sentences.keys()
-    assert english == others, english ^ others
+def test_no_language_has_a_sentence_that_is_not_asked_for(language):
+    assert words(language).sentences.keys() <= words("en").sentences.keys()
+
+
+def test_a_sentence_that_a_language_lacks_is_the_english_one_and_is_listed():
+    lacking = untranslated("de")
+    german = words("de")
+    for key in lacking:
+        assert german.open(key) == words("en").open(key)
+        assert german.has(key)
+    assert german.sentences.lacking >= lacking.keys()
+    assert not german.has("page.no such sentence")
+    with pytest.raises(KeyError):
+        german("page.no such sentence")
+    listed = CliRunner().invoke(app, ["words", "de", "--missing"])
+    assert dict(flattened(tomllib.loads(listed.output))) == lacking
+
+
+def test_sheets_and_calculations_are_german_throughout():
+    """What a student draws by is translated; other pages may follow."""
+    rooms = ("sheet", "block", "page", "table", "ask", "step", "calculation", "legend", "task")
+    assert not [key for key in untranslated("de") if key.partition(".")[0] in rooms]
 
 
 @pytest.mark.parametrize("language", LANGUAGES)
@@ -184,17 +211,21 @@ def test_titles_and_notes_of_shipped_scenes_have_the_typographic_apostrophe():
 @pytest.mark.parametrize("language", OTHER_LANGUAGES)
 def test_every_sentence_has_the_same_gaps_in_every_language(language):
     english, others = words("en").sentences, words(language).sentences
-    differing = [key for key in english if fields(english[key]) != fields(others[key])]
+    differing = [key for key in others if fields(english[key]) != fields(others[key])]
     assert not differing
 
 
 @pytest.mark.parametrize("language", OTHER_LANGUAGES)
 def test_no_sentence_is_left_in_english(language):
     english, others = words("en").sentences, words(language).sentences
-    same = {key for key in english if english[key] == others[key]}
+    same = {key for key in others if english[key] == others[key]}
     long = {key for key in same if re.search(r"[a-z]{4,}", re.sub(r"\{.*?\}", "", english[key]))}
     assert long <= {
         "page.constant",
+        "page.guide_of",
+        "page.axis_guide",
+        "calculation.structure",
+        "form.points",
         "table.segment",
         "calculation.vector_mark",
         "desk.verdict",

@@ -10,12 +10,14 @@ import pytest
 from graphkin.mechanism import load
 from graphkin.scene.findings import near_name
 from graphkin.scene.read_scene import read_text
+from graphkin.text import LANGUAGES
 from graphkin.text.errors import Problem, SceneError
 from tests.scene_files import scene_text
 
 Finder = Callable[..., Problem]
 Finders = Callable[..., list[Problem]]
 TURNED = "turn = 1\nangle"
+KNOWN = ", ".join(LANGUAGES)
 SLIDES = 'slides = { on = 0, through = "O1", angle = 0 }'
 
 CASES = [
@@ -183,12 +185,12 @@ CASES = [
     ("poles = [3, 4]", "slides = [4]", "ask.slides[0]", "link 4 does not slide", "slides"),
     ("[ask]", "[asks]", "asks", "unknown key", "did you mean ask?"),
     # sheet, titles, notes
-    ("[ask]", '[sheet]\nlanguage = "fr"\n[ask]', "sheet.language", '"fr"', "one of en, it, ro"),
+    ("[ask]", '[sheet]\nlanguage = "xx"\n[ask]', "sheet.language", '"xx"', f"one of {KNOWN}"),
     ("[ask]", "[sheet]\nsheets = 3\n[ask]", "sheet.sheets", "3", "1 or 2"),
     ("[ask]", "[sheet]\nscale = 0\n[ask]", "sheet.scale", "0", "above 0"),
     ("[ask]", '[sheet]\nscale = "1:0"\n[ask]', "sheet.scale", "':'", ""),
     ("[ask]", '[sheet]\nowner = "a\\u0007"\n[ask]', "sheet.owner", "'\\x07'", "printable"),
-    ("[ask]", '[titles]\nfr = "x"\n[ask]', "titles.fr", "unknown key", "en, it, ro"),
+    ("[ask]", '[titles]\nxx = "x"\n[ask]', "titles.xx", "unknown key", KNOWN),
     ("[ask]", "[notes]\nro = 3\n[ask]", "notes.ro", "3", "a text in quotes"),
 ]
 

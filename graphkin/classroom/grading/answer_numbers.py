@@ -24,20 +24,23 @@ SIGNS = {
 """The ways to write a sense of anything: counter-clockwise and along a guide are positive."""
 TURNED = {
     +1: "ccw acw trig trigonometric trigonometrica trigonometrico levogiro levogira sinistrorso"
-    " sinistrorsa",
+    " sinistrorsa linksdrehend trigonometrique",
     -1: "cw clockwise orar orara orario oraria ceas ceasornic ceasornicului"
-    " ceasului acelor orologio lancette destrogiro destrogira destrorso destrorsa",
+    " ceasului acelor orologio lancette destrogiro destrogira destrorso destrorsa uhrzeigersinn"
+    " rechtsdrehend horaire horario horaria часовои",
 }
 """Words for a sense of rotation, without diacritics."""
 SLIDING = {
     +1: "forward forwards along lungo dupa inainte avanti away guide guides ghidaj ghidajului"
-    " ghidajul guida",
-    -1: "backward backwards back inapoi indietro towards toward",
+    " ghidajul guida vorwarts langs fuhrung avant long adelante largo guia вперед вдоль"
+    " направляющеи",
+    -1: "backward backwards back inapoi indietro towards toward ruckwarts arriere atras назад",
 }
 """Words for a sense of sliding: along the guide, or against it."""
 ROUND = words_in(
     "anti counter contra contrar contrara contro contrario contraria invers inversa inverso"
     " inversul opus opusa opposto opposta opposite against"
+    " gegen против"
 )
 """Words or prefixes that reverse the word after them."""
 ANTI = "anti"
@@ -46,7 +49,7 @@ FILLING = words_in(
     "a al ale ai de del della delle dell dei di da in nel nella l il la le lo se the of to its it"
     " sens sensul sensului senso sense direction direzione directie directia verso wise s sensu"
     " rotatie rotatia rotatiei rotazione rotation rot turns turning miscare miscarii ace lui"
-    " pe per con cu alle all hand hands"
+    " pe per con cu alle all hand hands im den der die du en sentido hacia lo по стрелке"
 )
 """Words that carry no sense."""
 SHORT = {"or": "orar", "ant": "antiorar", "antior": "antiorar", "anticl": "anticlockwise"}

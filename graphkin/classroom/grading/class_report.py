@@ -28,7 +28,7 @@ from graphkin.classroom.lab.lab_model import Item
 from graphkin.classroom.roster.student import Student
 from graphkin.classroom.roster.taker import Taker
 from graphkin.drawing.richtext import pieces, plain
-from graphkin.text import Words
+from graphkin.text import LANGUAGES, Words
 from graphkin.writers.plot_style import INK, figure_file, look, new_figure
 from graphkin.writers.templates import from_template
 
@@ -437,7 +437,10 @@ def language_lines(takers: Iterable[Taker], words: Words) -> Iterator[str]:
     for taker in takers:
         if taker.language and taker.spoken is None:
             yield words(
-                "class.no_language", who=taker.student.called, text=shown_cell(taker.language)
+                "class.no_language",
+                who=taker.student.called,
+                text=shown_cell(taker.language),
+                list=", ".join(LANGUAGES),
             )
 
 

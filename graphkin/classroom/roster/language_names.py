@@ -10,6 +10,10 @@ from graphkin.classroom.roster.student import Student
 HEADS = ("language", "lang", "limba", "limbă", "lingua", "roster language", "roster limba")
 """The names of a column of languages."""
 NAMES = {
+    "de": "de ger deu german deutsch germana tedesco tedesca",
+    "es": "es spa spanish espanol spaniola spagnolo spagnola",
+    "fr": "fr fre fra french francais franceza francese",
+    "ru": "ru rus russian русскии русский rusa russo russa",
     "ro": "ro rou ron rum roman romana romanian romanesc romaneste romeno rumeno",
     "en": "en eng english engleza englez inglese",
     "it": "it ita italian italiana italiano italieneste",
@@ -45,4 +49,5 @@ def unknown_lines(named: Iterable[tuple[str, str]]) -> Iterator[str]:
         more = f" and {len(every) - FEW} more" if len(every) > FEW else ""
         found = f'"{text[:40]}" is no language of the pages'
         whose = f"{'; '.join(every[:FEW])}{more}"
-        yield f"{whose}: {found} (ro, en, it); theirs are in that of the class"
+        known = ", ".join(sorted(NAMES))
+        yield f"{whose}: {found} ({known}); theirs are in that of the class"

@@ -32,7 +32,7 @@ FACES = {
         "Italic",
     ),
 }
-PARTS = ("latin", "latin-ext", "greek", "greek-ext")
+PARTS = ("latin", "latin-ext", "greek", "greek-ext", "cyrillic")
 """The files into which Fontsource divides a face; not every face has all of them."""
 EM, CAPITAL = 1000, 660
 """Font units per em, and the height of capitals in font units."""
@@ -48,12 +48,13 @@ SIGNS = (
 
 
 def wanted() -> set[int]:
-    """The code points that sheets may use: Latin, Romanian, Italian, Greek and signs."""
+    """The code points that sheets may use: Latin, Greek, Russian and signs."""
     latin = set(range(0x20, 0x7F)) | set(range(0xA0, 0x180)) - {0xAD}
     comma_below = set(range(0x218, 0x21C))
     greek = set(range(0x386, 0x3CF)) | {0x3D1, 0x3D5, 0x3D6, 0x3F1, 0x3F5}
     greek -= {0x38B, 0x38D, 0x3A2}
-    return latin | comma_below | greek | {ord(sign) for sign in SIGNS}
+    russian = set(range(0x410, 0x450)) | {0x401, 0x451}
+    return latin | comma_below | greek | russian | {ord(sign) for sign in SIGNS}
 
 
 def sources(folder: Path, package: str, style: str, other: str) -> list[TTFont]:

@@ -9,10 +9,9 @@ from pathlib import Path
 from string import Formatter
 from typing import Any
 
-from graphkin.text import LANGUAGES
+from graphkin.text import ENGLISH, LANGUAGES
 from graphkin.text.errors import Message
 
-ENGLISH = "en"
 PREPOSITION = re.compile(r"\b(di|a|da|su|in) $")
 STEMS = {"di": "de", "a": "a", "da": "da", "su": "su", "in": "ne"}
 ARTICLE = re.compile(r"(?:il|la|i|le|gli)(?= )|l’")
@@ -23,15 +22,18 @@ FORMATTER = Formatter()
 
 @lru_cache(maxsize=8)
 def translations(language: str) -> Mapping[str, str]:
-    """The templates of a language by their English. Raises KeyError for an unknown language."""
+    """The templates of a language by their English; those that it lacks stay English.
+
+    Raises KeyError for an unknown language.
+    """
     import tomllib
 
     if language not in LANGUAGES:
         raise KeyError(language)
     if language == ENGLISH:
         return {}
-    text = (Path(__file__).parent / f"{language}.toml").read_text(encoding="utf-8")
-    return tomllib.loads(text)
+    path = Path(__file__).parent / f"{language}.toml"
+    return tomllib.loads(path.read_text(encoding="utf-8")) if path.is_file() else {}
 
 
 def spoken(said: str, language: str) -> str:

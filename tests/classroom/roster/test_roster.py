@@ -16,6 +16,8 @@ from hypothesis import strategies as some
 
 from graphkin.classroom.lab.read_lab import read_lab
 from graphkin.classroom.roster import spreadsheets
+from graphkin.classroom.roster.language_names import NAMES as LANGUAGE_NAMES
+from graphkin.classroom.roster.language_names import language_in
 from graphkin.classroom.roster.read_roster import NAMES, read_roster
 from graphkin.classroom.roster.spreadsheets import (
     MOST_CELLS,
@@ -25,6 +27,7 @@ from graphkin.classroom.roster.spreadsheets import (
 )
 from graphkin.classroom.roster.student import Student
 from graphkin.classroom.variants.assign import check_of
+from graphkin.text import LANGUAGES, words
 from graphkin.text.errors import InTable, RosterError
 from graphkin.text.tables import NUMBER, csv_text, safe
 
@@ -446,3 +449,8 @@ def test_a_column_that_is_missing_hides_no_other_mistake(saved):
         "roster.csv, row 2",
         'roster.csv, row 3, column "id"',
     ]
+
+
+def test_every_language_of_the_pages_has_names_in_class_lists():
+    assert set(LANGUAGE_NAMES) == set(LANGUAGES)
+    assert {language_in(words(code)("language")) for code in LANGUAGES} == set(LANGUAGES)

@@ -314,13 +314,16 @@ def test_fields_that_hardly_any_drawing_settles_are_told_when_the_class_is_made(
 
 def test_whose_language_no_page_has_is_told_by_row_and_name(tmp_path):
     path = tmp_path / "class.csv"
-    rows = [f"{i};{i};{name};{'fr' if i != 1 else 'en'}" for i, name in enumerate("ABCDEF", 1)]
+    rows = [f"{i};{i};{name};{'xx' if i != 1 else 'en'}" for i, name in enumerate("ABCDEF", 1)]
     path.write_text("\n".join(["id;number;name;Limba", *rows]), encoding="utf-8")
     result = ran("variants", "pump", path, "-o", tmp_path / "class")
     assert result.exit_code == 0, result.stderr
     column = 'column "Limba"'
     assert f"class.csv, row 3, {column}, B (2); class.csv, row 4, {column}, C (3);" in result.stderr
-    assert '(4) and 2 more: "fr" is no language of the pages (ro, en, it)' in result.stderr
+    assert (
+        '(4) and 2 more: "xx" is no language of the pages (de, en, es, fr, it, ro, ru)'
+        in result.stderr
+    )
 
 
 def test_a_class_list_that_is_not_there_is_told_with_what_to_do(tmp_path):
