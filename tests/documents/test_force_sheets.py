@@ -10,6 +10,7 @@ import pytest
 from graphkin.construction.core.kind import constructions
 from graphkin.construction.core.program import Part
 from graphkin.construction.forces.polygon import PolygonStart
+from graphkin.documents.force_sentences import force_relations
 from graphkin.documents.force_sheets import force_drawing, traced
 from graphkin.documents.scaling import sheet_motion
 from graphkin.documents.sheet_documents import drawings_of, hand_out, proved
@@ -176,3 +177,33 @@ def test_the_plan_of_forces_follows_the_motion():
     own = mechanism.program.steps
     assert program.steps[: len(own)] == own
     assert all(step.part is not Part.FORCE for step in own)
+
+
+@pytest.mark.parametrize("name", NAMES)
+def test_every_result_of_the_calculation_follows_from_its_figures(name):
+    """A reader with a pocket calculator gets the printed result, to one in its last digit."""
+    checked = 0
+    for _, found in force_relations(forces_of(name)):
+        for relation in found:
+            put = relation.figures.rpartition("= ")[2]
+            if not put or "^" in put or "10" + "⁻" in put:
+                continue
+            worth = reckoned(put)
+            result = float(relation.result.replace(" ", ""))
+            assert abs(abs(worth) - result) <= 2e-3 * result + 0.006, relation
+            checked += 1
+    assert checked > 8
+
+
+def reckoned(put: str) -> float:
+    """The value of a sum of products and quotients as printed."""
+    text = put.replace("·", "*").replace("−", "-").replace(" ", "")
+    assert re.fullmatch(r"[-+*/().0-9\s]+", text), put
+    return float(eval(text, {"__builtins__": {}}))
+
+
+def test_a_form_does_not_give_the_signs_of_moments_away():
+    for _, found in force_relations(forces_of("shaper")):
+        for relation in found:
+            shown = " ".join(relation.parts(solved=False))
+            assert not re.search(r"h\}?_\{?\d.*[+−]", shown), shown
