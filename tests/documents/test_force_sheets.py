@@ -7,6 +7,7 @@ from pathlib import Path
 
 import pytest
 
+from graphkin.classroom.sheet_files import sheet_files
 from graphkin.construction.core.kind import constructions
 from graphkin.construction.core.program import Part
 from graphkin.construction.forces.polygon import PolygonStart
@@ -207,3 +208,15 @@ def test_a_form_does_not_give_the_signs_of_moments_away():
         for relation in found:
             shown = " ".join(relation.parts(solved=False))
             assert not re.search(r"h\}?_\{?\d.*[+−]", shown), shown
+
+
+@pytest.mark.parametrize("view", ["key", "task"])
+def test_the_web_page_of_forces_holds_the_sheet_and_fetches_nothing(view):
+    mechanism = load(SCENES / "four-bar.toml")
+    files, notes = sheet_files(mechanism, "four-bar", "fb", view, None, ["html"])
+    page = files[f"fb-force-{view}.html"].decode()
+    assert not notes and "default-src 'none'" in page
+    assert not re.search(r"(?:src|href)=\"http", page)
+    assert page.count("<svg") == (1 if view == "task" else 1 + len(sheet_of("four-bar", "steps")))
+    for ink in re.findall(r"var\(--([a-z]+)\)", page):
+        assert f"--{ink}:" in page
