@@ -17,7 +17,7 @@ from graphkin.documents.scaling import sheet_motion
 from graphkin.documents.sheet_documents import drawings_of, hand_out, proved
 from graphkin.drawing.marks import LineMark, Page, Text, style_class
 from graphkin.drawing.richtext import plain
-from graphkin.drawing.style import FORCES
+from graphkin.drawing.style import FORCES, INKS
 from graphkin.mechanism import Mechanism, load
 from graphkin.scene.read_scene import read_text
 from graphkin.text import LANGUAGES, words
@@ -218,5 +218,4 @@ def test_the_web_page_of_forces_holds_the_sheet_and_fetches_nothing(view):
     assert not notes and "default-src 'none'" in page
     assert not re.search(r"(?:src|href)=\"http", page)
     assert page.count("<svg") == (1 if view == "task" else 1 + len(sheet_of("four-bar", "steps")))
-    for ink in re.findall(r"var\(--([a-z]+)\)", page):
-        assert f"--{ink}:" in page
+    assert all(f"--{ink}:" in page for ink in INKS.values())
