@@ -48,7 +48,10 @@ def sheet_files(
             files |= rendered(own, part.kind, part.pages, kinds, ink, steps=steps)
     given = mechanism.scene.forces
     if "html" in kinds and given is not None and given.asked:
-        notes.append(language_of(mechanism, language)("sheet.no_forces"))
+        from graphkin.web.force_page import force_page
+
+        page = force_page(mechanism, view, language, ink)
+        files[f"{stem}-force-{view}.html"] = page.encode("utf-8")
     return files, notes
 
 

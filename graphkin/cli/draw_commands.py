@@ -77,7 +77,7 @@ def sheet(
     in twelve positions, or as [positions] says, and two more files have the plans of all of them.
 
     With --format html, writes one page for a browser, pump-n7-key.html, with both plans, every step
-    and the results. The page needs no network. It does not show forces.
+    and the results. Forces have a page of their own. The pages need no network.
 
     \b
     Examples:

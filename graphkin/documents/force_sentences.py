@@ -49,7 +49,7 @@ def force_data(drawing: Drawing, *, solved: bool) -> list[Datum]:
     found = [
         piece
         for driver in scene.drivers
-        for piece in of_driver(scene, words, driver, solved=solved)
+        for piece in of_driver(scene, words, driver, solved=solved, laws=True)
     ]
     remarks = []
     for link, mass in forces.masses.items():

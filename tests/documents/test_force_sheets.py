@@ -7,15 +7,17 @@ from pathlib import Path
 
 import pytest
 
+from graphkin.classroom.sheet_files import sheet_files
 from graphkin.construction.core.kind import constructions
 from graphkin.construction.core.program import Part
 from graphkin.construction.forces.polygon import PolygonStart
+from graphkin.documents.force_sentences import force_relations
 from graphkin.documents.force_sheets import force_drawing, traced
 from graphkin.documents.scaling import sheet_motion
 from graphkin.documents.sheet_documents import drawings_of, hand_out, proved
 from graphkin.drawing.marks import LineMark, Page, Text, style_class
 from graphkin.drawing.richtext import plain
-from graphkin.drawing.style import FORCES
+from graphkin.drawing.style import FORCES, INKS
 from graphkin.mechanism import Mechanism, load
 from graphkin.scene.read_scene import read_text
 from graphkin.text import LANGUAGES, words
@@ -176,3 +178,44 @@ def test_the_plan_of_forces_follows_the_motion():
     own = mechanism.program.steps
     assert program.steps[: len(own)] == own
     assert all(step.part is not Part.FORCE for step in own)
+
+
+@pytest.mark.parametrize("name", NAMES)
+def test_every_result_of_the_calculation_follows_from_its_figures(name):
+    """A reader with a pocket calculator gets the printed result, to one in its last digit."""
+    checked = 0
+    for _, found in force_relations(forces_of(name)):
+        for relation in found:
+            put = relation.figures.rpartition("= ")[2]
+            if not put or "^" in put or "10" + "⁻" in put:
+                continue
+            worth = reckoned(put)
+            result = float(relation.result.replace(" ", ""))
+            assert abs(abs(worth) - result) <= 2e-3 * result + 0.006, relation
+            checked += 1
+    assert checked > 8
+
+
+def reckoned(put: str) -> float:
+    """The value of a sum of products and quotients as printed."""
+    text = put.replace("·", "*").replace("−", "-").replace(" ", "")
+    assert re.fullmatch(r"[-+*/().0-9\s]+", text), put
+    return float(eval(text, {"__builtins__": {}}))
+
+
+def test_a_form_does_not_give_the_signs_of_moments_away():
+    for _, found in force_relations(forces_of("shaper")):
+        for relation in found:
+            shown = " ".join(relation.parts(solved=False))
+            assert not re.search(r"h\}?_\{?\d.*[+−]", shown), shown
+
+
+@pytest.mark.parametrize("view", ["key", "task"])
+def test_the_web_page_of_forces_holds_the_sheet_and_fetches_nothing(view):
+    mechanism = load(SCENES / "four-bar.toml")
+    files, notes = sheet_files(mechanism, "four-bar", "fb", view, None, ["html"])
+    page = files[f"fb-force-{view}.html"].decode()
+    assert not notes and "default-src 'none'" in page
+    assert not re.search(r"(?:src|href)=\"http", page)
+    assert page.count("<svg") == (1 if view == "task" else 1 + len(sheet_of("four-bar", "steps")))
+    assert all(f"--{ink}:" in page for ink in INKS.values())

@@ -12,6 +12,7 @@ from graphkin.construction.core.layout import Layout
 from graphkin.construction.core.program import Part, Plane, Step
 from graphkin.construction.core.quantities import RATE, MotionQuantity
 from graphkin.construction.forces.balance import BalancingMoment
+from graphkin.construction.forces.force_words import sub
 from graphkin.construction.forces.lever import LeverBalance
 from graphkin.construction.forces.loads import InertiaMoment
 from graphkin.construction.forces.polygon import InPolygon
@@ -70,7 +71,7 @@ class ForceDrawing(Drawing, frozen=True):
                 found.setdefault(load.link, {})[f"M_{load.link}"] = size
         for inertia in constructions(self.trace.program, InertiaMoment):
             if couple := float(self.trace.values[inertia.couple]):
-                found.setdefault(inertia.link, {})[f"M_i{inertia.link}"] = couple
+                found.setdefault(inertia.link, {})["M_" + sub("i", inertia.link)] = couple
         return found
 
     @cached_property

@@ -13,7 +13,7 @@ from graphkin.construction.core.bases import crank_tip
 from graphkin.construction.core.pen import Pen
 from graphkin.construction.core.program import Part, Plane, Program
 from graphkin.construction.forces.balance import balance_of
-from graphkin.construction.forces.force_words import link_pair
+from graphkin.construction.forces.force_words import link_pair, sub
 from graphkin.construction.forces.lever import LeverPlan
 from graphkin.construction.forces.loads import LinkForce, applied, loads_of, opposite
 from graphkin.construction.forces.moments import (
@@ -302,7 +302,7 @@ class ForcePlan:
         pen, link = self.pen, group.link
         pivot = pen.the("position", group.pivot)
         moments = moments_about(pen, pivot, group.pivot, self.acting[link], self.arms)
-        moment = balance_of(pen, f"M_b{link}", link, moments)
+        moment = balance_of(pen, "M_" + sub("b", link), link, moments)
         self.closed_at("crank", link, Pin(group.pivot, (FRAME, link)))
         return moment
 
@@ -319,7 +319,7 @@ class ForcePlan:
             SideDirection(guide=guide, block=pair.block, along=True),
             SideDirection(guide=guide, block=pair.block),
         )
-        names = f"F_b{link}", self.name(pair, link)
+        names = "F_" + sub("b", link), self.name(pair, link)
         closed = polygon.close(names, ways, ("balance", REACTION))
         push = polygon.reaction(names[0], closed.corner, polygon.start, drawn=False)
         force = polygon.reaction(names[1], last, closed.corner, drawn=False)
@@ -352,7 +352,7 @@ class ForcePlan:
                     forces.append(plan.put(each, turned, next(numbers)))
         turns = isinstance(group, Crank)
         ends = (group.pivot, tip) if isinstance(group, Crank) else (tip, tip)
-        names = f"F_b{'' if turns else group.link}", f"M_b{group.link}"
+        names = "F_b" if turns else "F_" + sub("b", group.link), "M_" + sub("b", group.link)
         plan.balance(names, ends, forces, couples, other, turns=turns)
 
 

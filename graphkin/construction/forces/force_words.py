@@ -39,6 +39,11 @@ def signed(terms: Iterable[tuple[bool, str]]) -> str:
     return said
 
 
+def sub(sign: str, link: str) -> str:
+    """The index of a force or moment of a link after a sign: i3, or i,rod."""
+    return sign + link if link.isdigit() else f"{sign},{link}"
+
+
 def link_pair(one: str, other: str) -> str:
     """The index of a force of one link on another: 34, or crank,rod."""
     return one + other if len(one) == len(other) == 1 else f"{one},{other}"

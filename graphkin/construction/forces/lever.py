@@ -19,7 +19,7 @@ from graphkin.construction.core.relation import Relation, answer, figure
 from graphkin.construction.core.vocabulary import action
 from graphkin.construction.forces.force_words import newtons, on_lever, signed
 from graphkin.construction.forces.loads import LENGTH, LinkForce
-from graphkin.construction.forces.moments import SEEN, arm, right_angle
+from graphkin.construction.forces.moments import SEEN, arm, of_moments, right_angle
 from graphkin.construction.plan import omega_of
 from graphkin.drawing.symbol_markup import bar, symbol
 from graphkin.numbers.arithmetic import Point, Real
@@ -272,12 +272,13 @@ class LeverBalance(Construction, frozen=True, kw_only=True):
         if metres:
             put = f"({along}·{figure(drawing, drawing.scales.k_lever / 1000)})"
         force = float(abs(values[self.force]))
-        yield Relation(
-            symbol(self.name),
-            f"({self.sum(drawing)})/{self.below(drawing)}",
-            f"({self.figures(drawing)})/{put}",
-            answer(drawing, force),
-            "N",
+        arm = f"*o*{symbol(drawing.trace.program.steps[self.turned].name)}"
+        yield of_moments(
+            (symbol(self.name), answer(drawing, force), "N"),
+            "*o*",
+            (self.sum(drawing), self.figures(drawing)),
+            (self.below(drawing), put),
+            by=arm,
         )
         if self.moment is None:
             return

@@ -18,7 +18,7 @@ from graphkin.construction.core.program import Part, Plane
 from graphkin.construction.core.quantities import EPSILON, in_mm
 from graphkin.construction.core.relation import Relation, answer, put_in
 from graphkin.construction.core.vocabulary import action, distance
-from graphkin.construction.forces.force_words import newtons
+from graphkin.construction.forces.force_words import newtons, sub
 from graphkin.construction.plan import omega_of
 from graphkin.drawing.symbol_markup import escape, symbol
 from graphkin.numbers.arithmetic import Point, Real, pick
@@ -185,7 +185,7 @@ class InertiaForce(Construction, frozen=True, kw_only=True):
             "step.force-inertia-moved",
             h=symbol(self.number),
             mm=in_mm(drawing.words, drawing.on_paper(self.shift(drawing))),
-            turning=symbol(f"M_i{self.link}"),
+            turning=symbol("M_" + sub("i", self.link)),
             sense=drawing.words("page.anticlockwise" if moment > 0 else "page.clockwise"),
             **fields,
         )
@@ -229,7 +229,7 @@ class InertiaMoment(Construction, frozen=True, kw_only=True):
             return ""
         return drawing.words(
             "step.force-inertia-couple",
-            turning=symbol(f"M_i{self.link}"),
+            turning=symbol("M_" + sub("i", self.link)),
             j=symbol(f"J_{self.link}"),
             e=symbol(f"ε_{self.link}"),
             size=f"{answer(drawing, abs(moment))} N·m",
@@ -248,7 +248,7 @@ def of_moment(drawing: Drawing, link: str, inertia: int, epsilon: int) -> Relati
     told = answer(drawing, j * spun)
     figures = put_in(drawing, told, lambda j, e: j * e, j, spun)
     symbols = f"{symbol(f'J_{link}')}·{symbol(f'ε_{link}')}"
-    return Relation(symbol(f"M_i{link}"), symbols, "·".join(figures), told, "N·m")
+    return Relation(symbol("M_" + sub("i", link)), symbols, "·".join(figures), told, "N·m")
 
 
 def of_shift(drawing: Drawing, force: InertiaForce, moment: float, size: float) -> Relation:
@@ -264,7 +264,8 @@ def of_shift(drawing: Drawing, force: InertiaForce, moment: float, size: float) 
         scale,
         told=lambda drawing, value: drawing.words.fixed(value, 2),
     )
-    symbols = f"{symbol(f'M_i{force.link}')}/({symbol(force.name)}·*k*_L)"
+    turning = symbol("M_" + sub("i", force.link))
+    symbols = f"{turning}/({symbol(force.name)}·*k*_L)"
     put = f"{figures[0]}/({figures[1]}·{figures[2]})"
     return Relation(symbol(force.number), symbols, put, result, "mm")
 
@@ -375,7 +376,7 @@ def of_mass(
             place = pen.draw(moved_out, centre, force, moment, reach)
         with pen.on(Part.FORCE, Plane.NUMBERS):
             left = pen.draw(left_moment, force, moment, reach)
-    name = f"F_i{link}"
+    name = "F_" + sub("i", link)
     pen.make(
         InertiaForce(
             link=link,
@@ -404,7 +405,7 @@ def of_mass(
 def couple_of(pen: Pen, link: str, inertia: int, epsilon: int, couple: int) -> LinkForce:
     """The inertia moment of a link as a couple."""
     pen.make(InertiaMoment(link=link, inertia=inertia, epsilon=epsilon, couple=couple))
-    return LinkForce(f"M_i{link}", "inertia", couple=couple)
+    return LinkForce("M_" + sub("i", link), "inertia", couple=couple)
 
 
 def reach_of(pen: Pen, link: str, centre: int) -> int:

@@ -213,9 +213,7 @@ class TangentialPart(Construction, frozen=True, kw_only=True):
             "k": escape(self.link),
             "b": symbol(inner),
             "bar": bar(outer, inner),
-            "below": f"({bar(outer, inner)}·*k*_L)"
-            if self.moments.in_metres(drawing)
-            else bar(outer, inner),
+            "below": self.below(drawing),
             "r": symbol(self.name),
             "size": newtons(drawing, size),
             "drawn": force_amount(drawing, size),
@@ -246,17 +244,22 @@ class TangentialPart(Construction, frozen=True, kw_only=True):
         if not size:
             return
         turned, length = self.is_turned(drawing), abs(values[self.outer] - values[self.inner])
-        scale = "·*k*_L" if self.moments.in_metres(drawing) else ""
-        along = drawing.on_paper(length)
-        put = figure(drawing, along)
-        put = f"{put}·{figure(drawing, drawing.scales.kL / 1000)}" if scale else put
-        yield Relation(
-            symbol(self.name),
-            f"({self.sum(drawing)})/({bar(outer, inner)}{scale})",
-            f"({self.moments.figures(drawing, turned=turned)})/({put})",
-            answer(drawing, size),
-            "N",
+        below, put = bar(outer, inner), figure(drawing, drawing.on_paper(length))
+        if self.moments.in_metres(drawing):
+            put = f"({put}·{figure(drawing, drawing.scales.kL / 1000)})"
+        sums = self.sum(drawing), self.moments.figures(drawing, turned=turned)
+        yield of_moments(
+            (symbol(self.name), answer(drawing, size), "N"),
+            symbol(inner),
+            sums,
+            (self.below(drawing), put),
+            by=below,
         )
+
+    def below(self, drawing: Drawing) -> str:
+        """The bar as drawn, or in metres beside couples."""
+        below = bar(*self.ends)
+        return f"({below}·*k*_L)" if self.moments.in_metres(drawing) else below
 
 
 class PlaceOnGuide(Construction, frozen=True, kw_only=True):
@@ -315,16 +318,39 @@ class PlaceOnGuide(Construction, frozen=True, kw_only=True):
         if not size or not self.moments.shown(drawing):
             return
         total = sum(moment for _, moment, _, _ in self.moments.values(drawing))
-        scale = drawing.scales.kL / 1000 if self.moments.in_metres(drawing) else 0.0
-        put = figure(drawing, size) + (f"·{figure(drawing, scale)}" if scale else "")
-        below = f"({symbol(self.name)}·*k*_L)" if scale else symbol(self.name)
-        yield Relation(
-            symbol(self.number),
-            f"({self.sum(drawing)})/{below}",
-            f"({self.moments.figures(drawing, turned=total < 0)})/{f'({put})' if scale else put}",
-            drawing.words.fixed(drawing.on_paper(self.shift(drawing)), 2),
-            "mm",
+        below: str = symbol(self.name)
+        put = figure(drawing, size)
+        if self.moments.in_metres(drawing):
+            below = f"({below}·*k*_L)"
+            put = f"({put}·{figure(drawing, drawing.scales.kL / 1000)})"
+        sums = self.sum(drawing), self.moments.figures(drawing, turned=total < 0)
+        shift = drawing.words.fixed(drawing.on_paper(self.shift(drawing)), 2)
+        yield of_moments(
+            (symbol(self.number), shift, "mm"),
+            symbol(self.moments.letter),
+            sums,
+            (below, put),
+            by=symbol(self.name),
         )
+
+
+def of_moments(
+    found: tuple[str, str, str],
+    about: str,
+    sums: tuple[str, str],
+    below: tuple[str, str],
+    *,
+    by: str,
+) -> Relation:
+    """A relation by moments: what is found, its result and unit; sums and divisors in two ways.
+
+    A form has the sum of moments about a point alone, divided ``by`` a length or a force. The sum
+    in symbols, whose signs are part of the answer, comes with the figures.
+    """
+    left, result, unit = found
+    (told, put), (under, divisor) = sums, below
+    figures = f"({told})/{under} = ({put})/{divisor}"
+    return Relation(left, f"Σ*M*({about})/{by}", figures, result, unit)
 
 
 # --- writing their steps -------------------------------------------------------------------------

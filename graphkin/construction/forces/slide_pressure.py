@@ -14,7 +14,14 @@ from graphkin.construction.core.program import Part, Plane
 from graphkin.construction.core.relation import Relation, answer, figure
 from graphkin.construction.core.vocabulary import action
 from graphkin.construction.forces.force_words import force_amount, newtons
-from graphkin.construction.forces.moments import SEEN, Moments, arm, moment_sum, right_angle
+from graphkin.construction.forces.moments import (
+    SEEN,
+    Moments,
+    arm,
+    moment_sum,
+    of_moments,
+    right_angle,
+)
 from graphkin.drawing.symbol_markup import escape, symbol
 from graphkin.numbers.arithmetic import Point
 from graphkin.numbers.plane import Line, cross
@@ -118,15 +125,17 @@ class SlidePressure(Construction, frozen=True, kw_only=True):
             return
         length = drawing.on_paper(abs(values[self.foot] - values[self.own.about]))
         scale = self.own.in_metres(drawing) or self.others.in_metres(drawing)
-        below = f"({symbol(self.number)}·*k*_L)" if scale else symbol(self.number)
+        below: str = symbol(self.number)
         put = figure(drawing, length)
-        put = f"({put}·{figure(drawing, drawing.scales.kL / 1000)})" if scale else put
-        yield Relation(
-            symbol(self.name),
-            f"({self.joined(drawing, figures=False)})/{below}",
-            f"({self.joined(drawing, figures=True)})/{put}",
-            answer(drawing, size),
-            "N",
+        if scale:
+            below = f"({below}·*k*_L)"
+            put = f"({put}·{figure(drawing, drawing.scales.kL / 1000)})"
+        yield of_moments(
+            (symbol(self.name), answer(drawing, size), "N"),
+            symbol(self.ends[0]),
+            (self.joined(drawing, figures=False), self.joined(drawing, figures=True)),
+            (below, put),
+            by=symbol(self.number),
         )
 
 
