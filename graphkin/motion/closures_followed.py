@@ -38,6 +38,11 @@ ROUGH = 1e-4
 """ENOUGH where several links are tried and the closures do not continue one to one."""
 STRIDE = 10
 """Steps between two positions at which all closures are searched for."""
+PASSES, CROWDED = 3, 1e-3
+"""Changes in a short bracket that are too many to tell apart, and the length of such a bracket.
+
+Where another closure moves away without end, a wheel of it turns past the links of this one.
+"""
 PARTS, HALVES = 16, 2
 """Parts into which an interval with a new number is cut, all tried at once.
 
@@ -155,13 +160,17 @@ def hangs_on(course: Course, link: str, step: int) -> bool:
 
 
 class Bracket(NamedTuple):
-    """Two positions between which the number of a closure changes, and the numbers there."""
+    """Two positions between which the number of a closure changes, and the numbers there.
+
+    A ``crowded`` one is not cut further.
+    """
 
     low: float
     first: int
     high: float
     last: int
     pairs: PairedClosures | None = None
+    crowded: bool = False
 
 
 def numbers_between(course: Course, low: float, high: float) -> list[tuple[float, Course]]:
@@ -252,6 +261,8 @@ def numbers_at(group: GroupOnWay, way: FollowedClosure, at: Reals) -> Reals:
 
 def enough(group: GroupOnWay, bracket: Bracket) -> float:
     """The width at which a bracket locates a change of number."""
+    if bracket.crowded:
+        return bracket.high - bracket.low
     searched = group.trying.several and bracket.pairs is None
     return (ROUGH if searched else ENOUGH) * group.usual
 
@@ -320,20 +331,23 @@ def narrowed(group: GroupOnWay, way: FollowedClosure, wide: Sequence[Bracket]) -
         if numbers is None:
             rest.append(each)
         else:
-            found += within(each, at, numbers)
+            found += within(group, each, at, numbers)
     if rest:
         count = HALVES if group.trying.several else PARTS
         grids = np.array([np.linspace(each.low, each.high, count + 1) for each in rest])
         inside = group.numbers(way, grids[:, 1:-1].ravel()).reshape(len(rest), count - 1)
         for each, at, numbers in zip(rest, grids, inside, strict=True):
-            found += within(each, at, numbers)
+            found += within(group, each, at, numbers)
     return found
 
 
-def within(each: Bracket, at: Reals, numbers: Reals) -> list[Bracket]:
+def within(group: GroupOnWay, each: Bracket, at: Reals, numbers: Reals) -> list[Bracket]:
     """The parts of a bracket in which the number changes, by the numbers at positions within."""
     every = known_numbers(np.array([each.first, *numbers, each.last]), None)
-    return [part._replace(pairs=each.pairs) for part in parted(at, every)]
+    found = [part._replace(pairs=each.pairs) for part in parted(at, every)]
+    if len(found) > PASSES and each.high - each.low <= CROWDED * group.usual:
+        return [each._replace(crowded=True)] if each.first != each.last else []
+    return found
 
 
 def too_many(course: Course) -> ClosureError:

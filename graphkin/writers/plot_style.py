@@ -112,8 +112,11 @@ def picture_files(
     files: dict[str, bytes] = {}
     with look():
         for stem, drawn in figures:
-            if (figure := drawn()) is not None:
-                files |= {f"{stem}.{kind}": figure_file(figure, kind) for kind in formats}
+            if (figure := drawn()) is None:
+                continue
+            for kind in formats:
+                files[f"{stem}.{kind}"] = figure_file(figure, kind)
+                figure.set_layout_engine("none")  # |the next format has the places of the first
     return files
 
 

@@ -8,6 +8,8 @@ import pytest
 import graphkin
 from graphkin.diagnosis.ranges import closing
 from graphkin.motion.cycle import cycle
+from graphkin.motion.pieces import reachable_ranges
+from graphkin.motion.sweep import sweep_of
 from tests.mechanisms import mechanism_of
 
 SCENES = Path(__file__).parent / "scenes"
@@ -58,3 +60,15 @@ def test_a_scissor_lift_closes_between_its_upright_positions():
     """Beyond them D stands on C, and all above them anywhere."""
     (found,) = closing(graphkin.load(SCENES / "scissor-lift.toml").scene).ranges
     assert found == pytest.approx((-90, 90), abs=1e-3)
+
+
+@pytest.mark.parametrize("angle", [20, 200, 500])
+def test_a_dead_point_turns_away_is_found_from_any_start(angle, tmp_path):
+    """The plank is one with its other closure at 676.65°, in the second turn."""
+    text = Path("examples/scenes/plank-axle.toml").read_text()
+    text = text.replace("value = 20, min = -40, max = 80", f"value = {angle}, min = -40, max = 800")
+    scene = tmp_path / "plank.toml"
+    scene.write_text(text)
+    mechanism = graphkin.load(scene)
+    spans = reachable_ranges(sweep_of(mechanism.scene)).spans
+    assert [high for _, high in spans] == [pytest.approx(676.6479473, abs=1e-6)]
