@@ -22,9 +22,10 @@ from graphkin.reading.paper_map import (
     PLAIN,
     PaperMap,
     bendings,
+    creasings,
     prior,
 )
-from graphkin.reading.paper_ripple import CROSSED, LEAST, Offsets, ripple_of
+from graphkin.reading.paper_ripple import CROSSED, LEAST, Offsets, ripple_of, without
 from graphkin.reading.point_search import (
     AREA,
     BREAK,
@@ -105,6 +106,21 @@ def test_bendings_are_products_of_legendres_polynomials():
     for k, (i, j) in enumerate(BENDS):
         bent = 0.01 * 0.4 ** (i + j - 2)
         assert sizes[PLAIN + 2 * k : PLAIN + 2 * k + 2] == pytest.approx([bent, bent])
+
+
+def test_the_quarters_of_a_folded_sheet_meet_at_its_creases():
+    """Each quarter is smooth by itself; across a crease only the slope changes."""
+    step = 1e-4
+    for u, v in ((0.4, 0.2), (-0.3, 0.5), (0.2, -0.6)):
+        for across, along in (((step, 0), (0, v)), ((0, step), (u, 0))):
+            at = np.array(along, dtype=float)
+            low, high = (creasings(*(at + side * np.array(across))) for side in (-1, 1))
+            middle = creasings(*at)
+            assert low == pytest.approx(middle, abs=3 * step)
+            assert high == pytest.approx(middle, abs=3 * step)
+            assert abs(high + low - 2 * middle).max() > step  # a crease
+        quarter = [creasings(u + shift, v) for shift in (-step, 0, step)]
+        assert abs(quarter[0] + quarter[2] - 2 * quarter[1]).max() < 3 * step**2
 
 
 def test_bent_paper_is_seen_where_its_places_are_shifted_to():
@@ -289,6 +305,14 @@ def offsets_at(at: np.ndarray, off: np.ndarray) -> Offsets:
     """How far places lie off to the right and down."""
     ways = np.tile(np.eye(2), (len(at), 1))
     return Offsets(np.repeat(at, 2, axis=0), ways, off.ravel(), np.full(2 * len(at), CROSSED))
+
+
+def test_a_matrix_without_rows_is_inverted_from_the_inverse_of_the_whole():
+    rng = np.random.default_rng(5)
+    root = rng.normal(size=(9, 9))
+    whole, some = root @ root.T + np.eye(9), np.arange(9) % 4 == 1
+    expected = np.linalg.inv(whole[np.ix_(~some, ~some)])
+    assert without(np.linalg.inv(whole), some) == pytest.approx(expected)
 
 
 def test_crosses_tell_the_ripples_between_them():

@@ -1163,6 +1163,10 @@ def test_a_coloured_pencil_is_read_like_a_grey_one(
         told = by_step[point.step]
         assert told["verdict"] == "right", point.name
         assert np.hypot(*(np.array(told["at"]) - point.at)) < 1, point.name
+    kept = np.asarray(Image.open(tmp_path / "read" / "one.jpg")).astype(int)
+    ink = (kept.max(axis=2) - kept.min(axis=2)) > 40
+    assert ink.mean() > 0.001  # the kept picture shows the pencil's colour
+    assert kept[ink].mean(axis=0).argmax() == int(np.argmin(PENCILS[colour]))
 
 
 def test_a_single_line_leaves_a_cloud_open_along_itself() -> None:
