@@ -124,6 +124,8 @@ def check(name: str, settings: tuple[str, ...]) -> None:
     A lab, which has a lab.toml in the folder of its scene, is then tried on a thousand variants:
     how many are fair, which limits the others exceed, and how much the difficulty differs.
 
+    A house.toml is read, and the conventions that it states are printed.
+
     \b
     Examples:
       graphkin check pump
@@ -132,8 +134,15 @@ def check(name: str, settings: tuple[str, ...]) -> None:
     from graphkin.cli.class_commands import check_lab
     from graphkin.cli.report.check_report import Checking
     from graphkin.scene import scene_files
+    from graphkin.scene.house import HOUSE, read_house
+    from graphkin.text import paths
     from graphkin.text.errors import StructureError
 
+    if paths.name_of(name) == HOUSE and paths.is_file(name):
+        from graphkin.cli.report.house_report import house_lines
+
+        tell(house_lines(read_house(name)))
+        return
     checking = Checking(mechanism_of(name, settings))
     tell(checking.lines())
     if checking.problems:

@@ -7,6 +7,7 @@ from contextlib import suppress
 from typing import TYPE_CHECKING
 
 from graphkin.scene.findings import near_file
+from graphkin.scene.house import HOUSE
 from graphkin.text import paths
 from graphkin.text.errors import NO_WORDS, Problem, SceneError, joined, message
 from graphkin.text.hooks import service
@@ -95,7 +96,7 @@ def scenes_beside(path: str) -> Iterator[str]:
     around = path[: len(path) - len(paths.name_of(path))]
     for other in paths.in_folder(around or "."):
         file = within(around, other, SCENE) if paths.is_folder(around + other) else around + other
-        if file.endswith(ENDING) and paths.is_file(file):
+        if file.endswith(ENDING) and other != HOUSE and paths.is_file(file):
             with suppress(OSError):
                 if BEGINS.search(paths.first_bytes(file, HEAD)):
                     yield around + other
@@ -107,6 +108,10 @@ def find(name: str) -> str:
     settle(path)
     if paths.is_file(path) and paths.name_of(path) == LAB:
         path = paths.folder_of(path)
+    if paths.is_file(path) and paths.name_of(path) == HOUSE:
+        found = message("holds the conventions of a school, and is no scene")
+        hint = message("graphkin check {file} reads it", file=path)
+        raise SceneError(Problem(path, found, message("a scene"), hint))
     inside = within(path, SCENE)
     if paths.is_folder(path) and paths.is_file(inside):
         return inside

@@ -284,6 +284,22 @@ def test_a_wrong_house_is_one_clear_error(run: Run, tmp_path: Path) -> None:
     assert not (tmp_path / "out").exists()
 
 
+def test_check_reads_a_house_and_other_commands_tell_it_from_a_scene(
+    run: Run, school: Path
+) -> None:
+    done = run("check", school / HOUSE)
+    assert done.exit_code == 0
+    told = dict(line.split(maxsplit=1) for line in done.output.splitlines())
+    assert (told["header"], told["ink"]) == ("; ".join(LINES), "black")
+    assert "tangential t" in told["signs"]
+    other = run("solve", school / HOUSE)
+    assert other.exit_code == 2 and "is no scene; expected a scene" in other.output
+    (school / HOUSE).write_text("graphkin = 1\n", encoding="utf-8")
+    assert run("check", school / HOUSE).output == "all conventions are the usual ones\n"
+    near = run("check", school / "huose.toml")
+    assert "did you mean house.toml" not in near.output
+
+
 def test_a_class_keeps_the_conventions_it_was_made_with(
     run: Run, school: Path, tmp_path: Path
 ) -> None:
