@@ -55,7 +55,7 @@ HODOGRAPHS = {"velocity": "positions.hodographs_v", "acceleration": "positions.h
 """The keys of the captions of hodographs."""
 SIDE, ABOVE, BELOW = 8.0, 10.0, 6.0
 """Room around a plan in its cell for letters, and above it for its number, in mm."""
-SCALE = "own scale"
+SCALE = "scale"
 """The name of the scale of a plan that is drawn smaller than the others."""
 GROWN = 3.0
 """The largest plan that decides the scale of all, in median plans."""
@@ -119,7 +119,7 @@ def told(found: PositionSet, kind: str) -> list[str]:
 
 def exceptions(drawing: Drawing, marks: Sequence[Mark]) -> Iterator[str]:
     """What the sheet says of plans at a scale of their own, and of vectors that are cut off."""
-    if any(mark.name == SCALE for mark in marks):
+    if any(mark.name.startswith(f"{SCALE}_") for mark in marks):
         yield drawing.words("positions.own_scale")
     edge = FIELD[0] + EDGE, FIELD[1] + EDGE, FIELD[2] - EDGE, above_foot(FIELD)[3]
     ends = [(m.x2, m.y2) for m in marks if isinstance(m, LineMark) and BRIEF in m.cls]

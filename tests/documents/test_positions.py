@@ -133,7 +133,7 @@ def test_a_plan_next_to_a_dead_point_has_its_scale_beside_its_number():
     """Crank 182.1°, 5° before the end of the range: five times the acceleration of the others."""
     mechanism = load("pump", n=12)
     page = pages(mechanism)["acceleration"]
-    (text,) = (mark for mark in page.marks if isinstance(mark, Text) and mark.name == "own scale")
+    (text,) = (mark for mark in page.marks if isinstance(mark, Text) and mark.name == "scale_11")
     at, moved = circles(page), cycle(mechanism, steps=4)
     place = equal_places(moved, 12, "scene")[11]
     (true,) = moved.along([place]).solution.points["D"].acceleration
