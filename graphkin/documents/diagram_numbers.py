@@ -22,6 +22,8 @@ STEP = 1e-3
 """Step of differences for the derivatives in a forecast, as a share of the interval."""
 AGREE = 0.02
 """Share of a third derivative within which both of its differences must agree."""
+ROUNDED = 1e-6
+"""Share of the largest first derivative below which a third derivative is rounding."""
 FEWEST = 4
 """The fewest positions with plans from which a diagram is differentiated."""
 CALM = 6.0
@@ -107,8 +109,10 @@ class FollowerMotion(Struct, frozen=True, dict=True):
         by_second = (after[1] - before[1]) / (2 * wide)
         by_first = (after[0] - 2 * here[0] + before[0]) / wide**2
         size = np.nanmax(np.abs(by_second), initial=0.0)
-        agree = np.abs(by_second - by_first) <= AGREE * np.maximum(np.abs(by_second), AGREE * size)
-        own = np.where(agree, by_second, np.nan)
+        noise = ROUNDED * np.nanmax(np.abs(here[0]), initial=0.0)
+        apart = AGREE * np.maximum(np.abs(by_second), AGREE * size) + noise
+        own = np.where(np.abs(by_second - by_first) <= apart, by_second, np.nan)
+        own = np.where(np.abs(own) <= noise, 0.0, own)
         return np.asarray(own * self.pace**3 + 3 * self.pace * self.push * here[1])
 
     def advantage(self, at: Reals) -> Reals:

@@ -705,6 +705,7 @@ def course_pages(found: PositionSet, motion: FollowerMotion | None) -> list[Call
     fine = np.linspace(at[0], at[-1], FINE + 1)
     every = asked_courses(found, at, fine)
     every += of_follower(motion, at, fine) if motion else []
+    every = [each for each in every if np.isfinite(each.fine).any()]
     per = COLUMNS * ROWS
     parts = [every[i : i + per] for i in range(0, len(every), per)]
     return [partial(course_page, found, at, fine, part) for part in parts]

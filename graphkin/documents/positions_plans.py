@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterator, Sequence
 from math import ceil
 
 import numpy as np
@@ -13,9 +13,10 @@ from graphkin.construction.bare_plan import bare_plan, is_point
 from graphkin.construction.core.drawn_scene import Drawing
 from graphkin.construction.core.layout import centre
 from graphkin.construction.core.naming import scale_of
-from graphkin.construction.core.paper_canvas import clipped_path
+from graphkin.construction.core.paper_canvas import EDGE, above_foot, clipped_path
 from graphkin.construction.core.relation import figure
 from graphkin.documents.composing import STILL_LARGER
+from graphkin.documents.diagram_numbers import calm
 from graphkin.documents.positions import (
     SAMPLES,
     Position,
@@ -36,7 +37,7 @@ from graphkin.documents.positions_sheet import (
     touching,
 )
 from graphkin.documents.sheet import title_of
-from graphkin.drawing.field import Field, Rect
+from graphkin.drawing.field import Field, Rect, clipped
 from graphkin.drawing.labels import FieldContent, Label
 from graphkin.drawing.marks import CircleMark, LineMark, Mark, Page, SharedLetter, Text
 from graphkin.drawing.richtext import extent
@@ -54,6 +55,10 @@ HODOGRAPHS = {"velocity": "positions.hodographs_v", "acceleration": "positions.h
 """The keys of the captions of hodographs."""
 SIDE, ABOVE, BELOW = 8.0, 10.0, 6.0
 """Room around a plan in its cell for letters, and above it for its number, in mm."""
+SCALE = "scale"
+"""The name of the scale of a plan that is drawn smaller than the others."""
+GROWN = 3.0
+"""The largest plan that decides the scale of all, in median plans."""
 LEAST = 28.0
 """Least width and height of a cell in mm."""
 DOT, SMALL = 0.7, 0.5
@@ -75,7 +80,7 @@ def plan_page(found: PositionSet, kind: str, kL: float, number: str) -> Page:
         *caption(drawing, one=one),
         *marks,
         LineMark(FIELD[0], FIELD[3], FIELD[2], FIELD[3], "panel"),
-        *places_table(found, found.numbered, told(found, kind)),
+        *places_table(found, found.numbered, [*told(found, kind), *exceptions(drawing, marks)]),
         *proof(found),
     ]
     return Page(420, 297, tuple(whole), f"{name} – {title_of(drawing)}", words.language)
@@ -110,6 +115,16 @@ def told(found: PositionSet, kind: str) -> list[str]:
     if kind == "acceleration":
         said.append(words("positions.components"))
     return said
+
+
+def exceptions(drawing: Drawing, marks: Sequence[Mark]) -> Iterator[str]:
+    """What the sheet says of plans at a scale of their own, and of vectors that are cut off."""
+    if any(mark.name.startswith(f"{SCALE}_") for mark in marks):
+        yield drawing.words("positions.own_scale")
+    edge = FIELD[0] + EDGE, FIELD[1] + EDGE, FIELD[2] - EDGE, above_foot(FIELD)[3]
+    ends = [(m.x2, m.y2) for m in marks if isinstance(m, LineMark) and BRIEF in m.cls]
+    if any(abs(at[i % 2] - side) < 1e-6 for at in ends for i, side in enumerate(edge)):
+        yield drawing.words("positions.cut_off")
 
 
 # --- the scale of all plans -----------------------------------------------------------------------
@@ -167,6 +182,12 @@ class PlanGrid(Struct, frozen=True):
     rows: int
     most: float
 
+    def coarser(self, box: Extent, mm: float) -> float:
+        """How many times smaller a plan must be drawn than the usual ones: 1, 2, 5, 10 …"""
+        wide, high = (FIELD[2] - FIELD[0]) / self.columns, (FIELD[3] - FIELD[1]) / self.rows
+        across, upright = wide - 2 * SIDE, high - ABOVE - BELOW
+        return next(preferred(max(box.width * mm / across, box.height * mm / upright, 1.0)))
+
     def cell(self, index: int) -> Rect:
         """The cell of a plan, row by row."""
         row, column = divmod(index, self.columns)
@@ -175,8 +196,15 @@ class PlanGrid(Struct, frozen=True):
         return left, top, left + wide, top + high
 
 
-def grid_for(boxes: Sequence[Extent]) -> PlanGrid:
-    """The division in which the largest of the plans is drawn largest."""
+def usual(boxes: Sequence[Extent]) -> list[Extent]:
+    """The plans that decide the scale: not those that grow without bound next to a dead point."""
+    most = GROWN * float(np.median([box.diagonal for box in boxes]))
+    return [box for box in boxes if box.diagonal <= most] or list(boxes)
+
+
+def grid_for(boxes: Sequence[Extent], deciding: Sequence[Extent] | None = None) -> PlanGrid:
+    """The division in which the largest of the deciding plans is drawn largest."""
+    some = boxes if deciding is None else deciding
     found = []
     for columns in range(1, len(boxes) + 1):
         rows = ceil(len(boxes) / columns)
@@ -185,7 +213,7 @@ def grid_for(boxes: Sequence[Extent]) -> PlanGrid:
             continue
         sides = [
             room / size
-            for box in boxes
+            for box in some
             for room, size in (
                 (wide - 2 * SIDE, box.width),
                 (high - ABOVE - BELOW, box.height),
@@ -201,17 +229,20 @@ def from_own_poles(
 ) -> tuple[Scales, list[Mark]]:
     """The plans in a grid, each from its own pole with the letters of its points."""
     boxes = [box_of_plan(each.plans[kind]) for each in some]
-    grid = grid_for(boxes)
+    grid = grid_for(boxes, usual(boxes))
     scales = fitted(found, kind, kL, grid.most)
     numbers = dict(zip((e.name for e in found.every), numbers_of(found), strict=True))
     marks: list[Mark] = [*lines(grid, len(some))]
     for index, (each, box) in enumerate(zip(some, boxes, strict=True)):
         left, top, right, low = rect = grid.cell(index)
         middle = (left + right) / 2, (top + ABOVE + low - BELOW) / 2
-        field = Field(rect, rates(scales, kind), box.middle, middle)
-        board = bare_plan(replace(each.plans[kind], scales=scales), field)
+        coarser = grid.coarser(box, rates(scales, kind))
+        field = Field(rect, rates(scales, kind) / coarser, box.middle, middle)
+        drawing = replace(each.plans[kind], scales=scales)
+        board = bare_plan(drawing, field)
         board.labels = [replace(label, height=2.5) for label in board.labels]
-        board.marks += number_of(found, each, rect, numbers[each.name])
+        more = own_scale(drawing, coarser) if coarser > 1 else ""
+        board.marks += number_of(found, each, rect, numbers[each.name], more)
         marks += (
             replace(mark, name=" ".join(at_position(n, each.name) for n in mark.name.split()))
             for mark in board.finish()
@@ -229,14 +260,25 @@ def lines(grid: PlanGrid, count: int) -> Iterator[Mark]:
             yield LineMark(left + 1, top, right - 1, top, "panel")
 
 
-def number_of(found: PositionSet, each: Position, rect: Rect, place: str) -> Iterator[Mark]:
-    """The number of a plan's position, with the place of the driver."""
+def own_scale(drawing: Drawing, coarser: float) -> str:
+    """The scale factor of a plan that is drawn smaller than the others."""
+    letter, unit = ("v", "m/s") if drawing.kind == "velocity" else ("a", "m/s^2")
+    k = figure(drawing, coarser * scale_of(drawing, drawing.plane) / 1000)
+    return f"*k*_{letter} = {k} ({unit})/mm"
+
+
+def number_of(
+    found: PositionSet, each: Position, rect: Rect, place: str, more: str
+) -> Iterator[Mark]:
+    """The number of a plan's position, with the place of the driver, and its own scale."""
     sweep = found.cycle.sweep
     unit = "°" if sweep.what == "turn" else " " + (sweep.original.units["length"])
     unit = " s" if sweep.driver is None else unit
     yield Text(rect[0] + 3, rect[1] + 6, each.name, "caption", 3.5, name="number")
     beside = rect[0] + 5 + extent(each.name, 3.5)[0]
     yield Text(beside, rect[1] + 6, f"{place}{unit}", "caption", 2.5, name="place")
+    if more:
+        yield Text(rect[0] + 3, rect[1] + 10.5, more, "caption", 2.5, name=SCALE)
 
 
 # --- all plans from one pole ----------------------------------------------------------------------
@@ -261,7 +303,7 @@ def from_one_pole(
     strong = next((each for each in some if each.name == found.shown.name), some[0])
     points = {each.name: points_of(each.plans[kind]) for each in some}
     curves = hodographs(found, kind)
-    boxes = [box_of_plan(each.plans[kind]) for each in some]
+    boxes = usual([box_of_plan(each.plans[kind]) for each in some])
     box = extent_of([corner for each in boxes for corner in corners(each)])
     wide, high = FIELD[2] - FIELD[0] - 4 * SIDE, FIELD[3] - FIELD[1] - 2 * ABOVE
     scales = fitted(found, kind, kL, min(wide / (box.width or 1), high / (box.height or 1)))
@@ -271,11 +313,11 @@ def from_one_pole(
         on_page = [field(place) for place in curve]
         board.marks += clipped_path(on_page, FIELD, "trajectory", f"hodograph {name}")
     pole = field(0j)
-    for each in some:
+    for each in (each for each in some if each.name != strong.name):
         for name, tip in points[each.name].items():
-            if each.name != strong.name:
-                line = LineMark(*pole, *field(tip), f"{kind} {BRIEF}", at_position(name, each.name))
-                board.marks.append(line)
+            if part := clipped(pole, field(tip), above_foot(FIELD)):
+                own = f"{kind} {BRIEF}", at_position(name, each.name)
+                board.marks.append(LineMark(*part[0], *part[1], *own))
     whole = bare_plan(replace(strong.plans[kind], scales=scales), field)
     board.marks += whole.marks
     pole_name = strong.plans[kind].pole
@@ -284,7 +326,11 @@ def from_one_pole(
     others = [each for each in some if each.name != strong.name]
     numbers: list[Label] = []
     for name in points[strong.name]:
-        pins = [(e, field(points[e.name][name])) for e in others if name in points[e.name]]
+        pins = [
+            (e, field(points[e.name][name]))
+            for e in others
+            if name in points[e.name] and field.holds(points[e.name][name], EDGE)
+        ]
         look = f"point {kind}"
         board.marks += [CircleMark(*at, SMALL, look, at_position(name, e.name)) for e, at in pins]
         for group in touching(pins, 2 * DOT):
@@ -318,7 +364,7 @@ def way(start: tuple[float, float], end: tuple[float, float]) -> tuple[float, fl
     return None if far < DOT else ((end[0] - start[0]) / far, (end[1] - start[1]) / far)
 
 
-def hodographs(found: PositionSet, kind: str) -> Mapping[str, tuple[complex, ...]]:
+def hodographs(found: PositionSet, kind: str) -> dict[str, tuple[complex, ...]]:
     """The hodographs of the asked points: the tips of their vectors from one pole."""
     asked = getattr(found.cycle.scene.ask, kind)
     known = found.cycle.path.ranges[0][0].course.program.targets
@@ -343,6 +389,10 @@ def hodograph_page(found: PositionSet, kind: str, kL: float, number: str) -> Pag
         point: [(each, complex(each.plans[kind].trace.value(kind, point))) for each in some]
         for point in curves
     }
+    for point, curve in curves.items():
+        most = calm(found, np.array(curve))
+        tips[point] = [(each, tip) for each, tip in tips[point] if abs(tip) <= most]
+        curves[point] = tuple(tip for tip in curve if abs(tip) <= most)
     boxes = [extent_of([0j, *curves[point], *(z for _, z in tips[point])]) for point in curves]
     grid = grid_for(boxes)
     scales = fitted(found, kind, kL, grid.most)

@@ -230,6 +230,12 @@ def test_no_jerk_is_told_where_the_acceleration_jumps():
     assert np.isfinite(moved.third(np.array([70.0, 170.0]))).all()
 
 
+def test_a_wheel_at_constant_speed_has_no_jerk():
+    """What is left of its differences is rounding."""
+    moved = motion(mechanism_named("gears-pair"), 12)
+    assert (moved.third(np.linspace(1.0, 300.0, 50)) == 0).all()
+
+
 def test_the_mechanical_advantage_balances_the_power():
     """Of a slider-crank: torque ω equals force v, with v by the closed form."""
     moved = motion(slider_crank(2, 5, 0, speed=3), 12)

@@ -13,6 +13,8 @@ from msgspec.structs import replace
 from graphkin.documents.sheet_documents import hand_out
 from graphkin.drawing.marks import CircleMark, LineMark, Mark, Page, Text, style_class
 from graphkin.mechanism import Mechanism, load
+from graphkin.motion.cycle import cycle
+from graphkin.motion.equal_positions import equal_places
 from graphkin.scene.model import StatedPositions
 from graphkin.text import LANGUAGES
 from graphkin.text.errors import SceneError
@@ -125,6 +127,27 @@ def test_a_dead_point_of_the_driver_is_drawn_and_has_no_plan():
     plans = {name for name in circles(found["velocity"]) if name.startswith("o_")}
     assert plans == {f"o_{i}" for i in range(1, 8)}
     assert any(text.endswith("0, 8") for text in said(found["velocity"]))
+
+
+def test_a_plan_next_to_a_dead_point_has_its_scale_beside_its_number():
+    """Crank 182.1°, 5° before the end of the range: five times the acceleration of the others."""
+    mechanism = load("pump", n=12)
+    page = pages(mechanism)["acceleration"]
+    (text,) = (mark for mark in page.marks if isinstance(mark, Text) and mark.name == "scale_11")
+    at, moved = circles(page), cycle(mechanism, steps=4)
+    place = equal_places(moved, 12, "scene")[11]
+    (true,) = moved.along([place]).solution.points["D"].acceleration
+    drawn = at["d′_11"] - at["o′_11"]
+    assert drawn * number_in(text.markup, "= ") == pytest.approx(true, rel=1e-3)
+    assert any("beside its number" in each for each in said(page))
+    usual = number_in(next(each for each in said(page) if "mm)" in each), "*k*_a = ")
+    assert number_in(text.markup, "= ") / usual == pytest.approx(5, rel=1e-3)
+
+
+def test_vectors_cut_off_at_the_edge_are_told():
+    found = pages(posed(load("pump", n=12), one_pole=True))
+    assert any("are longer" in each for each in said(found["acceleration"]))
+    assert not any("are longer" in each for each in said(sheets("shaper")["velocity"]))
 
 
 def test_only_the_asked_accelerations_are_drawn():
