@@ -131,7 +131,7 @@ PRIMES = "′″‴"
 STACKED = 2
 """Length of the longest index above which an exponent may be placed."""
 TOKEN = r"(?s)[_^](?:\{|\\.|.|$)|\\.|[^\\*_^}]+|."
-UNITS = r"(?:mm|cm|m|in|s|rad|deg|rev/min|rot/min)\b|\(m/s"
+UNITS = r"(?:mm|cm|m|in|ft|s|rad|deg|rev/min|rot/min)\b|\((?:mm|cm|m|in|ft)/s"
 NUMBERED = (
     *("link", "links", "wheel", "wheels", "gear", "gears", "guide", "guides"),
     *("plate", "rack", "track", "cam"),
