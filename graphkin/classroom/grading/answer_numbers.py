@@ -24,10 +24,10 @@ SIGNS = {
 """The ways to write a sense of anything: counter-clockwise and along a guide are positive."""
 TURNED = {
     +1: "ccw acw trig trigonometric trigonometrica trigonometrico levogiro levogira sinistrorso"
-    " sinistrorsa linksdrehend trigonometrique",
+    " sinistrorsa linksdrehend linksherum trigonometrique",
     -1: "cw clockwise orar orara orario oraria ceas ceasornic ceasornicului"
     " ceasului acelor orologio lancette destrogiro destrogira destrorso destrorsa uhrzeigersinn"
-    " rechtsdrehend horaire horario horaria часовои",
+    " rechtsdrehend rechtsherum horaire horario horaria часовои",
 }
 """Words for a sense of rotation, without diacritics."""
 SLIDING = {
