@@ -24,10 +24,10 @@ SIGNS = {
 """The ways to write a sense of anything: counter-clockwise and along a guide are positive."""
 TURNED = {
     +1: "ccw acw trig trigonometric trigonometrica trigonometrico levogiro levogira sinistrorso"
-    " sinistrorsa linksdrehend trigonometrique",
+    " sinistrorsa linksdrehend linksherum trigonometrique",
     -1: "cw clockwise orar orara orario oraria ceas ceasornic ceasornicului"
     " ceasului acelor orologio lancette destrogiro destrogira destrorso destrorsa uhrzeigersinn"
-    " rechtsdrehend horaire horario horaria часовои",
+    " rechtsdrehend rechtsherum horaire horario horaria aiguilles agujas часовои",
 }
 """Words for a sense of rotation, without diacritics."""
 SLIDING = {
@@ -40,7 +40,7 @@ SLIDING = {
 ROUND = words_in(
     "anti counter contra contrar contrara contro contrario contraria invers inversa inverso"
     " inversul opus opusa opposto opposta opposite against"
-    " gegen против"
+    " gegen entgegen inverse contraire против"
 )
 """Words or prefixes that reverse the word after them."""
 ANTI = "anti"
@@ -49,7 +49,8 @@ FILLING = words_in(
     "a al ale ai de del della delle dell dei di da in nel nella l il la le lo se the of to its it"
     " sens sensul sensului senso sense direction direzione directie directia verso wise s sensu"
     " rotatie rotatia rotatiei rotazione rotation rot turns turning miscare miscarii ace lui"
-    " pe per con cu alle all hand hands im den der die du en sentido hacia lo по стрелке"
+    " pe per con cu alle all hand hands im den dem der die du en sentido hacia lo"
+    " dans des les el las d une montre reloj по стрелке стрелки хода ходу"
 )
 """Words that carry no sense."""
 SHORT = {"or": "orar", "ant": "antiorar", "antior": "antiorar", "anticl": "anticlockwise"}

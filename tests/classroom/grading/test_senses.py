@@ -1,4 +1,4 @@
-"""Senses in words, as students of three languages write them, and nothing taken for one that is
+"""Senses in words, as students write them in each language, and nothing taken for one that is
 none."""
 
 from __future__ import annotations
@@ -15,16 +15,24 @@ trigonometric | Trigonometric | trigonometric (+) | + trig | trig. | sens trigon
 sensul trigonometric | în sens trigonometric | anti-orar | sens antiorar | antiorario | antior.
 invers acelor de ceasornic | în sens invers acelor de ceasornic | contrar acelor de ceasornic
 invers sensului acelor de ceasornic | contra acelor de ceas | in senso antiorario | levogiro
-contrario alle lancette dell'orologio"""
+contrario alle lancette dell'orologio | linksherum | gegen den Uhrzeigersinn
+entgegen dem Uhrzeigersinn | antihoraire | sens trigonométrique
+sens inverse des aiguilles d’une montre | sentido antihorario
+en sentido contrario a las agujas del reloj | против часовой | против часовой стрелки
+против хода часовой стрелки"""
 RIGHT_ABOUT = """- | − | – | -1 | ↻ | cw | c.w. | clockwise | negative | orar | or. | orar (−)
 - orar | sens orar | în sens orar | sensul orar | acelor de ceasornic
 în sensul acelor de ceasornic | invers trigonometric
 sens invers trigonometric | antitrigonometric | orario | in senso orario
-contrar sensului trigonometric | senso delle lancette dell’orologio | destrogiro"""
+contrar sensului trigonometric | senso delle lancette dell’orologio | destrogiro
+rechtsherum | im Uhrzeigersinn | sens horaire | dans le sens des aiguilles d’une montre
+sentido horario | en el sentido de las agujas del reloj | по часовой | по часовой стрелке
+по ходу часовой стрелки"""
 ALONG = """+ | forward | along the guide | away | înainte | în sensul ghidajului | după ghidaj
-avanti | nel verso della guida | lungo la guida"""
+avanti | nel verso della guida | lungo la guida | vorwärts | le long du guide | adelante | вперёд"""
 AGAINST = """- | backward | against the guide | towards | înapoi | contra ghidajului | indietro
-contra sensului ghidajului | în sens invers ghidajului | contro il verso della guida"""
+contra sensului ghidajului | în sens invers ghidajului | contro il verso della guida
+gegen die Führung | en arrière | hacia atrás | против направляющей"""
 NO_TURNING = """left | right | dreapta | left-handed | sus | 0 | ? | 2 | -- | sens | anti | ccww
 maybe clockwise | not clockwise | trigonometric orar | counter counter clockwise | - trig
 orar (+) | forward | înainte"""
