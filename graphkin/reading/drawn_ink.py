@@ -431,9 +431,8 @@ def flattened(picture: Any, over: PaperMap, rect: Any, density: float) -> Any:
     pixels = over(np.stack(np.meshgrid(xs, ys), axis=-1)).astype(np.float32)
     finer = np.array([[1 / coarse, 0, 1], [0, 1 / coarse, 1]])
     how = cv2.INTER_LINEAR | cv2.WARP_INVERSE_MAP
-    where = cv2.warpAffine(pixels, finer, (width, height), flags=how)
-    empty = np.empty(0, np.float32)
-    return cv2.remap(picture, where, empty, cv2.INTER_LINEAR, borderMode=cv2.BORDER_REPLICATE)
+    x, y = cv2.split(cv2.warpAffine(pixels, finer, (width, height), flags=how))
+    return cv2.remap(picture, x, y, cv2.INTER_LINEAR, borderMode=cv2.BORDER_REPLICATE)
 
 
 def printed_mask(page: Page, shape: Any) -> Any:

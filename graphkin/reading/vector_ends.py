@@ -163,7 +163,7 @@ def vector_end(
     shared = any(
         o.real > long + NEAR and abs(o.imag) < NEAR + LEANING * (o.real - long) for o in others
     )
-    alike = shared or any(abs(np.angle(each / way)) < BESIDE for each in beside)
+    alike = any(abs(np.angle(each / way)) < BESIDE for each in beside)
     free = abs(along - long) > CLEAR
     for other in others:
         free &= abs(along - other) > FREE
@@ -182,10 +182,10 @@ def vector_end(
         abs(np.angle(-each / way)) < CROWDED for each in arriving
     )
     turned = bool(back.max() >= TURNED and back.max() > here + CLEARLY and not crowded)
-    likely = back.max() >= TURNED if alike else steady(back).max() >= HEADED
+    likely = back.max() >= TURNED if alike or shared else steady(back).max() >= HEADED
     at_tail = bool(likely) and not crowded
     head = complex(place) if elsewhere and (clearer or here < OWN) else None
-    doubled = (at_tail and not turned) or (along_line and elsewhere and head is None)
+    doubled = (at_tail and not turned) or ((along_line or shared) and elsewhere and head is None)
     ended = bool(here >= OWN or (marked and plain))
     if along_line:
         return VectorEnd(head, turned, doubled, open=not ended)

@@ -146,6 +146,16 @@ def test_the_head_of_another_vector_to_the_point_is_not_the_vectors(share: float
     assert not end.is_there
 
 
+@pytest.mark.parametrize("share", [0.7, 1.35])
+def test_a_head_elsewhere_is_asked_about_where_another_vector_covers_the_stroke(
+    share: float,
+) -> None:
+    """The vector of a farther point runs along this one, and another's head is at the point."""
+    far, moved = TAIL + 1.9 * (TIP - TAIL), TAIL + share * (TIP - TAIL)
+    end = read([*vector(TAIL, far), *vector(TAIL, moved), *OWN], (far,))
+    assert not end.is_there
+
+
 def test_vectors_that_leave_a_pole_on_both_sides_are_no_head() -> None:
     for turn in (15, 19, 25):
         fan = [(TIP, TIP - 40 * WAY * np.exp(1j * np.radians(each))) for each in (-turn, turn)]
