@@ -124,7 +124,8 @@ def find(name: str) -> str:
         raise SceneError(Problem(path, message("is a folder without scene.toml"), expected))
     if name in (more := examples()):
         return str(more[name])
-    near = near_file(name, [*scenes_beside(path), *names(), *more])
+    shipped_names = (*names(), *more) if paths.name_of(path) == path else ()
+    near = near_file(name, [*scenes_beside(path), *shipped_names])
     lists = message("graphkin list shows the labs, graphkin list --scenes all")
     hint = message("did you mean {new}?", new=near) if near else NO_WORDS
     raise SceneError(

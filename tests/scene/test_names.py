@@ -48,7 +48,7 @@ def test_sheets_in_a_language_say_its_names_alone(view):
         ('it = { lever = "due leve" }', "names.it.lever", '"due leve"'),
         ('it = { 0 = "telaio" }', "names.it.0", "the frame, which has no name on a sheet"),
         ("it = 3", "names.it", "3"),
-        ('de = { lever = "Hebel" }', "names.de", "unknown key"),
+        ('xx = { lever = "Hebel" }', "names.xx", "unknown key"),
     ],
 )
 def test_names_that_cannot_be(names, place, found):

@@ -38,10 +38,8 @@ SCALED, ODD = 0.03, 0.07
 DOUBLED = (2.0, 0.5)
 """The factors by which a class draws its plans larger or smaller of its own accord."""
 PLANS = {
-    Plane.VELOCITIES: "the lengths of the velocity plan are {factor} times those of the sheets: the"
-    " scale is another",
-    Plane.ACCELERATIONS: "the lengths of the acceleration plan are {factor} times those of the"
-    " sheets: the scale is another",
+    Plane.VELOCITIES: message("the velocity plan"),
+    Plane.ACCELERATIONS: message("the acceleration plan"),
 }
 LOST = 0.2
 """The share of right answers below which an unexplained sheet may be that of another lab."""
@@ -117,7 +115,7 @@ def scales(keys: Keys, answers: Any, sizes: Any, allowed: Any) -> None:
     with np.errstate(all="ignore"):
         logs = np.log(abs(answers / sizes))
     logs = np.where(np.isfinite(logs), logs, np.nan)
-    for plan, template in PLANS.items():
+    for plan, called in PLANS.items():
         own = [keys.standards[0].item[field] for field in keys.fields]
         lengths = [i for i, e in enumerate(own) if e.what == "segment" and plane_of(e) is plan]
         values = [i for i, e in enumerate(own) if e.what == "value" and keys.beside[i] in lengths]
@@ -132,7 +130,11 @@ def scales(keys: Keys, answers: Any, sizes: Any, allowed: Any) -> None:
         by_class = min(abs(factor - np.log(ratio)) for ratio in DOUBLED) < SCALED
         if alike and abs(factor) > ODD and not by_class:
             raise refused(
-                message(template, factor=f"{np.exp(factor):.3g}"),
+                message(
+                    "lengths of {plan} are {factor} times those of the sheets: its scale is another",
+                    plan=called,
+                    factor=f"{np.exp(factor):.3g}",
+                ),
                 message("mark with the lab, the course and the year whose sheets were handed out"),
             )
 

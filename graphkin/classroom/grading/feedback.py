@@ -216,7 +216,8 @@ def why(graded: Graded, mark: EarnedMark, words: Words) -> str:
         reason = unread(mark.answer.problem, unit_markup(mark.item.unit), words, rest)
         return reason if mark.is_ruled else words("feedback.unreadable", why=reason)
     if mark.rounded and mark.earned:
-        return words(f"feedback.digits_{mark.rounded}", share=percent(mark))
+        few = mark.rounded == "few"
+        return words("feedback.digits_few" if few else "feedback.digits_many", share=percent(mark))
     if mark.status is Status.CAUSE:
         return words("feedback.caused" if mark.earned else "feedback.lost_sense")
     if mark.alone:
