@@ -194,6 +194,9 @@ def put_picture(canvas: Canvas, picture: Picture, top: float) -> None:
         found = message("an SVG picture in a PDF needs svglib")
         raise PageError(Problem("header.logo", found, NO_WORDS, hint)) from None
     drawn = svg2rlg(BytesIO(picture.data))
+    if drawn is None:
+        found, hint = message("is no picture that can be drawn"), message("save it again as PNG")
+        raise PageError(Problem("header.logo", found, NO_WORDS, hint))
     drawn.scale(width / drawn.width, height / drawn.height)
     drawn.drawOn(canvas, x, y)
 

@@ -131,7 +131,7 @@ def scales(keys: Keys, answers: Any, sizes: Any, allowed: Any) -> None:
         if alike and abs(factor) > ODD and not by_class:
             raise refused(
                 message(
-                    "lengths of {plan} are {factor} times those of the sheets: its scale is another",
+                    "lengths of {plan} are {factor} times those of the sheets: another scale",
                     plan=called,
                     factor=f"{np.exp(factor):.3g}",
                 ),
