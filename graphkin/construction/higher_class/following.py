@@ -23,7 +23,7 @@ Reals = Any
 End = Literal["open", "fold", "stop"]
 """How a path ends: it goes on, it meets another closure, or nothing closes beyond."""
 
-FIRST, LONGEST = 1e-6, 1 / 24
+FIRST, LONGEST = 1e-6, 1 / 90
 """The first and the longest step, as fractions of the usual range of the driver."""
 LEAST, ENOUGH = 1e-3, 1e-10
 """The step below which a fold or a leap is tried, and the step below which the path ends."""
