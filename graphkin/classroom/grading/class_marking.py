@@ -97,7 +97,8 @@ class Book(Struct, dict=True):
         """The ways of working with a student's data and one cause, or those that were found."""
         marker = self.marker_of(graded.taker)
         first = marker.first_look({mark.item.field: mark.answer for mark in graded.marks})
-        return ways_of(marker.standard, unread_left_out(first), frozenset(first.wrong))
+        given, wrong = unread_left_out(first), frozenset(first.wrong)
+        return ways_of(marker.standard, given, wrong, two=len(graded.causes) > 1)
 
 
 class Marked(Struct, frozen=True):

@@ -676,14 +676,18 @@ class CauseWay(Struct, frozen=True):
 
 
 def ways_of(
-    standard: Standard, given: Mapping[str, Answer], missed: frozenset[str]
+    standard: Standard,
+    given: Mapping[str, Answer],
+    missed: frozenset[str],
+    *,
+    two: bool = False,
 ) -> tuple[CauseWay, ...]:
-    """Every way of working with one cause, and the one that explains a student's sheet."""
+    """Every way of working with one cause, and with the ``two`` that explain a student's sheet."""
     sheet = sheets_of([standard], [0], [given], [missed])
     single = (Hypothesis((cause,)) for cause in sheet.causes)
     with np.errstate(all="ignore"):
         told = [(each, sheet.settled(0, each, closely=False)) for each in single]
-    (found,) = sheet.explained()
+    (found,) = sheet.explained() if two else (None,)
     if found is not None:
         told.append((Hypothesis(found.causes), found))
     return tuple(CauseWay(e.names, e.values, e.times, each.share) for each, e in told if e)
