@@ -37,8 +37,8 @@ def test_the_pump_is_built_from_an_empty_field(hand):
 
 def test_a_newcomer_builds_the_offset_slider_crank(hand):
     """An empty field says how to begin, and its first click sets a fixed pin."""
-    assert hand.page.inner_text("#how").startswith("Begin with a click")
-    assert hand.count.startswith("Begin with a click")
+    assert hand.page.inner_text("#how").startswith("Click where a fixed pin is")
+    assert hand.count.startswith("Click where a fixed pin is")
     hand.page.mouse.move(*hand.pixel(complex(100, -50)))
     assert hand.page.inner_text("#at") == "(100; -50) mm"
     build_offset_slider_crank(hand)
