@@ -385,7 +385,7 @@ def test_a_cell_of_several_lines_hides_nobody(tmp_path):
 
 
 def test_rows_below_an_open_quote_are_read(tmp_path):
-    found = sheet_in(b'id,v\n1,"2\n3,4\n5,6\n', "a.csv", told=RowProblems("a.csv"))
+    found = sheet_in(b'id,v\n1,"2\n3,4\n5,6\n', "a.csv", faults=RowProblems("a.csv"))
     assert [row.cells for row in found.rows] == [("3", "4"), ("5", "6")]
     assert [row.cells for row in found.left_out] == [("1", "2")]
 
