@@ -8,6 +8,7 @@ and no styles: the page adds both where its security policy allows them.
 from __future__ import annotations
 
 import json
+import re
 from collections.abc import Collection, Mapping, Sequence
 from fractions import Fraction
 from itertools import groupby
@@ -116,7 +117,7 @@ def settings(items: Sequence[Item], words: Words, identity: Identity) -> dict[st
         "stem": identity.stem,
         "memory": identity.memory,
         "separator": ";" if words("decimal_mark") == "," else ",",
-        "number": NUMBER.pattern.replace("(?P<", "(?<"),
+        "number": in_javascript(NUMBER.pattern),
         "mistyped": MISTYPED.pattern,
         "blanks": BLANKS,
         "longest": LONGEST,
@@ -164,3 +165,8 @@ def lab_form(mechanism: Mechanism, lab: Lab, words: Words, identity: Identity) -
 def first_pivot(mechanism: Mechanism) -> str:
     """The fixed point from which places are measured; empty if the scene has none."""
     return next(iter(mechanism.scene.frame.points), "")
+
+
+def in_javascript(pattern: str) -> str:
+    """A regular expression with the named groups, and references to them, of JavaScript."""
+    return re.sub(r"\(\?P=(\w+)\)", r"\\k<\1>", pattern.replace("(?P<", "(?<"))

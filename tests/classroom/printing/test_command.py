@@ -51,7 +51,7 @@ def test_a_name_with_signs_that_the_font_lacks_is_told(make):
     assert result.exit_code == 0
     lacks = "the font of the sheets lacks"
     assert f'7: {lacks} 李 小 龍 of "李 小龍, 331 A"; the id replaces the name' in result.stderr
-    assert f'8: {lacks} 王 of "Ana 王王, 331 A"; ? stands for each' in result.stderr
+    assert f'8: {lacks} 王 of "Ana 王王, 331 A"; ? replaces each' in result.stderr
     assert "9: " not in result.stderr
 
 
@@ -63,7 +63,7 @@ def test_a_name_with_signs_that_the_font_lacks_is_told(make):
         (["--format", "png"], "png is none of pdf, svg"),
         (["--engine", "ray://x:1"], "dask://HOST:PORT"),
         (["--jobs", "0"], "--jobs"),
-        (["--lang", "de"], "--lang"),
+        (["--lang", "xx"], "--lang"),
     ],
 )
 def test_words_that_are_not_understood_change_nothing(make, words, said):
@@ -128,7 +128,7 @@ def test_a_table_that_cannot_be_read_is_told_before_anything_is_printed(make):
 def test_who_names_a_language_that_no_page_has_is_named(make):
     folder = listed(make, "a")
     told = ran(folder, "--view", "task").stderr
-    assert 'Ștefan Pop 3 (=5): "klingon" is no language of the pages (ro, en, it)' in told
+    assert 'Ștefan Pop 3 (=5): "klingon" is no language of the pages' in told
 
 
 # --- the language of the class ------------------------------------------------------------------
@@ -185,6 +185,6 @@ def test_readings_are_held_against_sheets_in_the_language_of_the_class(make):
 
 
 def test_a_language_that_no_page_has_is_refused(make):
-    result = ran(make("a", ["1"], language="de"))
+    result = ran(make("a", ["1"], language="xx"))
     assert result.exit_code == 2
-    assert 'manifest.json: language: "de" is no language of the pages' in result.stderr
+    assert 'manifest.json: language: "xx" is no language of the pages' in result.stderr
