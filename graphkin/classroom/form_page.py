@@ -18,9 +18,11 @@ from msgspec import Struct
 from graphkin.classroom.grading.answer_numbers import (
     BLANKS,
     LARGEST_ANSWER,
+    LETTERS,
     LONGEST,
     MISTYPED,
     NUMBER,
+    RAISED,
     UNITS,
 )
 from graphkin.classroom.lab.items import items as fields_of
@@ -119,6 +121,8 @@ def settings(items: Sequence[Item], words: Words, identity: Identity) -> dict[st
         "separator": ";" if words("decimal_mark") == "," else ",",
         "number": in_javascript(NUMBER.pattern),
         "mistyped": MISTYPED.pattern,
+        "raised": {chr(sign): chr(plain) for sign, plain in RAISED.items()},
+        "letters": LETTERS,
         "blanks": BLANKS,
         "longest": LONGEST,
         "largest": LARGEST_ANSWER,

@@ -53,10 +53,15 @@ class SchoolSigns(Struct, frozen=True, dict=True):
 
     @cached_property
     def scales(self) -> Mapping[str, str]:
-        """The markup of each scale factor by its usual index: L, v, a; n for a plan of rates."""
+        """The markup of each scale factor by its usual index: L, v, a; n of rates, F of forces."""
         found = self.by_usual("length_scale", "velocity_scale", "acceleration_scale")
-        plan = self.velocity_scale.partition("_")[0] + "_n"
-        return {name[-1]: scale_markup(sign) for name, sign in (*found.items(), ("k_n", plan))}
+        others = {f"k_{index}": f"{self.scale_letter}_{index}" for index in "nF"}
+        return {name[-1]: scale_markup(sign) for name, sign in (found | others).items()}
+
+    @property
+    def scale_letter(self) -> str:
+        """The letter of scale factors."""
+        return self.velocity_scale.partition("_")[0]
 
     def by_usual(self, *names: str) -> dict[str, str]:
         """Some of these signs, by the usual ones."""
@@ -87,6 +92,7 @@ class SchoolSigns(Struct, frozen=True, dict=True):
         return {
             **{f"*{usual}*": f"*{sign}*" for usual, sign in self.letters.items()},
             **{f"*k*_{index}": markup for index, markup in self.scales.items()},
+            "*k*_{{": f"*{self.scale_letter}*_{{{{",
             **{f"*a*^{{{{{u}}}}}": f"*a*^{{{{{s}}}}}" for u, s in self.components.items()},
             "a^c": f"a^{{{{{self.coriolis}}}}}" if self.coriolis != "c" else "a^c",
         }
@@ -103,7 +109,7 @@ def scale_markup(sign: str) -> str:
 USUAL = SchoolSigns()
 NAMES = tuple(each.name for each in fields(SchoolSigns))
 """The keys of signs, in the order in which they are listed."""
-TOKEN = re.compile(r"\*ε\*|\*k\*_[Lvan]\b|\*a\*\^\{\{.\}\}|\ba\^c\b")
+TOKEN = re.compile(r"\*ε\*|\*k\*_(?:[LvanF]\b|\{\{)|\*a\*\^\{\{.\}\}|\ba\^c\b")
 """A usual sign in a sentence."""
 MEANINGS: Mapping[str, str] = MappingProxyType(
     {

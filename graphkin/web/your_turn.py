@@ -16,7 +16,7 @@ from graphkin.construction.core.naming import rate_symbol, sense, vector_of
 from graphkin.construction.core.palette import SIMILAR, Move, images_and_place
 from graphkin.construction.core.plan_vector import plan_vector
 from graphkin.construction.core.program import Part, Plane, Step
-from graphkin.construction.core.quantities import OMEGA, unit_words
+from graphkin.construction.core.quantities import OMEGA
 from graphkin.construction.core.segments import letter_at
 from graphkin.construction.core.vocabulary import (
     Action,
@@ -710,7 +710,7 @@ def record(
         "seconds": seconds(sheets, turn),
         "shorter": turn.shorter,
         "plans": [words(f"sheet.{kind}") for kind in ("velocity", "acceleration")],
-        "units": [unit_words(words, unit) for unit in ("m/s", "m/s²")],
+        "units": [words.unit(unit) for unit in ("m/s", "m/s²")],
         "fields": [
             [plane_of(sheet), *map(frame, (sheet.layout.mechanism, sheet.layout.plan))]
             for sheet in sheets

@@ -22,11 +22,11 @@ const clean = (text) => text.replace(/[\p{Cc}\p{Cf}\p{Cs}]/gu, "").trim().normal
 const id = () => told.id || clean(own.value);
 
 // The error of an answer, as in graphkin.classroom.grading.answer_numbers; empty if it can be read.
-function wrong(text, unit) {
+function wrong(text, unit, name) {
   const stripped = clean(text);
   if (!stripped || told.blanks.includes(stripped.toLowerCase())) return "";
   const found = stripped.length <= told.longest ? NUMBER.exec(stripped) : null;
-  if (!found) return say("no_number", { text: shown(stripped) });
+  if (!found || !names(found.groups.label, name)) return say("no_number", { text: shown(stripped) });
   const rest = stripped.slice(found[0].length);
   const written = plainUnit(rest);
   const known = told.units[unit];
@@ -35,9 +35,25 @@ function wrong(text, unit) {
     const list = Object.keys(known).join(", ");
     return say("no_unit", { unit: shown(written), list });
   }
-  const digits = found.groups.digits.replaceAll(",", ".");
-  const value = Number(`${digits}e${found.groups.power || 0}`) * (written ? known[written] : 1);
+  const value = Number(`${digits(found.groups)}e${power(found.groups)}`) * (written ? known[written] : 1);
   return value < told.largest ? "" : say("too_large", { text: shown(stripped) });
+}
+
+// Whether a label before a number, if there is one, may name the quantity of a field.
+function names(label, name) {
+  const letter = name.split("_")[0];
+  const known = told.letters[letter] || [letter.toLowerCase()];
+  return !label || known.some((begins) => label.toLowerCase().startsWith(begins));
+}
+
+// The digits of a number with a decimal point, without gaps between thousands.
+function digits({ digits: all, part, parts }) {
+  const bare = [part, parts].reduce((left, gap) => (gap ? left.replaceAll(gap, "") : left), all);
+  return bare.replaceAll(",", ".");
+}
+
+function power({ power: plain, raised }) {
+  return [...(plain || raised || "0")].map((sign) => told.raised[sign] || sign).join("");
 }
 
 function plainUnit(text) {
@@ -47,7 +63,7 @@ function plainUnit(text) {
 
 // Show the error of a field next to it, and return whether there is one.
 function judge(field) {
-  const problem = field.dataset.unit === undefined ? "" : wrong(field.value, field.dataset.unit);
+  const problem = field.dataset.unit === undefined ? "" : wrong(field.value, field.dataset.unit, field.name);
   return mark(field, problem);
 }
 
@@ -104,7 +120,7 @@ function cell(text, read) {
 function table() {
   const rows = [HEADS, ["id", cell(id(), told.id || /^[+-]?\d+$/.test(id()))]];
   for (const field of fields) {
-    const read = !wrong(field.value, field.dataset.unit ?? "");
+    const read = !wrong(field.value, field.dataset.unit ?? "", field.name);
     rows.push([field.name, cell(clean(field.value), read)]);
   }
   return rows.map((row) => row.join(told.separator) + "\r\n").join("");

@@ -218,7 +218,9 @@ def test_mistakes_of_the_rule_name_its_file_and_no_other(mine):
     """Also after check has read the scene, whose name stands before the scene's own mistakes."""
     folder = mine(RULE.replace('"number"', '"n"'))
     said = CliRunner().invoke(app, ["check", str(folder)])
-    mistakes = [line for line in said.stderr.splitlines() if not line.startswith("graphkin: the manual")]
+    mistakes = [
+        line for line in said.stderr.splitlines() if not line.startswith("graphkin: the manual")
+    ]
     assert [line.startswith("graphkin: lab.toml: variants.set.n: ") for line in mistakes] == [True]
 
 
