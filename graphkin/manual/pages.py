@@ -10,6 +10,8 @@ from pathlib import Path
 from msgspec import Struct
 
 HERE = Path(__file__).parent
+CONVENTIONS = "reference/house"
+"""The page of the keys of house.toml, which are no keys of a scene or a lab."""
 INDEX = "index"
 REFERENCES = ("reference/scene", "reference/lab", "reference/house")
 """The pages that explain keys: those of a scene before those of a lab."""
@@ -181,7 +183,7 @@ def address_at(text: str, line: int, column: int) -> str:
     general = GENERIC.get(first, {}).get(left.count("-"), "") if left not in known else ""
     around = {left, ANY_NAME.get(first, first), table} - {""}
     for key in (own, left, general, ANY_NAME.get(first, ""), table, first):
-        places = known.get(key, ())
+        places = [e for e in known.get(key, ()) if e.section.page != CONVENTIONS]
         near = [e for e in places if not around.isdisjoint(keys_in(e.section.title))]
         if near or (places and (key != own or own == left)):
             return (near or places)[0].address

@@ -50,13 +50,10 @@ MANY |= {
     for name in ("table_lift", "table_rate", "table_bend")
 }
 MANY["two_trials.pace"] = ("rrr", (2,))
+MANY["lever.lever_balance"] = ("ppppr", (2,))
 MANY |= {
-    name: ("ppppr", (2,))
-    for name in (
-        "lever.lever_balance",
-        *("moments.tangential_part", "moments.balancing_moment", "moments.place_by_moments"),
-        "moments.left_couple",
-    )
+    f"moments.{name}": ("ppppr", (2,))
+    for name in ("tangential_part", "balancing_moment", "place_by_moments", "left_couple")
 }
 MANY["slide_pressure.slide_pressure"] = ("pprppr", (1, 1, 3))
 """What steps take any number of, and what these are told; two points where nothing is said."""
