@@ -101,7 +101,7 @@ def list_labs(scenes: bool) -> None:
     """List the labs and scenes that come with graphkin.
 
     Prints for each lab its title, the parameters that --set can change with their ranges, and the
-    quantities that the lab asks for. Every name that it prints can stand for SCENE.
+    quantities that the lab asks for. SCENE can be any name that it prints.
 
     \b
     Examples:

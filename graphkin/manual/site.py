@@ -78,7 +78,7 @@ def moving_page(name: str) -> str:
 
 
 def moving_pages(told: Callable[[str], None]) -> Iterator[tuple[str, bytes]]:
-    """The page that draws and moves each shipped scene, in English; its name is told when done."""
+    """The page that draws and moves each shipped scene, in English; each name is reported."""
     from concurrent.futures import ProcessPoolExecutor
 
     from graphkin.classroom.printing.workers import cores

@@ -26,18 +26,12 @@ EUPHONIC = r"(?<!\S)([ae]) (?=\*?(?i:\1))"
 
 
 class Sentences(dict[str, str]):
-    """The sentences of one language by key; one that it lacks is the English one.
-
-    ``lacking`` holds the keys of those that were asked for.
-    """
-
-    lacking: frozenset[str] = frozenset()
+    """The sentences of one language by key; one that it lacks is the English one."""
 
     def __missing__(self, key: str) -> str:
         said = words(ENGLISH).sentences
         if self is said or not dict.__contains__(said, key):
             raise KeyError(key)
-        self.lacking |= {key}
         return said[key]
 
 

@@ -133,8 +133,9 @@ class Moments(Struct, frozen=True):
     @property
     def steps(self) -> tuple[int, ...]:
         """The inputs of an action: feet and forces, then couples."""
-        pairs = [n for t in self.terms if t.foot is not None for n in (t.foot, t.force)]
-        return (*pairs, *(t.couple for t in self.terms if t.couple is not None))  # type: ignore[arg-type]
+        pairs = (n for t in self.terms if t.foot is not None for n in (t.foot, t.force))
+        couples = (t.couple for t in self.terms)
+        return tuple(n for n in (*pairs, *couples) if n is not None)
 
     @property
     def extra(self) -> tuple[float, ...]:
