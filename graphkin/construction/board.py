@@ -1,8 +1,8 @@
 """The board of a task page: what a student is given, and a drawing replayed from its log.
 
-A log is a line of moves, with ``|`` between them. A move is an action of the palette and the keys
-of what it is drawn from, such as ``perpendicular 1:O1 O1-A``. Where an action has two results,
-``/0`` or ``/1`` says which one. ``name own3 1:A`` gives a drawn point the letter of a point.
+A log is a line of moves, with ``|`` between them. A move is the word of an action and the keys of
+what it is drawn from, such as ``perp 1: O1-A``; the result of the third move is ``3``. Where an
+action has several results, ``/1`` takes the second one. ``name 3 1:A`` gives a point its letter.
 """
 
 from __future__ import annotations
@@ -30,14 +30,21 @@ from graphkin.text.errors import Message, PageError, Problem, message
 
 PLANES = (Plane.MECHANISM, Plane.VELOCITIES, Plane.ACCELERATIONS, Plane.NUMBERS)
 """The drawings, in the order of their numbers on a page."""
-MOST_SIGNS, MOST_MOVES = 20_000, 600
-"""The most characters and moves of a log."""
+MOST_SIGNS, MOST_MOVES = 4000, 400
+"""The most characters and moves of a log, which fits a cell of a table."""
 FARTHEST = 1e5
 """The farthest that anything may be drawn, in mm of paper."""
 BETWEEN = "|"
 """The sign between the moves of a log."""
 VECTOR_OF = {1: "v", 2: "a"}
 """The letters of the vectors of both plans."""
+WORDS = {
+    next(word for word in each.typed if word.isascii() and word.isalpha()): key
+    for key, each in BOARD.items()
+}
+"""The actions by their words in a log."""
+BESIDE = "and"
+"""The input of an action that must lie in the drawing of the input before it."""
 NAME = "name"
 """The move that gives a point its letter."""
 TYPED = re.compile(r"(-?\d{1,5}(?:\.\d{1,6})?)(mm|deg|rad)")
@@ -300,18 +307,23 @@ class Board:
             point, letter = inputs
             self.name(point, letter)
             return
-        which = int(inputs.pop()[1:]) if inputs and re.fullmatch(r"/[01]", inputs[-1]) else 0
-        own = BOARD[action]
+        which = int(inputs.pop()[1:]) if inputs and re.fullmatch(r"/[0-9]", inputs[-1]) else 0
+        own = BOARD[WORDS[action]]
         slots = own.free or own.slots
         if len(inputs) != len(slots):
             raise ValueError(action)
         taken = [self.thing(key) for key in inputs]
         if any(each.kind not in kinds for each, (_, kinds) in zip(taken, slots, strict=True)):
             raise ValueError(action)
+        for one, two, (slot, _) in zip(taken, taken[1:], slots[1:], strict=False):
+            if slot == BESIDE and one.plane != two.plane:
+                raise ValueError(action)
         assert own.draw is not None
         plane = taken[own.lies_with].plane if own.plane is None else own.plane
-        found = [each for each in own.draw(self, *inputs) if self.is_near(each, plane)]
-        self.own[f"own{self.moves}"] = Thing(kind_of(own.shape, plane), plane, found[which])
+        value = [each for each in own.draw(self, *inputs) if is_finite(each)][which]
+        if not self.is_near(value, plane):
+            raise ValueError(action)
+        self.own[str(self.moves)] = Thing(kind_of(own.shape, plane), plane, value)
 
     def name(self, point: str, letter: str) -> None:
         """Give a drawn point a letter, which no other point has."""
@@ -321,10 +333,16 @@ class Board:
         self.named[letter] = point
 
     def is_near(self, value: Any, plane: int) -> bool:
-        """Whether a result is finite and at most ``FARTHEST`` from its drawing's origin."""
-        parts = value if isinstance(value, tuple) else (value,)
-        limit = FARTHEST * self.given.millimetre[plane] if plane < len(PLANES) - 1 else FARTHEST
-        return abs(parts[0]) < limit and all(map(isfinite, map(abs, parts)))
+        """Whether a result lies at most ``FARTHEST`` from the origin of its drawing."""
+        place = value[0] if isinstance(value, tuple) else value
+        unit = self.given.millimetre[plane] if plane < PLANES.index(Plane.NUMBERS) else 1.0
+        return abs(place) < FARTHEST * unit
+
+
+def is_finite(value: Any) -> bool:
+    """Whether all numbers of a result are finite, as on the page."""
+    parts = value if isinstance(value, tuple) else (value,)
+    return all(isfinite(abs(part)) for part in parts)
 
 
 def kind_of(shape: str, plane: int) -> str:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from graphkin.construction.board import BOARD, Thing, board_given
+from graphkin.construction.board import BESIDE, BOARD, Thing, board_given
 from graphkin.text import Words
 from graphkin.web.screen_sheets import ScreenSheet
 from graphkin.web.your_turn import frame, last_part, plane_of, written
@@ -29,8 +29,6 @@ SAID = (
     "board.broken",
 )
 """The messages of the script; the later one of two with one name counts."""
-BESIDE = "and"
-"""The input of an action that must lie in the drawing of the input before it."""
 
 
 def palette(words: Words) -> list[tuple[str, list[str]]]:

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from fractions import Fraction
 from math import isnan
+from typing import TYPE_CHECKING
 
 from msgspec import Struct
 from msgspec.structs import replace
@@ -32,6 +33,9 @@ from graphkin.scene.model import Scene
 from graphkin.text import Words
 from graphkin.text.errors import PageError
 from graphkin.writers.templates import from_template
+
+if TYPE_CHECKING:
+    from markupsafe import Markup
 
 COLUMNS = ("quantity", "yours", "expected", "allowed", "off", "earned")
 HEADS = {
@@ -311,11 +315,17 @@ INDENT = 4.0
 
 
 def feedback_html(
-    graded: Graded, title: str, rubric: Rubric, words: Words, scene: Scene | None = None
+    graded: Graded,
+    title: str,
+    rubric: Rubric,
+    words: Words,
+    scene: Scene | None = None,
+    drawing: Markup | str = "",
 ) -> str:
     """The HTML page of one student; without answers, it gives no expected values.
 
-    ``scene`` says what the parameters mean; without it they appear by name.
+    ``scene`` says what the parameters mean; without it they appear by name. ``drawing`` is the
+    student's drawing in green and red.
     """
     page = from_template(
         "classroom/templates/feedback.html",
@@ -329,6 +339,7 @@ def feedback_html(
         rows=rows(graded, words),
         right=words("feedback.right"),
         how=how(rubric, words),
+        drawing=drawing,
     )
     return f"{page}\n"
 

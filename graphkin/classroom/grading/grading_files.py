@@ -220,7 +220,8 @@ class ReportSettings(Struct, frozen=True):
     ``words`` is the language of the report, and of students without a language of their own.
     ``titles`` are the lab's titles in other languages. ``scene`` says what the parameters mean.
     ``unread`` are cells that cannot be read, ``refused`` lines about what is not marked.
-    ``refusals`` collects pages that cannot be made.
+    ``refusals`` collects pages that cannot be made. ``drawings`` are those made on the task page,
+    in green and red, by id.
     """
 
     title: str
@@ -230,6 +231,7 @@ class ReportSettings(Struct, frozen=True):
     scene: Scene | None = None
     refused: Sequence[str] = ()
     refusals: Refusals = field(default_factory=Refusals)
+    drawings: Mapping[str, str] = field(default_factory=dict)
 
     def words_for(self, graded: Graded) -> Words:
         """The words of a student's own language."""
@@ -269,7 +271,8 @@ def feedback_files(
         title = told.title_in(spoken.language)
         with told.refusals.alone(each.taker.student.called):
             if "html" in formats:
-                text = feedback_html(each, title, lab.rubric, spoken, told.scene)
+                drawing = told.drawings.get(each.taker.student.id, "")
+                text = feedback_html(each, title, lab.rubric, spoken, told.scene, drawing)
                 files[f"{FEEDBACK}/{name}.html"] = text.encode("utf-8")
             if "pdf" in formats:
                 pages = feedback_pages(each, title, lab.rubric, spoken, told.scene)

@@ -229,7 +229,7 @@ CUT = PaletteAction(
 )
 SET_OFF = PaletteAction(
     "set_off",
-    (("from", POINTS), ("on", WAYS), ("length", ("length",))),
+    (("from", POINTS), ("on", ("locus", "guide")), ("length", ("length",))),
     """(p, on, length) => [1, -1].map(side =>
       plus(value_of(p), scaled(way(on), side * reach(length, p) / long(way(on)))))""",
     typed=("↦", "off"),

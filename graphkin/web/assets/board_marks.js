@@ -4,7 +4,7 @@ const HEAD = 3.2, SPREAD = 0.16; // mm of an arrowhead, and half its width in pa
 
 /** Draw all that the student has drawn in the current sheet. */
 function draw_own() {
-  const used = new Set(turn.lines.filter(([action]) => action === "cut").flatMap(([, given]) => given));
+  const used = new Set(turn.lines.flatMap(([, given]) => given));
   for (const [key, pick] of Object.entries(picks)) {
     if (!shown_at(key)) continue;
     const fresh = turn.fresh.includes(key) ? " fresh" : "";

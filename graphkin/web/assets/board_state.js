@@ -3,7 +3,7 @@ const turning = { ...data, moves: {}, places: {}, shares: [], seconds: 1 }, { mo
 const CHOICE = Object.keys(turning.palette); // any action may have several results
 const NUMBERS_PLANE = 3; // what is computed lies in no drawing
 const UNITS = { length: ["mm", "mm"], angle: ["deg", "°"], rate: ["rad", "rad/s"] }; // of typed numbers, in the log and on the page
-const MOST_MOVES = 600, MOST_SIGNS = 20000; // as in graphkin.construction.board
+const MOST_MOVES = 400, MOST_SIGNS = 4000; // as in graphkin.construction.board
 
 const { plus, minus, scaled, dot, cross, length_of, value_of, plane_of, results_of, same_value, shape_of } = palette_of(turning, () => true);
 
@@ -67,7 +67,7 @@ function recall_number(key) {
   const [, number, unit] = /^(-?[\d.]+)(mm|deg|rad)$/.exec(key) ?? [];
   if (!unit) return;
   const [kind, [, written]] = Object.entries(UNITS).find(([, [name]]) => name === unit);
-  picks[key] = { kind, plane: 0, needs: [], value: Number(number), name: `${number.replace("-", "−").replace(".", data.mark)} ${written}`.replace(" °", "°"), paper: kind === "length" };
+  picks[key] = { kind, plane: 0, needs: [], value: Number(number), name: `${number.replace("-", "−").replace(".", data.mark)} ${written}`.replace(" °", "°"), paper: kind === "length", typed: true };
 }
 
 /** The key of a typed number for inputs of some kinds; null where it is none. */
@@ -80,12 +80,14 @@ function number_key(text, kinds) {
 }
 
 /** The moves as a line of text, which `graphkin grade` draws again. */
-const log_of = () => turn.lines.map(([action, given, which]) => [action, ...given, ...which === undefined ? [] : [`/${which}`]].join(" ")).join("|");
+const log_of = () => turn.lines.map(([action, given, which]) => [word_of(action), ...given.map(key => key.replace(/^own/, "")), ...which ? [`/${which}`] : []].join(" ")).join("|");
+const word_of = action => TYPED[action]?.find(sign => /^[a-z]+$/.test(sign)) ?? action;
 
 /** Draw the moves of a log again; returns whether all of them could be drawn. */
 function draw_log(text) {
   for (const move of text.split("|").filter(Boolean)) {
-    const words = move.split(" "), which = words.at(-1).startsWith("/") ? Number(words.pop().slice(1)) : undefined, [action, ...given] = words;
+    const words = move.split(" "), which = words.at(-1).startsWith("/") ? Number(words.pop().slice(1)) : 0;
+    const action = Object.keys(TYPED).find(one => word_of(one) === words[0]) ?? words[0], given = words.slice(1).map(key => /^\d+$/.test(key) ? `own${key}` : key);
     try {
       add_line(action, given, which);
       if (action !== "name" && !picks[`own${turn.lines.length}`].value) throw new RangeError(move);

@@ -130,7 +130,7 @@ function show_ready() {
 /** Offer what cannot be pointed at here as buttons: for the chosen action, and vectors of this part of the work. */
 function show_chips() {
   const kinds = new Set([...kinds_due().filter(kind => UNSEEN.includes(kind)), ...slots_of(turn.tool).flat().filter(kind => kind === "arrow")]);
-  const keys = Object.keys(picks).filter(key => kinds.has(picks[key].kind) && is_there(key) && (UNSEEN.includes(picks[key].kind) || !shown_at(key)));
+  const keys = Object.keys(picks).filter(key => kinds.has(picks[key].kind) && is_there(key) && !picks[key].typed && (UNSEEN.includes(picks[key].kind) || !shown_at(key)));
   const held = document.activeElement?.dataset.pick; // the focus stays where it is
   byId("chips").replaceChildren(...keys.map(key => {
     const chip = document.createElement("button");
