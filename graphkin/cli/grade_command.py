@@ -22,9 +22,8 @@ from graphkin.cli.options import (
 if TYPE_CHECKING:
     from fractions import Fraction
 
-    from markupsafe import Markup
-
     from graphkin.classroom.grading.answers import Answers
+    from graphkin.classroom.grading.feedback import DrawingBack
     from graphkin.classroom.grading.gradebook import Filled
     from graphkin.classroom.grading.graded import Result
     from graphkin.classroom.printing.edition import Edition
@@ -295,7 +294,7 @@ def note_followed(opened: Edition, folder: Path, given: Answers, refusals: Refus
         own |= {field: replace(own[field], followed=True) for field in row.followed if field in own}
 
 
-def boards(opened: Edition, given: Answers, refusals: Refusals) -> dict[str, Markup]:
+def boards(opened: Edition, given: Answers, refusals: Refusals) -> dict[str, DrawingBack]:
     """The drawings made on task pages, in green and red; what they answer is added."""
     if not given.drawings:
         return {}
@@ -349,7 +348,7 @@ def all_files(
     kinds: tuple[str, ...],
     report: Path,
     refusals: Refusals,
-    pictures: Mapping[str, Markup],
+    pictures: Mapping[str, DrawingBack],
 ) -> dict[str, bytes]:
     """The files of the report, with the changes since the marks already in its folder."""
     from graphkin.classroom.grading.grading_files import (

@@ -488,7 +488,9 @@ class AnswerReading(Struct, dict=True):
             hint = message("are these the answers to another lab?")
             raise RosterError(Problem(sheet.name, found, expected, hint))
         column = where[meant[0]] if meant else None
-        drawn = next((i for i, cell in enumerate(sheet.head) if folded(cell) == folded(DRAWING)), None)
+        drawn = next(
+            (i for i, cell in enumerate(sheet.head) if folded(cell) == folded(DRAWING)), None
+        )
         every = (*sheet.rows, *sheet.left_out)
         used = {visible(sheet.head[i]) for i in (*own, column) if i is not None}
         wrong = wrong_rows(told, used)

@@ -5,7 +5,6 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from fractions import Fraction
 from math import isnan
-from typing import TYPE_CHECKING
 
 from msgspec import Struct
 from msgspec.structs import replace
@@ -33,9 +32,6 @@ from graphkin.scene.model import Scene
 from graphkin.text import Words
 from graphkin.text.errors import PageError
 from graphkin.writers.templates import from_template
-
-if TYPE_CHECKING:
-    from markupsafe import Markup
 
 COLUMNS = ("quantity", "yours", "expected", "allowed", "off", "earned")
 HEADS = {
@@ -78,6 +74,17 @@ BARELY = 1.05
 """The most tolerances by which an answer is only just outside."""
 SCORE, MOST = 20, 1e99
 POWERS = {"²": "^2"}
+
+
+Block = tuple[float, list[Mark]]
+"""The height of a part that stays together, in mm, and its marks measured from its top."""
+
+
+class DrawingBack(Struct, frozen=True):
+    """A drawing made on the task page, in green and red: markup for a page, and parts for paper."""
+
+    markup: str
+    blocks: tuple[Block, ...]
 
 
 class FeedbackRow(Struct, frozen=True):
@@ -320,7 +327,7 @@ def feedback_html(
     rubric: Rubric,
     words: Words,
     scene: Scene | None = None,
-    drawing: Markup | str = "",
+    drawing: DrawingBack | None = None,
 ) -> str:
     """The HTML page of one student; without answers, it gives no expected values.
 
@@ -339,7 +346,7 @@ def feedback_html(
         rows=rows(graded, words),
         right=words("feedback.right"),
         how=how(rubric, words),
-        drawing=drawing,
+        drawing=drawing.markup if drawing else "",
     )
     return f"{page}\n"
 
@@ -436,13 +443,20 @@ SPACINGS = (Spacing(3.4, 2.6), Spacing(3.3, 1.9), Spacing(3.1, 1.7))
 
 
 def feedback_pages(
-    graded: Graded, title: str, rubric: Rubric, words: Words, scene: Scene | None = None
+    graded: Graded,
+    title: str,
+    rubric: Rubric,
+    words: Words,
+    scene: Scene | None = None,
+    drawing: DrawingBack | None = None,
 ) -> tuple[Page, ...]:
-    """The A4 pages of one student, one page where possible."""
+    """The A4 pages of one student, one page where possible, and then those of the drawing."""
     settings = settings_words(graded, words, scene)
     tried = (list(paged(blocks(graded, rubric, words, settings, by))) for by in SPACINGS)
     bodies = next((found for found in tried if len(found) == 1), None)
     bodies = bodies or list(paged(blocks(graded, rubric, words, settings, SPACINGS[0])))
+    if drawing and is_shown(graded):
+        bodies += paged(iter(drawing.blocks))
     name = name_of(graded)
     return tuple(
         Page(
@@ -470,10 +484,6 @@ def name_of(graded: Graded) -> str:
 def fitting(markup: str) -> str:
     """The markup of a head or foot, shortened where it is too long."""
     return markup if extent(markup, LETTER)[0] <= 105 else shortened(markup, 105, LETTER)
-
-
-Block = tuple[float, list[Mark]]
-"""The height of a part that stays together, in mm, and its marks measured from its top."""
 
 
 def blocks(

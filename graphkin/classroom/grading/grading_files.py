@@ -14,7 +14,7 @@ from msgspec import Struct, field
 
 from graphkin.classroom.grading.answers import Sender, Unread, packed_feedback
 from graphkin.classroom.grading.class_report import class_report
-from graphkin.classroom.grading.feedback import feedback_html, feedback_pages
+from graphkin.classroom.grading.feedback import DrawingBack, feedback_html, feedback_pages
 from graphkin.classroom.grading.graded import Decision, EarnedCause, Graded, Result, Status
 from graphkin.classroom.grading.standard import Expectation
 from graphkin.classroom.lab.lab_model import Lab
@@ -231,7 +231,7 @@ class ReportSettings(Struct, frozen=True):
     scene: Scene | None = None
     refused: Sequence[str] = ()
     refusals: Refusals = field(default_factory=Refusals)
-    drawings: Mapping[str, str] = field(default_factory=dict)
+    drawings: Mapping[str, DrawingBack] = field(default_factory=dict)
 
     def words_for(self, graded: Graded) -> Words:
         """The words of a student's own language."""
@@ -270,12 +270,12 @@ def feedback_files(
         spoken = told.words_for(each)
         title = told.title_in(spoken.language)
         with told.refusals.alone(each.taker.student.called):
+            drawing = told.drawings.get(each.taker.student.id)
             if "html" in formats:
-                drawing = told.drawings.get(each.taker.student.id, "")
                 text = feedback_html(each, title, lab.rubric, spoken, told.scene, drawing)
                 files[f"{FEEDBACK}/{name}.html"] = text.encode("utf-8")
             if "pdf" in formats:
-                pages = feedback_pages(each, title, lab.rubric, spoken, told.scene)
+                pages = feedback_pages(each, title, lab.rubric, spoken, told.scene, drawing)
                 files[f"{FEEDBACK}/{name}.pdf"] = write_pdf(pages, title=pages[0].title)
     return files
 
