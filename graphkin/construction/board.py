@@ -47,7 +47,7 @@ BESIDE = "and"
 """The input of an action that must lie in the drawing of the input before it."""
 NAME = "name"
 """The move that gives a point its letter."""
-TYPED = re.compile(r"(-?\d{1,5}(?:\.\d{1,6})?)(mm|deg|rad)")
+TYPED = re.compile(r"(-?[0-9]{1,5}(?:\.[0-9]{1,6})?)(mm|deg|rad)")
 """A typed number: a length in mm of paper, an angle in degrees, a rate in rad/s."""
 KIND_OF = {"mm": "length", "deg": "angle", "rad": "rate"}
 """The kind of thing that a typed number is, by its unit."""

@@ -43,7 +43,7 @@ class Form(HTMLParser):
         given = dict(attrs)
         if "id" in given:
             self.ids.append(given["id"])
-        if tag in ("input", "select") and "name" in given:
+        if tag in ("input", "select") and "name" in given and given.get("type") != "hidden":
             self.fields[given["name"]] = given
         if tag == "label":
             self.labelled.append(given["for"])

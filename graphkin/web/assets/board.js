@@ -55,6 +55,7 @@ function turn_again() {
 function fit() {
   for (const { fields } of sheets) for (const one of fields) one.drawn = null; // nothing is drawn that a frame could close on
   wanted = false;
+  style(page, "--dock", `${Math.min(byId("dock").offsetHeight, innerHeight / 2)}px`);
   look();
   light_up();
 }
