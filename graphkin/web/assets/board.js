@@ -32,6 +32,7 @@ function recall_board() {
   forget_own_lines();
   Object.assign(turn, { lines: [], log: [], past: [], future: [], fresh: [] });
   const whole = draw_log(log);
+  turn.past = turn.lines.map((_, i) => ({ done: [], log: turn.log.slice(0, i), lines: turn.lines.slice(0, i) })); // each move can be taken back
   tell_turn(worded(whole ? "begin" : "broken", { number: turn.lines.length }));
   show_turn();
 }
