@@ -3,8 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from hashlib import pbkdf2_hmac, sha256
 
-from graphkin.construction.board import BESIDE, BOARD, Thing, board_given
+from graphkin.construction.board import BESIDE, BOARD, BoardGiven, Thing, board_given
+from graphkin.construction.core.drawn_scene import Drawing
+from graphkin.numbers.plane import Ratio
 from graphkin.text import Words
 from graphkin.web.screen_sheets import ScreenSheet
 from graphkin.web.your_turn import frame, last_part, plane_of, written
@@ -27,8 +30,10 @@ SAID = (
     "board.which_letter",
     "board.full",
     "board.broken",
+    "board.right",
+    "board.elsewhere",
 )
-"""The messages of the script; the later one of two with one name counts."""
+"""The messages of the script."""
 
 
 def palette(words: Words) -> list[tuple[str, list[str]]]:
@@ -39,8 +44,32 @@ def palette(words: Words) -> list[tuple[str, list[str]]]:
     ]
 
 
-def board_record(sheets: Sequence[ScreenSheet]) -> dict[str, object]:
-    """The data for the script of the board."""
+GRID = 2.0
+"""The grid of what a page may tell of a point, in mm of paper."""
+ROUNDS, SHORT = 100_000, 16
+"""The rounds of a digest, and the hexadecimal digits of it that a page holds."""
+
+
+def digests(drawings: Sequence[Drawing], given: BoardGiven) -> dict[str, object]:
+    """What lets a page say that a point is right: for each letter the digest of its grid cell.
+
+    A digest takes a browser some 30 ms (PBKDF2 of SHA-256), and its salt differs from page to page.
+    """
+    values = {n: value for each in drawings for n, value in each.trace.values.items()}
+    salt = sha256(repr([*given.things.items()]).encode()).hexdigest()[:SHORT]
+    found = {}
+    for key, letter in given.letters.items():
+        value = values.get(letter.step)
+        place = drawings[0].place(value) if isinstance(value, Ratio) else value
+        if isinstance(place, complex):
+            cell = place / given.millimetre[letter.plane] / GRID
+            text = f"{key} {round(cell.real)} {round(cell.imag)}".encode()
+            found[key] = pbkdf2_hmac("sha256", text, salt.encode(), ROUNDS).hex()[:SHORT]
+    return {"salt": salt, "grid": GRID, "rounds": ROUNDS, "of": found}
+
+
+def board_record(sheets: Sequence[ScreenSheet], *, says_right: bool = False) -> dict[str, object]:
+    """The data for the script of the board; with ``says_right`` also the digests of right cells."""
     drawings = [sheet.drawing for sheet in sheets]
     given, words = board_given(drawings), drawings[0].words
     slots = {key: each.free or each.slots for key, each in BOARD.items()}
@@ -68,7 +97,7 @@ def board_record(sheets: Sequence[ScreenSheet]) -> dict[str, object]:
         "bounds": [[place, place] for place in range(len(sheets))],
         "mark": words("decimal_mark"),
         "words": {last_part(key): words.sentences[key] for key in SAID},
-    }
+    } | ({"digests": digests(drawings, given)} if says_right else {})
 
 
 def written_thing(thing: Thing) -> dict[str, object]:

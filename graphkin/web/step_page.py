@@ -186,11 +186,15 @@ RATE_NAMES = {
 
 
 class Form(Struct, frozen=True):
-    """A form for answers in a task page: its markup, its rules and its script."""
+    """A form for answers in a task page: its markup, its rules and its script.
+
+    ``says_right`` says that the lab lets the board tell when a point is right.
+    """
 
     body: Markup
     style: str
     script: str
+    says_right: bool = False
 
 
 Tell = Callable[[str], None]
@@ -294,7 +298,7 @@ def task_page(
     sheets = screen_sheets(mechanism, language, "task")
     tell_unread(sheets, tell)
     shown = scheme(sheets[0].drawing)
-    drawn_here = board_record(sheets)
+    drawn_here = board_record(sheets, says_right=form is not None and form.says_right)
     body = from_template(
         "web/templates/task.html",
         **common(sheets),

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import csv
 from pathlib import Path
+from shutil import copytree
 from typing import Any
 
 import pytest
@@ -12,6 +13,7 @@ from graphkin.construction.board import BETWEEN, Board, BoardGiven, board_given,
 from graphkin.drawing.field import Field
 from graphkin.mechanism import load
 from graphkin.numbers.plane import Line
+from graphkin.scene import scene_files
 from graphkin.web.screen_sheets import ScreenSheet, screen_sheets
 from tests.browser.opening import Opened, barred
 from tests.browser.test_form import class_folder, page_of, save
@@ -269,3 +271,19 @@ def test_what_is_drawn_is_kept_taken_back_and_drawn_again(opened: Opened, folder
 def test_the_page_is_open_to_everybody(opened: Opened, folder: Path):
     page = fresh(opened, page_of(folder))
     assert not barred(page)
+
+
+def test_a_lab_may_let_its_page_say_what_is_right(opened: Opened, run: Run, tmp_path: Path):
+    """A point within the cell of the key is right; one 5 mm off is not; other labs say nothing."""
+    lab = tmp_path / "pump"
+    copytree(scene_files.folder("pump"), lab)
+    with (lab / "lab.toml").open("a", encoding="utf-8") as file:
+        file.write("\n[marking]\nsays_right = true\n")
+    run("sheet", lab, "-o", tmp_path, "--view", "task", "--format", "html", "--lang", "en")
+    page = fresh(opened, tmp_path / "pump-task.html")
+    say = page.locator("#turn-say")
+    typed(page, "ray O1 44\noff O1 44 55 /1\nA")
+    say.filter(has_text="A is not at its place.").wait_for()
+    page.locator("#turn-undo").click()
+    typed(page, "off O1 44 60.4 /1\nA")
+    say.filter(has_text="A: right.").wait_for()

@@ -31,6 +31,23 @@ function make_move(action, given, which) {
   const { name, kind } = picks[turn.fresh[0]], is_new = ["point", "image"].includes(kind) && action !== "name";
   tell_turn(is_new ? worded("which_letter") : worded("drawn", { name }));
   show_turn();
+  if (action === "name") say_right(given[1], given[0]);
+}
+
+/** Say whether a lettered point is right, where the lab lets its pages do so. */
+async function say_right(letter, key) {
+  const { digests } = data, { name, value, plane } = picks[key];
+  if (!digests?.of[letter] || !crypto.subtle) return;
+  const cells = [0, 1].map(k => [-0.5, 0.5].map(off => Math.round(value[k] / data.millimetre[plane] / digests.grid + off)));
+  const found = await Promise.all(cells[0].flatMap(u => cells[1].map(v => digest_of(`${letter} ${u} ${v}`, digests))));
+  if (turn.fresh.includes(key)) tell_turn(worded(found.includes(digests.of[letter]) ? "right" : "elsewhere", { name }));
+}
+
+/** The digest of a cell, as Python makes it. */
+async function digest_of(text, { salt, rounds }) {
+  const bytes = one => new TextEncoder().encode(one), from = await crypto.subtle.importKey("raw", bytes(text), "PBKDF2", false, ["deriveBits"]);
+  const found = await crypto.subtle.deriveBits({ name: "PBKDF2", hash: "SHA-256", salt: bytes(salt), iterations: rounds }, from, 64);
+  return [...new Uint8Array(found)].map(byte => byte.toString(16).padStart(2, "0")).join("");
 }
 
 function refuse(text) {
