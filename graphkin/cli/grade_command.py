@@ -156,6 +156,10 @@ def grade(  # noqa: PLR0915
     points the mark stays; "?" records a student's request that is not yet decided. Mark again with
     --force to update feedback, report and gradebook.
 
+    A row or column named drawing holds what a student drew on the board of the task page. Fields in
+    mm that are left empty are measured on the drawing, and the feedback page shows it in green and
+    red. A drawing that cannot be drawn again waits like a cell that cannot be read.
+
     Students can save score sheets from "your turn" on their pages, as ID-turn.json in the same
     folder as their answers. These sheets are listed in turns.csv; they earn nothing and prove
     nothing.
