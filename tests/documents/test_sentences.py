@@ -17,7 +17,7 @@ from graphkin.construction.core.program import Plane
 from graphkin.construction.core.segments import TINY
 from graphkin.construction.drivers.driver_relations import drawn_bars, laid_bars
 from graphkin.construction.result_tables import slide_rows, vectors
-from graphkin.documents.relations import ends_on, relations, told_bars
+from graphkin.documents.relations import dimensioned_bars, ends_on, relations
 from graphkin.documents.sentences import sentences
 from graphkin.documents.sheet import sheet
 from graphkin.documents.sheet_documents import drawings_of, proved
@@ -60,7 +60,7 @@ def all_said(found: tuple[Drawing, ...]) -> list[str]:
 def test_every_length_of_the_calculation_is_known_or_measured_before_and_once(both):
     """A bar from A to B is no longer than one from A1 to B2 that lies on it."""
     first = both[0]
-    told = (*told_bars(first.scene.bare), *laid_bars(first))
+    told = (*dimensioned_bars(first.scene.bare), *laid_bars(first))
     known = {ends_on(first, *ends) for ends in told}
     said = " ".join([*given(first), *(names for names, _ in drawn_bars(first))])
     drawn_before = False
