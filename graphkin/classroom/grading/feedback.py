@@ -258,7 +258,7 @@ def decision_words(decision: Decision, words: Words) -> str:
     if decision.is_open:
         key = "feedback.asked"
     else:
-        key = "feedback.stands" if decision.points is None else "feedback.decided"
+        key = "feedback.kept" if decision.points is None else "feedback.decided"
     return words(key, reason=escape(printable(decision.reason)))
 
 
