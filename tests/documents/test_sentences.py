@@ -163,7 +163,7 @@ def test_a_figure_and_its_sentence_have_the_same_factor_of_the_relative_velocity
     page = sheet(drawing, "key", "2/2", lay_out(drawing))
     labels = {mark.markup for mark in page.marks if isinstance(mark, Text)}
     assert any(f"2*v*_{{{slid}}}" in label for label in labels), labels
-    assert ("times shorter than in the velocity plan" in said) is (drawing.scales.larger > 1)
+    assert ("of the velocity plan’s scale" in said) is (drawing.scales.larger > 1)
 
 
 # --- guides --------------------------------------------------------------------------------------
