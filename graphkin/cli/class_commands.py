@@ -300,8 +300,8 @@ def quiz(
         )
     fair, unfair = variants_of(lab, count)
     for each in unfair[:SHOWN]:
-        told = ", ".join(f"{key} = {value}" for key, value in each.settings.items())
-        complain(f"{told} is left out: {'; '.join(map(str, each.faults))}")
+        named = ", ".join(f"{key} = {value}" for key, value in each.settings.items())
+        complain(f"{named} is left out: {'; '.join(map(str, each.faults))}")
     if len(unfair) > SHOWN:
         complain(f"and {len(unfair) - SHOWN} more unfair variants")
     if not fair:

@@ -263,7 +263,7 @@ def grade(  # noqa: PLR0915
     changes(files, spoken)
     notes(opened, given, refusals, spoken)
     say("")
-    for path in told_paths(written):
+    for path in paths_printed(written):
         say(path)
     if given.unread or given.refused or refusals.found:
         context.exit(FAILED)
@@ -368,10 +368,10 @@ def all_files(
     before = report / MARKS
     earlier = whole_file(before) if before.is_file() else b""
     refused = list(refused_lines(opened, given, refusals, words))
-    told = ReportSettings(
+    written = ReportSettings(
         title, words, given.unread, scene.titles, scene, refused, refusals, pictures
     )
-    files = report_files(found, opened.lab, told, kinds, earlier)
+    files = report_files(found, opened.lab, written, kinds, earlier)
     return files | returned(files, found.graded, given.senders, kinds)
 
 
@@ -416,8 +416,8 @@ def tell_books(
             rows = [f"{row} ({shown_cell(who)})" for row, who in book.strangers.items()]
             more = len(rows) - SHOWN
             others = words("class.more", count=more) if more > 0 else ""
-            told = ", ".join(rows[:SHOWN]) + others
-            complain(words("class.not_ours", file=path.name, who=told))
+            strangers = ", ".join(rows[:SHOWN]) + others
+            complain(words("class.not_ours", file=path.name, who=strangers))
 
 
 def changes(files: dict[str, bytes], words: Words) -> None:
@@ -429,7 +429,7 @@ def changes(files: dict[str, bytes], words: Words) -> None:
             say(line)
 
 
-def told_paths(written: list[Path]) -> list[str]:
+def paths_printed(written: list[Path]) -> list[str]:
     """The paths written; feedback pages only as their folder and number."""
     from graphkin.classroom.grading.grading_files import FEEDBACK
 

@@ -96,12 +96,12 @@ def read(
     with progress("photographs") as shown:
         outcome = read_class(opened, pictures, out, order, jobs or cores(), shown)
     if as_json:
-        told = {r.name: points_file(r) for r in outcome.records if r.key}
+        point_files = {r.name: points_file(r) for r in outcome.records if r.key}
         beside: dict[Path, dict[str, bytes]] = {}
         for each in pictures:
-            if each.name in told:
+            if each.name in point_files:
                 files = beside.setdefault(each.path.parent, {})
-                files[f"{each.shown_name}{POINTS}"] = told[each.name]
+                files[f"{each.shown_name}{POINTS}"] = point_files[each.name]
         for place, files in beside.items():
             write_all(place, files, force=True)
     tell(said(opened, outcome))

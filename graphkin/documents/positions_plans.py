@@ -80,7 +80,9 @@ def plan_page(found: PositionSet, kind: str, kL: float, number: str) -> Page:
         *caption(drawing, one=one),
         *marks,
         LineMark(FIELD[0], FIELD[3], FIELD[2], FIELD[3], "panel"),
-        *places_table(found, found.numbered, [*told(found, kind), *exceptions(drawing, marks)]),
+        *places_table(
+            found, found.numbered, [*scale_lines(found, kind), *exceptions(drawing, marks)]
+        ),
         *proof(found),
     ]
     return Page(420, 297, tuple(whole), f"{name} – {title_of(drawing)}", words.language)
@@ -101,7 +103,7 @@ def caption(drawing: Drawing, *, one: bool) -> Iterator[Mark]:
     yield Text(FIELD[0] + 3, FIELD[1] - 2.2, f"{said};  {pole}", "caption", 2.5, name="heading")
 
 
-def told(found: PositionSet, kind: str) -> list[str]:
+def scale_lines(found: PositionSet, kind: str) -> list[str]:
     """What the sheet says below its table: positions without a plan, kinds of components."""
     words = found.shown.alone.words
     some = {each.name for each in found.planned(kind)}

@@ -170,8 +170,8 @@ def of_lengths(drawing: Drawing, bars: Sequence[Bar]) -> tuple[Section, Section]
     drawing the mechanism, are known already.
     """
     radii, measured = [], []
-    told = (*told_bars(drawing.scene.bare), *laid_bars(drawing))
-    known = {ends_on(drawing, *ends) for ends in told}
+    given = (*dimensioned_bars(drawing.scene.bare), *laid_bars(drawing))
+    known = {ends_on(drawing, *ends) for ends in given}
     alike: dict[frozenset[complex], list[Bar]] = {}
     for ends in bars:
         alike.setdefault(ends_on(drawing, *ends), []).append(ends)
@@ -204,7 +204,7 @@ def wheel_about(drawing: Drawing, places: frozenset[complex]) -> tuple[Disc, int
     return None
 
 
-def told_bars(scene: Scene) -> Iterator[Bar]:
+def dimensioned_bars(scene: Scene) -> Iterator[Bar]:
     """The ends of the bars whose lengths the data give, driven cylinders included."""
     for link in scene.every_link:
         for placing in link.placings:
@@ -322,7 +322,7 @@ def laid_off_length(drawing: Drawing, step: Step, value: Vector) -> Relation:
     return Relation(
         segment_of(drawing, step),
         drawing.in_signs(f"{drawing.symbol(vector.symbol)}/*k*_{drawing.vector.letter}"),
-        "/".join(put_in(drawing, drawn, truediv, size, scale, told=length_laid_off)),
+        "/".join(put_in(drawing, drawn, truediv, size, scale, shown_as=length_laid_off)),
         drawn,
         "mm",
         drawing.words("calculation.drawn"),

@@ -26,7 +26,7 @@ STRAY, TRIED = 4.0, 3
 """A measurement this many deviations from its prediction is dropped; the most rounds of this."""
 PITCH, BEGIN, COUNT = 4.0, (0.0, 0.0), (106, 76)
 """The grid of the field: spacing in mm, its corner on the sheet, counts across and down."""
-TOLD = 12.0
+SPACING = 12.0
 """Spacing in mm of the places in the fields at which the deviation is averaged."""
 
 
@@ -115,7 +115,7 @@ def covariance(known: Offsets, height: float) -> Any:
 def deviation(known: Offsets, inverse: Any, height: float) -> float:
     """The field's remaining standard deviation along each axis, averaged over the fields."""
     left, top, right, bottom = AREA
-    xs, ys = np.arange(left, right, TOLD), np.arange(top, bottom, TOLD)
+    xs, ys = np.arange(left, right, SPACING), np.arange(top, bottom, SPACING)
     places = np.stack(np.meshgrid(xs, ys), axis=-1).reshape(-1, 2)
     x, y = known.places.T
     alike = likeness(places[:, :1] - x) * likeness(places[:, 1:] - y) * height**2

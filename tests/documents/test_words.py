@@ -224,6 +224,8 @@ def test_no_sentence_is_left_in_english(language):
         "page.constant",
         "page.guide_of",
         "page.axis_guide",
+        "positions.number",
+        "sheet.positions_view",
         "calculation.structure",
         "feedback.earned",
         "form.points",

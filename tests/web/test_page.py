@@ -382,7 +382,7 @@ def test_a_trial_plan_names_itself_in_each_of_its_steps_and_each_point_that_it_f
             continue
         assert re.match("(first|second) trial plan[:,]", plain(one.markup))
         clauses = [plain(why) for why in one.why]
-        found = re.findall(r"both lines meet in ([^; ]*)", plain(one.markup))
+        found = re.findall(r"both lines meet at ([^; ]*)", plain(one.markup))
         alone = [clause for clause in clauses if "each line alone" in clause]
         assert len(found) == len(alone) <= 1
         assert not alone or f"holds {found[0]}," in alone[0]

@@ -64,7 +64,7 @@ UNREAD = {
     WITHHELD: "unread.withheld",
 }
 """The sentence for each reason why a cell cannot be read."""
-UNTOLD = "…"
+WITHHELD = "…"
 """The text in place of an expected value that is kept back."""
 NEGLIGIBLE = 0.01
 """The part of the tolerance below which an answer's error is shown as zero."""
@@ -130,7 +130,7 @@ def row_of(graded: Graded, mark: EarnedMark, words: Words) -> FeedbackRow:
     cells = (
         quantity(mark, words),
         answer_words(mark, words),
-        UNTOLD if open_yet else value_words(mark, words, mark.expected),
+        WITHHELD if open_yet else value_words(mark, words, mark.expected),
         "" if open_yet else allowed_words(mark, words),
         "" if open_yet else off_words(mark, words),
         words(
@@ -269,7 +269,7 @@ def decision_words(decision: Decision, words: Words) -> str:
     if decision.is_open:
         key = "feedback.asked"
     else:
-        key = "feedback.stands" if decision.points is None else "feedback.decided"
+        key = "feedback.kept" if decision.points is None else "feedback.decided"
     return words(key, reason=escape(printable(decision.reason)))
 
 
