@@ -68,7 +68,7 @@ class Thing(Struct, frozen=True):
     paper: bool = False
 
 
-class Letter(Struct, frozen=True):
+class BoardLetter(Struct, frozen=True):
     """A letter that a drawn point may have: its markup, drawing, point, and step.
 
     ``of`` is the place in the mechanism that the point shows; empty for a centre or a pole.
@@ -89,7 +89,7 @@ class BoardGiven(Struct, frozen=True):
     """
 
     things: Mapping[str, Thing]
-    letters: Mapping[str, Letter]
+    letters: Mapping[str, BoardLetter]
     millimetre: tuple[float, ...]
     bars: Mapping[str, tuple[str, str, str]]
     arrows: Mapping[str, tuple[str, str, str]]
@@ -140,7 +140,7 @@ def pole_key(plane: int) -> str:
 
 def letters_of(
     drawings: Sequence[Drawing], place_of: Mapping[str, str]
-) -> Iterator[tuple[str, Letter]]:
+) -> Iterator[tuple[str, BoardLetter]]:
     """The letters of the points that a sheet shows, by their keys."""
     seen = set[int]()
     for drawing in drawings:
@@ -155,7 +155,7 @@ def letters_of(
             plane = PLANES.index(step.plane)
             place = place_of.get(of, of) if what in KINDS else ""
             key = f"{plane}:{of}" if what in KINDS else f"{plane}:{of}.{what.replace(' ', '-')}"
-            yield key, Letter(drawing.symbol(step.name), plane, place, number)
+            yield key, BoardLetter(drawing.symbol(step.name), plane, place, number)
 
 
 def guides(drawing: Drawing) -> Iterator[tuple[str, Thing]]:
@@ -195,7 +195,7 @@ Pairs = dict[str, tuple[str, str, str]]
 
 
 def pairs(
-    drawing: Drawing, place_of: Mapping[str, str], letters: Mapping[str, Letter]
+    drawing: Drawing, place_of: Mapping[str, str], letters: Mapping[str, BoardLetter]
 ) -> tuple[Pairs, Pairs]:
     """The bars between places of one link, and the arrows of the plans between their letters."""
     scene, bars, arrows = drawing.scene, Pairs(), Pairs()
@@ -249,12 +249,11 @@ class Board:
             return self.given.things[key]
         if key in self.named:
             return self.own[self.named[key]]
-        ends = self.given.bars.get(key) or self.given.arrows.get(key)
-        if ends is not None:
-            ends = ends[:2]
-            tail, tip = map(self.thing, ends)
-            return Thing("bar" if key in self.given.bars else "arrow", tail.plane,
-                         tip.value - tail.value, on=ends)  # fmt: skip
+        pair = self.given.bars.get(key) or self.given.arrows.get(key)
+        if pair is not None:
+            tail, tip = map(self.thing, pair[:2])
+            kind = "bar" if key in self.given.bars else "arrow"
+            return Thing(kind, tail.plane, tip.value - tail.value, on=pair[:2])
         if found := TYPED.fullmatch(key):
             kind = KIND_OF[found[2]]
             return Thing(kind, 0, float(found[1]), paper=kind == "length")
@@ -267,12 +266,14 @@ class Board:
     def way(self, key: str) -> complex:
         """The direction of a bar, a vector or a line."""
         value = self.value_of(key)
-        return value.along if isinstance(value, Line) else value
+        return complex(value.along if isinstance(value, Line) else value)
 
     def reach(self, length: str, at: str) -> float:
         """A length in the drawing of another thing."""
         found = self.thing(length)
-        return found.value * (self.given.millimetre[self.thing(at).plane] if found.paper else 1.0)
+        return float(found.value) * (
+            self.given.millimetre[self.thing(at).plane] if found.paper else 1.0
+        )
 
     def ends_of(self, bar: str) -> tuple[complex, complex]:
         """The two ends of a bar."""
@@ -336,7 +337,7 @@ class Board:
         """Whether a result lies at most ``FARTHEST`` from the origin of its drawing."""
         place = value[0] if isinstance(value, tuple) else value
         unit = self.given.millimetre[plane] if plane < PLANES.index(Plane.NUMBERS) else 1.0
-        return abs(place) < FARTHEST * unit
+        return bool(abs(place) < FARTHEST * unit)
 
 
 def is_finite(value: Any) -> bool:

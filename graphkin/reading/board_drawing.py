@@ -41,7 +41,7 @@ from graphkin.reading.drawn_answers import cell, drawn_items, is_followed
 from graphkin.reading.lettered_points import LetteredSheet
 from graphkin.reading.marked_drawing import GREEN, RED, YELLOW, colour_of, sentence
 from graphkin.reading.point_reading import PointReading, ReadVerdict, pair
-from graphkin.reading.read_sheet import Sheets, sheets_of
+from graphkin.reading.read_sheet import sheets_of
 from graphkin.text import Words
 from graphkin.text.errors import Refusals
 from graphkin.writers.templates import from_template
@@ -85,20 +85,20 @@ def add_drawings(opened: Edition, given: Answers, refusals: Refusals) -> dict[st
         blank = [item for item in form if item.field not in own or own[item.field].is_blank]
         own |= {item.field: read_answer(OPEN, item) for item in blank}
         with refusals.alone(takers[who].student.called):
-            sheets = Drawn(opened, takers[who], log)
+            sheets = ReplayedDrawing(opened, takers[who], log)
             measured = sheets.answers([*blank])
             found[who] = given_back(sheets.judged, sheets.words)
             own |= measured
     return found
 
 
-class Drawn:
+class ReplayedDrawing:
     """The drawing of a student, replayed from its log. Raises PageError as ``replayed`` does."""
 
     def __init__(self, opened: Edition, taker: Taker, log: str) -> None:
         self.words: Words = opened.words(taker.spoken or None)
         order = PrintOrder(opened.lab, opened.scene, self.words.language, "colour")
-        self.sheets: Sheets = sheets_of(order, taker, self.words.language)
+        self.sheets = sheets_of(order, taker, self.words.language)
         self.board = replayed(board_given(self.sheets.drawings), log)
         rubric = opened.lab.rubric
         self.pencil = Pencil(rubric.point, rubric.line)
@@ -374,7 +374,7 @@ def shapes(each: JudgedSheet, field: Field) -> Iterator[Shape]:
         elif thing.kind in ("point", "image"):
             yield Shape("circle", "dot", (*field(thing.value), 0.5))
     for key in (*board.given.bars, *board.given.arrows):
-        ends_of = (board.given.bars | board.given.arrows)[key][:2]
+        ends_of = {**board.given.bars, **board.given.arrows}[key][:2]
         if all(end in board.named or end in board.given.things for end in ends_of):
             tail, tip = (board.thing(end) for end in ends_of)
             if tail.plane == plane:

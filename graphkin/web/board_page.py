@@ -5,8 +5,9 @@ from __future__ import annotations
 from collections.abc import Sequence
 from hashlib import pbkdf2_hmac, sha256
 
-from graphkin.construction.board import BESIDE, BOARD, BoardGiven, Thing, board_given
+from graphkin.construction.board import BESIDE, BoardGiven, Thing, board_given
 from graphkin.construction.core.drawn_scene import Drawing
+from graphkin.construction.registry import BOARD
 from graphkin.numbers.plane import Ratio
 from graphkin.text import Words
 from graphkin.web.screen_sheets import ScreenSheet

@@ -47,7 +47,7 @@ class Form(HTMLParser):
             self.fields[given["name"]] = given
         if tag == "label":
             self.labelled.append(given["for"])
-        if tag == "form":
+        if tag == "form" and "data-form" in given:  # the board has forms of its own
             self.told = json.loads(given["data-form"])
         if tag == "option":
             self.options.setdefault(list(self.fields)[-1], []).append(given["value"])
