@@ -408,10 +408,10 @@ def answers(drawing: Drawing) -> Iterator[Relation]:
             name = drawing.symbol(drawing.turning_name(link))
             way, unit = sense(words, rate) if rate else "", drawing.rate.caret_unit
             yield Relation(name, result=words.significant(abs(rate)), unit=unit, remark=way)
-    for block, name, value in slides_asked(drawing):
+    for block, slid, value in slides_asked(drawing):
         size = drawing.settled(abs(value))
         way = slide_sense(drawing, block, value) if size else ""
-        yield Relation(name, result=words.significant(size), unit=vector.caret_unit, remark=way)
+        yield Relation(slid, result=words.significant(size), unit=vector.caret_unit, remark=way)
     for whose in ("links", "points"):
         yield from (place for place in of_centres(drawing, whose) if place.blank)
 
