@@ -23,6 +23,7 @@ if TYPE_CHECKING:
     from fractions import Fraction
 
     from graphkin.classroom.grading.answers import Answers
+    from graphkin.classroom.grading.feedback import DrawingBack
     from graphkin.classroom.grading.gradebook import Filled
     from graphkin.classroom.grading.graded import Result
     from graphkin.classroom.printing.edition import Edition
@@ -155,6 +156,10 @@ def grade(  # noqa: PLR0915
     points the mark stays; "?" records a student's request that is not yet decided. Mark again with
     --force to update feedback, report and gradebook.
 
+    A row or column named drawing holds what a student drew on the board of the task page. Fields in
+    mm that are left empty are measured on the drawing, and the feedback page shows it in green and
+    red. A drawing that cannot be drawn again waits like a cell that cannot be read.
+
     Students can save score sheets from "your turn" on their pages, as ID-turn.json in the same
     folder as their answers. These sheets are listed in turns.csv; they earn nothing and prove
     nothing.
@@ -219,6 +224,7 @@ def grade(  # noqa: PLR0915
     given = read_answers(answers, opened.book.form, opened.signs, match or "")
     if drawings != answers:
         note_followed(opened, drawings, given, refusals)
+    pictures = boards(opened, given, refusals)
     turns = read_turns(answers, ids, refusals)
     words = opened.words(lang)
     processes = jobs or usual_jobs(opened)
@@ -234,7 +240,7 @@ def grade(  # noqa: PLR0915
     given.unread = open_cells(found, given.unread)
     for who, problems in found.refused.items():
         refusals.add(who, problems)
-    files = all_files(opened, found, given, words, kinds, out, refusals) | free.files()
+    files = all_files(opened, found, given, words, kinds, out, refusals, pictures) | free.files()
     if drawings != answers:
         files |= marked_drawings(opened, drawings, words, kinds, refusals)
     files |= {} if (out / DECISIONS).exists() else {DECISIONS: EMPTY}
@@ -292,6 +298,15 @@ def note_followed(opened: Edition, folder: Path, given: Answers, refusals: Refus
         own |= {field: replace(own[field], followed=True) for field in row.followed if field in own}
 
 
+def boards(opened: Edition, given: Answers, refusals: Refusals) -> dict[str, DrawingBack]:
+    """The drawings made on task pages, in green and red; what they answer is added."""
+    if not given.drawings:
+        return {}
+    from graphkin.reading.board_drawing import add_drawings
+
+    return add_drawings(opened, given, refusals)
+
+
 def marked_drawings(
     opened: Edition, folder: Path, words: Words, kinds: tuple[str, ...], refusals: Refusals
 ) -> dict[str, bytes]:
@@ -337,6 +352,7 @@ def all_files(
     kinds: tuple[str, ...],
     report: Path,
     refusals: Refusals,
+    pictures: Mapping[str, DrawingBack],
 ) -> dict[str, bytes]:
     """The files of the report, with the changes since the marks already in its folder."""
     from graphkin.classroom.grading.grading_files import (
@@ -352,7 +368,9 @@ def all_files(
     before = report / MARKS
     earlier = whole_file(before) if before.is_file() else b""
     refused = list(refused_lines(opened, given, refusals, words))
-    written = ReportSettings(title, words, given.unread, scene.titles, scene, refused, refusals)
+    written = ReportSettings(
+        title, words, given.unread, scene.titles, scene, refused, refusals, pictures
+    )
     files = report_files(found, opened.lab, written, kinds, earlier)
     return files | returned(files, found.graded, given.senders, kinds)
 

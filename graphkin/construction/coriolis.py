@@ -139,6 +139,9 @@ class CoriolisComponent(TriangleComponent, frozen=True, kw_only=True):
         "(rate, velocity) => [scaled(quarter(value_of(velocity)), 2 * value_of(rate))]",
         plane=NUMBERS,
         typed=("cor",),
+        draw=lambda things, rate, velocity: [
+            2j * things.value_of(rate) * things.value_of(velocity)
+        ],
     )
     titled: ClassVar[str] = "the Coriolis triangles of {pin_name} about {pivot_name}"
 

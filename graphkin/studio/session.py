@@ -700,6 +700,7 @@ class Session:
             places,
             order.text("words"),
             order.place("speed").real,
+            order.flag("exact"),
         )
         if act.kind != "pivot" and not of:
             raise PageRequestError("of")

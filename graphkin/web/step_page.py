@@ -27,10 +27,13 @@ from graphkin.mechanism import Mechanism
 from graphkin.motion.driving import TURN
 from graphkin.text import Words
 from graphkin.web import facts
+from graphkin.web.board_page import board_record
+from graphkin.web.board_page import palette as board_palette
 from graphkin.web.highlights import ghosts, rates, rows_found, triangles
 from graphkin.web.moving import moving, still
 from graphkin.web.offline_page import (
     BAR,
+    BOARD_PAGE,
     STEP_PAGE,
     bar_rules,
     data_block,
@@ -183,11 +186,15 @@ RATE_NAMES = {
 
 
 class Form(Struct, frozen=True):
-    """A form for answers in a task page: its markup, its rules and its script."""
+    """A form for answers in a task page: its markup, its rules and its script.
+
+    ``says_right`` says that the lab lets the board tell when a point is right.
+    """
 
     body: Markup
     style: str
     script: str
+    says_right: bool = False
 
 
 Tell = Callable[[str], None]
@@ -294,6 +301,7 @@ def task_page(
     sheets = screen_sheets(mechanism, language, "task")
     tell_unread(sheets, tell)
     shown = scheme(sheets[0].drawing)
+    drawn_here = board_record(sheets, says_right=form is not None and form.says_right)
     body = from_template(
         "web/templates/task.html",
         **common(sheets),
@@ -303,9 +311,15 @@ def task_page(
         ],
         data=given(sheets[0].drawing),
         scheme=scheme_figure(sheets[0].drawing, shown),
+        palette=board_palette(sheets[0].drawing.words),
+        board=data_block("board", drawn_here),
         form=form.body if form else "",
     )
-    styles, scripts = ([form.style], [form.script]) if form else ([], [])
+    styles = [*map(part, ("steps.css", "your_turn.css", "board.css"))]
+    scripts = [together(BOARD_PAGE)]
+    if form:
+        styles.append(form.style)
+        scripts.insert(0, form.script)
     return written(sheets, body, ink, styles, scripts, shown)
 
 

@@ -306,7 +306,8 @@ def test_each_field_has_its_bar(make, language):
     text = make(load("pump"), language)
     assert text.count('class="bar"') == text.count('<div class="view">') - (make is task_page) == 4
     assert words(language)("screen.on_paper") in text
-    for place, sheet in enumerate(screen_sheets(load("pump"), language)):
+    view = "task" if make is task_page else "key"
+    for place, sheet in enumerate(screen_sheets(load("pump"), language, view)):
         left, top, right, bottom = sheet.layout.plan.rect
         rule = f"#fields-{place}>:nth-child(2){{--bar:20;--wide:{number(right - left)};"
         assert rule + f"--high:{number(bottom - top)}}}" in text

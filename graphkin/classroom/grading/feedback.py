@@ -76,6 +76,17 @@ SCORE, MOST = 20, 1e99
 POWERS = {"²": "^2"}
 
 
+Block = tuple[float, list[Mark]]
+"""The height of a part that stays together, in mm, and its marks measured from its top."""
+
+
+class DrawingBack(Struct, frozen=True):
+    """A drawing made on the task page, in green and red: markup for a page, and parts for paper."""
+
+    markup: str
+    blocks: tuple[Block, ...]
+
+
 class FeedbackRow(Struct, frozen=True):
     """One field or cause: its cells in the order of ``COLUMNS``, the reason, and the status."""
 
@@ -311,11 +322,17 @@ INDENT = 4.0
 
 
 def feedback_html(
-    graded: Graded, title: str, rubric: Rubric, words: Words, scene: Scene | None = None
+    graded: Graded,
+    title: str,
+    rubric: Rubric,
+    words: Words,
+    scene: Scene | None = None,
+    drawing: DrawingBack | None = None,
 ) -> str:
     """The HTML page of one student; without answers, it gives no expected values.
 
-    ``scene`` says what the parameters mean; without it they appear by name.
+    ``scene`` says what the parameters mean; without it they appear by name. ``drawing`` is the
+    student's drawing in green and red.
     """
     page = from_template(
         "classroom/templates/feedback.html",
@@ -329,6 +346,7 @@ def feedback_html(
         rows=rows(graded, words),
         right=words("feedback.right"),
         how=how(rubric, words),
+        drawing=drawing.markup if drawing else "",
     )
     return f"{page}\n"
 
@@ -425,13 +443,20 @@ SPACINGS = (Spacing(3.4, 2.6), Spacing(3.3, 1.9), Spacing(3.1, 1.7))
 
 
 def feedback_pages(
-    graded: Graded, title: str, rubric: Rubric, words: Words, scene: Scene | None = None
+    graded: Graded,
+    title: str,
+    rubric: Rubric,
+    words: Words,
+    scene: Scene | None = None,
+    drawing: DrawingBack | None = None,
 ) -> tuple[Page, ...]:
-    """The A4 pages of one student, one page where possible."""
+    """The A4 pages of one student, one page where possible, and then those of the drawing."""
     settings = settings_words(graded, words, scene)
     tried = (list(paged(blocks(graded, rubric, words, settings, by))) for by in SPACINGS)
     bodies = next((found for found in tried if len(found) == 1), None)
     bodies = bodies or list(paged(blocks(graded, rubric, words, settings, SPACINGS[0])))
+    if drawing and is_shown(graded):
+        bodies += paged(iter(drawing.blocks))
     name = name_of(graded)
     return tuple(
         Page(
@@ -459,10 +484,6 @@ def name_of(graded: Graded) -> str:
 def fitting(markup: str) -> str:
     """The markup of a head or foot, shortened where it is too long."""
     return markup if extent(markup, LETTER)[0] <= 105 else shortened(markup, 105, LETTER)
-
-
-Block = tuple[float, list[Mark]]
-"""The height of a part that stays together, in mm, and its marks measured from its top."""
 
 
 def blocks(

@@ -23,7 +23,7 @@ from graphkin.construction.core.component import (
 from graphkin.construction.core.drawn_scene import Drawing
 from graphkin.construction.core.kind import ByHand, Sentence, Wording, in_one, together
 from graphkin.construction.core.naming import plan_amount
-from graphkin.construction.core.palette import NUMBERS, PaletteAction, Picks
+from graphkin.construction.core.palette import NUMBERS, PaletteAction, Picks, normal_towards
 from graphkin.construction.core.pen import Pen, about, against, letter
 from graphkin.construction.core.program import Effect, Part, Plane
 from graphkin.construction.core.relation import (
@@ -118,7 +118,7 @@ class NormalComponent(TriangleComponent, frozen=True, kw_only=True):
     forgotten: ClassVar[str] = "turn.wrong.normal_forgotten"
     turned: ClassVar[str] = "turn.wrong.normal_turned"
     palette: ClassVar[PaletteAction] = PaletteAction(
-        "triangle", PICKED, SCRIPT, plane=NUMBERS, typed=("△", "tri")
+        "triangle", PICKED, SCRIPT, plane=NUMBERS, typed=("△", "tri"), draw=normal_towards
     )
     titled: ClassVar[str] = "the right triangle of {q} about {p}"
 
