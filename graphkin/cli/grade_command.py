@@ -26,7 +26,7 @@ if TYPE_CHECKING:
     from graphkin.classroom.grading.answers import Answers
     from graphkin.classroom.grading.desk_rulings import DeskDecided
     from graphkin.classroom.grading.gradebook import Filled
-    from graphkin.classroom.grading.graded import Graded, Pin, Result
+    from graphkin.classroom.grading.graded import DrawingRemark, Graded, Result
     from graphkin.classroom.printing.edition import Edition
     from graphkin.classroom.roster.student_signs import Match
     from graphkin.text import Words
@@ -285,7 +285,7 @@ def grade(  # noqa: PLR0915
         context.exit(FAILED)
 
 
-def pins_of(opened: Edition, folder: Path) -> dict[str, tuple[Pin, ...]]:
+def pins_of(opened: Edition, folder: Path) -> dict[str, tuple[DrawingRemark, ...]]:
     """The remarks pinned to the drawings of each student, by id."""
     from graphkin.reading.marked_drawing import pinned_remarks
 
@@ -295,7 +295,9 @@ def pins_of(opened: Edition, folder: Path) -> dict[str, tuple[Pin, ...]]:
 
 
 def remarked(
-    graded: Graded, remarks: Mapping[tuple[str, str], str], pins: Mapping[str, tuple[Pin, ...]]
+    graded: Graded,
+    remarks: Mapping[tuple[str, str], str],
+    pins: Mapping[str, tuple[DrawingRemark, ...]],
 ) -> Graded:
     """A student's marks with the lecturer's remarks."""
     from msgspec.structs import replace

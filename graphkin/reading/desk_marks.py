@@ -1,4 +1,4 @@
-"""The desk's part about answers: cells, appeals, suspects, sheets and clusters of a marked class."""
+"""The desk's part about answers: cells, appeals, suspects, sheets and clusters of answers."""
 
 from __future__ import annotations
 
@@ -32,7 +32,7 @@ from graphkin.classroom.grading.feedback import (
     points_words,
     row_of,
 )
-from graphkin.classroom.grading.graded import Decision, EarnedMark, Graded
+from graphkin.classroom.grading.graded import Decision, EarnedMark
 from graphkin.classroom.grading.kept_marks import KeptReport
 from graphkin.classroom.roster.student_signs import signs
 from graphkin.reading.desk_queue import DeskItem, DeskQueue
@@ -129,7 +129,7 @@ class MarkDesk(Struct, dict=True):
 
     def state(self, item: DeskItem) -> str:
         """Whether an item is ``open``, ``decided``, or people ``disagree`` on it."""
-        told = [self.about(item, place) for place in item.places]
+        told = [list(self.about(item, place)) for place in item.places]
         if any(len(said) > 1 for each in told for said in each):
             return "disagree"
         table = (self.of_table(place) for place in item.places)

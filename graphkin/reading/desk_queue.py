@@ -1,4 +1,4 @@
-"""What a marked class leaves to a person: each as one thing to decide, with its likely decisions."""
+"""What a marked class leaves to a person, one by one, each with its likely decisions."""
 
 from __future__ import annotations
 
@@ -97,10 +97,11 @@ class DeskQueue(Struct, frozen=True):
         for (field, text, problem), places in told.items():
             mark = self.mark(places[0])
             shown = shown_cell(text.strip())
+            why = unread(problem, units[field], words, shown_cell(beyond_number(text)))
             yield DeskItem(
                 "cell",
-                self.titled(f"{plain(mark.item.symbol)}: “{shown}”", places),
-                f"“{shown}” {unread(problem, units[field], words, shown_cell(beyond_number(text)))}",
+                self.titled(f"{called(mark)}: “{shown}”", places),
+                f"“{shown}” {why}",
                 tuple(places),
                 tuple(places),
                 (*self.readings(text, problem, places), *self.shares(places, (0, 1))),
@@ -146,7 +147,7 @@ class DeskQueue(Struct, frozen=True):
         """An appeal, with the mark that it is about."""
         words, place = self.words, appeal.place
         name = self.names[appeal.who]
-        field = plain(self.mark(place).item.symbol) if appeal.field else words("class.whole")
+        field = called(self.mark(place)) if appeal.field else words("class.whole")
         full = list(self.shares([place], [1])) if appeal.field else []
         given = [replace(each, rulings=answering(each.rulings, appeal.text)) for each in full]
         shown = (place,) if appeal.field else self.whole(appeal.who)
@@ -230,8 +231,7 @@ class DeskQueue(Struct, frozen=True):
             for said, run in found:
                 places = [(who, field) for who, _ in run]
                 choices = (self.stays(places), *self.shares(places, (0.5, 1)))
-                symbol = plain(run[0][1].item.symbol)
-                title = f"{symbol}: {len(run)}×"
+                title = f"{called(run[0][1])}: {len(run)}×"
                 yield DeskItem("cluster", title, said, tuple(places), tuple(places), choices)
 
 
@@ -246,6 +246,11 @@ def wrong(graded: Graded) -> Iterator[EarnedMark]:
     for mark in graded.marks:
         if graded.present and mark.points and mark.status is Status.WRONG:
             yield mark
+
+
+def called(mark: EarnedMark) -> str:
+    """A field's symbol and unit, as plain text."""
+    return ", ".join(filter(None, (plain(mark.item.symbol), mark.item.unit)))
 
 
 Wrong = tuple[str, EarnedMark]

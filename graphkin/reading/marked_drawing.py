@@ -15,7 +15,7 @@ from time import gmtime
 
 from msgspec import Struct
 
-from graphkin.classroom.grading.graded import Pin
+from graphkin.classroom.grading.graded import DrawingRemark
 from graphkin.classroom.printing.edition import Edition
 from graphkin.classroom.printing.file_names import stems
 from graphkin.classroom.roster.taker import Taker
@@ -39,13 +39,6 @@ LINE, MARGIN = 34, 30
 """Height of a line of text and margin of a PDF page, in pixels."""
 
 
-class Pinned(Struct, frozen=True):
-    """A remark on a place of a drawing, in mm of paper."""
-
-    at: tuple[float, float]
-    text: str
-
-
 class MarkedSheet(Struct, frozen=True):
     """One drawing with its remarks; ``picture`` is a JPEG."""
 
@@ -54,7 +47,7 @@ class MarkedSheet(Struct, frozen=True):
     points: tuple[PointReading, ...]
     lines: tuple[tuple[str, str], ...]
     """The remark on each point, and its colour; then those on other places."""
-    pins: tuple[Pinned, ...] = ()
+    pins: tuple[DrawingRemark, ...] = ()
 
 
 def drawings_of_class(
@@ -88,18 +81,24 @@ def marked_sheet(
     who = taker.student.name or taker.student.id
     head = words("marked.head", sheet=words(f"sheet.{record.kind}"), who=who)
     picture = (folder / f"{record.name}{PICTURE}").read_bytes()
-    pins = tuple(Pinned(each.at, each.note) for each in settled.pins(record.name) if each.at)
-    lines = *said_of(points, notes, words), *((f"{i}. {p.text}", BLUE) for i, p in enumerate(pins, 1))
+    pins = tuple(remarks_on(record, settled))
+    pinned = ((f"{each.number}. {each.text}", BLUE) for each in pins)
+    lines = (*said_of(points, notes, words), *pinned)
     return MarkedSheet(head, picture, points, lines, pins)
 
 
-def pinned_remarks(folder: Path) -> dict[str, tuple[Pin, ...]]:
+def remarks_on(record: SheetRecord, settled: SettledPoints) -> Iterator[DrawingRemark]:
+    """The remarks pinned to a sheet, numbered in the order in which they were made."""
+    for number, each in enumerate(settled.pins(record.name), 1):
+        yield DrawingRemark(record.kind, number, each.at or (0.0, 0.0), each.note)
+
+
+def pinned_remarks(folder: Path) -> dict[str, tuple[DrawingRemark, ...]]:
     """The remarks pinned to each student's drawings, by the code on the sheets."""
     settled = SettledPoints(folder)
-    found: dict[str, tuple[Pin, ...]] = {}
-    for (code, kind), record in latest_of(records_in(folder), settled.standing).items():
-        told = (Pin(kind, i, each.note) for i, each in enumerate(settled.pins(record.name), 1))
-        found[code] = (*found.get(code, ()), *told)
+    found: dict[str, tuple[DrawingRemark, ...]] = {}
+    for (code, _), record in latest_of(records_in(folder), settled.standing).items():
+        found[code] = (*found.get(code, ()), *remarks_on(record, settled))
     return found
 
 
@@ -192,10 +191,10 @@ def as_pdf(sheets: Sequence[MarkedSheet], words: Words) -> bytes:
             if colour == RED:
                 own = tuple(part * DENSITY for part in point.own)
                 pen.line(((x, y), own), fill=colour, width=3)
-        for i, pin in enumerate(sheet.pins, 1):
+        for pin in sheet.pins:
             x, y = (part * DENSITY for part in pin.at)
             pen.ellipse((x - 17, y - 17, x + 17, y + 17), fill="white", outline=BLUE, width=3)
-            pen.text((x, y), str(i), fill=BLUE, font=font, anchor="mm")
+            pen.text((x, y), str(pin.number), fill=BLUE, font=font, anchor="mm")
         for i, (text, colour) in enumerate(rows):
             pen.text((MARGIN, height + MARGIN + i * LINE), text, fill=colour, font=font)
         pages.append(page)

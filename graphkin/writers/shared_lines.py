@@ -96,9 +96,9 @@ class SharedLines(Generic[L]):
         return self.count != before
 
     def take(self, data: bytes) -> None:
-        """Apply a line: keep it, or take back its writer's last one. Unreadable lines are passed."""
+        """Apply a line: keep it, or take back its writer's last one. Skips unreadable lines."""
         try:
-            line = msgspec.json.decode(data, type=self.kind, dec_hook=lambda kind, text: kind(text))
+            line = msgspec.json.decode(data, type=self.kind, dec_hook=exact)
         except (msgspec.MsgspecError, ValueError):
             return
         self.replayed = None
@@ -138,6 +138,11 @@ class SharedLines(Generic[L]):
                 )
         self.replayed = found
         return found
+
+
+def exact(kind: type, text: object) -> object:
+    """A number that is exact, from text."""
+    return kind(text)
 
 
 def disagree(other: Said, line: SharedLine, what: Any) -> bool:

@@ -47,9 +47,7 @@ class ReadAppeals(Struct, frozen=True):
     problems: tuple[Problem, ...] = ()
 
 
-def read_appeals(
-    report: Path, signs: Signs, fields: Mapping[str, Collection[str]]
-) -> ReadAppeals:
+def read_appeals(report: Path, signs: Signs, fields: Mapping[str, Collection[str]]) -> ReadAppeals:
     """The appeals in a report's folder; none where there is no file.
 
     ``fields`` are those of each student's form, by id. A row that cannot be understood is left out
@@ -89,7 +87,5 @@ def read_appeals(
         else:
             place = who, own.get(named, "")
             texts.setdefault(place, []).append(cells["text"])
-    every = tuple(
-        Appeal(*place, "; ".join(dict.fromkeys(own))) for place, own in texts.items()
-    )
+    every = tuple(Appeal(*place, "; ".join(dict.fromkeys(own))) for place, own in texts.items())
     return ReadAppeals(every, tuple(told.every))

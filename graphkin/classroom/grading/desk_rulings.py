@@ -38,7 +38,7 @@ class Ruling(Struct, frozen=True, omit_defaults=True, tag_field="does"):
 
 
 class SetPoints(Ruling, frozen=True, tag="points"):
-    """A field earns these points; ``reason`` is for the student, ``asked`` the appeal it answers."""
+    """What a field earns; ``reason`` is for the student, ``asked`` is the appeal it answers."""
 
     points: Fraction = Fraction()
     reason: str = ""

@@ -14,10 +14,10 @@ from graphkin.classroom.grading.graded import (
     THOUSANDS,
     WITHHELD,
     Decision,
+    DrawingRemark,
     EarnedCause,
     EarnedMark,
     Graded,
-    Pin,
     Status,
 )
 from graphkin.classroom.lab.lab_model import Rubric
@@ -280,7 +280,7 @@ def remark_words(text: str, words: Words) -> str:
     return words("feedback.remark", text=escape(printable(text)))
 
 
-def pin_words(pin: Pin, words: Words) -> str:
+def pin_words(pin: DrawingRemark, words: Words) -> str:
     """A remark on a drawing, with the sheet and the number of its pin."""
     text, sheet = escape(printable(pin.text)), words(f"sheet.{pin.kind}")
     return words("feedback.pinned", sheet=sheet, number=pin.number, text=text)

@@ -163,11 +163,12 @@ class EarnedCause(Struct, frozen=True):
     said: Mapping[str, str] = {}
 
 
-class Pin(Struct, frozen=True):
-    """A remark pinned to a place of a drawing: the sheet's kind, its number there, its text."""
+class DrawingRemark(Struct, frozen=True):
+    """A remark pinned to a place of a drawing, in mm of paper, with its number on that sheet."""
 
     kind: str
     number: int
+    at: tuple[float, float]
     text: str
 
 
@@ -187,7 +188,7 @@ class Graded(Struct, frozen=True):
     decision: Decision | None = None
     causes: tuple[EarnedCause, ...] = ()
     remarks: Mapping[str, str] = {}
-    pins: tuple[Pin, ...] = ()
+    pins: tuple[DrawingRemark, ...] = ()
 
     @property
     def decisions(self) -> tuple[Decision, ...]:

@@ -6,7 +6,6 @@ from collections.abc import Collection, Sequence
 from fractions import Fraction
 from math import inf, isfinite, nan
 from pathlib import Path
-from typing import Any
 
 import msgspec
 from msgspec import Struct
@@ -25,6 +24,7 @@ from graphkin.classroom.grading.graded import (
 from graphkin.classroom.lab.lab_model import Item
 from graphkin.scene.file_limits import whole_file
 from graphkin.text.errors import NO_WORDS, PageError, Problem, message
+from graphkin.writers.shared_lines import exact
 
 KEPT_MARKS = "desk.json"
 FORMAT = 1
@@ -117,11 +117,6 @@ def as_exact(value: object) -> str:
     if isinstance(value, Fraction | str):
         return str(value)
     raise NotImplementedError(type(value))
-
-
-def exact(kind: type, text: Any) -> Any:
-    """A fraction from text."""
-    return kind(text)
 
 
 def read_kept_marks(report: Path) -> KeptReport | None:
