@@ -225,6 +225,7 @@ def test_no_sentence_is_left_in_english(language):
         "page.guide_of",
         "page.axis_guide",
         "positions.number",
+        "studio.angle",
         "sheet.positions_view",
         "calculation.structure",
         "feedback.earned",

@@ -14,6 +14,7 @@ from graphkin.classroom.grading.graded import (
     THOUSANDS,
     WITHHELD,
     Decision,
+    DrawingRemark,
     EarnedCause,
     EarnedMark,
     Graded,
@@ -140,8 +141,13 @@ def row_of(graded: Graded, mark: EarnedMark, words: Words) -> FeedbackRow:
         ),
     )
     told = why(graded, mark, words)
+    if mark.answer.written:
+        text = escape(safe(mark.answer.text)) or "–"
+        told = f"{words('feedback.read_as', text=text)}; {told}"
     if mark.decision is not None:
         told = f"{told}; {decision_words(mark.decision, words)}"
+    if mark.item.field in graded.remarks:
+        told = f"{told}; {remark_words(graded.remarks[mark.item.field], words)}"
     return FeedbackRow(cells, told, mark.status)
 
 
@@ -160,7 +166,7 @@ def answer_words(mark: EarnedMark, words: Words) -> str:
     """An answer as it was written; a sense in the words of the page."""
     if mark.item.what == "sense" and mark.answer.value:
         return value_words(mark, words, mark.answer.value)
-    return escape(safe(mark.answer.text))
+    return escape(safe(mark.answer.written or mark.answer.text))
 
 
 def safe(text: str) -> str:
@@ -265,12 +271,30 @@ def unread(problem: str, unit: str, words: Words, rest: str = "") -> str:
 
 
 def decision_words(decision: Decision, words: Words) -> str:
-    """The lecturer's decision and its reason, in one sentence."""
+    """The lecturer's decision and its reason, with the appeal that it answers or does not yet."""
+    reason = escape(printable(decision.reason))
     if decision.is_open:
-        key = "feedback.asked"
+        return words("feedback.asked", reason=reason)
+    if decision.points is None:
+        told = words("feedback.kept", reason=reason) if reason else words("feedback.kept_so")
     else:
-        key = "feedback.kept" if decision.points is None else "feedback.decided"
-    return words(key, reason=escape(printable(decision.reason)))
+        told = words("feedback.decided", reason=reason) if reason else words("feedback.decided_so")
+    if decision.answers:
+        told = f"{words('feedback.you_asked', text=escape(printable(decision.answers)))}; {told}"
+    if decision.asked:
+        told = f"{told}; {words('feedback.asked', reason=escape(printable(decision.asked)))}"
+    return told
+
+
+def remark_words(text: str, words: Words) -> str:
+    """The lecturer's remark."""
+    return words("feedback.remark", text=escape(printable(text)))
+
+
+def pin_words(pin: DrawingRemark, words: Words) -> str:
+    """A remark on a drawing, with the sheet and the number of its pin."""
+    text, sheet = escape(printable(pin.text)), words(f"sheet.{pin.kind}")
+    return words("feedback.pinned", sheet=sheet, number=pin.number, text=text)
 
 
 def far(mark: EarnedMark, words: Words) -> str:
@@ -394,6 +418,8 @@ def notes(graded: Graded, words: Words) -> list[str]:
     """The notes on the whole form: its causes, a decision, held marks, points that wait."""
     told: list[str] = cause_words(graded, words)
     told += [decision_words(graded.decision, words)] if graded.decision is not None else []
+    told += [remark_words(graded.remarks[""], words)] if "" in graded.remarks else []
+    told += [pin_words(each, words) for each in graded.pins]
     if not graded.is_marked:
         return [words("feedback.absent"), *told]
     if graded.held:

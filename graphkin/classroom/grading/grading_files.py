@@ -105,10 +105,12 @@ def ruling(decision: Decision) -> str:
     """The lecturer's decision as text: ``decided, was 0: …``, ``stands: …`` or ``asked: …``."""
     if decision.is_open:
         return f"asked: {decision.reason}"
-    if decision.points is None:
-        return f"stands: {decision.reason}"
-    before = "open" if decision.before is None else number(decision.before)
-    return f"decided, was {before}: {decision.reason}"
+    told = "stands"
+    if decision.points is not None:
+        before = "open" if decision.before is None else number(decision.before)
+        told = f"decided, was {before}"
+    told = f"{told}: {decision.reason}" if decision.reason else told
+    return f"{told}; asked: {decision.asked}" if decision.asked else told
 
 
 def reason(graded: Graded, name: str) -> str:
