@@ -7,7 +7,7 @@ from itertools import product
 
 from graphkin.construction.core.drawn_scene import Drawing
 from graphkin.documents.sentences import sentences
-from graphkin.drawing.field import MARKED, Rect
+from graphkin.drawing.field import Rect
 from graphkin.drawing.marks import Mark, Text
 from graphkin.drawing.richtext import are_clear, flowed, words_of
 from graphkin.text.errors import Message, PageError, Problem, message
@@ -36,7 +36,7 @@ def listed(drawing: Drawing, x: float, y: float, width: float, bottom: float) ->
     for (height, most, least), less in product(LOOKS, SHORTER):
         flown = both_ways(drawing, x, width - less, height)
         for leading in distances(most, least):
-            lines = lined(*flown, int((MARKED[1] - y) / leading + 1))
+            lines = lined(*flown, int((drawing.paper.marked[1] - y) / leading + 1))
             if y + (len(lines) - 1) * leading <= bottom:
                 break
         else:
@@ -57,7 +57,7 @@ def first_part(
     """
     height, leading = LOOKS[0][0], PARTED
     wide, narrow = both_ways(drawing, x, width, height)
-    above = int((MARKED[1] - y) / leading + 1)
+    above = int((drawing.paper.marked[1] - y) / leading + 1)
     room = int((bottom - y) / leading)
     said = max(
         number
@@ -76,7 +76,10 @@ def both_ways(
     said = [words_of(sentence.markup) for sentence in sentences(drawing)]
     return (
         [flowed(words, " ", width - INDENT, height) for words in said],
-        [flowed(words, " ", min(width, MARKED[0] - x) - INDENT, height) for words in said],
+        [
+            flowed(words, " ", min(width, drawing.paper.marked[0] - x) - INDENT, height)
+            for words in said
+        ],
     )
 
 
