@@ -18,7 +18,7 @@ from math import log, sqrt
 from msgspec import Struct
 from msgspec.structs import replace
 
-from graphkin.drawing.field import A3, ABOVE, LEAST_FIELD, MARGIN, Paper
+from graphkin.drawing.field import A3, ABOVE, LEAST_FIELD, MARGIN, SheetPaper
 from graphkin.drawing.scale import Extent, Scales, digits, preferred, preferred_scales, ratio
 from graphkin.text.errors import PageError, Problem, message
 
@@ -92,7 +92,7 @@ class Stated(Struct, frozen=True):
     times: Mapping[str, float]
     ka: float
     steps: tuple[float, ...] = ()
-    paper: Paper = A3
+    paper: SheetPaper = A3
 
     @property
     def keys(self) -> list[str]:
@@ -247,7 +247,7 @@ def lengths(needs: Needs, stated: Stated) -> Iterator[float]:
     return preferred_scales(least(needs.bare, stated.paper), stated.steps)
 
 
-def least(box: Extent, paper: Paper) -> float:
+def least(box: Extent, paper: SheetPaper) -> float:
     """The kL at which a mechanism just leaves room for a plan. Raises PageError for a dot."""
     room = paper.room / 2 if paper.is_parted else paper.room - NARROW
     needed = max(1000 * box.width / room, 1000 * box.height / paper.upright)

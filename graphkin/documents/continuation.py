@@ -26,7 +26,7 @@ from graphkin.documents.sheet import (
     title_block,
     title_line,
 )
-from graphkin.drawing.field import ABOVE, MARGIN, Field, Paper, Rect
+from graphkin.drawing.field import ABOVE, MARGIN, Field, Rect, SheetPaper
 from graphkin.drawing.marks import Mark, Page, Text, reach
 from graphkin.drawing.richtext import extent, flowed, narrow_words
 from graphkin.text.errors import PageError, Problem, message
@@ -182,7 +182,7 @@ def one_sheet(drawing: Drawing, view: str, moved: Set[Moved], said: int) -> list
     return marks
 
 
-def low_of(paper: Paper) -> float:
+def low_of(paper: SheetPaper) -> float:
     """The lower end of the right column, above the title block, in mm."""
     return paper.title_block[1] - 4
 

@@ -39,7 +39,7 @@ from graphkin.documents.listing import first_part, listed
 from graphkin.documents.scheme import scheme
 from graphkin.documents.sentences import sentences
 from graphkin.documents.signs import mechanism_signs, plan_signs
-from graphkin.drawing.field import Paper, Rect
+from graphkin.drawing.field import Rect, SheetPaper
 from graphkin.drawing.frame import (
     CELLS,
     STUDENT,
@@ -214,7 +214,7 @@ def data_heading(
     return in_table(drawing.paper, found, x, y) or in_lines(drawing, found, x, y, spare)
 
 
-def in_table(paper: Paper, found: Sequence[Datum], x: float, y: float) -> list[Mark]:
+def in_table(paper: SheetPaper, found: Sequence[Datum], x: float, y: float) -> list[Mark]:
     """A table of the values with the other data next to it; empty where there is no room."""
     valued = [datum for datum in found if datum.value]
     said = [datum.remark for datum in found if datum.remark]
@@ -313,7 +313,7 @@ def spread(
     return next((lines for lines in (first, *every) if are_clear(lines, height, leading)), first)
 
 
-def lowest(paper: Paper) -> float:
+def lowest(paper: SheetPaper) -> float:
     """The baseline of the lowest line of data in mm."""
     return paper.fields[1] - UNDER
 
@@ -331,7 +331,7 @@ def looks(room: float, spare: Callable[[], float]) -> Iterator[tuple[float, floa
     yield SMALL, NEAR[1], rows(room + free, NEAR[1])
 
 
-def height_beyond(paper: Paper, marks: Sequence[Mark]) -> float:
+def height_beyond(paper: SheetPaper, marks: Sequence[Mark]) -> float:
     """The extra height of data beyond the room above the fields, in mm."""
     low = max((mark.y for mark in marks if isinstance(mark, Text)), default=0.0)
     beyond = low - lowest(paper)
@@ -486,7 +486,7 @@ def pages_of(
 
 
 def page_in(
-    paper: Paper, drawing: Drawing, block: TitleBlock, marks: Iterable[Mark], title: str = ""
+    paper: SheetPaper, drawing: Drawing, block: TitleBlock, marks: Iterable[Mark], title: str = ""
 ) -> Page:
     """One page of a paper: marks in its frame, with the logo of the school in the title block."""
     return Page(
@@ -500,7 +500,7 @@ def page_in(
     )
 
 
-def parts_of(paper: Paper, marks: Iterable[Mark]) -> Iterator[tuple[Mark, ...]]:
+def parts_of(paper: SheetPaper, marks: Iterable[Mark]) -> Iterator[tuple[Mark, ...]]:
     """The marks on each leaf, moved to its own page."""
     if not paper.is_parted:
         yield tuple(marks)
@@ -533,7 +533,7 @@ def page_title(drawing: Drawing) -> str:
     return f"{title_of(drawing)} – {drawing.words('sheet.' + name_of_sheet(drawing))}"
 
 
-def panels(paper: Paper, layout: Layout) -> list[Mark]:
+def panels(paper: SheetPaper, layout: Layout) -> list[Mark]:
     """The lines between the mechanism, the plan and the part below them."""
     (x, top), low = layout.plan.rect[:2], paper.foot
     if paper.is_parted:
@@ -800,10 +800,11 @@ def below(drawing: Drawing, view: str) -> tuple[list[Mark], set[Moved], int]:
         marks = [construction_head(drawing, left, top + 4.5), *told]
     else:
         marks, moved = wanted(drawing, left, top)
+    own = paper.empty_tables if view == "task" else paper.tables
     found, more = with_room(
         drawing,
         Moved.TABLES,
-        lambda: tables(drawing, paper.tables, empty=view == "task"),
+        lambda: tables(drawing, own, empty=view == "task"),
         paper.tables[0],
         paper.tables[1] + 4.5,
     )

@@ -32,7 +32,7 @@ from graphkin.documents.sheet import (
     title_block,
 )
 from graphkin.documents.signs import mechanism_signs, plan_signs
-from graphkin.drawing.field import Field, Paper
+from graphkin.drawing.field import Field, SheetPaper
 from graphkin.drawing.labels import BETWEEN, NOTE
 from graphkin.drawing.marks import CircleMark, LineMark, Mark, Page, Text, style_class
 from graphkin.drawing.richtext import extent, flowed, flowed_pieces, words_of
@@ -279,7 +279,7 @@ class StepLines(Struct, frozen=True):
     low: float
 
 
-def step_lines(paper: Paper) -> StepLines:
+def step_lines(paper: SheetPaper) -> StepLines:
     """The place of the lines on a paper."""
     left, top, right, low = paper.below
     left, (end, marked), block = left + 2, paper.marked, paper.blocks[0]
@@ -393,7 +393,7 @@ def crossed(drawing: Drawing, found: Sequence[Crossing]) -> Iterator[Mark]:
     yield Text(*ending(drawing.paper), text, "caption", 2.5, "end", name="crossing")
 
 
-def ending(paper: Paper) -> tuple[float, float]:
+def ending(paper: SheetPaper) -> tuple[float, float]:
     """The end of the line beside the heading."""
     _, top, right, _ = paper.below
     return right - 4, top + 4.5

@@ -10,6 +10,7 @@ from msgspec.structs import replace
 
 from graphkin.scene.house import PAPERS, USUAL_PAPER
 
+XY = tuple[float, float]
 Rect = tuple[float, float, float, float]
 """Left, top, right and bottom in mm."""
 
@@ -27,6 +28,10 @@ LEAST_FIELD = 80.0
 HEADER, LOWER = 28.0, 12.0
 """Height of the title, the data and the captions below the frame's upper edge, and how much lower
 they are on a leaf, where the bar that checks the print is above the title; in mm."""
+SCHEME, CODE = 76.0, 30.0
+"""Width of the scheme of a task, and of the room for the square with the code on a leaf, in mm."""
+TABLES = 178.0
+"""Least width in mm of the tables of a wide sheet."""
 FILING = 20.0
 """Width of the filing margin at the left of a sheet, in mm."""
 
@@ -60,7 +65,7 @@ ASME = {
 """ASME Y14.1-2012: margins of 0.62 and 0.38 in for size B, of 0.5 and 0.75 in for size C."""
 
 
-class Paper(Struct, frozen=True, dict=True):
+class SheetPaper(Struct, frozen=True, dict=True):
     """A sheet: its size, its frame, and the regions of its contents, all in mm.
 
     A sheet of two ``leaves`` is printed on two A4 pages that lie side by side: the mechanism on the
@@ -72,6 +77,21 @@ class Paper(Struct, frozen=True, dict=True):
     height: float
     frame: Frame
     leaves: int = 1
+
+    @property
+    def half(self) -> float:
+        """Half the width."""
+        return self.width / 2
+
+    @property
+    def middle(self) -> XY:
+        """The middle of the sheet."""
+        return self.half, self.height / 2
+
+    @property
+    def whole(self) -> Rect:
+        """All of the sheet."""
+        return 0.0, 0.0, self.width, self.height
 
     @property
     def across(self) -> float:
@@ -114,7 +134,7 @@ class Paper(Struct, frozen=True, dict=True):
         return self.areas[0][2] - self.areas[0][0] < self.frame.block[0] + 1
 
     @property
-    def leaf(self) -> Paper:
+    def leaf(self) -> SheetPaper:
         """A single page of this paper."""
         return self if not self.is_parted else replace(self, width=self.across, leaves=1)
 
@@ -180,7 +200,7 @@ class Paper(Struct, frozen=True, dict=True):
     @cached_property
     def tables(self) -> Rect:
         """The table above the title block."""
-        left = self.right[0] if self.is_leaf else self.title_block[0]
+        left = self.right[0] if self.is_leaf else min(self.title_block[0], self.fields[2] - TABLES)
         return left, self.foot + 2, self.fields[2], self.title_block[1] - 2
 
     @cached_property
@@ -203,8 +223,15 @@ class Paper(Struct, frozen=True, dict=True):
     @cached_property
     def scheme(self) -> Rect:
         """The kinematic scheme of a task, right of the requests and above the centring mark."""
-        right = self.left[2] if self.is_leaf else self.title_block[0] - 4
-        return right - 76, self.foot + 9, right, self.below[3] - (1 if self.is_leaf else 4)
+        right = self.left[2] - CODE if self.is_leaf else self.title_block[0] - 4
+        wide = SCHEME - (14 if self.is_leaf else 0)
+        return right - wide, self.foot + 9, right, self.below[3] - (1 if self.is_leaf else 4)
+
+    @cached_property
+    def empty_tables(self) -> Rect:
+        """The tables of a task; on a leaf they leave room for the square with the code."""
+        left, top, right, low = self.tables
+        return left, top, right - (CODE if self.is_leaf else 0), low
 
     @cached_property
     def title(self) -> float:
@@ -227,13 +254,13 @@ class Paper(Struct, frozen=True, dict=True):
 
 
 @lru_cache
-def paper_of(name: str, frame: str) -> Paper:
+def paper_of(name: str, frame: str) -> SheetPaper:
     """The paper of a name with the frame of a standard; ANSI papers have that of ASME Y14.1."""
     width, height = PAPERS[name]
     own = ASME.get(name) or {each.name: each for each in (ISO, GOST)}[frame]
     if width < height:
-        return Paper(name, 2 * width, height, own, leaves=2)
-    return Paper(name, width, height, own)
+        return SheetPaper(name, 2 * width, height, own, leaves=2)
+    return SheetPaper(name, width, height, own)
 
 
 A3 = paper_of(USUAL_PAPER, ISO.name)
@@ -241,9 +268,6 @@ A3 = paper_of(USUAL_PAPER, ISO.name)
 
 
 # --- the mapping of a field: metres of the drawing to millimetres of paper ------------------------
-
-
-XY = tuple[float, float]
 
 
 class Carried(tuple[Any, Any]):

@@ -10,7 +10,7 @@ from math import floor
 from msgspec import Struct, field
 from msgspec.structs import replace
 
-from graphkin.drawing.field import A3, A4_AREA, A4_FRAME, GOST, ISO, Frame, Paper, Rect
+from graphkin.drawing.field import A3, A4_AREA, A4_FRAME, GOST, ISO, Frame, Rect, SheetPaper
 from graphkin.drawing.marks import LineMark, Mark, Text, box
 from graphkin.drawing.richtext import extent, flowed, plain, words_of
 from graphkin.drawing.symbol_markup import escape
@@ -142,8 +142,8 @@ def asme_cells(block: TitleBlock) -> tuple[tuple[str, Rect, float], ...]:
         ("title", (0.0, 14.0, 92.0, 27.5), 5.0),
         *((("creator", (92.0, 14.0, 125.0, 27.5), 3.5),) if second else ()),
         ("approved_by", (125.0 if second else 92.0, 14.0, 158.75, 27.5), 3.5),
-        ("size", (0.0, 27.5, 11.0, 39.0), 5.0),
-        ("identification", (11.0, 27.5, 92.0, 39.0), 3.5),
+        ("size", (0.0, 27.5, 15.0, 39.0), 5.0),
+        ("identification", (15.0, 27.5, 92.0, 39.0), 3.5),
         ("revision", (92.0, 27.5, 104.0, 39.0), 3.5),
         ("date_of_issue", (104.0, 27.5, 142.0, 39.0), 3.5),
         ("language", (142.0, 27.5, 158.75, 39.0), 3.5),
@@ -158,7 +158,7 @@ OTHERS = {GOST.name: gost_cells, "ASME": asme_cells}
 
 
 @lru_cache(maxsize=8)
-def border(paper: Paper) -> tuple[Mark, ...]:
+def border(paper: SheetPaper) -> tuple[Mark, ...]:
     """Draw the frame of a page with its centring marks, fields and designation."""
     (frame,), standard = paper.areas, paper.frame
     right, bottom = frame[2:]
@@ -174,7 +174,7 @@ def border(paper: Paper) -> tuple[Mark, ...]:
     return (*small, edged(frame, "frame"), *centring_marks(paper), size)
 
 
-def sheet_frame(title_block: TitleBlock, paper: Paper = A3) -> tuple[Mark, ...]:
+def sheet_frame(title_block: TitleBlock, paper: SheetPaper = A3) -> tuple[Mark, ...]:
     """Draw the frame, centring marks, fields and title block of a page."""
     return (*border(paper), *title_block_marks(title_block, *paper.title_block[:2]))
 
@@ -183,7 +183,7 @@ ZONES = {"ANSI B": (4, 2), "ANSI C": (4, 4)}
 """The zones across and down of ASME Y14.1."""
 
 
-def zones(paper: Paper) -> Iterator[Mark]:
+def zones(paper: SheetPaper) -> Iterator[Mark]:
     """Draw the zones outside a frame of ASME Y14.1: from the right, and from below."""
     left, top, right, bottom = paper.area
     across, down = ZONES[paper.name]
@@ -211,7 +211,7 @@ def edged(rect: Rect, cls: str) -> Mark:
     return box(left, top, right - left, bottom - top, cls)
 
 
-def centring_marks(paper: Paper) -> tuple[Mark, ...]:
+def centring_marks(paper: SheetPaper) -> tuple[Mark, ...]:
     """Draw four 10 mm marks across the frame in the middle of each side."""
     x, y, reach = paper.width / 2, paper.height / 2, 2 * BAND
     left, top, right, bottom = outside(paper)
@@ -224,7 +224,7 @@ def centring_marks(paper: Paper) -> tuple[Mark, ...]:
     return tuple(LineMark(*four, "frame", "centring-mark") for four in ends)
 
 
-def outside(paper: Paper) -> Rect:
+def outside(paper: SheetPaper) -> Rect:
     """The rectangle outside the frame in which the grid border lies."""
     left, top, right, bottom = paper.area
     return left - BAND, top - BAND, right + BAND, bottom + BAND
@@ -237,7 +237,7 @@ def bounds(length: float, low: float, high: float) -> list[float]:
     return [low, *(at for at in inner if low + FIELD / 4 < at < high - FIELD / 4), high]
 
 
-def fields(paper: Paper) -> tuple[Mark, ...]:
+def fields(paper: SheetPaper) -> tuple[Mark, ...]:
     """Draw the grid border with its numbered and lettered fields."""
     width, height = paper.width, paper.height
     outer = left, top, right, bottom = outside(paper)

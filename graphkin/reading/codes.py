@@ -10,7 +10,7 @@ import numpy as np
 from msgspec import Struct
 
 from graphkin.classroom.printing.personal import QUIET, SIDE, corners_on, modules
-from graphkin.drawing.field import A3, Paper
+from graphkin.drawing.field import A3, SheetPaper
 
 AGREES, BEFORE = 0.85, 0.08
 """The least share of matching modules for a partly hidden code, and its least lead over the next.
@@ -51,7 +51,7 @@ def corners_of(position: Any) -> Any:
 
 
 def code_among(
-    sheet: Any, density: float, codes: Sequence[str], paper: Paper = A3
+    sheet: Any, density: float, codes: Sequence[str], paper: SheetPaper = A3
 ) -> FoundCode | None:
     """The code, among the given ones, whose square is on a flattened sheet; None if none is sure.
 

@@ -64,6 +64,7 @@ class DeskSession(Struct, dict=True):
             "code": record.code,
             "who": record.who,
             "kind": self.words(f"sheet.{record.kind}") if record.kind else "",
+            "size": record.size,
             "refused": record.refused,
             "lines": record.key_lines,
             "points": points,
@@ -78,7 +79,9 @@ class DeskSession(Struct, dict=True):
         record = self.records.get(decision.sheet)
         steps = {point.step for point in record.points} if record is not None else set()
         on_paper = decision.at is None or (
-            0 <= decision.at[0] <= 420 and 0 <= decision.at[1] <= 297
+            record is not None
+            and 0 <= decision.at[0] <= record.size[0]
+            and 0 <= decision.at[1] <= record.size[1]
         )
         drawn = (decision.at is None) == (decision.verdict in ("missing", "unread"))
         known = decision.step in steps and len(decision.note) <= LONGEST

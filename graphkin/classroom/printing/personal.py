@@ -14,7 +14,7 @@ from graphkin.classroom.roster.student import Student
 from graphkin.classroom.roster.taker import Taker
 from graphkin.construction.core.drawn_scene import Drawing
 from graphkin.documents.sheet_documents import FOOT
-from graphkin.drawing.field import A3, A4_AREA, Paper, Rect
+from graphkin.drawing.field import A3, A4_AREA, Rect, SheetPaper
 from graphkin.drawing.frame import STUDENT, TitleBlock, cells_of, fitting, room_in
 from graphkin.drawing.marks import LineMark, Mark, Page, Point, Polyline, Text, box, moved, reach
 from graphkin.drawing.richtext import known, measures
@@ -73,7 +73,7 @@ def dark_runs(row: Sequence[bool]) -> Iterator[tuple[int, int]]:
             yield run[0], len(run)
 
 
-def stamped(page: Page, text: str, paper: Paper = A3) -> Page:
+def stamped(page: Page, text: str, paper: SheetPaper = A3) -> Page:
     """The page with the QR code of a text where there is room; the same page if there is none."""
     margin = SIDE / len(modules(text)) * QUIET
     full = [full_box for mark in page.marks for full_box in boxes(mark)]
@@ -86,7 +86,7 @@ def stamped(page: Page, text: str, paper: Paper = A3) -> Page:
     return page
 
 
-def corners_on(paper: Paper, margin: float) -> Iterator[tuple[float, float]]:
+def corners_on(paper: SheetPaper, margin: float) -> Iterator[tuple[float, float]]:
     """Places below the drawings of a sheet, from the title block to the left and up."""
     left, top, right, bottom = paper.below
     low = (bottom if paper.is_leaf else paper.area[3]) - SIDE - margin - 1
@@ -142,7 +142,7 @@ class Owner(Struct, frozen=True):
         return f"{self.name}   {self.code}"
 
 
-def owner(taker: Taker, paper: Paper = A3) -> Owner:
+def owner(taker: Taker, paper: SheetPaper = A3) -> Owner:
     """The owner of a student's sheets."""
     return Owner(shortened(printable_name(taker.student), paper), taker.code)
 
@@ -178,7 +178,7 @@ def lost(text: str) -> tuple[str, ...]:
     return tuple(sign for sign in signs if sign != UNKNOWN and writable(sign) == UNKNOWN)
 
 
-def shortened(text: str, paper: Paper) -> str:
+def shortened(text: str, paper: SheetPaper) -> str:
     """A text that fits the title block; the end is cut off if it does not fit."""
     kept = text
     while kept and not fits(kept, paper):
@@ -187,7 +187,7 @@ def shortened(text: str, paper: Paper) -> str:
     return kept
 
 
-def fits(text: str, paper: Paper) -> bool:
+def fits(text: str, paper: SheetPaper) -> bool:
     """Whether a name fits the title block in the smallest lettering."""
     try:
         block = TitleBlock(labels={STUDENT: ""}, creator="-", frame=paper.frame)
@@ -221,7 +221,7 @@ def with_sheet(drawing: Drawing, **said: str) -> Drawing:
     return replace(drawing, scene=replace(scene, sheet=replace(scene.sheet, **said)))
 
 
-def signed(pages: Sequence[Page], view: str, whose: Owner, paper: Paper) -> Iterator[Page]:
+def signed(pages: Sequence[Page], view: str, whose: Owner, paper: SheetPaper) -> Iterator[Page]:
     """The pages with their owner: a QR code on a task, the name on an overlay.
 
     Overlays have no title block.
@@ -248,7 +248,7 @@ ARM, PITCH, CLEAR = 1.0, 20.0, 1.5
 """Half the size of a cross, their distance, and their clearance from printed marks, in mm."""
 
 
-def crossed(page: Page, paper: Paper = A3) -> Page:
+def crossed(page: Page, paper: SheetPaper = A3) -> Page:
     """The page with crosses in its fields, below everything else, where nothing is printed."""
     left, top, right, bottom = np.array([each for mark in page.marks for each in boxes(mark)]).T
     marks = []
@@ -281,7 +281,7 @@ def crosses_of(page: Page) -> list[Point]:
     return [((m.x1 + m.x2) / 2, m.y1) for m in level if m.y1 == m.y2]
 
 
-def places(paper: Paper = A3) -> Iterator[Point]:
+def places(paper: SheetPaper = A3) -> Iterator[Point]:
     """The possible places of crosses: on a square grid about the middle, inside the fields."""
     left, top, right, bottom = paper.fields
     middle = paper.width / 2, paper.height / 2

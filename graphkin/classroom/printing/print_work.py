@@ -153,10 +153,15 @@ class Sheets:
             yield SheetDocument(sheet.kind, tuple(pages))
 
     @cached_property
+    def leaves(self) -> list[tuple[Page, ...]]:
+        """The pages of each sheet to draw on: one, or two leaves."""
+        return [sheet.pages[: self.paper.leaves] for sheet in self.drawn("task")]
+
+    @cached_property
     def task_pages(self) -> dict[str, Page]:
         """The pages to draw on, by kind; both leaves of a sheet as one page."""
-        count = self.paper.leaves
-        return {sheet.kind: joined(sheet.pages[:count]) for sheet in self.drawn("task")}
+        kinds = (drawing.kind for drawing in self.drawings)
+        return {kind: joined(pages) for kind, pages in zip(kinds, self.leaves, strict=True)}
 
     def page(self, view: str, stem: str, ink: Ink) -> str:
         """The page for a browser: the task with the form to fill in, or the key step by step."""

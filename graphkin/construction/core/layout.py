@@ -14,7 +14,7 @@ from msgspec.structs import replace
 from graphkin.construction.core.drawn_scene import Drawing
 from graphkin.construction.core.kind import JoinsPoints, construction
 from graphkin.construction.core.program import Part, Plane
-from graphkin.drawing.field import ABOVE, LEAST_FIELD, MARGIN, Field, Paper, Rect
+from graphkin.drawing.field import ABOVE, LEAST_FIELD, MARGIN, Field, Rect, SheetPaper
 from graphkin.drawing.scale import Extent
 from graphkin.numbers.arithmetic import Point, Real, larger, pick, smaller
 from graphkin.numbers.plane import Circle, Line, Ratio
@@ -82,7 +82,9 @@ class Held(NamedTuple):
     width: Real
 
 
-def held_beside(paper: Paper, box: Extent, poles: Iterable[Point], mm: Real, plan: Real) -> Held:
+def held_beside(
+    paper: SheetPaper, box: Extent, poles: Iterable[Point], mm: Real, plan: Real
+) -> Held:
     """The contents of a mechanism's field next to a plan of width ``plan`` (mm).
 
     The numbers may be arrays with one entry for each sheet.
@@ -98,7 +100,9 @@ def held_beside(paper: Paper, box: Extent, poles: Iterable[Point], mm: Real, pla
     return Held(wider, width + larger(most - width - SPARE, 0.0) / 2)
 
 
-def with_poles(paper: Paper, box: Extent, poles: Iterable[Point], mm: Real, width: Real) -> Extent:
+def with_poles(
+    paper: SheetPaper, box: Extent, poles: Iterable[Point], mm: Real, width: Real
+) -> Extent:
     """The box of the mechanism, grown by each centre and pole for which the field has room."""
     across, upright = width - POLES, paper.upright + 2 * ABOVE - POLES
     for pole in poles:
@@ -109,7 +113,7 @@ def with_poles(paper: Paper, box: Extent, poles: Iterable[Point], mm: Real, widt
     return box
 
 
-def refuse_wide(paper: Paper, mechanism: float, plan: float) -> None:
+def refuse_wide(paper: SheetPaper, mechanism: float, plan: float) -> None:
     """Raise PageError where a sheet is too narrow for both drawings; widths in mm."""
     spare = paper.room_beside(mechanism) - plan
     if spare < -1e-6:
@@ -130,12 +134,12 @@ def centre(rect: Rect) -> tuple[float, float]:
     return (rect[0] + rect[2]) / 2, (rect[1] + rect[3]) / 2
 
 
-def raised(paper: Paper, rect: Rect, height: float) -> tuple[float, float]:
+def raised(paper: SheetPaper, rect: Rect, height: float) -> tuple[float, float]:
     """The middle of a drawing in a field, with the room below that its foot needs."""
     return centre(rect)[0], rect[3] - room_below(paper, height) - height / 2
 
 
-def room_below(paper: Paper, height: Real) -> Real:
+def room_below(paper: SheetPaper, height: Real) -> Real:
     """The room between a drawing and the foot of its field, in mm: half of the spare height.
 
     Fixed pivots need this room for their ground, and notes need it too, so the foot gets room
