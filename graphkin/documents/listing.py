@@ -33,7 +33,8 @@ def listed(drawing: Drawing, x: float, y: float, width: float, bottom: float) ->
     Where characters of neighbouring lines would touch, lines are shortened, then the lettering is
     made smaller. Raises PageError where there are too many lines even in small lettering.
     """
-    for (height, most, least), less in product(LOOKS, SHORTER):
+    looks = [look for look in LOOKS if look[0] >= drawing.paper.smallest]
+    for (height, most, least), less in product(looks, SHORTER):
         flown = both_ways(drawing, x, width - less, height)
         for leading in distances(most, least):
             lines = lined(*flown, int((drawing.paper.marked[1] - y) / leading + 1))
@@ -101,7 +102,7 @@ def in_columns(drawing: Drawing, columns: Sequence[Rect], begun: int) -> list[Ma
     The first ``begun`` sentences are left out. Raises PageError where there are too many.
     """
     said = [words_of(sentence.markup) for sentence in sentences(drawing)]
-    for height, most, least in LOOKS:
+    for height, most, least in (x for x in LOOKS if x[0] >= drawing.paper.smallest):
         sets = [
             [flowed(words, " ", right - left - INDENT, height) for words in said]
             for left, _, right, _ in columns

@@ -30,8 +30,6 @@ HEADER, LOWER = 28.0, 12.0
 they are on a leaf, where the bar that checks the print is above the title; in mm."""
 SCHEME, CODE = 76.0, 30.0
 """Width of the scheme of a task, and of the room for the square with the code on a leaf, in mm."""
-TABLES = 178.0
-"""Least width in mm of the tables of a wide sheet."""
 FILING = 20.0
 """Width of the filing margin at the left of a sheet, in mm."""
 
@@ -41,6 +39,7 @@ class Frame(Struct, frozen=True):
 
     The left margin may be wider, for filing. ``writing`` is the height below the fields for tables
     and text, and ``leaf`` that on an A4 leaf, where the title block is as wide as the frame.
+    ``tables`` is the width of the tables above the title block of a wide sheet.
     """
 
     name: str
@@ -48,19 +47,20 @@ class Frame(Struct, frozen=True):
     above: float
     block: tuple[float, float]
     writing: float
+    tables: float
     leaf: float = 0.0
     filing: float = FILING
 
 
-ISO = Frame("ISO", 10.0, 10.0, (180.0, 36.0), 86.0, 94.0)
+ISO = Frame("ISO", 10.0, 10.0, (180.0, 36.0), 86.0, 178.0, 100.0)
 """ISO 5457:1999 with the title block of ISO 7200:2004."""
-GOST = Frame("GOST", 5.0, 5.0, (185.0, 55.0), 97.0, 107.0)
+GOST = Frame("GOST", 5.0, 5.0, (185.0, 55.0), 97.0, 208.0, 113.0)
 """GOST 2.301-68 and GOST 2.104-2006, form 1."""
 ASME_BLOCK = (158.75, 50.8)
 """The title block of ASME Y14.1 for sizes B and C: 6.25 × 2 in."""
 ASME = {
-    "ANSI B": Frame("ASME", 15.748, 9.652, ASME_BLOCK, 92.0, filing=15.748),
-    "ANSI C": Frame("ASME", 12.7, 19.05, ASME_BLOCK, 92.0, filing=12.7),
+    "ANSI B": Frame("ASME", 15.748, 9.652, ASME_BLOCK, 94.0, 208.0, filing=15.748),
+    "ANSI C": Frame("ASME", 12.7, 19.05, ASME_BLOCK, 94.0, 208.0, filing=12.7),
 }
 """ASME Y14.1-2012: margins of 0.62 and 0.38 in for size B, of 0.5 and 0.75 in for size C."""
 
@@ -200,13 +200,18 @@ class SheetPaper(Struct, frozen=True, dict=True):
     @cached_property
     def tables(self) -> Rect:
         """The table above the title block."""
-        left = self.right[0] if self.is_leaf else min(self.title_block[0], self.fields[2] - TABLES)
+        left = self.right[0] if self.is_leaf else self.fields[2] - self.frame.tables
         return left, self.foot + 2, self.fields[2], self.title_block[1] - 2
 
     @cached_property
     def writing(self) -> float:
         """The right end of sentences and requests below the drawings: beside the tables."""
         return self.left[2] if self.is_leaf else self.tables[0] - 3
+
+    @property
+    def smallest(self) -> float:
+        """The least height of letters of sentences; only on A3 are they smaller than 2.5 mm."""
+        return 1.8 if self.name == USUAL_PAPER else 2.5
 
     @cached_property
     def marked(self) -> tuple[float, float]:
