@@ -114,7 +114,8 @@ def framed(
     """A sheet with one field, with the type of document and the scale in its title block."""
     block = title_block(drawing, "positions", number)
     block = replace(block, document_type=document, scale=scale)
-    return page_in(drawing.paper.leaf, drawing, block, marks, title)
+    paper = drawing.paper.leaf
+    return page_in(paper, drawing, block, marks, title, paper.single)
 
 
 def field_on(found: PositionSet) -> Rect:

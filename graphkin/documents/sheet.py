@@ -486,7 +486,12 @@ def pages_of(
 
 
 def page_in(
-    paper: SheetPaper, drawing: Drawing, block: TitleBlock, marks: Iterable[Mark], title: str = ""
+    paper: SheetPaper,
+    drawing: Drawing,
+    block: TitleBlock,
+    marks: Iterable[Mark],
+    title: str = "",
+    drawn: Rect | None = None,
 ) -> Page:
     """One page of a paper: marks in its frame, with the logo of the school in the title block."""
     return Page(
@@ -497,6 +502,7 @@ def page_in(
         drawing.words.language,
         pictures(drawing, block),
         weight_of(drawing),
+        drawn or paper.fields,
     )
 
 

@@ -72,8 +72,7 @@ def hand_out(
                 message("2, or left out"),
             )
         )
-    verdict = proved(mechanism, sheet_motion(mechanism))
-    drawings = with_forces(mechanism, drawings_of(mechanism, verdict, spoken))
+    drawings = drawn_of(mechanism, spoken)
     sheets = [
         replace(each, unread=tuple(unread(drawing)) if drawing.kind in SHEETS else ())
         for each, drawing in zip(drawn_sheets(drawings, view), drawings, strict=True)
@@ -81,6 +80,20 @@ def hand_out(
     if view not in CALCULATED:
         return sheets
     return [*sheets, SheetDocument("calculation", calculation(drawings, view))]
+
+
+def calculation_text(mechanism: Mechanism, view: str = "key", language: str | None = None) -> str:
+    """The calculation of a scene as a LaTeX document. Raises as ``hand_out`` does."""
+    from graphkin.documents.calculation_tex import calculation_tex
+
+    mechanism = mechanism.spoken(language).measured
+    return calculation_tex(drawn_of(mechanism, language_of(mechanism, language)), view)
+
+
+def drawn_of(mechanism: Mechanism, spoken: Words) -> list[Drawing]:
+    """The drawings of all sheets, proved by the independent route."""
+    verdict = proved(mechanism, sheet_motion(mechanism))
+    return with_forces(mechanism, drawings_of(mechanism, verdict, spoken))
 
 
 def with_forces(mechanism: Mechanism, drawings: list[Drawing]) -> list[Drawing]:
