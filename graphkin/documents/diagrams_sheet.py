@@ -58,6 +58,8 @@ FORWARD = (96 / 386, 12 / 386)
 field's width."""
 BACKWARD = (108 / 386, 98 / 386)
 """The same where the driver runs backwards and poles lie right of the diagrams."""
+NAMED = 12.0
+"""The least room after the diagrams, for the name of the axis, in mm."""
 OVER, GAP = 6.0, 7.0
 """The room above the first diagram, and between two, in mm."""
 ARROW = 5.0
@@ -114,7 +116,7 @@ def sides(motion: FollowerMotion) -> tuple[float, float]:
     """The left and right ends of the diagrams: room for poles before them, or behind."""
     left, _, right, _ = field_on(motion.found)
     before, after = FORWARD if motion.pace > 0 else BACKWARD
-    return left + before * (right - left), right - after * (right - left)
+    return left + before * (right - left), right - max(after * (right - left), NAMED)
 
 
 def room_for_pole(motion: FollowerMotion) -> float:
@@ -429,7 +431,7 @@ def string_scale(
         return abs(motion.pace) * first.high * first.wide / per_unit / distance
 
     fits = [h for h in reversed(POLES) if h <= room and high(h) <= last.high]
-    distance = fits[0] if fits else POLES[0]
+    distance = fits[0] if fits else max(h for h in POLES if h <= room)
     factor = high(distance)
     grown = (last.rect[3] - last.zero) * factor / last.high
     lowered = last.rect[3] - grown
