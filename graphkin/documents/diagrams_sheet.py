@@ -31,15 +31,17 @@ from graphkin.documents.diagram_numbers import FINE, FollowerMotion, calm
 from graphkin.documents.positions import PositionSet, at_position, is_whole
 from graphkin.documents.positions_sheet import (
     AIR,
-    FIELD,
     MANY,
+    field_on,
+    foot_line,
     framed,
     heading,
+    headline,
     places_table,
     proof,
 )
 from graphkin.documents.sheet import title_of
-from graphkin.drawing.field import A3_TITLE_BLOCK, AREA, XY, Rect
+from graphkin.drawing.field import XY, Rect
 from graphkin.drawing.marks import Anchor, CircleMark, LineMark, Mark, Page, Text, box
 from graphkin.drawing.richtext import extent, flowed
 from graphkin.drawing.scale import preferred
@@ -51,12 +53,15 @@ from graphkin.motion.extremes import asked_measures
 from graphkin.scene.link_points import lettered
 from graphkin.text import Words
 
-LEFT, RIGHT = 118.0, 396.0
-"""The axis of ordinates and the right end of the diagrams, in mm; poles lie left of the axis."""
-BEHIND = (130.0, 310.0)
+FORWARD = (96 / 386, 12 / 386)
+"""The room before the axis of ordinates, where poles lie, and after the diagrams: parts of the
+field's width."""
+BACKWARD = (108 / 386, 98 / 386)
 """The same where the driver runs backwards and poles lie right of the diagrams."""
-TOP, GAP = FIELD[1] + 6.0, 7.0
-"""The upper edge of the first diagram, and the room between two, in mm."""
+NAMED = 12.0
+"""The least room after the diagrams, for the name of the axis, in mm."""
+OVER, GAP = 6.0, 7.0
+"""The room above the first diagram, and between two, in mm."""
 ARROW = 5.0
 """Length of an axis beyond the diagram, in mm."""
 LETTERS, SMALL = 2.5, 1.8
@@ -109,7 +114,15 @@ def axes_for(motion: FollowerMotion, top: float, low: float, values: Reals, most
 
 def sides(motion: FollowerMotion) -> tuple[float, float]:
     """The left and right ends of the diagrams: room for poles before them, or behind."""
-    return (LEFT, RIGHT) if motion.pace > 0 else BEHIND
+    left, _, right, _ = field_on(motion.found)
+    before, after = FORWARD if motion.pace > 0 else BACKWARD
+    return left + before * (right - left), right - max(after * (right - left), NAMED)
+
+
+def room_for_pole(motion: FollowerMotion) -> float:
+    """The largest distance of a pole from its axis, in mm."""
+    (left, right), field = sides(motion), field_on(motion.found)
+    return left - field[0] - 8 if motion.pace > 0 else field[2] - right - 14
 
 
 # --- one diagram: axes, curves, points ------------------------------------------------------------
@@ -244,7 +257,7 @@ def derive(
     """
     left, right = sides(motion)
     sign = 1.0 if motion.pace > 0 else -1.0
-    room = left - FIELD[0] - 8 if sign > 0 else FIELD[2] - right - 14
+    room = room_for_pole(motion)
     unit = differentiated(points, sign)
     heights = np.array([each.found[1] for each in unit])
     cap = most * axes.high / axes.wide / abs(motion.pace) * motion.found.cycle.sweep.per_unit
@@ -306,8 +319,9 @@ def units_of(
 def differentiation_page(motion: FollowerMotion, number: str) -> Page:
     """The sheet of place, speed and acceleration, each from the one before by chords."""
     drawing, words = motion.found.shown.alone, motion.found.shown.alone.words
-    height = (FIELD[3] - TOP - 3 - 2 * GAP) / 3
-    tops = [TOP + i * (height + GAP) for i in range(3)]
+    _, top, _, foot = field_on(motion.found)
+    height = (foot - top - OVER - 3 - 2 * GAP) / 3
+    tops = [top + OVER + i * (height + GAP) for i in range(3)]
     where, speed, push = values_at(motion, motion.at)
     exact = values_at(motion, motion.fine)
     low = float(min(np.nanmin(exact[0]), np.nanmin(where)))
@@ -326,7 +340,6 @@ def differentiation_page(motion: FollowerMotion, number: str) -> Page:
         most[1],
     )
     marks: list[Mark] = [
-        *framed(drawing, number, words("sheet.document_diagrams"), "–"),
         *heading(motion.found, drawing, words("sheet.differentiation")),
         *field_caption(motion),
         *construction(first, rate, "velocity"),
@@ -344,12 +357,12 @@ def differentiation_page(motion: FollowerMotion, number: str) -> Page:
         *dots(again.axes, [each.found for each in again.steps], "acceleration", kinds[2]),
         *crosses(motion, rate.axes, speed, "velocity", kinds[1]),
         *crosses(motion, again.axes, push, "acceleration", kinds[2]),
-        LineMark(FIELD[0], FIELD[3], FIELD[2], FIELD[3], "panel"),
+        *foot_line(motion.found),
         *sentences(motion, [*scales_said(motion, first, rate, again), *costs(motion, rate, again)]),
         *proof(motion.found),
     ]
     title = f"{words('sheet.differentiation')} – {title_of(drawing)}"
-    return Page(420, 297, tuple(marks), title, words.language)
+    return framed(drawing, number, words("sheet.document_diagrams"), "–", marks, title)
 
 
 # --- the sheet of integration ---------------------------------------------------------------------
@@ -358,8 +371,9 @@ def differentiation_page(motion: FollowerMotion, number: str) -> Page:
 def integration_page(motion: FollowerMotion, number: str) -> Page:
     """The sheet of the speed from the plans, and of the place by a string polygon."""
     drawing, words = motion.found.shown.alone, motion.found.shown.alone.words
-    height = (FIELD[3] - TOP - 3 - GAP) / 2
-    tops = [TOP, TOP + height + GAP]
+    _, top, _, foot = field_on(motion.found)
+    height = (foot - top - OVER - 3 - GAP) / 2
+    tops = [top + OVER, top + OVER + height + GAP]
     where, speed, _ = values_at(motion, motion.at)
     exact = values_at(motion, motion.fine)
     low = float(min(np.nanmin(exact[0]), np.nanmin(where)))
@@ -373,7 +387,6 @@ def integration_page(motion: FollowerMotion, number: str) -> Page:
     strings = integrated([x for x, _ in points], means, distance, begun)
     found = Derived(strings, second, distance, kinds[0])
     marks: list[Mark] = [
-        *framed(drawing, number, words("sheet.document_diagrams"), "–"),
         *heading(motion.found, drawing, words("sheet.integration")),
         *field_caption(motion, "diagrams.strings"),
         *levels(first, found),
@@ -385,12 +398,12 @@ def integration_page(motion: FollowerMotion, number: str) -> Page:
         *curve(second, [strings[0].first, *(s.last for s in strings)], "profile", kinds[0]),
         *dots(second, [strings[0].first, *(s.last for s in strings)], "construction", kinds[0]),
         *crosses(motion, second, where - low, "construction", kinds[0]),
-        LineMark(FIELD[0], FIELD[3], FIELD[2], FIELD[3], "panel"),
+        *foot_line(motion.found),
         *sentences(motion, strings_said(motion, first, found, where - low)),
         *proof(motion.found),
     ]
     title = f"{words('sheet.integration')} – {title_of(drawing)}"
-    return Page(420, 297, tuple(marks), title, words.language)
+    return framed(drawing, number, words("sheet.document_diagrams"), "–", marks, title)
 
 
 def mean_ordinates(points: Sequence[XY], *, closed: bool) -> list[float]:
@@ -410,16 +423,15 @@ def string_scale(
     motion: FollowerMotion, first: Axes, last: Axes, means: Sequence[float]
 ) -> tuple[float, Axes]:
     """The pole distance with which the strings fill their diagram, and the frame at its scale."""
-    left, right = sides(motion)
     sign = 1.0 if motion.pace > 0 else -1.0
-    room = left - FIELD[0] - 8 if sign > 0 else FIELD[2] - right - 14
+    room = room_for_pole(motion)
     per_unit = motion.found.cycle.sweep.per_unit
 
     def high(distance: float) -> float:
         return abs(motion.pace) * first.high * first.wide / per_unit / distance
 
     fits = [h for h in reversed(POLES) if h <= room and high(h) <= last.high]
-    distance = fits[0] if fits else POLES[0]
+    distance = fits[0] if fits else max(h for h in POLES if h <= room)
     factor = high(distance)
     grown = (last.rect[3] - last.zero) * factor / last.high
     lowered = last.rect[3] - grown
@@ -522,13 +534,13 @@ def field_caption(motion: FollowerMotion, signs: str = "diagrams.signs") -> Iter
     key = "diagrams.link" if motion.is_link else "diagrams.block"
     said = words(key, k=escape(motion.mover.name))
     text = f"{said};  {words(signs)}"
-    yield Text(FIELD[0] + 3, FIELD[1] - 2.2, text, "caption", LETTERS, name="heading")
+    yield from headline(motion.found, text)
 
 
 def sentences(motion: FollowerMotion, said: Sequence[str]) -> Iterator[Mark]:
     """Sentences below the field, left of the title block."""
-    left, right = AREA[0] + 4, A3_TITLE_BLOCK[0] - 4
-    y = A3_TITLE_BLOCK[1] + 4.2
+    left, y, right, _ = motion.found.shown.alone.paper.leaf.notes
+    y += 4.2
     for number, sentence in enumerate(said, 1):
         for i, line in enumerate(flowed(sentence.split(" "), " ", right - left - 5, 2.2)):
             if not i:
@@ -647,8 +659,8 @@ def costs(motion: FollowerMotion, rate: Derived, again: Derived) -> list[str]:
 # --- the sheets of everything asked over the positions --------------------------------------------
 
 
-COLUMNS, ROWS = 3, 4
-"""The most diagrams side by side, and one above the other, on a sheet."""
+LEAST, ROWS = 85.0, 4
+"""Least width in mm of a diagram, and the most diagrams one above the other, on a sheet."""
 
 
 class Asked(Struct, frozen=True):
@@ -699,6 +711,12 @@ def asked_courses(found: PositionSet, at: Reals, fine: Reals) -> list[Asked]:
     return made
 
 
+def columns_on(found: PositionSet) -> int:
+    """The most diagrams side by side on a sheet."""
+    left, _, right, _ = field_on(found)
+    return max(min(int((right - left) / LEAST), 3), 1)
+
+
 def course_pages(found: PositionSet, motion: FollowerMotion | None) -> list[Callable[[str], Page]]:
     """The sheets of all that the scene asks for, each waiting for its number."""
     at = found.planned_places
@@ -706,7 +724,7 @@ def course_pages(found: PositionSet, motion: FollowerMotion | None) -> list[Call
     every = asked_courses(found, at, fine)
     every += of_follower(motion, at, fine) if motion else []
     every = [each for each in every if np.isfinite(each.fine).any()]
-    per = COLUMNS * ROWS
+    per = columns_on(found) * ROWS
     parts = [every[i : i + per] for i in range(0, len(every), per)]
     return [partial(course_page, found, at, fine, part) for part in parts]
 
@@ -716,29 +734,27 @@ def course_page(
 ) -> Page:
     """A sheet of diagrams from the plans: crosses at the positions on the exact courses."""
     drawing, words = found.shown.alone, found.shown.alone.words
-    columns = min(COLUMNS, len(some))
+    left_of, top_of, right_of, foot = field_on(found)
+    columns = min(columns_on(found), len(some))
     rows = ceil(len(some) / columns)
-    wide, high = (FIELD[2] - FIELD[0]) / columns, (FIELD[3] - TOP) / rows
+    begin = top_of + OVER
+    wide, high = (right_of - left_of) / columns, (foot - begin) / rows
     marks: list[Mark] = []
     for index, each in enumerate(some):
         row, column = divmod(index, columns)
-        left, top = FIELD[0] + column * wide + 12, TOP + row * high + 3
+        left, top = left_of + column * wide + 12, begin + row * high + 3
         rect = left, top, left + wide - 24, top + high - 10
         marks += small_diagram(found, at, fine, each, rect)
     whole: list[Mark] = [
-        *framed(drawing, number, words("sheet.document_diagrams"), "–"),
         *heading(found, drawing, words("sheet.courses")),
-        Text(
-            *(FIELD[0] + 3, FIELD[1] - 2.2, words("diagrams.crosses"), "caption", LETTERS),
-            name="heading",
-        ),
+        *headline(found, words("diagrams.crosses")),
         *marks,
-        LineMark(FIELD[0], FIELD[3], FIELD[2], FIELD[3], "panel"),
+        *foot_line(found),
         *places_table(found, found.numbered, advantage_said(words, some)),
         *proof(found),
     ]
     title = f"{words('sheet.courses')} – {title_of(drawing)}"
-    return Page(420, 297, tuple(whole), title, words.language)
+    return framed(drawing, number, words("sheet.document_diagrams"), "–", whole, title)
 
 
 def advantage_said(words: Words, some: Sequence[Asked]) -> list[str]:

@@ -17,7 +17,7 @@ from graphkin.construction.core.relation import figure
 from graphkin.construction.forces.force_drawing import ForceDrawing, ForceLayout
 from graphkin.construction.forces.lever import LeverPole
 from graphkin.construction.forces.polygon import InPolygon, PolygonStart, links_words
-from graphkin.drawing.field import AREA, Field, Rect
+from graphkin.drawing.field import Field, Rect
 from graphkin.drawing.labels import FieldContent
 from graphkin.drawing.marks import LineMark, Text
 from graphkin.drawing.richtext import extent
@@ -65,7 +65,7 @@ def laid_out(drawing: ForceDrawing, mechanism: Field) -> ForceDrawing:
 
     Raises PageError where the fields have no room.
     """
-    rect: Rect = (mechanism.rect[2], AREA[1], AREA[2], AREA[3])
+    rect = drawing.paper.beside(mechanism.rect)
     boxes, lever = drawing.polygon_extents(), drawing.lever_extent()
     cells = [FieldNeed(box.width, box.height) for box in boxes.values()]
     if lever is not None:

@@ -32,7 +32,7 @@ from graphkin.classroom.printing.edition import Edition
 from graphkin.classroom.printing.print_work import PrintOrder
 from graphkin.classroom.roster.taker import Taker
 from graphkin.construction.board import PLANES, Board, board_given, replayed
-from graphkin.drawing.field import AREA, Field, clipped
+from graphkin.drawing.field import Field, clipped
 from graphkin.drawing.marks import LineMark, Mark, Page, Text
 from graphkin.drawing.symbol_markup import escape
 from graphkin.numbers.arithmetic import np
@@ -292,8 +292,6 @@ def given_back(sheets: Sequence[JudgedSheet], words: Words) -> DrawingBack:
 
 LOOKS = {GREEN: "right", RED: "wrong", YELLOW: "wrong"}
 """The look of a point by the colour of its remark."""
-SCALE = (RIGHT - LEFT) / (AREA[2] - AREA[0])
-"""The scale at which a sheet's fields are drawn on the paper of a feedback page."""
 CHORDS = 96
 """The chords for a circle on paper."""
 
@@ -301,9 +299,11 @@ CHORDS = 96
 def on_paper(drawn: Sequence[tuple[Field, Sequence[Shape]]]) -> Block:
     """The fields of a sheet side by side, in the width of a page."""
     marks: list[Mark] = []
+    lefts, tops, rights, lows = zip(*(field.rect for field, _ in drawn), strict=True)
+    scale = (RIGHT - LEFT) / (max(rights) - min(lefts))
 
     def place(x: float, y: float) -> tuple[float, float]:
-        return LEFT + (x - AREA[0]) * SCALE, (y - AREA[1]) * SCALE
+        return LEFT + (x - min(lefts)) * scale, (y - min(tops)) * scale
 
     for field, every in drawn:
         left, top, right, low = field.rect
@@ -318,7 +318,7 @@ def on_paper(drawn: Sequence[tuple[Field, Sequence[Shape]]]) -> Block:
             for p, q in pairwise(shape.outline):
                 if (cut := clipped(p, q, field.rect)) is not None:
                     marks.append(LineMark(*place(*cut[0]), *place(*cut[1]), INKED[shape.look]))
-    return (AREA[3] - AREA[1]) * SCALE + 3.0, marks
+    return (max(lows) - min(tops)) * scale + 3.0, marks
 
 
 INKED = {"own": "construction", "dot": "dimension", "bar": "dimension"} | {

@@ -10,12 +10,12 @@ import msgspec
 from msgspec import Struct
 from msgspec.structs import replace
 
-from graphkin.drawing.field import A3_TITLE_BLOCK
-from graphkin.drawing.frame import STUDENT, STUDENTS
+from graphkin.drawing.field import paper_of
 from graphkin.reading.kept_readings import PICTURE, records_in
 from graphkin.reading.point_reading import PointReading
 from graphkin.reading.read_sheet import QUALITY, SHOWN, SheetRecord
 from graphkin.reading.settled_points import LONGEST, PointDecision, SettledPoints, settled_points
+from graphkin.scene.house import FRAMES, PAPERS
 from graphkin.studio.session import PageRequestError
 from graphkin.text import Words
 from graphkin.text.markup import as_text
@@ -56,6 +56,7 @@ class DrawingDesk(Struct, dict=True):
             "code": "" if self.anonymous else record.code,
             "who": "" if self.anonymous else record.who,
             "kind": self.words(f"sheet.{record.kind}") if record.kind else "",
+            "size": record.size,
             "refused": record.refused,
             "lines": record.key_lines,
             "points": [
@@ -86,7 +87,9 @@ class DrawingDesk(Struct, dict=True):
         record = self.records.get(self.named.get(decision.sheet, ""))
         steps = {point.step for point in record.points} if record is not None else set()
         on_paper = decision.at is None or (
-            0 <= decision.at[0] <= 420 and 0 <= decision.at[1] <= 297
+            record is not None
+            and 0 <= decision.at[0] <= record.size[0]
+            and 0 <= decision.at[1] <= record.size[1]
         )
         drawn = (decision.at is None) == (decision.verdict in ("missing", "unread"))
         pinned = decision.step is None and decision.at is not None and decision.verdict == "unread"
@@ -114,18 +117,19 @@ class DrawingDesk(Struct, dict=True):
         if record is None or record.refused is not None:
             raise PageRequestError(shown)
         data = (self.folder / f"{record.name}{PICTURE}").read_bytes()
-        return without_name(data) if self.anonymous else data
+        return without_name(data, record.size) if self.anonymous else data
 
 
-def without_name(picture: bytes) -> bytes:
-    """A flattened picture on which the student's cell of the title block is covered."""
+def without_name(picture: bytes, size: tuple[float, float]) -> bytes:
+    """A flattened picture of a sheet on which its title block is covered, in whatever frame."""
     from PIL import Image, ImageDraw
 
-    left, top, _, _ = A3_TITLE_BLOCK
-    cell = next(rect for name, rect, _ in STUDENTS if name == STUDENT)
-    box = [(part + side) * SHOWN for part, side in zip(cell, (left, top, left, top), strict=True)]
+    papers = (paper_of(name, frame) for name in PAPERS for frame in FRAMES)
     image = Image.open(io.BytesIO(picture)).convert("RGB")
-    ImageDraw.Draw(image).rectangle(box, fill="white", outline="black")
+    for paper in papers:
+        if (paper.width, paper.height) == size:
+            box = [side * SHOWN for side in paper.title_block]
+            ImageDraw.Draw(image).rectangle(box, fill="white", outline="black")
     out = io.BytesIO()
     image.save(out, "JPEG", quality=QUALITY)
     return out.getvalue()

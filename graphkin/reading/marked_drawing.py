@@ -20,6 +20,7 @@ from graphkin.classroom.printing.edition import Edition
 from graphkin.classroom.printing.file_names import stems
 from graphkin.classroom.roster.taker import Taker
 from graphkin.construction.core.quantities import MOTION
+from graphkin.drawing.field import A3
 from graphkin.drawing.richtext import font_file
 from graphkin.reading.kept_readings import PICTURE, records_in
 from graphkin.reading.point_reading import PointReading
@@ -48,6 +49,8 @@ class MarkedSheet(Struct, frozen=True):
     lines: tuple[tuple[str, str], ...]
     """The remark on each point, and its colour; then those on other places."""
     pins: tuple[DrawingRemark, ...] = ()
+    size: tuple[float, float] = (A3.width, A3.height)
+    """The width and height of the sheet in mm."""
 
 
 def drawings_of_class(
@@ -84,7 +87,7 @@ def marked_sheet(
     pins = tuple(remarks_on(record, settled))
     pinned = ((f"{each.number}. {each.text}", BLUE) for each in pins)
     lines = (*said_of(points, notes, words), *pinned)
-    return MarkedSheet(head, picture, points, lines, pins)
+    return MarkedSheet(head, picture, points, lines, pins, record.size)
 
 
 def remarks_on(record: SheetRecord, settled: SettledPoints) -> Iterator[DrawingRemark]:
@@ -151,6 +154,7 @@ def as_page(sheets: Sequence[MarkedSheet], words: Words) -> bytes:
     shown = [
         {
             "title": sheet.title,
+            "size": [f"{side:g}" for side in sheet.size],
             "picture": b64encode(sheet.picture).decode("ascii"),
             "points": [(point, colour_of(point)) for point in sheet.points],
             "pins": sheet.pins,
@@ -177,7 +181,7 @@ def as_pdf(sheets: Sequence[MarkedSheet], words: Words) -> bytes:
     pages = []
     for sheet in sheets:
         image = Image.open(io.BytesIO(sheet.picture)).convert("RGB")
-        width, height = round(420 * DENSITY), round(297 * DENSITY)
+        width, height = (round(side * DENSITY) for side in sheet.size)
         rows = [(sheet.title, "#000000"), *sheet.lines, (words("marked.legend"), "#000000")]
         page = Image.new("RGB", (width, height + 2 * MARGIN + LINE * len(rows)), "white")
         page.paste(image.resize((width, height)), (0, 0))

@@ -15,7 +15,7 @@ from msgspec.structs import astuple, replace
 
 from graphkin.numbers.arithmetic import FLOAT, Kind, Point
 from graphkin.scene.expression import TIME
-from graphkin.scene.house import PLAIN, House
+from graphkin.scene.house import FRAMES, PLAIN, USUAL_PAPER, House
 from graphkin.scene.quantity import LENGTHS, Quantity, in_unit
 from graphkin.text.errors import Message, message
 from graphkin.text.school_signs import USUAL, SchoolSigns
@@ -520,6 +520,7 @@ class Sheet(Struct, frozen=True):
     vectors of the crank's pin as long as the crank. ``enlarge`` is the factor on that length, one
     number for each plan or one for both. ``student`` is the owner of the sheet, set by a class, not
     by a scene. ``steps`` are the first digits of a school's scales, () for the usual ones.
+    ``paper`` and ``frame`` are names of papers and frames.
     """
 
     owner: str = ""
@@ -538,6 +539,8 @@ class Sheet(Struct, frozen=True):
     plan: str = "images"
     signs: SchoolSigns = USUAL
     steps: tuple[float, ...] = ()
+    paper: str = USUAL_PAPER
+    frame: str = FRAMES[0]
 
 
 class StatedPositions(Struct, frozen=True):

@@ -10,7 +10,7 @@ from typing import Literal
 
 from graphkin.scene.expression import TIME
 from graphkin.scene.findings import Findings, Table, nearest, numbered, plain_text, shown
-from graphkin.scene.house import House, read_signs
+from graphkin.scene.house import FRAMES, PAPERS, House, read_signs
 from graphkin.scene.known_names import THE_MECHANISM, known_link, known_point
 from graphkin.scene.link_points import ends_of
 from graphkin.scene.measures import Measures
@@ -38,6 +38,7 @@ from graphkin.scene.phrases import (
 from graphkin.scene.quantity import Quantity, exact
 from graphkin.text import LANGUAGES
 from graphkin.text.errors import Hint, Message, Written, either, joined, message
+from graphkin.text.school_signs import SCHOOLS
 
 PATHS_ASKED = "curves"
 CENTRES_ASKED, PAIRS = "centres", "pairs"
@@ -215,6 +216,8 @@ def read_sheet(table: Table, measures: Measures, house: House) -> Sheet:
     if sheets is not None and (isinstance(sheets, bool) or sheets not in (1, 2)):
         table.findings.add(table.at("sheets"), shown(sheets), message("1 or 2"))
         sheets = None
+    signs = read_signs(table, "signs", house.signs)
+    usual = house.frame or ("GOST" if signs == SCHOOLS["russian"].signs else FRAMES[0])
     sheet = Sheet(
         owner=table.text("owner", "\n".join(house.header)),
         author=table.text("author", house.author),
@@ -229,8 +232,10 @@ def read_sheet(table: Table, measures: Measures, house: House) -> Sheet:
         ka=None if ka is None else measures.number(table.at("ka"), ka, positive=True),
         method=table.choice("method", METHODS, METHODS[0]),
         plan=table.choice("plan", PLANS, PLANS[0]),
-        signs=read_signs(table, "signs", house.signs),
+        signs=signs,
         steps=house.steps,
+        paper=table.choice("paper", tuple(PAPERS), house.paper),
+        frame=table.choice("frame", FRAMES, usual),
     )
     table.finish()
     return sheet

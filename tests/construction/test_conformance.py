@@ -242,7 +242,7 @@ def errors(name: str) -> object:
 
 def pages(name: str) -> object:
     """Its sheets, with every label in its place."""
-    return [sheet(drawing, "key", "1/2").marks for drawing in materials(name)]
+    return [sheet(drawing, "key", "1/2")[0].marks for drawing in materials(name)]
 
 
 def moves(name: str) -> object:

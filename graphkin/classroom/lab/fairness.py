@@ -34,7 +34,7 @@ from graphkin.construction.core.quantities import (
 )
 from graphkin.construction.core.solution import FAIR
 from graphkin.construction.registry import LIMITED
-from graphkin.drawing.field import AREA
+from graphkin.drawing.field import paper_of
 from graphkin.drawing.scale import Extent, Scales
 from graphkin.mechanism import Mechanism
 from graphkin.numbers.arithmetic import larger, np
@@ -133,14 +133,16 @@ def held(
     }
     if not places:
         return
+    stated = sheet.mechanism.scene.sheet
+    paper = paper_of(stated.paper, stated.frame)
     mm = 1000 / scales.kL
     plans = (each.plan_box.width * mm * scales.times(each.kind) for each in sheets)
     box = reduce(Extent.joined, (each.mechanism_box for each in sheets))
     poles = (place for each in sheets for place in poles_of(each))
-    field = held_beside(box, poles, mm, reduce(larger, plans))
+    field = held_beside(paper, box, poles, mm, reduce(larger, plans))
     left, bottom, right, top = field.box.sides
-    height, room = (top - bottom) * mm, AREA[3] - AREA[1]
-    lift = room_below(height) + height / 2 - room / 2
+    height, room = (top - bottom) * mm, paper.fields[3] - paper.fields[1]
+    lift = room_below(paper, height) + height / 2 - room / 2
     for name, value in places.items():
         point = placed(sheet, value)
         x = (point.real - (left + right) / 2) * mm
