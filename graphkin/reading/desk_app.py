@@ -33,9 +33,9 @@ SAID = (
     "title", "open", "none_open", "point", "verdict", "off", "note", "right", "follows", "wrong",
     "missing", "unread", "next", "undo", "key", "flicker", "by_keys", "refused", "saved", "failed",
     "sheets", "help", "pin", "pins", "rivals", "reason", "points", "reading", "remark", "decided",
-    "disagree", "marks_by_keys", "pin_help", "to_decide",
+    "disagree", "marks_by_keys", "pin_help", "to_decide", *(f"kind_{kind}" for kind in KINDS),
 )  # fmt: skip
-"""The sentences of the page; with one for each kind of thing to decide."""
+"""The sentences of the page."""
 
 
 class DeskSession(Struct, dict=True):
@@ -152,7 +152,6 @@ def desk_page(session: DeskSession) -> bytes:
     words = session.words
     said = {key: words.open(f"desk.{key}") for key in SAID}
     said["student"] = words("studio.student")
-    said |= {f"kind_{kind}": words.open(f"desk.kind_{kind}") for kind in KINDS}
     start = {"said": said, "verdicts": VERDICTS, "density": SHOWN, "kinds": KINDS}
     text = msgspec.json.encode(start, enc_hook=as_text).decode()
     page = from_template("reading/web/desk.html", said=said, language=words.language, start=text)
