@@ -6,6 +6,7 @@ decision to a file in the folder, so that several people can decide at once.
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from pathlib import Path
 from threading import Lock
 from typing import Any
@@ -181,12 +182,17 @@ def desk_application(session: DeskSession) -> Any:
     app.route("/everything", "GET", lambda: answer(200, JSON, encoded(session.everything())))
     app.route("/picture/<name>.jpg", "GET", picture)
     app.route("/item/<name>", "GET", item)
-    for path, work in (
-        ("/news", session.news),
-        ("/decide", session.decide),
-        ("/rule", session.rule),
-        ("/remark", session.remark),
-        ("/undo", lambda _: session.undo()),
-    ):
-        app.route(path, "POST", answering(lambda data, work=work: encoded(work(data)), MOST_BYTES))
+    works: dict[str, Callable[[bytes], dict[str, Any]]] = {
+        "/news": session.news,
+        "/decide": session.decide,
+        "/rule": session.rule,
+        "/remark": session.remark,
+        "/undo": lambda _: session.undo(),
+    }
+
+    def handler(work: Callable[[bytes], dict[str, Any]]) -> Callable[[], Any]:
+        return answering(lambda data: encoded(work(data)), MOST_BYTES)
+
+    for path, work in works.items():
+        app.route(path, "POST", handler(work))
     return app
