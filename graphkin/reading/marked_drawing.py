@@ -80,7 +80,7 @@ def marked_sheet(
     standing = settled.standing
     points = settled_points(record, standing)
     here = [each for each in standing.values() if each.sheet == record.name]
-    notes = {each.step: each.note for each in here}
+    notes = {each.step: each.note for each in here if each.step is not None}
     who = taker.student.name or taker.student.id
     head = words("marked.head", sheet=words(f"sheet.{record.kind}"), who=who)
     picture = (folder / f"{record.name}{PICTURE}").read_bytes()

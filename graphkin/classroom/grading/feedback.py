@@ -275,10 +275,10 @@ def decision_words(decision: Decision, words: Words) -> str:
     reason = escape(printable(decision.reason))
     if decision.is_open:
         return words("feedback.asked", reason=reason)
+    keys = ("feedback.decided", "feedback.decided_so")
     if decision.points is None:
-        told = words("feedback.kept", reason=reason) if reason else words("feedback.kept_so")
-    else:
-        told = words("feedback.decided", reason=reason) if reason else words("feedback.decided_so")
+        keys = ("feedback.kept", "feedback.kept_so")
+    told: str = words(keys[0], reason=reason) if reason else words(keys[1])
     if decision.answers:
         told = f"{words('feedback.you_asked', text=escape(printable(decision.answers)))}; {told}"
     if decision.asked:
