@@ -20,7 +20,7 @@ from graphkin.construction.core.program import Plane
 from graphkin.numbers.plane import Line
 from graphkin.reading.drawn_ink import DrawnInk
 from graphkin.reading.lettered_points import SHORT, Arrow, Leading, LetteredSheet
-from graphkin.reading.point_reading import PointReading, ReadVerdict, pair
+from graphkin.reading.point_reading import Doubt, PointReading, ReadVerdict, pair
 from graphkin.reading.point_search import (
     AGREED,
     AS_EXPECTED,
@@ -125,7 +125,7 @@ class PointReader(PointSearch):
                 found.update(self.lines_through(number, found))
         for number in self.sheet.found_by.values():
             if number in self.own and not self.is_joined(number):
-                self.readings[number] = replace(self.readings[number], ask=True)
+                self.readings[number] = self.readings[number].doubted("lines")
         self.next = self.ahead()
         for number in self.sheet.points:
             self.readings[number] = self.ended(number, self.readings[number])
@@ -147,10 +147,10 @@ class PointReader(PointSearch):
                 off = reading.off
                 if end.head is not None:
                     off = round(abs(end.head - complex(*reading.own)), 3)
-                return replace(reading, at=at, off=off, verdict="wrong", ask=True)
+                return replace(reading, at=at, off=off, verdict="wrong").doubted("end")
             if not end.is_there:
-                reading = replace(reading, ask=True)
-        return replace(reading, ask=True) if self.is_overdrawn(number) else reading
+                reading = reading.doubted("end")
+        return reading.doubted("end") if self.is_overdrawn(number) else reading
 
     @cached_property
     def drawn_arrows(self) -> tuple[tuple[Arrow, complex, complex], ...]:
@@ -415,8 +415,9 @@ class PointReader(PointSearch):
         self.noted -= behind
         place = None if best is None else best.place
         verdict: ReadVerdict
+        doubts: dict[Doubt, bool] = {"absent": best is None}
         if best is None:
-            verdict, ask = ("missing" if np.isfinite(own.middle) else "unread"), True
+            verdict = "missing" if np.isfinite(own.middle) else "unread"
         else:
             self.crossings[number] = best
             away = own.away(best.place, best.error)
@@ -436,38 +437,38 @@ class PointReader(PointSearch):
             vague = not there and ((own.radius > VAGUE and not met) or untried)
             loose = (vague or stray) and (bool(self.bad) or not self.is_met(number, best))
             odd = any(e.far in self.bad - behind for e in self.sheet.leading[number] if not e.after)
-            ask = (
-                self.swayed(away, abs(best.place - own.middle)) > SURE
-                or (best.count < 2 and not ended)
-                or best.cover < WHOLE
-                or (
-                    self.agreement(number, best.place) < NEARLY
-                    and not self.stands(number, best, own)
-                )
-                or fresh
-                or doubtful
-                or (best.count == 2 and not self.is_reached(number, best.place))
+            thin = best.cover < WHOLE or (
+                self.agreement(number, best.place) < NEARLY and not self.stands(number, best, own)
             )
-            ask = ask or loose or odd or bool(self.strayed & behind)
+            unled = (best.count < 2 and not ended) or (
+                best.count == 2 and not self.is_reached(number, best.place)
+            )
+            doubts |= {
+                "off": self.swayed(away, abs(best.place - own.middle)) > SURE,
+                "lines": thin or unled,
+                "elsewhere": doubtful,
+                "vague": loose,
+                "before": fresh or odd or bool(self.strayed & behind),
+            }
             if away <= FITS and fresh and from_key > FITS:
                 verdict = "wrong"
             elif away <= FITS and not after:
                 verdict = "right"
                 far = abs(best.place - key.middle) > APART and not self.is_checked(behind)
-                doubted = apart > FITS and bool(self.doubted & behind)
-                ask = ask or from_key > OUTSIDE or far or doubted
+                doubts["far"] = from_key > OUTSIDE or far
+                doubts["before"] |= apart > FITS and bool(self.doubted & behind)
             elif away <= FITS:
                 verdict = "follows" if from_key > FITS or apart > FITS else "right"
-                ask = (
-                    ask
-                    or min(apart, from_key) < OFF
-                    or not self.bad & behind & self.readings.keys()
+                doubts["off"] |= min(apart, from_key) < OFF
+                # the mistake itself may be misread
+                doubts["before"] |= bool(self.vaguely & behind) or not (
+                    self.bad & behind & self.readings.keys()
                 )
-                ask = ask or bool(self.vaguely & behind)  # the mistake itself may be misread
                 if self.bad & self.doubted & behind:
-                    ask = ask or not self.is_crossed(number, best.place)
+                    doubts["before"] |= not self.is_crossed(number, best.place)
             else:
-                verdict, ask = "wrong", True
+                verdict = "wrong"
+                doubts["mistake"] = True
             self.strayed |= {number} if stray and loose else set()
         if doubtful:
             self.doubted.add(number)
@@ -480,12 +481,13 @@ class PointReader(PointSearch):
             number,
             None if place is None else pair(place),
             verdict,
-            ask,
+            any(doubts.values()),
             pair(key.middle),
             pair(own.middle),
             None if best is None else round(abs(best.place - own.middle), 3),
             round(own.radius, 3),
             *self.tail(number),
+            tuple(sorted(doubt for doubt, holds in doubts.items() if holds)),
         )
 
     def swayed(self, away: float, off: float) -> float:

@@ -274,7 +274,9 @@ class Tally:
                 told = f"{where}: {point.verdict}, said {read.verdict}"
                 (self.after if is_right(point, read, within) else self.wrongly).append(told)
             elif clean and read.ask and point.at is not None and off < 1:
-                self.missed.append(f"{where}: asked, {read.verdict} at {read.off} of {read.error}")
+                self.missed.append(
+                    f"{where}: asked ({', '.join(read.doubts)}), {read.verdict} at {read.off} of {read.error}"
+                )
 
     def report(self) -> None:
         """Print it."""
