@@ -9,6 +9,8 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from functools import cached_property
+from itertools import combinations
+from math import log
 from typing import Any
 
 import numpy as np
@@ -20,6 +22,7 @@ from graphkin.construction.core.program import Plane
 from graphkin.numbers.plane import Line
 from graphkin.reading.drawn_ink import DrawnInk
 from graphkin.reading.lettered_points import SHORT, Arrow, Leading, LetteredSheet
+from graphkin.reading.point_letters import ALPHABET, letters_near
 from graphkin.reading.point_reading import Doubt, PointReading, ReadVerdict, pair
 from graphkin.reading.point_search import (
     AGREED,
@@ -68,6 +71,8 @@ FULLY = 0.97
 """The drawn share of many lines that meet where a point was only vaguely expected."""
 WHOLE = 0.9
 """The drawn share of a point's lines that is needed for it to count without a question."""
+EXCHANGED, CLEARLY_EXCHANGED = 1.0, 4.0
+"""By how much likelier, as a logarithm, two letters are exchanged: asked, and proposed as wrong."""
 SHORTEST = 1e-3
 """Places closer than this, in mm, coincide."""
 FLAT = 0.2
@@ -129,7 +134,34 @@ class PointReader(PointSearch):
         self.next = self.ahead()
         for number in self.sheet.points:
             self.readings[number] = self.ended(number, self.readings[number])
+        self.compare_letters()
         return tuple(self.readings[number] for number in self.sheet.points)
+
+    def compare_letters(self) -> None:
+        """Doubt points of the plan beside which the letters seem to be exchanged.
+
+        *Wrong* is proposed, each at the other's place, where both letters are clearly read.
+        """
+        steps = self.sheet.exact.program.steps
+        likely = {
+            number: letters_near(self.ink, self.own[number])
+            for number, reading in self.readings.items()
+            if reading.verdict in ("right", "follows")
+            and steps[number].plane is self.sheet.drawing.plane
+            and reading.name[0] in ALPHABET
+        }
+        for one, other in combinations(likely, 2):
+            mine, others = self.readings[one], self.readings[other]
+            gain = log_ratio(likely[one], others, mine) + log_ratio(likely[other], mine, others)
+            if gain < EXCHANGED:
+                continue
+            for number, there in ((one, other), (other, one)):
+                reading = self.readings[number]
+                if gain > CLEARLY_EXCHANGED and reading.verdict != "wrong":
+                    place = pair(self.own[there])
+                    off = round(abs(self.own[there] - complex(*reading.own)), 3)
+                    reading = replace(reading, at=place, off=off, verdict="wrong")
+                self.readings[number] = reading.doubted("letter")
 
     def ended(self, number: int, reading: PointReading) -> PointReading:
         """A reading, asked where a vector or a bar does not surely end at its point.
@@ -553,6 +585,11 @@ class PointReader(PointSearch):
                     pending.append(arg)
         by_hand = {self.sheet.found_by[arg] for arg in found & self.sheet.found_by.keys()}
         return frozenset(found | by_hand - {number})
+
+
+def log_ratio(likely: Mapping[str, float], one: PointReading, other: PointReading) -> float:
+    """How much likelier the letter of one point is than that of another, as a logarithm."""
+    return log(likely[one.name[0]] / likely[other.name[0]])
 
 
 def forecast_points(sheet: LetteredSheet, pencil: Pencil) -> tuple[PointReading, ...]:

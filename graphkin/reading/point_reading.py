@@ -15,6 +15,7 @@ Doubt = Literal[
     "elsewhere",
     "end",
     "far",
+    "letter",
     "lines",
     "mistake",
     "off",
@@ -27,6 +28,7 @@ Doubt = Literal[
 - ``elsewhere``: another place suits the drawing about as well.
 - ``end``: a vector or a bar does not surely end there.
 - ``far``: it fits what is before it, but is far from the key.
+- ``letter``: the letter of another point seems to be beside it.
 - ``lines``: too few of its lines are drawn, or they do not reach it.
 - ``mistake``: it is where neither the key nor the student's own points put it.
 - ``off``: it is at the edge of what the pencil explains.

@@ -8,8 +8,8 @@ A third of the sheets have a mistake, a twelfth lacks a point; every fourth pict
 eighth a flatbed scan. Prints how far the map is off, where points are placed, how much is decided,
 and how much of it wrongly, twice: by definition, where *right* is what lies within the student's
 pencil of the key, and with what comes after a mistake counted as wrong wherever it lies. With
-``--ends``, one vector of each sheet is too long, too short or has its head at its tail, and nothing
-else is wrong. A folder keeps the pictures with their truth: they are read again.
+``--ends``, one vector of each sheet is too long, too short or has its head at its tail, or two
+letters are exchanged, and nothing else is wrong. A folder keeps the pictures with their truth: they are read again.
 """
 
 from __future__ import annotations
@@ -101,7 +101,7 @@ def lab_of(scene: Path, where: Path) -> Path:
     return folder
 
 
-ENDS = "long", "short", "turned"
+ENDS = "long", "short", "turned", "exchanged"
 """How a vector ends on the sheets of a run with ``--ends``."""
 
 
