@@ -19,9 +19,10 @@ from msgspec.structs import replace
 from graphkin.accuracy.pencil.pencil import Pencil
 from graphkin.accuracy.pencil.redrawing import unmarked
 from graphkin.construction.core.program import Plane
-from graphkin.numbers.plane import Line
+from graphkin.numbers.plane import Line, Vector
 from graphkin.reading.drawn_ink import DrawnInk
 from graphkin.reading.lettered_points import SHORT, Arrow, Leading, LetteredSheet
+from graphkin.reading.plan_causes import PlanCause, similarity_of
 from graphkin.reading.point_letters import ALPHABET, letters_near
 from graphkin.reading.point_reading import Doubt, PointReading, ReadVerdict, pair
 from graphkin.reading.point_search import (
@@ -93,6 +94,7 @@ class PointReader(PointSearch):
         self.strayed: set[int] = set()
         self.readings: dict[int, PointReading] = {}
         self.crossings: dict[int, LinesCrossing] = {}
+        self.cause: PlanCause | None = None
 
     def read(self) -> tuple[PointReading, ...]:
         """The readings of all points of the sheet."""
@@ -135,7 +137,46 @@ class PointReader(PointSearch):
         for number in self.sheet.points:
             self.readings[number] = self.ended(number, self.readings[number])
         self.compare_letters()
+        self.find_cause()
         return tuple(self.readings[number] for number in self.sheet.points)
+
+    def find_cause(self) -> None:
+        """Look for one cause of a plan with mistakes, and put its points where that puts them."""
+        steps, exact = self.sheet.exact.program.steps, self.sheet.exact.trace.values
+        plane = self.sheet.drawing.plane
+        plan = [n for n in self.sheet.points if steps[n].plane is plane]
+        poles = [n for n, v in exact.items() if steps[n].plane is plane and not steps[n].args]
+        poles = [n for n in poles if isinstance(exact[n], complex)]
+        if not poles or all(self.readings[n].verdict in ("right", "follows") for n in plan):
+            return
+        pole = complex(self.sheet.place(poles[0], exact[poles[0]]))
+        shafts = [
+            (self.exact_place(n, v.tail), self.exact_place(n, v.tip))
+            for n, v in exact.items()
+            if isinstance(v, Vector) and steps[n].arrow and steps[n].plane is plane
+        ]
+        read = [self.own[n] for n in plan if n in self.own]
+        rays = [pole + way * long for way, long in self.rays(pole)]
+        found = similarity_of(self.ink, shafts, pole, [*read, *rays])
+        if found is None:
+            return
+        self.cause = found.cause
+        first = True
+        for number in plan:
+            reading = self.readings[number]
+            place = found(complex(*reading.key))
+            if abs(place - complex(*reading.key)) < APART:
+                continue
+            if reading.at is None or abs(complex(*reading.at) - place) > BESIDE or first:
+                verdict: ReadVerdict = "wrong" if first else "follows"
+                off = round(abs(place - complex(*reading.own)), 3)
+                reading = replace(reading, at=pair(place), off=off, verdict=verdict)
+                self.readings[number] = reading.doubted("mistake" if first else "before")
+            first = False
+
+    def exact_place(self, number: int, value: complex) -> complex:
+        """Where a value of a step's plane is on paper."""
+        return complex(np.ravel(self.sheet.place(number, value))[0])
 
     def compare_letters(self) -> None:
         """Doubt points of the plan beside which the letters seem to be exchanged.

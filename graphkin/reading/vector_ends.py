@@ -206,11 +206,14 @@ def vector_end(
 def is_headed(ink: DrawnInk, tail: complex, tip: complex) -> bool:
     """Whether a vector is wholly drawn from a tail to a tip, and has its head there."""
     long = abs(tip - tail)
-    if not long >= SHORTEST or ink.cover(tail, tip, 0.4) < WHOLE:
-        return False
-    way = (tip - tail) / long
+    return long >= SHORTEST and ink.cover(tail, tip, 0.4) >= WHOLE and heads_at(ink, tail, tip) >= OWN
+
+
+def heads_at(ink: DrawnInk, tail: complex, tip: complex) -> float:
+    """The drawn share of the head of a vector at its tip."""
+    way = (tip - tail) / abs(tip - tail)
     near = np.arange(-NEAR, NEAR + PITCH / 2, PITCH)
-    return bool(heads(ink, tip + near * way, way).max() >= OWN)
+    return float(heads(ink, tip + near * way, way).max())
 
 
 def bar_runs_on(ink: DrawnInk, tail: complex, tip: complex, others: list[complex]) -> bool:
