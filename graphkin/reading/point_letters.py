@@ -35,6 +35,8 @@ SIDE, BOX = 24, 20
 """The side of the square that the network sees, and of the piece in it, in pixels."""
 FLOOR = 0.02
 """The least probability of a letter, since a letter may stand farther away or not at all."""
+UNLIKE = 0.1
+"""The least probability that a piece is one of the letters looked for, or none."""
 FADES = 4.0
 """A letter so many mm farther away counts e times less."""
 
@@ -112,23 +114,27 @@ def probabilities(seen: Any, layers: tuple[Any, ...]) -> Any:
     return value / value.sum(axis=1, keepdims=True)
 
 
-def letters_near(ink: DrawnInk, place: complex) -> Mapping[str, float]:
-    """How likely each letter of the alphabet stands beside a place: from FLOOR to 1."""
+def letters_near(ink: DrawnInk, place: complex, letters: str = ALPHABET) -> Mapping[str, float]:
+    """How likely each of some letters stands beside a place: from FLOOR to 1.
+
+    A piece is taken for one of these letters, or for none.
+    """
     x, y = (place.real - AREA[0]) * DENSITY, (place.imag - AREA[1]) * DENSITY
     half = round(ROOM * DENSITY)
     left, top = max(0, round(x) - half), max(0, round(y) - half)
     part = slice(top, round(y) + half), slice(left, round(x) + half)
     dark = ink.dark[part] * (ink.known[part] > 0)
-    found = np.full(len(ALPHABET), FLOOR)
-    if min(dark.shape) < STRAIGHT:
-        return dict(zip(ALPHABET, found.tolist(), strict=True))
-    every = []
-    for (bx, by, width, height), seen in pieces(dark):
-        far = np.hypot(left + bx + width / 2 - x, top + by + height / 2 - y) / DENSITY
-        if ABOUT < far < NEAR:
-            every.append((far, seen))
-    if every:
-        likely = probabilities(np.stack([seen for _, seen in every]), network())
-        fades = np.exp(-np.maximum(np.array([far for far, _ in every]) - FADES, 0) / FADES)
+    found = np.full(len(letters), FLOOR)
+    beside = []
+    if min(dark.shape) >= STRAIGHT:
+        for (bx, by, width, height), seen in pieces(dark):
+            far = np.hypot(left + bx + width / 2 - x, top + by + height / 2 - y) / DENSITY
+            if ABOUT < far < NEAR:
+                beside.append((far, seen))
+    if beside:
+        likely = probabilities(np.stack([seen for _, seen in beside]), network())
+        likely = likely[:, [*(ALPHABET.index(each) for each in letters), -1]]
+        likely /= np.maximum(likely.sum(axis=1, keepdims=True), UNLIKE)
+        fades = np.exp(-np.maximum(np.array([far for far, _ in beside]) - FADES, 0) / FADES)
         found = np.maximum(found, (likely[:, :-1] * fades[:, None]).max(axis=0))
-    return dict(zip(ALPHABET, found.tolist(), strict=True))
+    return dict(zip(letters, found.tolist(), strict=True))

@@ -72,7 +72,7 @@ FULLY = 0.97
 """The drawn share of many lines that meet where a point was only vaguely expected."""
 WHOLE = 0.9
 """The drawn share of a point's lines that is needed for it to count without a question."""
-EXCHANGED, CLEARLY_EXCHANGED = 1.0, 4.0
+EXCHANGED, CLEARLY_EXCHANGED = 2.0, 4.0
 """By how much likelier, as a logarithm, two letters are exchanged: asked, and proposed as wrong."""
 SHORTEST = 1e-3
 """Places closer than this, in mm, coincide."""
@@ -184,13 +184,15 @@ class PointReader(PointSearch):
         *Wrong* is proposed, each at the other's place, where both letters are clearly read.
         """
         steps = self.sheet.exact.program.steps
-        likely = {
-            number: letters_near(self.ink, self.own[number])
+        lettered = {
+            number: reading.name[0]
             for number, reading in self.readings.items()
             if reading.verdict in ("right", "follows")
             and steps[number].plane is self.sheet.drawing.plane
             and reading.name[0] in ALPHABET
         }
+        letters = "".join(dict.fromkeys(lettered.values()))
+        likely = {n: letters_near(self.ink, self.own[n], letters) for n in lettered}
         for one, other in combinations(likely, 2):
             mine, others = self.readings[one], self.readings[other]
             gain = log_ratio(likely[one], others, mine) + log_ratio(likely[other], mine, others)

@@ -36,7 +36,7 @@ FINER = 3
 """So many pixels of a drawing are one of what is read."""
 SAME = 0.55
 """A piece is a letter where their boxes overlap by this share of both together."""
-HIDDEN, BATCH, PASSES, RATE = 80, 128, 12, 2e-3
+HIDDEN, BATCH, PASSES, RATE = 96, 128, 20, 2e-3
 """Neurons of the middle layer; pieces a step, passes over all pieces and length of a step."""
 
 
