@@ -45,7 +45,7 @@ class MarkedSheet(Struct, frozen=True):
     picture: bytes
     points: tuple[PointReading, ...]
     lines: tuple[tuple[str, str], ...]
-    """The remark on each point, and its colour."""
+    """The remarks on the whole plan and on each point, and their colours."""
 
 
 def drawings_of_class(
@@ -78,7 +78,9 @@ def marked_sheet(
     who = taker.student.name or taker.student.id
     head = words("marked.head", sheet=words(f"sheet.{record.kind}"), who=who)
     picture = (folder / f"{record.name}{PICTURE}").read_bytes()
-    return MarkedSheet(head, picture, points, tuple(said_of(points, notes, words)))
+    causes = () if record.cause is None else record.cause.sentences(words)
+    lines = [*((cause, RED) for cause in causes), *said_of(points, notes, words)]
+    return MarkedSheet(head, picture, points, tuple(lines))
 
 
 def said_of(

@@ -14,6 +14,7 @@ from msgspec import Struct
 
 from graphkin.reading.drawn_ink import DrawnInk
 from graphkin.reading.vector_ends import OWN, RINGS, SHORTEST, heads_at, is_marked
+from graphkin.text import Words
 
 DRAWN, LEAST = 0.9, 0.7
 """The drawn share of all vectors of a plan together, and of each of them, that shows a cause."""
@@ -47,6 +48,15 @@ class PlanCause(Struct, frozen=True):
         """Whether the plan is turned and not mirrored: mirroring turns by the line at which."""
         return not self.mirrored and abs(self.turn) > STRAIGHT
 
+    def sentences(self, words: Words) -> Iterator[str]:
+        """What is said of the whole plan."""
+        if self.mirrored:
+            yield words("marked.plan_mirrored")
+        if self.is_scaled:
+            yield words("marked.plan_scaled", factor=words.decimal(f"{self.factor:.2f}"))
+        if self.is_turned:
+            yield words("marked.plan_turned", turn=words.decimal(f"{self.turn:.0f}"))
+
 
 class Similarity(Struct, frozen=True):
     """A similarity of the paper that keeps the pole (complex mm, y down)."""
@@ -62,7 +72,9 @@ class Similarity(Struct, frozen=True):
     @property
     def cause(self) -> PlanCause:
         """The cause for a reader: y points upwards."""
-        return PlanCause(round(abs(self.size), 3), round(-degrees(phase(self.size)), 2), self.mirrored)
+        return PlanCause(
+            round(abs(self.size), 3), round(-degrees(phase(self.size)), 2), self.mirrored
+        )
 
 
 Shaft = tuple[complex, complex]
@@ -114,7 +126,5 @@ def similarity_of(
 
 def is_ended(ink: DrawnInk, shafts: Sequence[Shaft]) -> bool:
     """Whether heads or marks are at the tips of most vectors."""
-    ended = [
-        heads_at(ink, tail, tip) >= OWN or is_marked(ink, tip, RINGS) for tail, tip in shafts
-    ]
+    ended = [heads_at(ink, tail, tip) >= OWN or is_marked(ink, tip, RINGS) for tail, tip in shafts]
     return sum(ended) >= ENDED * len(ended)

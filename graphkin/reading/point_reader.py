@@ -506,21 +506,14 @@ class PointReader(PointSearch):
             close = abs(best.place - own.middle) <= CLOSE_BY
             met = ((best.count >= MEET and near) or close) and not self.bad
             there = self.is_there(number, best, key)
-            ended = close and own.radius <= VAGUE and self.is_end(number, best)
             stray = away <= FITS and not near and best.count < MEET
             # untried: depends on an auxiliary plan that was not read
             vague = not there and ((own.radius > VAGUE and not met) or untried)
             loose = (vague or stray) and (bool(self.bad) or not self.is_met(number, best))
             odd = any(e.far in self.bad - behind for e in self.sheet.leading[number] if not e.after)
-            thin = best.cover < WHOLE or (
-                self.agreement(number, best.place) < NEARLY and not self.stands(number, best, own)
-            )
-            unled = (best.count < 2 and not ended) or (
-                best.count == 2 and not self.is_reached(number, best.place)
-            )
             doubts |= {
                 "off": self.swayed(away, abs(best.place - own.middle)) > SURE,
-                "lines": thin or unled,
+                "lines": self.lacks_lines(number, best, own),
                 "elsewhere": doubtful,
                 "vague": loose,
                 "before": fresh or odd or bool(self.strayed & behind),
@@ -564,6 +557,16 @@ class PointReader(PointSearch):
             *self.tail(number),
             tuple(sorted(doubt for doubt, holds in doubts.items() if holds)),
         )
+
+    def lacks_lines(self, number: int, best: LinesCrossing, own: ExpectedPlace) -> bool:
+        """Whether too few of the lines to a point that was found are drawn, or do not reach it."""
+        if best.count < 2:
+            close = abs(best.place - own.middle) <= CLOSE_BY
+            if not (close and own.radius <= VAGUE and self.is_end(number, best)):
+                return True
+        agreed = self.agreement(number, best.place) >= NEARLY or self.stands(number, best, own)
+        unled = best.count == 2 and not self.is_reached(number, best.place)
+        return best.cover < WHOLE or not agreed or unled
 
     def swayed(self, away: float, off: float) -> float:
         """The squared distance of a place ``off`` mm away, enlarged by the paper's sway."""

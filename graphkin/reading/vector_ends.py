@@ -206,7 +206,9 @@ def vector_end(
 def is_headed(ink: DrawnInk, tail: complex, tip: complex) -> bool:
     """Whether a vector is wholly drawn from a tail to a tip, and has its head there."""
     long = abs(tip - tail)
-    return long >= SHORTEST and ink.cover(tail, tip, 0.4) >= WHOLE and heads_at(ink, tail, tip) >= OWN
+    return (
+        long >= SHORTEST and ink.cover(tail, tip, 0.4) >= WHOLE and heads_at(ink, tail, tip) >= OWN
+    )
 
 
 def heads_at(ink: DrawnInk, tail: complex, tip: complex) -> float:

@@ -28,7 +28,7 @@ from graphkin.construction.higher_class.trial_rates import trial_rates
 from graphkin.documents import sheet as documents
 from graphkin.drawing.field import Field
 from graphkin.drawing.marks import Arc, CircleMark, LineMark, Page, Polyline, Text
-from graphkin.drawing.symbols import arrow
+from graphkin.drawing.symbols import arrow, head
 from graphkin.numbers.arithmetic import FLOAT, turn_by
 from graphkin.numbers.plane import Circle, Line, Ratio
 from graphkin.text.errors import GraphkinError
@@ -44,6 +44,14 @@ CLEAR = 3.0
 """Millimetres by which a mistake moves its point at least."""
 LONG, OFF, NEAR = 12.0, 2.0, 0.05
 """The shortest vector that ends elsewhere, by how much at least, and the same place; mm."""
+
+
+PLANS: dict[str, tuple[complex, bool]] = {
+    "halved": (0.5 + 0j, False),
+    "spun": (complex(np.exp(1j * radians(30))), False),
+    "mirrored": (-1 + 0j, True),
+}
+"""How a whole plan may be drawn about its pole: size and turn, and whether it is mirrored first."""
 
 
 class TruePoint(Struct, frozen=True):
@@ -70,8 +78,9 @@ class Habits(Struct, frozen=True):
     erased: bool = False
     letters: bool = True
     end: str = ""
-    """How a vector of the plan ends: too ``long``, too ``short``, or with its head ``turned``; or
-    the letters of two points are ``exchanged``.
+    """What alone is wrong: a vector of the plan is too ``long``, too ``short``, or has its head
+    ``turned``; the letters of two points are ``exchanged``; or the whole plan is ``halved``,
+    ``spun`` or ``mirrored``.
     """
 
 
@@ -121,6 +130,8 @@ def drawn_sheet(folder: Path, code: str, kind: str, habits: Habits, seed: int) -
             page = own_page(drawing, own)
             if habits.end == "exchanged":
                 page, points = exchanged(page, drawing, points, rng)
+            elif habits.end in PLANS:
+                page, points = misplaced(page, drawing, points, habits.end)
             elif habits.end:
                 page, points = misdrawn(page, drawing, points, habits.end, rng)
         except (GraphkinError, StepFailed, ZeroDivisionError):
@@ -316,6 +327,59 @@ def misdrawn(
     told = replace(point, at=(moved.real, moved.imag), verdict="wrong")
     told_points = tuple(told if each is point else each for each in points)
     return replace(page, marks=type(page.marks)(marks)), told_points
+
+
+def misplaced(
+    page: Page, drawing: Drawing, points: tuple[TruePoint, ...], kind: str
+) -> tuple[Page, tuple[TruePoint, ...]]:
+    """A page whose whole plan is scaled, turned or mirrored about its pole."""
+    steps, layout = drawing.trace.program.steps, lay_out(drawing)
+    size, mirrored = PLANS[kind]
+    pole = next(
+        complex(mark.cx, mark.cy)
+        for mark in page.marks
+        if isinstance(mark, CircleMark) and mark.cls.startswith("pole")
+    )
+
+    def moved(x: float, y: float) -> tuple[float, float]:
+        way = complex(x, y) - pole
+        found = pole + size * (way.conjugate() if mirrored else way)
+        return found.real, found.imag
+
+    marks: list[Any] = []
+    for mark in page.marks:
+        if mark.step is None or steps[mark.step].plane is not drawing.plane:
+            marks.append(mark)
+        elif isinstance(mark, LineMark):
+            (x1, y1), (x2, y2) = moved(mark.x1, mark.y1), moved(mark.x2, mark.y2)
+            marks.append(replace(mark, x1=x1, y1=y1, x2=x2, y2=y2))
+        elif isinstance(mark, Polyline) and "arrowhead" in mark.cls:
+            tip = complex(*moved(*mark.points[0]))
+            back = complex(*moved(*mark.points[1])) + complex(*moved(*mark.points[2])) - 2 * tip
+            tail = tip + back
+            marks.append(head((tail.real, tail.imag), (tip.real, tip.imag), mark.cls))
+        elif isinstance(mark, Polyline):
+            marks.append(replace(mark, points=tuple(moved(*each) for each in mark.points)))
+        elif isinstance(mark, CircleMark):
+            cx, cy = moved(mark.cx, mark.cy)
+            marks.append(replace(mark, cx=cx, cy=cy))
+        elif isinstance(mark, Text):
+            x, y = moved(mark.x, mark.y)
+            marks.append(replace(mark, x=x, y=y))
+        else:
+            marks.append(mark)
+    found = []
+    first = True
+    for each in points:
+        if each.at is not None and steps[each.step].plane is drawing.plane:
+            at = moved(*each.at)
+            if not inside(at, layout.plan):
+                raise StepFailed(each.step, steps[each.step], ())
+            found.append(replace(each, at=at, verdict="wrong" if first else "follows"))
+            first = False
+        else:
+            found.append(each)
+    return replace(page, marks=type(page.marks)(marks)), tuple(found)
 
 
 def exchanged(

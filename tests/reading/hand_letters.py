@@ -93,7 +93,7 @@ def written(mark: Text, hand: Writing, rng: Any) -> list[Any]:
             else:
                 strokes_mm = [shaped(stroke, unit, hand, rng) for stroke in strokes]
             for path in strokes_mm:
-                found.append((path + [x, run.y]) @ spin.T + [mark.x, mark.y])
+                found.append((path + np.array([x, run.y])) @ spin.T + [mark.x, mark.y])
             ends = [path[:, 0].max() for path in strokes_mm]
             x += max(ends) + 1.6 * unit
     return found

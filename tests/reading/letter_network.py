@@ -67,8 +67,8 @@ def skeleton(shape: Any) -> Any:
             count = sum(each.astype(int) for each in p)
             turns = sum((a == 0) & (b == 1) for a, b in zip(p, [*p[1:], p[0]], strict=True))
             n, e, s, w = p[0], p[2], p[4], p[6]
-            one, two = ((n * e * s, e * s * w) if first else (n * e * w, n * s * w))
-            gone = (shape == 1) & (2 <= count) & (count <= 6) & (turns == 1)
+            one, two = (n * e * s, e * s * w) if first else (n * e * w, n * s * w)
+            gone = (shape == 1) & (count >= 2) & (count <= 6) & (turns == 1)
             gone &= (one == 0) & (two == 0)
             changed |= bool(gone.any())
             shape = shape * ~gone
@@ -87,8 +87,7 @@ def bent(strokes: Any, tall: float, rng: Any) -> Any:
     for axis in range(2):
         along = where[:, 1 - axis] / TALL
         where[:, axis] += wave[axis, 0] * np.sin(2.5 * along) + wave[axis, 1] * np.cos(4 * along)
-    where = (where - where.mean(axis=0)) @ way.T
-    return where
+    return (where - where.mean(axis=0)) @ way.T
 
 
 def scene(fonts: list[str], rng: Any) -> tuple[Any, dict[str, tuple[float, float, float, float]]]:
@@ -130,7 +129,7 @@ def scene(fonts: list[str], rng: Any) -> tuple[Any, dict[str, tuple[float, float
         tall = rng.uniform(2.2, 4.5) * px
         place = at + px * rng.uniform(2.5, 8) * np.exp(2j * np.pi * rng.random())
         where = bent(thinned(str(rng.choice(fonts)), str(letter)), tall, rng)
-        spots = np.rint(where + [place.real, place.imag]).astype(int)
+        spots = np.rint(where + np.array([place.real, place.imag])).astype(int)
         spots = spots[((spots > 0) & (spots < side - 1)).all(axis=1)]
         if len(spots) < 10:
             continue
@@ -145,13 +144,19 @@ def scene(fonts: list[str], rng: Any) -> tuple[Any, dict[str, tuple[float, float
             line(prime, prime + px * (-0.25 + 0.9j))
         low, high = spots.min(axis=0) - wide / 2, spots.max(axis=0) + wide / 2
         boxes[str(letter)] = tuple(float(e) / FINER for e in (*low, *(high - low)))
-    dark = cv2.resize(ink, (2 * half, 2 * half), interpolation=cv2.INTER_AREA)
+    return read_again(ink, rng), boxes
+
+
+def read_again(ink: Any, rng: Any) -> Any:
+    """The darkness of a fine drawing as ``drawn_ink`` finds it on a photograph."""
+    size = ink.shape[1] // FINER, ink.shape[0] // FINER
+    dark = cv2.resize(ink, size, interpolation=cv2.INTER_AREA)
     dark = cv2.GaussianBlur(dark, (0, 0), rng.uniform(0.3, 1.1))
     dark = dark + rng.normal(0, rng.uniform(0, 0.06), dark.shape).astype(np.float32)
     lines = cv2.GaussianBlur(dark, (0, 0), FINE * DENSITY)
     lines -= cv2.GaussianBlur(dark, (0, 0), COARSE * DENSITY)
     usual = max(float(np.percentile(lines, 97)), 0.05) * rng.uniform(0.9, 1.2)
-    return np.clip(lines / usual, 0, 1.5).astype(np.float32), boxes
+    return np.clip(lines / usual, 0, 1.5).astype(np.float32)
 
 
 def overlap(one: Any, other: Any) -> float:
@@ -236,7 +241,9 @@ def main(parts: int, seed: int, jobs: int) -> None:
         found = list(executor.map(partial(part, seed), range(parts)))
     seen, named = (np.concatenate(each) for each in zip(*found, strict=True))
     layers = trained(seen, named, np.random.default_rng(seed))
-    np.savez_compressed(WEIGHTS, **{f"layer{i}": e.astype(np.float16) for i, e in enumerate(layers)})
+    np.savez_compressed(
+        WEIGHTS, **{f"layer{i}": e.astype(np.float16) for i, e in enumerate(layers)}
+    )
     print(f"{len(seen)} pieces, {WEIGHTS.stat().st_size} bytes")
 
 
