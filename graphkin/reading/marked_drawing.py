@@ -47,7 +47,7 @@ class MarkedSheet(Struct, frozen=True):
     picture: bytes
     points: tuple[PointReading, ...]
     lines: tuple[tuple[str, str], ...]
-    """The remark on each point, and its colour; then those on other places."""
+    """The remarks on the whole plan, on each point, and on other places, with their colours."""
     pins: tuple[DrawingRemark, ...] = ()
     size: tuple[float, float] = (A3.width, A3.height)
     """The width and height of the sheet in mm."""
@@ -86,7 +86,9 @@ def marked_sheet(
     picture = (folder / f"{record.name}{PICTURE}").read_bytes()
     pins = tuple(remarks_on(record, settled))
     pinned = ((f"{each.number}. {each.text}", BLUE) for each in pins)
-    lines = (*said_of(points, notes, words), *pinned)
+    causes = () if record.cause is None else record.cause.sentences(words)
+    whole = ((cause, RED) for cause in causes)
+    lines = (*whole, *said_of(points, notes, words), *pinned)
     return MarkedSheet(head, picture, points, lines, pins, record.size)
 
 

@@ -21,6 +21,7 @@ from graphkin.drawing.field import Rect
 from graphkin.numbers.plane import Line
 from graphkin.reading.drawn_ink import COVERED, PAPER, PITCH, DrawnInk, InkLine
 from graphkin.reading.lettered_points import AHEAD, LONGEST, SHORT, Leading, LetteredSheet
+from graphkin.reading.vector_ends import RINGS, is_marked
 
 CROSSING = 0.12
 """Least sine of the angle between two lines whose crossing gives a point."""
@@ -220,6 +221,8 @@ SURELY, WAYS, ALONE = 0.9, 3, 0.75
 
 ALONE is the score of such a place.
 """
+RINGED = 0.4
+"""The bonus of a crossing at which a dot or a ring marks a point."""
 STOPS, OVER = 0.4, 6.0
 """The score where vectors end at a place, and how far beyond it that is examined, in mm."""
 KEPT, LEANS = 0.3, 0.02
@@ -457,6 +460,8 @@ class PointSearch:
                         continue
                     away = where.away(found.place, found.error)
                     score = found.cover * found.count - 0.03 * min(away, 40.0)
+                    if score > most - RINGED and is_marked(self.ink, found.place, RINGS):
+                        score += RINGED
                     if score > most:
                         best, most = found, score
         return best or self.end_near(number, lines, where)

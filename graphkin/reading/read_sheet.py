@@ -20,6 +20,7 @@ from graphkin.numbers.arithmetic import np
 from graphkin.reading.lettered_points import LetteredSheet
 from graphkin.reading.paper_map import PaperMap
 from graphkin.reading.pictures import Photograph, Unreadable, colours_of, darkest
+from graphkin.reading.plan_causes import PlanCause
 from graphkin.reading.point_reading import PointReading
 from graphkin.text import LANGUAGES
 from graphkin.text.errors import problems_of
@@ -56,6 +57,7 @@ class SheetRecord(Struct, frozen=True):
     corners: dict[int, tuple[float, float]] = {}
     key_lines: tuple[tuple[float, float, float, float], ...] = ()
     residual: float = 0.0
+    cause: PlanCause | None = None
     size: tuple[float, float] = (A3.width, A3.height)
     """The width and height of the sheet in mm."""
 
@@ -112,7 +114,7 @@ def read_one(order: ReadOrder, photograph: Photograph, key: str) -> SheetRead:
             if paper_for(order).is_parted:
                 raise Unreadable(ONE_LEAF)
         found = found_sheet(grey, order, code, corners)
-        points, corners_at = (
+        points, corners_at, cause = (
             points_to_click(found, order) if order.by_hand else read_points(grey, found)
         )
         read = replace(
@@ -126,6 +128,7 @@ def read_one(order: ReadOrder, photograph: Photograph, key: str) -> SheetRead:
             key_lines=found.sheet.key_lines,
             residual=round(found.residual, 3),
             size=(found.map.paper.width, found.map.paper.height),
+            cause=cause,
         )
         return SheetRead(read, flat_picture(picture, found.map))
     except Exception as error:
@@ -251,8 +254,10 @@ def sheets_of(order: PrintOrder, taker: Taker, language: str) -> Sheets:
     return kept[""]
 
 
-Points = tuple[tuple[PointReading, ...], dict[int, tuple[float, float]]]
-"""The lettered points of a sheet, and the places of its corners without letters, by step."""
+Points = tuple[tuple[PointReading, ...], dict[int, tuple[float, float]], PlanCause | None]
+"""The lettered points of a sheet, the places of its corners without letters, by step, and the cause
+of all mistakes in its plan.
+"""
 
 
 def read_points(grey: Any, found: FoundSheet) -> Points:
@@ -264,7 +269,7 @@ def read_points(grey: Any, found: FoundSheet) -> Points:
     ink = drawn_ink(grey, found.map, found.sheet.page)
     reader = PointReader(found.sheet, ink, Pencil(rubric.point, rubric.line))
     points = reader.read()
-    return points, reader.corners()
+    return points, reader.corners(), reader.cause
 
 
 def points_to_click(found: FoundSheet, order: ReadOrder) -> Points:
@@ -278,8 +283,8 @@ def points_to_click(found: FoundSheet, order: ReadOrder) -> Points:
     points = forecast_points(found.sheet, Pencil(rubric.point, rubric.line))
     needed = {step for each in probes(found.sheets.mechanism, order.marked) for step in each.steps}
     if not needed:
-        return points, {}
-    return tuple(replace(point, ask=point.step in needed) for point in points), {}
+        return points, {}, None
+    return tuple(replace(point, ask=point.step in needed) for point in points), {}, None
 
 
 def mapped(over: PaperMap, grid: Grid) -> tuple[tuple[float, float], ...]:
