@@ -232,7 +232,12 @@ def flat_words(scene: Scene, trace: Trace) -> str:
     )
 
 
-KINDS = {"position": "positions", "velocity": "velocities", "acceleration": "accelerations"}
+KINDS = {
+    "position": "positions",
+    "velocity": "velocities",
+    "acceleration": "accelerations",
+    "jerk": "jerks",
+}
 
 
 def digits_words(verdict: Verdict) -> str:
