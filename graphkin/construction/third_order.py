@@ -7,6 +7,7 @@ constructed a rate, such as the velocity of a position, that step serves. A jerk
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
+from itertools import pairwise
 from typing import Any
 
 from msgspec import Struct
@@ -17,20 +18,16 @@ from graphkin.construction.core.quantities import JERK, KINDS, OMEGA, RATES, SLI
 from graphkin.construction.core.vocabulary import Action, action
 from graphkin.construction.higher_class.closed_group import ClosedGroup
 from graphkin.numbers.arithmetic import Point, Real
-from graphkin.numbers.moving import rate_of, with_rate
+from graphkin.numbers.dual_numbers import rate_of, with_rate
 from graphkin.scene.link_points import is_under
 from graphkin.structure.pairs import Pin, Sliding
 
 RATE = "rate"
 """The key of a step that gives the rate of another."""
 FOLLOWING = [
-    *zip(KINDS, KINDS[1:], strict=False),
+    *pairwise(KINDS),
     tuple(each.target for each in RATES),
-    *zip(
-        [SLIDING[kind].target for kind in KINDS],
-        [SLIDING[kind].target for kind in KINDS[1:]],
-        strict=False,
-    ),
+    *pairwise(SLIDING[kind].target for kind in KINDS),
 ]
 """Targets with those that are their rates."""
 
@@ -54,7 +51,7 @@ class StepRate(Struct, frozen=True):
 @action("rate-of-direction")
 def rate_of_direction(direction: Point, omega: Real) -> Point:
     """The rate of a driver's direction."""
-    return 1j * omega * direction
+    return 1j * direction * omega
 
 
 def draw_jerks(pen: Pen) -> None:
@@ -137,4 +134,6 @@ class Rates:
             return None
         rates = [self.found[step.args[i]] for i in moved]
         rate = Action(RATE, StepRate(step.action, len(step.args), moved))
-        return self.pen.draw(rate, *step.args, *(n for n in rates if n is not None), extra=step.extra)
+        return self.pen.draw(
+            rate, *step.args, *(n for n in rates if n is not None), extra=step.extra
+        )

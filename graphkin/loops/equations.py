@@ -53,7 +53,7 @@ from graphkin.loops.rigid_bodies import (
     unit,
 )
 from graphkin.numbers.arithmetic import Point, Real
-from graphkin.numbers.moving import Moving, rate_of
+from graphkin.numbers.dual_numbers import Dual, rate_of
 from graphkin.scene.model import FRAME, LEADING, Driver, Scene
 from graphkin.scene.wheels import angle_less_cycles as whole_turned
 from graphkin.text.errors import Problem, StructureError, message
@@ -93,10 +93,10 @@ class Lift(Struct, frozen=True, eq=False):
         """The third derivative of the law by the cam's angle or coordinate: (N,)."""
         place = self.of(unknowns)
         if self.law.cam.slides:
-            moved = Moving(place, np.ones_like(place))
+            moved = Dual(place, np.ones_like(place))
         else:
             turn = np.exp(1j * place) * self.lean
-            moved = Moving(turn, 1j * turn)
+            moved = Dual(turn, 1j * turn)
         return np.asarray(rate_of(self.law.at(moved, self.numbers, self.start).bend))
 
 
@@ -185,10 +185,13 @@ class Drives(Struct, frozen=True, eq=False):
     def none(self) -> Drives:
         """The same structure without drivers."""
         lean, leaning, aim = self.lean[:, :0], self.leaning[:, :0], self.aim[:, :0]
-        given, rates = self.given[:, :0], (
-            self.speed[:, :0],
-            self.acceleration[:, :0],
-            self.jerk[:, :0],
+        given, rates = (
+            self.given[:, :0],
+            (
+                self.speed[:, :0],
+                self.acceleration[:, :0],
+                self.jerk[:, :0],
+            ),
         )
         left = lean, leaning, aim, given
         none = self.selects[:0], self.turns[:0], *left, self.whole, *rates

@@ -33,7 +33,9 @@ def jerks(solved: LoopSolution) -> Jerks:
         right[:, right.shape[1] - len(loops.drives.turns) :] += loops.drives.jerk
         thirds = linear_solve(jacobian, (right / loops.rows)[:, :, None])[:, :, 0] * loops.columns
         spin, slid = chains.split(thirds)
-        origin = (linear.turned @ (1j * spin[:, 1:, None]) + linear.along @ slid[:, :, None])[..., 0]
+        origin = (linear.turned @ (1j * spin[:, 1:, None]) + linear.along @ slid[:, :, None])[
+            ..., 0
+        ]
         origin += 3 * chains.second(linear, rates, seconds) + chains.third(linear, rates)
         motion, (owners, arms) = solved.motion, loops.owners
         omega, epsilon = motion.omega[:, owners], motion.epsilon[:, owners]

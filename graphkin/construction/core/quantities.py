@@ -29,7 +29,9 @@ FORCE = "force"
 JERK = "jerk"
 """The third derivative, which has no plan."""
 ORDERS = (*KINDS, JERK)
-"""The derivatives, of which reports tell the certain digits."""
+"""The derivatives whose certain digits are reported."""
+PLURALS = dict(zip(ORDERS, ("positions", "velocities", "accelerations", "jerks"), strict=True))
+"""The derivatives of several points in words."""
 PLANES = dict(
     zip(
         ORDERS,
@@ -203,7 +205,7 @@ def those(*of: Whose | Sort) -> tuple[MotionQuantity, ...]:
 
 
 OF_POINTS = those("points", "place", "vector")
-VECTORS = those("points", "vector")
+VECTORS = tuple(each for each in those("points", "vector") if each.kind in SHEETS)
 RATES = those("links", "number")
 CENTRES = those("links", "points", "centre")
 CIRCLES = {each.target: each.circle for each in CENTRES if each.circle}
