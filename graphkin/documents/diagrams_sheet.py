@@ -17,7 +17,7 @@ from msgspec import Struct
 
 from graphkin.accuracy.pencil.pencil import STRAIGHT, Pencil
 from graphkin.construction.core.paper_canvas import clipped_path
-from graphkin.construction.core.quantities import BY_TARGET
+from graphkin.construction.core.quantities import BY_TARGET, JERK, SHEETS
 from graphkin.construction.core.relation import figure
 from graphkin.construction.diagram_steps import (
     CHORD,
@@ -122,14 +122,9 @@ def frame_of(
 
     ``factor`` is the number of printed units in one SI unit.
     """
-    left, top, right, low = axes.rect
+    _, top, right, low = axes.rect
     words = motion.found.shown.alone.words
-    yield LineMark(left, axes.zero, right + ARROW, axes.zero, "dimension", f"axis {name}")
-    yield head((left, axes.zero), (right + ARROW, axes.zero), "dimension", f"axis {name}")
-    yield LineMark(left, low, left, top - ARROW / 2, "dimension", f"axis {name}")
-    yield head((left, low), (left, top - ARROW / 2), "dimension", f"axis {name}")
-    said = f"*{name}*, {escape(unit).replace('²', '^2')}"
-    yield Text(left + 1.8, top - 0.6, said, "caption", LETTERS, name=f"axis {name}")
+    yield from axis_lines(axes, name, f"*{name}*, {escape(unit).replace('²', '^2')}")
     at = right + ARROW + 1, axes.zero + 0.9
     yield Text(*at, f"*{u_symbol(motion)}*", "caption", LETTERS, name="axis")
     names = position_names(motion.found, motion.at)
@@ -138,6 +133,18 @@ def frame_of(
         yield LineMark(x, top, x, low, "register", f"position {i}")
         yield Text(x + 0.7, axes.zero + 2.6, names[i], "caption", SMALL, name=f"position {i}")
     yield from numbers_along(words, axes, name, factor, TICKS)
+
+
+def axis_lines(axes: Axes, name: str, said: str) -> Iterator[Mark]:
+    """The two axes of a diagram, the axis of ordinates with its symbol and unit."""
+    left, top, right, low = axes.rect
+    for start, end in (
+        ((left, axes.zero), (right + ARROW, axes.zero)),
+        ((left, low), (left, top - ARROW / 2)),
+    ):
+        yield LineMark(*start, *end, "dimension", f"axis {name}")
+        yield head(start, end, "dimension", f"axis {name}")
+    yield Text(left + 1.8, top - 0.6, said, "caption", LETTERS, name=f"axis {name}")
 
 
 def numbers_along(words: Words, axes: Axes, name: str, factor: float, count: int) -> Iterator[Mark]:
@@ -345,7 +352,7 @@ def differentiation_page(motion: FollowerMotion, number: str) -> Page:
         *crosses(motion, rate.axes, speed, "velocity", kinds[1]),
         *crosses(motion, again.axes, push, "acceleration", kinds[2]),
         LineMark(FIELD[0], FIELD[3], FIELD[2], FIELD[3], "panel"),
-        *sentences(motion, [*scales_said(motion, first, rate, again), *costs(motion, rate, again)]),
+        *sentence_lines([*scales_said(motion, first, rate, again), *costs(motion, rate, again)]),
         *proof(motion.found),
     ]
     title = f"{words('sheet.differentiation')} – {title_of(drawing)}"
@@ -386,7 +393,7 @@ def integration_page(motion: FollowerMotion, number: str) -> Page:
         *dots(second, [strings[0].first, *(s.last for s in strings)], "construction", kinds[0]),
         *crosses(motion, second, where - low, "construction", kinds[0]),
         LineMark(FIELD[0], FIELD[3], FIELD[2], FIELD[3], "panel"),
-        *sentences(motion, strings_said(motion, first, found, where - low)),
+        *sentence_lines(strings_said(motion, first, found, where - low)),
         *proof(motion.found),
     ]
     title = f"{words('sheet.integration')} – {title_of(drawing)}"
@@ -525,7 +532,7 @@ def field_caption(motion: FollowerMotion, signs: str = "diagrams.signs") -> Iter
     yield Text(FIELD[0] + 3, FIELD[1] - 2.2, text, "caption", LETTERS, name="heading")
 
 
-def sentences(motion: FollowerMotion, said: Sequence[str]) -> Iterator[Mark]:
+def sentence_lines(said: Sequence[str]) -> Iterator[Mark]:
     """Sentences below the field, left of the title block."""
     left, right = AREA[0] + 4, A3_TITLE_BLOCK[0] - 4
     y = A3_TITLE_BLOCK[1] + 4.2
@@ -647,6 +654,8 @@ def costs(motion: FollowerMotion, rate: Derived, again: Derived) -> list[str]:
 # --- the sheets of everything asked over the positions --------------------------------------------
 
 
+LOOKS = {kind: kind for kind in SHEETS} | {JERK: "acceleration"}
+"""The look of the curve of each derivative."""
 COLUMNS, ROWS = 3, 4
 """The most diagrams side by side, and one above the other, on a sheet."""
 
@@ -695,7 +704,9 @@ def asked_courses(found: PositionSet, at: Reals, fine: Reals) -> list[Asked]:
         here, between = (each.value(columns) for columns in both)
         text = f"|{letter}|" if size else letter
         name = f"{quantity.letter}_{each.of}"
-        made.append(Asked(text, each.unit, name, quantity.kind, here, between))
+        if quantity.kind not in SHEETS:  # a jerk has no plan
+            here = np.full(len(at), np.nan)
+        made.append(Asked(text, each.unit, name, LOOKS[quantity.kind], here, between))
     return made
 
 
@@ -759,12 +770,8 @@ def small_diagram(
     wide = (right - left) / float(at[-1] - at[0])
     zero = (top + low) / 2 + (highest + least) / 2 * high
     axes = Axes(rect, zero, wide, high, float(at[0]))
-    yield LineMark(left, zero, right + ARROW, zero, "dimension", f"axis {each.name}")
-    yield head((left, zero), (right + ARROW, zero), "dimension", f"axis {each.name}")
-    yield LineMark(left, low, left, top - ARROW / 2, "dimension", f"axis {each.name}")
-    yield head((left, low), (left, top - ARROW / 2), "dimension", f"axis {each.name}")
     unit = each.unit.replace("²", "^2").replace("³", "^3")
-    yield Text(left + 1.8, top - 0.6, f"{each.symbol}, {unit}", "caption", LETTERS, name=each.name)
+    yield from axis_lines(axes, each.name, f"{each.symbol}, {unit}")
     yield from numbers_along(found.shown.alone.words, axes, each.name, 1.0, 4)
     both = zip(fine, each.fine, strict=True)
     yield from curve(axes, [axes.place(float(u), float(v)) for u, v in both], each.kind, each.name)

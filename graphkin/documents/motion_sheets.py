@@ -62,6 +62,11 @@ def diagram_sheets(found: PositionSet) -> Iterator[Made]:
         yield "integration", partial(integration_page, motion)
     for page in course_pages(found, motion):
         yield "courses", page
+    if found.cycle.scene.cams:
+        from graphkin.documents.cam_law_sheet import cam_law_pages
+
+        for page in cam_law_pages(found):
+            yield "cams", page
     kL = at_scale(found).alone.scales.kL
     for kind in SHEETS:
         if found.planned(kind) and hodographs(found, kind):

@@ -269,7 +269,9 @@ class Course(Struct, frozen=True, dict=True):
         here = np.array([at])
         found = self.closing(self.values(here), here).values()
         steps = (n for n, step in enumerate(program.steps) if closer_of(step) is not None)
-        return {n: tuple(part[0].item() for part in each) for n, each in zip(steps, found)}
+        return {
+            n: tuple(part[0].item() for part in each) for n, each in zip(steps, found, strict=False)
+        }
 
     @cached_property
     def _readied(self) -> dict[Any, Ready]:
