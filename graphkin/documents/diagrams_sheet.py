@@ -10,7 +10,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator, Sequence
 from functools import partial
 from itertools import pairwise
-from math import ceil, degrees, floor, isfinite, sqrt
+from math import ceil, degrees, floor, hypot, isfinite, radians, sqrt
 
 import numpy as np
 from msgspec import Struct
@@ -22,7 +22,10 @@ from graphkin.construction.core.relation import figure
 from graphkin.construction.diagram_steps import (
     CHORD,
     SECOND,
+    SECOND_TANGENT,
+    TANGENT,
     ChordRay,
+    by_tangents,
     differentiated,
     integrated,
     smooth,
@@ -226,6 +229,24 @@ def dots(axes: Axes, points: Sequence[XY], look: str, name: str) -> Iterator[Mar
 # --- the construction: chords, pole, rays ---------------------------------------------------------
 
 
+class Method(Struct, frozen=True):
+    """A way to differentiate: its key, and the shares of h² in the errors of both rates."""
+
+    key: str
+    first: float
+    second: float
+
+    def steps(self, points: Sequence[XY], distance: float, *, closed: bool) -> list[ChordRay]:
+        """The rates of a diagram, which is ``closed`` if it begins anew at its end."""
+        if self.key == "tangent":
+            return by_tangents(points, distance, closed=closed)
+        return differentiated(points, distance)
+
+
+CHORDS = Method("chord", CHORD, SECOND)
+TANGENTS = Method("tangent", TANGENT, SECOND_TANGENT)
+
+
 class Derived(Struct, frozen=True):
     """A diagram differentiated: the steps, the frame of the result, and the pole's distance."""
 
@@ -233,6 +254,17 @@ class Derived(Struct, frozen=True):
     axes: Axes
     distance: float
     name: str
+    method: Method = CHORDS
+
+    @property
+    def points(self) -> list[XY]:
+        """The points that the construction finds."""
+        return [each.found for each in self.steps]
+
+    @property
+    def places(self) -> Reals:
+        """The places u of these points."""
+        return np.array([x for x, _ in self.points]) / self.axes.wide + self.axes.start
 
 
 def derive(
@@ -242,28 +274,30 @@ def derive(
     top: float,
     low: float,
     name: str,
-    most: float,
+    exact: Reals,
+    method: Method = CHORDS,
 ) -> Derived:
     """The diagram of the rate, drawn from some points of another with the largest pole distance.
 
-    The distance is a round number of mm at which the values fit; the scale follows from it. Where
-    the driver runs backwards, the pole lies behind the diagram.
+    The distance is a round number of mm at which these values and the ``exact`` course fit; the
+    scale follows from it. Where the driver runs backwards, the pole lies behind the diagram.
     """
     left, right = sides(motion)
     sign = 1.0 if motion.pace > 0 else -1.0
     room = left - FIELD[0] - 8 if sign > 0 else FIELD[2] - right - 14
-    unit = differentiated(points, sign)
-    heights = np.array([each.found[1] for each in unit])
-    cap = most * axes.high / axes.wide / abs(motion.pace) * motion.found.cycle.sweep.per_unit
-    heights = np.clip(heights, -cap, cap)
+    closed = is_whole(motion.found.cycle)
+    unit = method.steps(points, sign, closed=closed)
+    share = axes.high / axes.wide / abs(motion.pace) * motion.found.cycle.sweep.per_unit
+    most, known = calm(motion.found, exact), exact[np.isfinite(exact)]
+    heights = np.concatenate([[each.found[1] for each in unit], known * share])
+    heights = np.clip(heights, -most * share, most * share)
     least, largest = min(float(heights.min()), 0.0), max(float(heights.max()), 0.0)
     fits = [h for h in POLES if h <= room and h * (largest - least) <= FILLED * (low - top)]
     distance = sign * (fits[0] if fits else POLES[-1])
-    high = abs(distance) * axes.high / axes.wide * motion.found.cycle.sweep.per_unit
-    high /= abs(motion.pace)
+    high = abs(distance) * share
     middle = (top + low) / 2 + (largest + least) / 2 * abs(distance)
     own = Axes((left, top, right, low), middle, axes.wide, high, axes.start)
-    return Derived(differentiated(points, distance), own, distance, name)
+    return Derived(method.steps(points, distance, closed=closed), own, distance, name, method)
 
 
 def construction(before: Axes, found: Derived, look: str) -> Iterator[Mark]:
@@ -274,7 +308,7 @@ def construction(before: Axes, found: Derived, look: str) -> Iterator[Mark]:
     pole = foot - found.distance, axes.zero
     for i, each in enumerate(found.steps):
         start, end = before.on_page(each.first), before.on_page(each.last)
-        yield LineMark(*start, *end, "construction", f"chord {name}_{i}")
+        yield LineMark(*start, *end, "construction", f"{found.method.key} {name}_{i}")
         height = axes.zero - each.end[1]
         x, y = axes.on_page(each.found)
         if axes.rect[1] <= height <= axes.rect[3]:
@@ -290,10 +324,8 @@ def construction(before: Axes, found: Derived, look: str) -> Iterator[Mark]:
     )
     caption = f"*H* = {abs(found.distance):g} mm"
     if abs(found.distance) > extent(caption, SMALL)[0] + 3:
-        middle = (pole[0] + foot) / 2
-        yield Text(
-            middle, axes.zero + 3.2, caption, "caption", SMALL, "middle", f"pole distance {name}"
-        )
+        at = (pole[0] + foot) / 2, axes.zero + 3.2
+        yield from cleared(Text(*at, caption, "caption", SMALL, "middle", f"pole distance {name}"))
 
 
 # --- the sheet of differentiation -----------------------------------------------------------------
@@ -310,8 +342,8 @@ def units_of(
     return (unit, drawing.length(1.0)), ("m/s", 1.0), ("m/s²", 1.0)
 
 
-def differentiation_page(motion: FollowerMotion, number: str) -> Page:
-    """The sheet of place, speed and acceleration, each from the one before by chords."""
+def differentiation_page(motion: FollowerMotion, method: Method, number: str) -> Page:
+    """The sheet of place, speed and acceleration, each from the one before by one method."""
     drawing, words = motion.found.shown.alone, motion.found.shown.alone.words
     height = (FIELD[3] - TOP - 3 - 2 * GAP) / 3
     tops = [TOP + i * (height + GAP) for i in range(3)]
@@ -321,21 +353,11 @@ def differentiation_page(motion: FollowerMotion, number: str) -> Page:
     units, kinds = units_of(motion), motion.kinds
     first = axes_for(motion, tops[0], tops[0] + height, exact[0] - low, np.inf)
     points = [first.place(float(u), float(v - low)) for u, v in zip(motion.at, where, strict=True)]
-    most = calm(motion.found, exact[1]), calm(motion.found, exact[2])
-    rate = derive(motion, first, points, tops[1], tops[1] + height, kinds[1], most[0])
-    again = derive(
-        motion,
-        rate.axes,
-        closed_round(motion, rate),
-        tops[2],
-        tops[2] + height,
-        kinds[2],
-        most[1],
-    )
+    rate, again = derived_twice(motion, method, first, points, tops, exact)
     marks: list[Mark] = [
         *framed(drawing, number, words("sheet.document_diagrams"), "–"),
         *heading(motion.found, drawing, words("sheet.differentiation")),
-        *field_caption(motion),
+        *field_caption(motion, f"diagrams.{method.key}_signs"),
         *construction(first, rate, "velocity"),
         *construction(rate.axes, again, "acceleration"),
         *frame_of(motion, first, kinds[0], *units[0]),
@@ -347,8 +369,8 @@ def differentiation_page(motion: FollowerMotion, number: str) -> Page:
         *through(motion, rate, "velocity"),
         *through(motion, again, "acceleration"),
         *dots(first, points, "construction", kinds[0]),
-        *dots(rate.axes, [each.found for each in rate.steps], "velocity", kinds[1]),
-        *dots(again.axes, [each.found for each in again.steps], "acceleration", kinds[2]),
+        *dots(rate.axes, rate.points, "velocity", kinds[1]),
+        *dots(again.axes, again.points, "acceleration", kinds[2]),
         *crosses(motion, rate.axes, speed, "velocity", kinds[1]),
         *crosses(motion, again.axes, push, "acceleration", kinds[2]),
         LineMark(FIELD[0], FIELD[3], FIELD[2], FIELD[3], "panel"),
@@ -357,6 +379,22 @@ def differentiation_page(motion: FollowerMotion, number: str) -> Page:
     ]
     title = f"{words('sheet.differentiation')} – {title_of(drawing)}"
     return Page(420, 297, tuple(marks), title, words.language)
+
+
+def derived_twice(
+    motion: FollowerMotion,
+    method: Method,
+    first: Axes,
+    points: Sequence[XY],
+    tops: Sequence[float],
+    exact: Sequence[Reals],
+) -> tuple[Derived, Derived]:
+    """The diagrams of the speed and of the acceleration, with room for their exact courses."""
+    height, kinds = first.rect[3] - first.rect[1], motion.kinds
+    room = [(top, top + height) for top in tops]
+    rate = derive(motion, first, points, *room[1], kinds[1], exact[1], method)
+    then = closed_round(motion, rate)
+    return rate, derive(motion, rate.axes, then, *room[2], kinds[2], exact[2], method)
 
 
 # --- the sheet of integration ---------------------------------------------------------------------
@@ -502,9 +540,12 @@ def values_at(motion: FollowerMotion, at: Reals) -> list[Reals]:
 
 
 def closed_round(motion: FollowerMotion, rate: Derived) -> list[XY]:
-    """The points of a derived diagram; over a whole turn with the last of the turn before."""
-    points = [each.found for each in rate.steps]
-    if not is_whole(motion.found.cycle):
+    """The points of a derived diagram; over a whole turn with the last of the turn before.
+
+    Tangents find the points at both ends of a turn.
+    """
+    points = rate.points
+    if not is_whole(motion.found.cycle) or rate.method is TANGENTS:
         return points
     turn = rate.axes.wide * float(motion.at[-1] - motion.at[0])
     (x, y), (u, v) = points[-1], points[0]
@@ -513,17 +554,18 @@ def closed_round(motion: FollowerMotion, rate: Derived) -> list[XY]:
 
 def through(motion: FollowerMotion, found: Derived, look: str) -> Iterator[Mark]:
     """The smooth curve through the points that the chords give."""
-    points = [each.found for each in found.steps]
+    points = found.points
     if is_whole(motion.found.cycle):
         turn = found.axes.wide * float(motion.at[-1] - motion.at[0])
-        before = [(x - turn, y) for x, y in points[-2:]]
-        after = [(x + turn, y) for x, y in points[:2]]
+        once = points[:-1] if found.method is TANGENTS else points
+        before = [(x - turn, y) for x, y in once[-2:]]
+        after = [(x + turn, y) for x, y in once[len(points) - len(once) :][:2]]
         points = [*before, *points, *after]
     if len(points) > 2:
         yield from curve(found.axes, smooth(points), look, found.name)
 
 
-def field_caption(motion: FollowerMotion, signs: str = "diagrams.signs") -> Iterator[Mark]:
+def field_caption(motion: FollowerMotion, signs: str) -> Iterator[Mark]:
     """The caption of the field: whose motion it is, and what the kinds of points are."""
     words = motion.found.shown.alone.words
     key = "diagrams.link" if motion.is_link else "diagrams.block"
@@ -572,7 +614,7 @@ def scales_said(motion: FollowerMotion, first: Axes, rate: Derived, again: Deriv
             again=f"*k*_{{*{a}*}} = {pace}*k*_{{*{v}*}}/(*k*_{{*{u}*}}·*H*)",
             more=f"{figure(drawing, 1 / again.axes.high)} {units[2]}",
         ),
-        words("diagrams.steps", s=s, v=v),
+        words(f"diagrams.{rate.method.key}_steps", s=s, v=v),
     ]
 
 
@@ -584,8 +626,8 @@ def rates_units(motion: FollowerMotion) -> tuple[str, str]:
 class Cost(Struct, frozen=True):
     """The errors of a derived diagram, as shares of its largest value.
 
-    ``chord`` is that of the exact chords, ``forecast`` what the derivatives predict for it, and
-    ``pencil`` what the marks of a hand add for 95 of 100 points.
+    ``chord`` is that of the exact chords or tangents, ``forecast`` what the derivatives predict for
+    it, and ``pencil`` what the marks of a hand add for 95 of 100 points.
     """
 
     chord: float
@@ -594,30 +636,44 @@ class Cost(Struct, frozen=True):
 
 
 def cost_of_rate(motion: FollowerMotion, rate: Derived) -> Cost:
-    """The error of the speed: h²/24 of the third derivative."""
-    middles = (motion.at[1:] + motion.at[:-1]) / 2
-    exact = values_at(motion, middles)[1]
-    drawn = np.array([each.found[1] for each in rate.steps]) / rate.axes.high
-    third = motion.derivatives(middles)[2]
+    """The error of the speed: a share of h² of the third derivative."""
+    exact = values_at(motion, rate.places)[1]
+    drawn = np.array([y for _, y in rate.points]) / rate.axes.high
+    third = motion.derivatives(rate.places)[2]
     size = largest(motion, exact)
-    forecast = CHORD * motion.step**2 * np.abs(motion.pace * third)
-    interval = rate.axes.wide * float(motion.at[1] - motion.at[0])
-    hand = sqrt(2) * mark() * abs(rate.distance) / interval / rate.axes.high
+    forecast = rate.method.first * motion.step**2 * np.abs(motion.pace * third)
+    hand = hand_of_rate(motion, rate) / rate.axes.high
     return Cost(worst(drawn - exact) / size, worst(forecast) / size, hand / size)
 
 
 def cost_of_second(motion: FollowerMotion, rate: Derived, again: Derived) -> Cost:
-    """The error of the acceleration: h²/12 of the fourth derivative."""
-    places = np.array([each.found[0] for each in again.steps]) / again.axes.wide + again.axes.start
-    exact = values_at(motion, places)[2]
-    drawn = np.array([each.found[1] for each in again.steps]) / again.axes.high
-    fourth = motion.derivatives(places)[3]
+    """The error of the acceleration: a share of h² of the fourth derivative."""
+    exact = values_at(motion, again.places)[2]
+    drawn = np.array([y for _, y in again.points]) / again.axes.high
+    fourth = motion.derivatives(again.places)[3]
     size = largest(motion, exact)
-    forecast = SECOND * motion.step**2 * np.abs(motion.pace**2 * fourth)
-    interval = rate.axes.wide * float(motion.at[1] - motion.at[0])
-    lever = abs(rate.distance * again.distance) / interval**2
-    hand = sqrt(6) * mark() * lever / again.axes.high
+    forecast = again.method.second * motion.step**2 * np.abs(motion.pace**2 * fourth)
+    interval = interval_of(motion, rate)
+    if again.method is TANGENTS:
+        before = sqrt(2) * hand_of_rate(motion, rate) * abs(again.distance) / (2 * interval)
+        hand = hypot(before, hand_of_rate(motion, again))
+    else:
+        hand = sqrt(6) * mark() * abs(rate.distance * again.distance) / interval**2
+    hand /= again.axes.high
     return Cost(worst(drawn - exact) / size, worst(forecast) / size, hand / size)
+
+
+def interval_of(motion: FollowerMotion, found: Derived) -> float:
+    """The interval between two positions, in mm."""
+    return found.axes.wide * float(motion.at[1] - motion.at[0])
+
+
+def hand_of_rate(motion: FollowerMotion, rate: Derived) -> float:
+    """What a hand adds to an ordinate, in mm: by two marks of a chord, or by a tangent's angle."""
+    if rate.method is CHORDS:
+        return sqrt(2) * mark() * abs(rate.distance) / interval_of(motion, rate)
+    tangent = float(np.median([abs(y / rate.distance) for _, y in rate.points]))
+    return abs(rate.distance) * (1 + tangent**2) * radians(Pencil().degrees)
 
 
 def mark() -> float:
@@ -635,9 +691,8 @@ def worst(values: Reals) -> float:
 
 
 def costs(motion: FollowerMotion, rate: Derived, again: Derived) -> list[str]:
-    """What the method costs in accuracy: chords against the exact course, and the pencil."""
-    words = motion.found.shown.alone.words
-    found = []
+    """What the method costs in accuracy, against the exact course, and what the pencil adds."""
+    words, found = motion.found.shown.alone.words, []
     for name, cost in (
         (motion.kinds[1], cost_of_rate(motion, rate)),
         (motion.kinds[2], cost_of_second(motion, rate, again)),
@@ -646,7 +701,7 @@ def costs(motion: FollowerMotion, rate: Derived, again: Derived) -> list[str]:
             key: words.significant(100 * getattr(cost, key), 2)
             for key in ("chord", "forecast", "pencil")
         }
-        found.append(words("diagrams.cost", v=name, **shares))
+        found.append(words(f"diagrams.{rate.method.key}_cost", v=name, **shares))
     limit = words.significant(mark(), 1)
     return [*found, words("diagrams.plans", mark=limit)]
 
@@ -784,5 +839,14 @@ def small_diagram(
                 yield LineMark(*ends, f"centre {each.kind}", at_position(each.name, name))
         yield LineMark(x, zero - 0.8, x, zero + 0.8, "dimension", f"position {name}")
         if len(names) <= MANY or int(name) % 2 == 0:
-            number = Text(x, zero + 3.2, name, "caption", SMALL, "middle", f"position {name}")
+            below = not np.interp(u, fine, each.fine) < 0  # away from the curve
+            number = Text(
+                x,
+                zero + (3.2 if below else -1.4),
+                name,
+                "caption",
+                SMALL,
+                "middle",
+                f"position {name}",
+            )
             yield from cleared(number)

@@ -48,9 +48,11 @@ def position_sheets(found: PositionSet) -> Iterator[Made]:
 
 
 def diagram_sheets(found: PositionSet) -> Iterator[Made]:
-    """Differentiation and integration by chords, all that is asked, and the hodographs."""
+    """Differentiation and integration, courses of all that is asked, cams, and the hodographs."""
     from graphkin.documents.diagram_numbers import motion_of
     from graphkin.documents.diagrams_sheet import (
+        CHORDS,
+        TANGENTS,
         course_pages,
         differentiation_page,
         integration_page,
@@ -58,7 +60,8 @@ def diagram_sheets(found: PositionSet) -> Iterator[Made]:
 
     motion = motion_of(found)
     if motion is not None:
-        yield "differentiation", partial(differentiation_page, motion)
+        for method in (CHORDS, TANGENTS):
+            yield "differentiation", partial(differentiation_page, motion, method)
         yield "integration", partial(integration_page, motion)
     for page in course_pages(found, motion):
         yield "courses", page
