@@ -256,9 +256,9 @@ def pieces_named(law: CamLaw, axes: Axes) -> Iterator[Mark]:
         x, _ = axes.on_page(axes.place(float(low + high) / 2, 0.0))
         wide = float(high - low) * axes.wide
         moves = float(piece.rise.si(law.found.cycle.scene.values)) != 0
-        key = piece.motion.replace(" ", "_") if moves else "dwell"
+        moved = f"page.motion_{piece.motion.replace(' ', '_')}"
         if piece.slopes is None and wide > 12:
-            said = words(f"page.motion_{key}")
+            said = words(moved if moves else "page.motion_dwell")
             at = x, axes.rect[1] - 0.6
             yield Text(*at, said, "caption", SMALL, "middle", "motion")
 
@@ -340,14 +340,14 @@ def sentences_of(law: CamLaw, every: Sequence[Strip]) -> list[str]:
     """Steepest places, jumps, the pressure angle with its limit, and largest values in time."""
     words, letter = law.found.shown.alone.words, way_letter(law)
     said = []
-    for sign, key in ((1, "steepest_rise"), (-1, "steepest_return")):
+    for sign, key in ((1, "diagrams.steepest_rise"), (-1, "diagrams.steepest_return")):
         if (found := law.steepest(sign)) is not None:
             value = f"{every[1].symbol} = {number_of(law, every[1], found[1])}"
-            said.append(words(f"diagrams.{key}", value=value, u=letter, at=place_of(law, found[0])))
-    for order in (1, 2):
+            said.append(words(key, value=value, u=letter, at=place_of(law, found[0])))
+    for order, key in ((1, "diagrams.jumps_1"), (2, "diagrams.jumps_2")):
         if jumps := law.jumps(order):
             places = words("list_mark").join(place_of(law, u) for u in jumps)
-            said.append(words(f"diagrams.jumps_{order}", s=every[order].symbol, list=places))
+            said.append(words(key, s=every[order].symbol, list=places))
             break
     return [*said, *(pressure_said(law) if law.is_pressed else ()), *in_time(law, every)]
 
@@ -356,10 +356,10 @@ def pressure_said(law: CamLaw) -> Iterator[str]:
     """The largest pressure angle with its customary limit."""
     words, worst = law.found.shown.alone.words, int(law.pressure.argmax())
     most, limit = float(law.pressure.ravel()[worst]), limit_of(law)
-    key = "pressure_kept" if most <= limit else "pressure_beyond"
+    key = "diagrams.pressure_kept" if most <= limit else "diagrams.pressure_beyond"
     numbers = {"most": f"{words.fixed(most, 1)}°", "limit": f"{limit:g}°"}
     place = place_of(law, float(law.at.ravel()[worst]))
-    yield words(f"diagrams.{key}", u=way_letter(law), at=place, **numbers)
+    yield words(key, u=way_letter(law), at=place, **numbers)
 
 
 def in_time(law: CamLaw, every: Sequence[Strip]) -> Iterator[str]:

@@ -229,22 +229,34 @@ def dots(axes: Axes, points: Sequence[XY], look: str, name: str) -> Iterator[Mar
 # --- the construction: chords, pole, rays ---------------------------------------------------------
 
 
-class Method(Struct, frozen=True):
-    """A way to differentiate: its key, and the shares of h² in the errors of both rates."""
+class RateMethod(Struct, frozen=True):
+    """A way to differentiate: its lines, and the shares of h² in the errors of both rates.
 
-    key: str
+    ``signs``, ``said`` and ``cost`` are the keys of its sentences.
+    """
+
+    name: str
     first: float
     second: float
+    signs: str
+    said: str
+    cost: str
 
     def steps(self, points: Sequence[XY], distance: float, *, closed: bool) -> list[ChordRay]:
         """The rates of a diagram, which is ``closed`` if it begins anew at its end."""
-        if self.key == "tangent":
+        if self is TANGENTS:
             return by_tangents(points, distance, closed=closed)
         return differentiated(points, distance)
 
 
-CHORDS = Method("chord", CHORD, SECOND)
-TANGENTS = Method("tangent", TANGENT, SECOND_TANGENT)
+CHORDS = RateMethod(
+    *("chord", CHORD, SECOND),
+    *("diagrams.chord_signs", "diagrams.chord_steps", "diagrams.chord_cost"),
+)
+TANGENTS = RateMethod(
+    *("tangent", TANGENT, SECOND_TANGENT),
+    *("diagrams.tangent_signs", "diagrams.tangent_steps", "diagrams.tangent_cost"),
+)
 
 
 class Derived(Struct, frozen=True):
@@ -254,7 +266,7 @@ class Derived(Struct, frozen=True):
     axes: Axes
     distance: float
     name: str
-    method: Method = CHORDS
+    method: RateMethod = CHORDS
 
     @property
     def points(self) -> list[XY]:
@@ -275,7 +287,7 @@ def derive(
     low: float,
     name: str,
     exact: Reals,
-    method: Method = CHORDS,
+    method: RateMethod = CHORDS,
 ) -> Derived:
     """The diagram of the rate, drawn from some points of another with the largest pole distance.
 
@@ -308,7 +320,7 @@ def construction(before: Axes, found: Derived, look: str) -> Iterator[Mark]:
     pole = foot - found.distance, axes.zero
     for i, each in enumerate(found.steps):
         start, end = before.on_page(each.first), before.on_page(each.last)
-        yield LineMark(*start, *end, "construction", f"{found.method.key} {name}_{i}")
+        yield LineMark(*start, *end, "construction", f"{found.method.name} {name}_{i}")
         height = axes.zero - each.end[1]
         x, y = axes.on_page(each.found)
         if axes.rect[1] <= height <= axes.rect[3]:
@@ -342,7 +354,7 @@ def units_of(
     return (unit, drawing.length(1.0)), ("m/s", 1.0), ("m/s²", 1.0)
 
 
-def differentiation_page(motion: FollowerMotion, method: Method, number: str) -> Page:
+def differentiation_page(motion: FollowerMotion, method: RateMethod, number: str) -> Page:
     """The sheet of place, speed and acceleration, each from the one before by one method."""
     drawing, words = motion.found.shown.alone, motion.found.shown.alone.words
     height = (FIELD[3] - TOP - 3 - 2 * GAP) / 3
@@ -357,7 +369,7 @@ def differentiation_page(motion: FollowerMotion, method: Method, number: str) ->
     marks: list[Mark] = [
         *framed(drawing, number, words("sheet.document_diagrams"), "–"),
         *heading(motion.found, drawing, words("sheet.differentiation")),
-        *field_caption(motion, f"diagrams.{method.key}_signs"),
+        *field_caption(motion, method.signs),
         *construction(first, rate, "velocity"),
         *construction(rate.axes, again, "acceleration"),
         *frame_of(motion, first, kinds[0], *units[0]),
@@ -383,7 +395,7 @@ def differentiation_page(motion: FollowerMotion, method: Method, number: str) ->
 
 def derived_twice(
     motion: FollowerMotion,
-    method: Method,
+    method: RateMethod,
     first: Axes,
     points: Sequence[XY],
     tops: Sequence[float],
@@ -614,7 +626,7 @@ def scales_said(motion: FollowerMotion, first: Axes, rate: Derived, again: Deriv
             again=f"*k*_{{*{a}*}} = {pace}*k*_{{*{v}*}}/(*k*_{{*{u}*}}·*H*)",
             more=f"{figure(drawing, 1 / again.axes.high)} {units[2]}",
         ),
-        words(f"diagrams.{rate.method.key}_steps", s=s, v=v),
+        words(rate.method.said, s=s, v=v),
     ]
 
 
@@ -701,7 +713,7 @@ def costs(motion: FollowerMotion, rate: Derived, again: Derived) -> list[str]:
             key: words.significant(100 * getattr(cost, key), 2)
             for key in ("chord", "forecast", "pencil")
         }
-        found.append(words(f"diagrams.{rate.method.key}_cost", v=name, **shares))
+        found.append(words(rate.method.cost, v=name, **shares))
     limit = words.significant(mark(), 1)
     return [*found, words("diagrams.plans", mark=limit)]
 

@@ -22,7 +22,7 @@ from graphkin.documents.diagrams_sheet import (
     CHORDS,
     TANGENTS,
     Axes,
-    Method,
+    RateMethod,
     axes_for,
     cost_of_rate,
     cost_of_second,
@@ -206,7 +206,7 @@ def motion(mechanism: Mechanism, count: int) -> FollowerMotion:
     return found
 
 
-def costs(moved: FollowerMotion, method: Method = CHORDS):
+def costs(moved: FollowerMotion, method: RateMethod = CHORDS):
     where = moved.place(moved.at)
     axes = axes_for(moved, 0.0, 60.0, where, np.inf)
     points = [axes.place(float(u), float(v)) for u, v in zip(moved.at, where, strict=True)]
@@ -217,7 +217,7 @@ def costs(moved: FollowerMotion, method: Method = CHORDS):
 
 @pytest.mark.parametrize("method", [CHORDS, TANGENTS])
 @pytest.mark.parametrize("name", ["crank-rocker", "shaper"])
-def test_the_forecast_of_a_method_is_its_error(name: str, method: Method):
+def test_the_forecast_of_a_method_is_its_error(name: str, method: RateMethod):
     coarse, fine = (costs(motion(mechanism_named(name), count), method) for count in (24, 48))
     wide = 1 if method is CHORDS else 2  # the difference of two intervals, not of one
     for cost in fine:
