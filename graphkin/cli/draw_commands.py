@@ -44,7 +44,7 @@ if TYPE_CHECKING:
     help="key: everything drawn; task: what the student is given; steps: pages that grow sentence"
     " by sentence; overlay: the key alone, to lay over a drawing; positions: the mechanism and its"
     " plans in all positions of [positions]; diagrams: their courses, differentiated and integrated"
-    " by chords, and hodographs.",
+    " on paper, laws of cams, and hodographs.",
 )
 @language_option
 @ink_option

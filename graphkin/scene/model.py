@@ -438,6 +438,11 @@ class Driver(Struct, frozen=True):
     acceleration: Quantity
     of: tuple[str, str] | None = None
 
+    @property
+    def jerk(self) -> Quantity:
+        """The derivative of the acceleration: of its law of time, else zero."""
+        return self.acceleration.derivative(TIME)
+
 
 class Side(Struct, frozen=True):
     """``B = "right of A-O2"``: +1 left, -1 right of the line from ``first`` to ``second``."""
@@ -486,6 +491,7 @@ class Ask(Struct, frozen=True):
 
     velocity: PointNames = ()
     acceleration: PointNames = ()
+    jerk: PointNames = ()
     omega: LinkNames = ()
     epsilon: LinkNames = ()
     poles: LinkNames = ()

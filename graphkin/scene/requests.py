@@ -40,7 +40,8 @@ from graphkin.text import LANGUAGES
 from graphkin.text.errors import Hint, Message, Written, either, joined, message
 from graphkin.text.school_signs import SCHOOLS
 
-PATHS_ASKED = "curves"
+OF_LINKS = ("curves", "jerk")
+"""The keys of [ask] that list points of links, not points such as A@3."""
 CENTRES_ASKED, PAIRS = "centres", "pairs"
 """The key that may also hold pairs of links, and where the scene keeps these."""
 ALL = "all"
@@ -138,9 +139,13 @@ def name_asked(place: str, key: str, raw: object, findings: Findings, scene: Sce
                 message("a link with slides"),
             )
         return name if link is not None else None
-    name = (point_name if key == PATHS_ASKED else asked_point)(place, raw, findings)
+    name = (point_name if key in OF_LINKS else asked_point)(place, raw, findings)
     point, of = ends_of(name or "")
     if name is None or not known_point(point, scene.points, THE_MECHANISM, place, findings):
+        return None
+    if key == "jerk" and point in scene.cam_centres:
+        found = message("{point} is the centre of curvature of a cam", point=point)
+        findings.add(place, found, message("a point of a link"))
         return None
     return None if of and known_link(scene, of, place, findings) is None else name
 

@@ -408,7 +408,14 @@ def read_rubric(marks: Table, marking: Table, mechanism: Mechanism) -> Rubric:
     hold, says_right = marking.flag("hold"), marking.flag("says_right")
     marking.finish()
     return Rubric(
-        points=points, causes=causes, grades=grades, own=own, digits=digits, hold=hold, says_right=says_right, **given
+        points=points,
+        causes=causes,
+        grades=grades,
+        own=own,
+        digits=digits,
+        hold=hold,
+        says_right=says_right,
+        **given,
     )
 
 
