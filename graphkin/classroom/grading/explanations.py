@@ -21,9 +21,10 @@ from graphkin.accuracy.pencil.pencil import STRAIGHT
 from graphkin.classroom.grading.answer_numbers import rounding
 from graphkin.classroom.grading.causes import Cause, Change, Variants
 from graphkin.classroom.grading.graded import Answer
-from graphkin.classroom.grading.likelihood import ASTRAY, HALF
+from graphkin.classroom.grading.keys import Keys
+from graphkin.classroom.grading.likelihood import ASTRAY, HALF, SURELY
 from graphkin.classroom.grading.readings import FormFields, View
-from graphkin.classroom.grading.standard import Standard, sense_is_open
+from graphkin.classroom.grading.standard import Standard, alike, sense_is_open
 from graphkin.numbers.arithmetic import np
 
 Array = Any
@@ -53,6 +54,10 @@ SPAN = (0.5, 4.0)
 """The least and largest factor by which an error scales with its value."""
 SPREAD = (0.5, 30.0)
 """The least and largest factor by which an error grows in another drawing."""
+APART = 6.0
+"""The least distance of an explanation from the key, in deviations of the student's drawing."""
+MIDDLE = 0.6745
+"""The median of normal errors, in deviations."""
 MOST = 1.0
 """The largest error of an answer that an explanation gives, in parts of the value."""
 BEST = 12
@@ -386,7 +391,7 @@ class AnswerSheets(Struct, frozen=True, dict=True):
         found = [self.chosen(i, ranked.of(i), honest[i]) for i in range(count)]
         more = [i for i, each in enumerate(found) if self.left(i, each) > (each is None)]
         lost = {i for i in more if found[i] is None and self.is_lost(i)}
-        pairs = {i: ranked.wide_pairs(i) if i in lost else ranked.pairs(i) for i in more}
+        pairs = {i: ranked.wide_pairs(i) if i in lost else ranked.pairs(i, found[i]) for i in more}
         self.explain_more(pairs, honest, found)
         return found
 
@@ -431,8 +436,17 @@ class AnswerSheets(Struct, frozen=True, dict=True):
         for i, told in again.items():
             told.sort(key=lambda pair: -pair[1])
             each, single = self.chosen(i, told, honest[i]), found[i]
-            if each is not None and (single is None or each.odds > single.odds + SECOND):
+            if each is not None and (single is None or self.is_likelier(i, each, single)):
                 found[i] = replace(each, single=single)
+
+    def is_likelier(self, i: int, two: SheetCauses, one: SheetCauses) -> bool:
+        """Whether two causes explain a sheet clearly better than one.
+
+        Little is needed where only senses are left, and two causes leave none.
+        """
+        left, more = (self.is_read[i] & ~self.fits(i, each) for each in (one, two))
+        only_senses = left.any() and not (left & ~self.form.senses).any() and not more.any()
+        return two.odds > one.odds + (SENSES if only_senses else SECOND)
 
     def left(self, i: int, found: SheetCauses | None) -> int:
         """How many answers of a sheet are not explained; of wrong ones where there is none."""
@@ -486,8 +500,38 @@ class AnswerSheets(Struct, frozen=True, dict=True):
         enough = EXPLAINS if (missed & ~self.form.senses).any() else 1.0
         if (missed & fits).sum() < enough * missed.sum() or spoilt:
             return None
+        if not self.is_apart(i, found):
+            return None
         told = [f for f, fit in zip(self.variants.fields, fits, strict=True) if fit]
         return replace(found, fits=frozenset(told))
+
+    def is_apart(self, i: int, by: SheetCauses) -> bool:
+        """Whether an explanation differs from the key by more than the student's own pencil may.
+
+        The errors of one drawing go together: a crank set badly moves all answers.
+        """
+        form, fields, read = self.form, self.variants.fields, self.is_read[i]
+        values, right = np.array([by.values[field] for field in fields]), self.key[i]
+        turned = values * right < 0
+        beside = (form.sized >= 0) & turned[form.sized]
+        if (read & turned & form.senses & ~beside & ~self.open_senses[i]).any():
+            return True
+        keys = Keys.of([self.variants.standards[self.rows[i]].expectation])
+        places = np.array([fields.index(field) for field in keys.fields])
+        told = read[places] & keys.known(0) & np.isfinite(values[places])
+        own = places[told]
+        if not len(own):
+            return True
+        key, answers = keys.key(0, told), self.answers[i][own]
+        signed = np.where(form.centres, 1.0, np.sign(right))[own] * values[own]
+        off = abs(answers - np.where(form.centres[own], values[own], abs(values[own])))
+        wide = np.sqrt(np.maximum(np.diag(key.spread), SURELY))
+        pencil = max(1.0, float(np.median(off / wide)) / MIDDLE)
+        noise = key.computed**2 + (self.rounded[i][own] * answers) ** 2 / 3
+        spread = pencil**2 * key.spread / np.outer(wide, wide) + np.diag(noise / wide**2)
+        apart = (signed - key.sizes) / wide
+        spread.flat[:: len(own) + 1] += 1e-6
+        return bool(apart @ np.linalg.solve(spread, apart) > APART**2)
 
     def beside_wrong(self, i: int, by: SheetCauses, fits: Array) -> Array:
         """The answers that only follow from one that an explanation does not give.
@@ -596,9 +640,18 @@ class Ranked:
                 best.setdefault(self.every[k].causes[0].name, k)
         return [self.every[k].causes[0] for k in sorted(best.values())]
 
-    def pairs(self, i: int) -> list[Hypothesis]:
-        """Pairs of the likeliest causes of a student."""
-        return list(pairs_of(self.names_of(i)))
+    def pairs(self, i: int, single: SheetCauses | None) -> list[Hypothesis]:
+        """Pairs of the likeliest causes of a student, and of the ``single`` one with all others."""
+        found = {pair_key(pair): pair for pair in pairs_of(self.names_of(i))}
+        for cause in single.causes if single is not None else ():
+            for each in self.names_of(i, None):
+                places = sorted((cause, each), key=self.place_of)
+                found |= {pair_key(pair): pair for pair in pairs_of(places)}
+        return list(found.values())
+
+    def place_of(self, cause: Cause) -> int:
+        """The place of a cause in the order in which causes were noted."""
+        return next(k for k, each in enumerate(self.every) if each.causes == (cause,))
 
     def wide_pairs(self, i: int) -> list[Hypothesis]:
         """Pairs of all causes of a student whose sheet no single cause comes near.
@@ -719,3 +772,41 @@ def explained_by(
     values, scaled = (dict(zip(fields, e.tolist(), strict=True)) for e in (others[best], times))
     found = sheet.judged_enough(0, SheetCauses((cause,), values, scaled, odds))
     return None if found is None or odds < LIKELY else (best, found)
+
+
+def explained_by_two(
+    standard: Standard,
+    given: Mapping[str, Answer],
+    missed: frozenset[str],
+    cause: Cause,
+    others: Sequence[Standard],
+    one: SheetCauses | None,
+) -> tuple[int, SheetCauses] | None:
+    """The one of some other standards that explains a sheet together with a second cause.
+
+    The result is its place and the explanation, ``cause`` first. None where none explains it
+    better than ``one``, the explanation by such data alone.
+    """
+    honest = float(sheets_of([standard], [0], [given], [missed]).judged(Hypothesis())[0])
+    found: list[tuple[float, int, AnswerSheets, int, Hypothesis]] = []
+    best: tuple[int, SheetCauses] | None = None
+    for group in alike(others):
+        rows = range(len(group))
+        sheet = sheets_of(
+            [others[i] for i in group], rows, [given] * len(group), [missed] * len(group)
+        )
+        for second in sheet.causes:
+            each = Hypothesis((second,))
+            likely = np.nan_to_num(sheet.judged(each, COARSE), nan=-inf)
+            row = int(likely.argmax())
+            found.append((float(likely[row]), group[row], sheet, row, each))
+    for _, place, sheet, row, each in sorted(found, key=lambda told: -told[0])[:CLOSE]:
+        likely = float(sheet.some([row]).judged(each, closely=True)[0])
+        odds = likely + SHARE - log(len(others)) - honest
+        told = sheet.settled(row, each, odds)
+        told = None if told is None or odds < LIKELY else sheet.judged_enough(row, told)
+        if told is None or (best is not None and told.odds <= best[1].odds):
+            continue
+        if one is None or sheet.is_likelier(row, told, one):
+            best = place, replace(told, causes=(cause, *told.causes), single=one)
+    return best

@@ -67,6 +67,37 @@ def test_nobody_honest_has_a_mistake_named():
         assert not any(graded.causes for graded, _ in a_class(lab, [()], 2, count=20))
 
 
+def test_what_a_coarse_pencil_explains_is_no_mistake():
+    """At 86° the protractor's other scale reads 94°, as a crank set badly by hand may lie."""
+    lab, book, rng = "pump", book_of("pump"), np.random.default_rng(7)
+    takers = [taker(28 + i % 3, f"s{i:03d}") for i in range(150)]
+    book.prepare(takers)
+    answers = {}
+    for who in takers:
+        paper = book.marker_of(who).standard.paper
+        sheet = (paper.mechanism, paper.velocities, paper.accelerations)
+        data = hand.data(lab, int(who.settings["n"]))
+        row = mistaken.handed_in(lab, data, sheet, rng, mistaken.SLOPPY)
+        answers[who.student.id] = {
+            item.field: read_answer(row[item.field], item) for item in book.form
+        }
+    named = [e.name for g in graded_class(book, takers, answers).graded for e in g.causes]
+    assert named == []
+
+
+@pytest.mark.parametrize("second", [("ruler 1:2",), ("diameter",), ("clockwise",)])
+def test_another_students_number_is_named_beside_a_second_mistake(second):
+    found = a_class("offset-slider-crank", [("another number", *second)], 3, count=2)
+    assert found and all(is_named(*each) for each in found)
+    assert all(e.whose for g, _ in found for e in g.causes if e.name == "data_of_another")
+
+
+def test_a_crank_turned_the_other_way_is_named_beside_another_mistake():
+    """All that shows it is the sense of one ω."""
+    found = a_class("offset-slider-crank", [("diameter", "reversed")], 3, count=2)
+    assert found and all(is_named(*each) for each in found)
+
+
 def test_a_sense_without_its_value_earns_nothing():
     """One of two senses is right by chance."""
     marker = marker_of("pump", 7)
