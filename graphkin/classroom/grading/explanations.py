@@ -295,30 +295,36 @@ class AnswerSheets(Struct, frozen=True, dict=True):
         told = self.shown(hypothesis, closely=closely)
         if told is None:
             return np.full(len(self.rows), -inf)
-        best = np.full(len(self.rows), -inf)
-        for pencil in pencils:
-            each = self.by_field(told, told.written, PENCILS[pencil])
-            if told.other is not None:
-                also = self.by_field(told, told.other, PENCILS[pencil])
-                with np.errstate(invalid="ignore"):
-                    each = np.logaddexp(each, also) - HALF
-            whole = np.where(self.is_read, each, 0.0).sum(axis=1) + RARE_PENCILS[pencil]
-            best = np.maximum(best, whole)
-        return best + hypothesis.share
+        return self.likely(told, pencils) + hypothesis.share
 
-    def by_field(self, told: Predicted, predicted: Array, pencil: float) -> Array:
-        """The density of each answer where some values are aimed at, as a logarithm."""
+    def likely(self, told: Predicted, pencils: Iterable[int] = range(len(PENCILS))) -> Array:
+        """How likely each student's answers are with the likeliest pencil, as a logarithm."""
+        some = list(pencils)
+        each = self.by_field(told, told.written, np.array(PENCILS)[some])
+        if told.other is not None:
+            also = self.by_field(told, told.other, np.array(PENCILS)[some])
+            with np.errstate(invalid="ignore"):
+                each = np.logaddexp(each, also) - HALF
+        whole = np.where(self.is_read, each, 0.0).sum(axis=2)
+        return (whole + np.array(RARE_PENCILS)[some, None]).max(axis=0)
+
+    def by_field(self, told: Predicted, predicted: Array, pencils: Array) -> Array:
+        """The density of each answer where some values are aimed at, as a logarithm.
+
+        An array by pencil, student and field.
+        """
         form, answers = self.form, self.answers
         with np.errstate(all="ignore"):
             sizes = np.where(form.centres, predicted, abs(predicted))
             drawn, read = self.errors
             times = self.times(told, predicted)
-            spread = (pencil * drawn * times) ** 2 + (read * np.maximum(times, 1.0)) ** 2
-            spread = spread + (self.rounded * answers) ** 2 / 3 + (COMPUTED * sizes) ** 2
+            fixed = (read * np.maximum(times, 1.0)) ** 2
+            fixed = fixed + (self.rounded * answers) ** 2 / 3 + (COMPUTED * sizes) ** 2
+            spread = pencils[:, None, None] ** 2 * (drawn * times) ** 2 + fixed
             found = -0.5 * ((answers - sizes) ** 2 / spread + np.log(2 * pi * spread))
             if self.known is not None:
                 values, own = self.known
-                found[:, values] = self.by_length(sizes, found, values, own)
+                found[..., values] = self.by_length(sizes, found, values, own)
             found = np.logaddexp(log(1 - MISTAKES) + found, self.astray)
             found = np.where(np.isnan(found), self.astray, found)
             sense = np.where(answers == np.sign(predicted), log(1 - MISTAKES), log(MISTAKES))
@@ -333,8 +339,9 @@ class AnswerSheets(Struct, frozen=True, dict=True):
         apart = apart - np.log(sizes[:, values] / sizes[:, own])
         spread = COMPUTED + self.rounded[:, values] + self.rounded[:, own] / 2
         found = -0.5 * (apart / spread) ** 2 - np.log(spread * answers[:, values]) - log(2 * pi) / 2
-        whole = np.logaddexp(log(1 - DIRECT) + found, log(DIRECT) + direct[:, values])
-        return np.where(np.isnan(whole), direct[:, values], whole)
+        direct = direct[..., values]
+        whole = np.logaddexp(log(1 - DIRECT) + found, log(DIRECT) + direct)
+        return np.where(np.isnan(whole), direct, whole)
 
     def times(self, told: Predicted, predicted: Array) -> Array:
         """How many times as large an error is beside that of the key.
@@ -342,7 +349,8 @@ class AnswerSheets(Struct, frozen=True, dict=True):
         The errors of what is read grow as it is misread.
         """
         with np.errstate(all="ignore"):
-            misread = np.nan_to_num(abs(predicted / told.drawn), nan=1.0, posinf=1.0)
+            misread = abs(predicted / told.drawn)
+            misread = np.where(np.isfinite(misread), misread, 1.0)
         return np.where(self.form.centres | self.form.senses, 1.0, misread) * told.grown
 
     @cached_property
@@ -390,8 +398,13 @@ class AnswerSheets(Struct, frozen=True, dict=True):
                 ranked.table[place, own] = np.nan_to_num(again, nan=-inf)
         found = [self.chosen(i, ranked.of(i), honest[i]) for i in range(count)]
         more = [i for i, each in enumerate(found) if self.left(i, each) > (each is None)]
+        hopeful = (ranked.table > honest).any(axis=0)
         lost = {i for i in more if found[i] is None and self.is_lost(i)}
-        pairs = {i: ranked.wide_pairs(i) if i in lost else ranked.pairs(i, found[i]) for i in more}
+        pairs = {
+            i: ranked.wide_pairs(i) if i in lost else ranked.pairs(i, found[i])
+            for i in more
+            if i in lost or hopeful[i]
+        }
         self.explain_more(pairs, honest, found)
         return found
 
@@ -570,7 +583,8 @@ class AnswerSheets(Struct, frozen=True, dict=True):
             return None
         written = told.written
         if told.other is not None:
-            one, two = (part.by_field(told, each, 1.4) for each in (written, told.other))
+            pencil = np.array([1.4])
+            one, two = (part.by_field(told, each, pencil)[0] for each in (written, told.other))
             written = np.where(two > one, told.other, written)
         times = part.times(told, written)
         fields = self.variants.fields
@@ -760,11 +774,8 @@ def explained_by(
     count = len(others)
     sheet = sheets_of([standard], [0], [given], [missed])
     every = sheet.some([0] * count)
-    likely = np.full(count, -inf)
     told = Predicted(others, others, None, growing(others, every.key))
-    for pencil, rare in zip(PENCILS, RARE_PENCILS, strict=True):
-        each = every.by_field(told, others, pencil)
-        likely = np.maximum(likely, np.where(every.is_read, each, 0.0).sum(axis=1) + rare)
+    likely = every.likely(told)
     best = int(likely.argmax())
     odds = float(likely[best] - sheet.judged(Hypothesis())[0] + SHARE - log(count))
     times = every.times(told, others)[best]

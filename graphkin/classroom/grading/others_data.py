@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Collection, Iterable, Mapping, Sequence
 from contextlib import AbstractContextManager
 from fractions import Fraction
+from functools import cached_property
 from typing import Any, Protocol
 
 from msgspec import Struct
@@ -73,6 +74,33 @@ class OtherData(Struct, frozen=True):
     taker: Taker
 
 
+class Others(Struct, frozen=True, dict=True):
+    """All data that students may have drawn, by the fields of a form."""
+
+    every: Sequence[OtherData]
+    form: Sequence[Item]
+
+    @cached_property
+    def table(self) -> Any:
+        """The right values, a row for each."""
+        return np.array([[each.key[item.field] for item in self.form] for each in self.every])
+
+    def nearest(
+        self, standard: Standard, given: Mapping[str, Answer], most: int
+    ) -> list[OtherData]:
+        """At most so many data other than the own, the nearest by what no scale changes."""
+        own = np.array([standard.key[item.field] for item in self.form])
+        other = np.flatnonzero(~np.isclose(self.table, own, rtol=1e-12, equal_nan=True).all(axis=1))
+        sized = [item.what == "value" and bool(given[item.field].value) for item in self.form]
+        if len(other) > most and any(sized):
+            told = [abs(given[item.field].value or 0.0) for item in self.form]
+            with np.errstate(all="ignore"):
+                apart = abs(np.log(np.array(told)[sized] / abs(self.table[other][:, sized])))
+            far = np.nansum(np.minimum(apart, 0.5), axis=1)
+            other = other[np.argsort(far, kind="stable")]
+        return [self.every[i] for i in other[:most].tolist()]
+
+
 def with_others_data(
     book: Markers,
     graded: Sequence[Graded],
@@ -88,10 +116,10 @@ def with_others_data(
     open_yet = [i for i, each in enumerate(graded) if is_open(each, copied)]
     if not open_yet:
         return found
-    others = [*of_class(graded, expected), *of_numbers(book, graded)]
+    others = Others([*of_class(graded, expected), *of_numbers(book, graded)], book.form)
     for i in open_yet:
         with alone(graded[i].taker.student.id):
-            found[i] = by_others_data(book, graded[i], expected[i], others)
+            found[i] = by_others_data(book, graded[i], others)
     return found
 
 
@@ -202,29 +230,22 @@ def of_numbers(book: Markers, graded: Sequence[Graded]) -> list[OtherData]:
     ]
 
 
-def by_others_data(
-    book: Markers, graded: Graded, expected: Expectation, others: Sequence[OtherData]
-) -> Graded:
+def by_others_data(book: Markers, graded: Graded, others: Others) -> Graded:
     """The marks of a student by the data that explain the sheet best, if any others do."""
     marker = book.marker_of(graded.taker)
     own = marker.standard
     first = marker.first_look({mark.item.field: mark.answer for mark in graded.marks})
     given, missed = unread_left_out(first), frozenset(first.wrong)
-    other = [each for each in others if each.key != expected.key]
-    rows = [
-        (each, way, values_by(own, each, way))
-        for each in nearest(own, given, other)
-        for way in (AT_OWN, AT_THEIRS)
-    ]
-    if not rows or not missed:
+    near = others.nearest(own, given, NEAREST) if missed else []
+    if not near:
         return graded
-    table = np.array([values for _, _, values in rows])
+    table = np.array([values_by(own, e, way) for e in near for way in (AT_OWN, AT_THEIRS)])
     one = explained_by(own, given, missed, Cause(ANOTHER), table)
-    best = None if one is None else (rows[one[0]][0], one[1])
+    best = None if one is None else (near[one[0] // 2], one[1])
     left = given if best is None else {f: a for f, a in given.items() if f not in best[1].fits}
     if is_lost(own, missed) and any(answer.is_read for answer in left.values()):
         single = None if best is None else best[1]
-        near = nearest(own, given, other, NUMBERS)
+        near = others.nearest(own, given, NUMBERS)
         best = with_second_cause(book, own, given, missed, near, single) or best
     if best is None:
         return graded
@@ -293,23 +314,3 @@ def values_by(standard: Standard, other: OtherData, way: str) -> Any:
     measured = [item.unit == "mm" for item in standard.items]
     plans = [plan_of(standard.layout, i) for i in range(len(measured))]
     return values * np.where(measured, ratios[plans], 1.0)
-
-
-def nearest(
-    standard: Standard,
-    given: Mapping[str, Answer],
-    others: Sequence[OtherData],
-    most: int = NEAREST,
-) -> list[OtherData]:
-    """At most so many data, the nearest to the answers by what no scale changes."""
-    fields = [
-        item.field for item in standard.items if item.what == "value" and given[item.field].value
-    ]
-    if len(others) <= most or not fields:
-        return list(others[:most])
-    told = np.array([abs(given[field].value or 0.0) for field in fields])
-    keys = np.array([[abs(each.key[field]) for field in fields] for each in others])
-    with np.errstate(all="ignore"):
-        apart = np.minimum(abs(np.log(told / keys)), 0.5)
-    order = np.argsort(np.nansum(apart, axis=1), kind="stable")[:most]
-    return [others[i] for i in order]
