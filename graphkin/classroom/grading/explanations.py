@@ -44,6 +44,8 @@ LIKELY = 5.0
 """The least odds, as a logarithm, at which a cause is named."""
 SENSES = -1.0
 """The same where nothing but senses is wrong, all of which the cause must reverse."""
+FEW = 2
+"""The fewest wrong senses that speak for a cause beside wrong numbers that it does not give."""
 SECOND = 2.0
 """The least odds, as a logarithm, by which two causes must be likelier than one."""
 EXPLAINS = 0.6
@@ -497,26 +499,40 @@ class AnswerSheets(Struct, frozen=True, dict=True):
             return None
         numbers = self.missed[i] & ~self.form.senses
         for hypothesis, likely in tried:
-            if likely - honest < (LIKELY if numbers.any() else SENSES):
+            if likely - honest < SENSES:
                 break
             told = self.settled(i, hypothesis, likely - honest)
             found = None if told is None else self.judged_enough(i, told)
-            if found is not None:
+            if found is None:
+                continue
+            turned = not numbers.any() or self.turns_all(i, found)
+            if likely - honest >= (SENSES if turned else LIKELY):
                 return found
         return None
+
+    def turns_all(self, i: int, found: SheetCauses) -> bool:
+        """Whether an explanation gives several wrong senses, all there are, and no wrong number."""
+        agree = np.array([field in found.fits for field in self.variants.fields])
+        wrong, senses = self.missed[i] & self.is_read[i], self.form.senses
+        every = (wrong & senses).sum() >= FEW and not (self.is_read[i] & senses & ~agree).any()
+        told = np.array([found.values[field] for field in self.variants.fields])
+        same = np.isclose(abs(told), abs(self.key[i]), rtol=1e-9)
+        return bool(every and not (wrong & ~senses & ~same).any())
 
     def judged_enough(self, i: int, found: SheetCauses) -> SheetCauses | None:
         """An explanation with the answers that agree; None where these are too few."""
         fits, read = self.fits(i, found), self.is_read[i]
         missed = self.missed[i] & read
         spoilt = (read & ~fits & ~self.beside_wrong(i, found, fits)).sum() > SPOILS * read.sum()
+        told = [f for f, fit in zip(self.variants.fields, fits, strict=True) if fit]
+        agreeing = replace(found, fits=frozenset(told))
         enough = EXPLAINS if (missed & ~self.form.senses).any() else 1.0
-        if (missed & fits).sum() < enough * missed.sum() or spoilt:
+        few = (missed & fits).sum() < enough * missed.sum()
+        if spoilt or (few and not self.turns_all(i, agreeing)):
             return None
         if not self.is_apart(i, found):
             return None
-        told = [f for f, fit in zip(self.variants.fields, fits, strict=True) if fit]
-        return replace(found, fits=frozenset(told))
+        return agreeing
 
     def is_apart(self, i: int, by: SheetCauses) -> bool:
         """Whether an explanation differs from the key by more than the student's own pencil may.

@@ -58,6 +58,8 @@ NEAREST = 24
 """The most other variants that are compared closely with one sheet."""
 AS_WELL = 1.0
 """The odds, as a logarithm, by which another cause may be likelier than the lab's own."""
+UNEXPLAINED = 0.2
+"""The share of unexplained answers from which a second cause beside other data is looked for."""
 AT_OWN, AT_THEIRS = "at own scales", "at their scales"
 
 
@@ -243,7 +245,8 @@ def by_others_data(book: Markers, graded: Graded, others: Others) -> Graded:
     one = explained_by(own, given, missed, Cause(ANOTHER), table)
     best = None if one is None else (near[one[0] // 2], one[1])
     left = given if best is None else {f: a for f, a in given.items() if f not in best[1].fits}
-    if is_lost(own, missed) and any(answer.is_read for answer in left.values()):
+    is_open = not graded.causes or unexplained(graded) > UNEXPLAINED
+    if is_open and is_lost(own, missed) and any(answer.is_read for answer in left.values()):
         single = None if best is None else best[1]
         near = others.nearest(own, given, NUMBERS)
         best = with_second_cause(book, own, given, missed, near, single) or best
@@ -257,6 +260,13 @@ def by_others_data(book: Markers, graded: Graded, others: Others) -> Graded:
         replace(each, whose=data.whose) if each.name == ANOTHER else each for each in again.causes
     )
     return replace(again, causes=tuple(causes))
+
+
+def unexplained(graded: Graded) -> float:
+    """The share of a student's answers that nothing explains."""
+    read = [mark for mark in graded.marks if mark.answer.is_read]
+    lost = [mark for mark in read if mark.status in (Status.WRONG, Status.FOLLOWS)]
+    return len(lost) / max(1, len(read))
 
 
 def is_lost(standard: Standard, missed: Collection[str]) -> bool:

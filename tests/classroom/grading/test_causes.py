@@ -15,6 +15,7 @@ from msgspec.structs import replace
 from graphkin.classroom.grading.answer_numbers import read_answer
 from graphkin.classroom.grading.causes import Variants
 from graphkin.classroom.grading.class_marking import Book, graded_class
+from graphkin.classroom.grading.class_report import result_lines
 from graphkin.classroom.grading.feedback import notes, points_words, rows
 from graphkin.classroom.grading.graded import Answer
 from graphkin.classroom.grading.readings import FormFields
@@ -238,6 +239,8 @@ def test_a_class_that_shares_a_mistake_is_marked():
     """Plans drawn 2:1, and values in mm: no mistake of the table."""
     doubled = whole_class(lambda f, v: v * 2 if f.endswith("_mm") and f[0] in "va" else v)
     assert {c.name for each in doubled.graded for c in each.causes} == {"own_scale"}
+    said = list(result_lines(doubled, words("en")))[1]
+    assert said.startswith("The same cause is named for 12 of 12 students: own_scale.")
     millimetres = whole_class(lambda f, v: v * 1000 if f in ("v_D", "a_D") else v)
     assert {c.name for each in millimetres.graded for c in each.causes} == {"power_of_ten"}
 
