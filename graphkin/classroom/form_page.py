@@ -23,6 +23,7 @@ from graphkin.classroom.grading.answer_numbers import (
     MISTYPED,
     NUMBER,
     RAISED,
+    RUSSIAN,
     UNITS,
 )
 from graphkin.classroom.lab.items import items as fields_of
@@ -125,6 +126,7 @@ def settings(items: Sequence[Item], words: Words, identity: Identity) -> dict[st
         "number": in_javascript(NUMBER.pattern),
         "mistyped": MISTYPED.pattern,
         "raised": {chr(sign): chr(plain) for sign, plain in RAISED.items()},
+        "russian": RUSSIAN,
         "letters": LETTERS,
         "blanks": BLANKS,
         "longest": LONGEST,

@@ -177,6 +177,7 @@ WORDS = {
     "triangle": f"has a {LIMITED} outside its limits",
     "pencil": "is drawn less exactly than the limit",
     "apart": "earns more with another's right values than the limit",
+    "room": "is not compared, since there was no room for hundreds in a row",
 }
 
 
