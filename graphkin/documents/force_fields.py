@@ -14,7 +14,7 @@ from graphkin.construction.core.layout import Layout, centre, line_span, points_
 from graphkin.construction.core.paper_canvas import PaperCanvas, Plot, draw_part
 from graphkin.construction.core.program import Plane
 from graphkin.construction.core.relation import figure
-from graphkin.construction.forces.force_drawing import ForceDrawing, ForceLayout
+from graphkin.construction.forces.force_drawing import ForceDrawing, ForceExtents, ForceLayout
 from graphkin.construction.forces.lever import LeverPole
 from graphkin.construction.forces.polygon import InPolygon, PolygonStart, links_words
 from graphkin.drawing.field import AREA, Field, Rect
@@ -66,13 +66,8 @@ def laid_out(drawing: ForceDrawing, mechanism: Field) -> ForceDrawing:
     Raises PageError where the fields have no room.
     """
     rect: Rect = (mechanism.rect[2], AREA[1], AREA[2], AREA[3])
-    boxes, lever = drawing.polygon_extents(), drawing.lever_extent()
-    cells = [FieldNeed(box.width, box.height) for box in boxes.values()]
-    if lever is not None:
-        size = max(lever.width, lever.height)
-        cells.append(FieldNeed(lever.width / size * LEVER, lever.height / size * LEVER, fixed=True))
-    largest = max((max(cell.wide, cell.high) for cell in cells if not cell.fixed), default=0.0)
-    kF, rows = found(cells, rect, largest)
+    boxes, lever = drawing.extents
+    cells, kF, rows = arranged(drawing.extents, rect)
     fields = placed(cells, rows, rect, 1 / kF)
     polygons = {
         number: field_of(box, part, 1 / kF, (TOP - LOW) / 2)
@@ -90,6 +85,20 @@ def laid_out(drawing: ForceDrawing, mechanism: Field) -> ForceDrawing:
     found_at = ForceLayout(mechanism, Field(rect, 1.0, 0j, centre(rect)), {}, polygons, own)
     fixed = replace(drawing, scales=scales, fields=found_at)
     return replace(fixed, fields=replace(found_at, spans=spans_of(fixed)))
+
+
+def arranged(extents: ForceExtents, rect: Rect) -> tuple[list[FieldNeed], float, Rows]:
+    """The fields of polygons and lever in a rectangle: their needs, kF in N/mm, and their rows.
+
+    Raises PageError where they have no room.
+    """
+    cells = [FieldNeed(box.width, box.height) for box in extents.polygons.values()]
+    largest = max((max(cell.wide, cell.high) for cell in cells), default=0.0)
+    lever = extents.lever
+    if lever is not None:
+        size = max(lever.width, lever.height)
+        cells.append(FieldNeed(lever.width / size * LEVER, lever.height / size * LEVER, fixed=True))
+    return cells, *found(cells, rect, largest)
 
 
 def field_of(box: Extent, rect: Rect, mm: float, lower: float) -> Field:

@@ -8,7 +8,7 @@ from fractions import Fraction
 from typing import Any, Protocol
 
 from msgspec import Struct
-from msgspec.structs import replace
+from msgspec.structs import astuple, replace
 
 from graphkin.accuracy.pencil.pencil import Paper
 from graphkin.classroom.grading.causes import Cause, plan_of
@@ -228,8 +228,8 @@ def values_by(standard: Standard, other: OtherData, way: str) -> Any:
     values = np.array([other.key[item.field] for item in standard.items])
     if way == AT_THEIRS:
         return values
-    names = ("mechanism", "velocities", "accelerations")
-    ratios = [getattr(other.paper, name) / getattr(standard.paper, name) for name in names]
+    pairs = zip(astuple(other.paper), astuple(standard.paper), strict=True)
+    ratios = [theirs / own if own else 1.0 for theirs, own in pairs]
     measured = [item.unit == "mm" for item in standard.items]
     plans = [plan_of(standard.layout, i) for i in range(len(measured))]
     return values * np.where(measured, np.array(ratios)[plans], 1.0)

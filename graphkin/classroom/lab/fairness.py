@@ -15,30 +15,35 @@ from typing import Any
 from msgspec import Struct, field
 from msgspec.structs import astuple
 
-from graphkin.classroom.lab.items import arrow_steps, items
+from graphkin.classroom.lab.items import arrow_steps, items, motion_of
 from graphkin.classroom.lab.lab_model import Fair, Item, Lab
 from graphkin.classroom.lab.rules import Settings
 from graphkin.classroom.lab.variant_scales import VariantSheet, scaling, sketches, taken
 from graphkin.construction.core.component import component_of
 from graphkin.construction.core.crossings import is_drawn, letter_of
 from graphkin.construction.core.drawn_scene import ENDLESS
-from graphkin.construction.core.layout import held_beside, room_below
+from graphkin.construction.core.layout import Held, held_beside, room_below
 from graphkin.construction.core.paper_canvas import WITHIN
 from graphkin.construction.core.program import Part, Plane
 from graphkin.construction.core.quantities import (
     BY_TARGET,
+    FORCES,
     RATES,
     LinkMotion,
     PointMotion,
     SlideMotion,
 )
+from graphkin.construction.core.run import Trace, run_batch
 from graphkin.construction.core.solution import FAIR
+from graphkin.construction.forces.force_drawing import ForceExtents
 from graphkin.construction.registry import LIMITED
+from graphkin.documents.force_fields import arranged
 from graphkin.drawing.field import AREA
 from graphkin.drawing.scale import Extent, Scales
 from graphkin.mechanism import Mechanism
-from graphkin.numbers.arithmetic import larger, np
+from graphkin.numbers.arithmetic import batch_kind, larger, np
 from graphkin.numbers.plane import Ratio, Vector
+from graphkin.text.errors import PageError
 
 Array = Any
 
@@ -119,6 +124,15 @@ def ray_angles(sheet: VariantSheet, form: Sequence[Item]) -> Iterator[tuple[str,
 PARTS = {"velocity": Part.CENTRE, "acceleration": Part.POLE}
 
 
+def mechanism_fields(sheets: Sequence[VariantSheet], scales: Scales) -> Held:
+    """The mechanism's field on the sheets of many variants; scales are arrays."""
+    mm = 1000 / scales.kL
+    plans = (each.plan_box.width * mm * scales.times(each.kind) for each in sheets)
+    box = reduce(Extent.joined, (each.mechanism_box for each in sheets))
+    poles = (place for each in sheets for place in poles_of(each))
+    return held_beside(box, poles, mm, reduce(larger, plans))
+
+
 def held(
     sheets: Sequence[VariantSheet], sheet: VariantSheet, form: Sequence[Item], scales: Scales
 ) -> Iterator[tuple[str, Array]]:
@@ -134,10 +148,7 @@ def held(
     if not places:
         return
     mm = 1000 / scales.kL
-    plans = (each.plan_box.width * mm * scales.times(each.kind) for each in sheets)
-    box = reduce(Extent.joined, (each.mechanism_box for each in sheets))
-    poles = (place for each in sheets for place in poles_of(each))
-    field = held_beside(box, poles, mm, reduce(larger, plans))
+    field = mechanism_fields(sheets, scales)
     left, bottom, right, top = field.box.sides
     height, room = (top - bottom) * mm, AREA[3] - AREA[1]
     lift = room_below(height) + height / 2 - room / 2
@@ -333,6 +344,7 @@ def judge(
                 margins=True,
             )
             put_drawn(found, drawn, own, start + which)
+            put_forces(found, mechanism, taken(values, which), drawn, own, start + which)
 
 
 def closing(mechanism: Mechanism, values: Mapping[str, Any], count: int) -> Array:
@@ -359,6 +371,42 @@ def put_drawn(found: Fairness, drawn: Sequence[VariantSheet], scales: Scales, wh
         put(found.triangles, triangle_ratios(sheet), which, len(found))
         put(found.rays, ray_angles(sheet, form), which, len(found))
         put(found.on_page, held(drawn, sheet, form, scales), which, len(found))
+
+
+def put_forces(
+    found: Fairness,
+    mechanism: Mechanism,
+    values: Mapping[str, Any],
+    sheets: Sequence[VariantSheet],
+    scales: Scales,
+    which: Array,
+) -> None:
+    """Write the lengths of forces in the polygons of some variants at their indices.
+
+    A variant whose polygons have no room does not fit its page.
+    """
+    form = [item for item in found.form if item.what == "segment" and motion_of(item) in FORCES]
+    if not form:
+        return
+    program = mechanism.with_forces.program
+    drawn = [n for n, step in enumerate(program.steps) if step.plane in (Plane.FORCES, Plane.LEVER)]
+    with np.errstate(all="ignore"):
+        trace = run_batch(program, program.behind(drawn), values, batch_kind(), drawn)
+    points = {n: v for n, v in trace.values.items() if not isinstance(v, tuple)}
+    right = AREA[0] + mechanism_fields(sheets, scales).width
+    kF = np.full(len(which), np.nan)
+    for i, edge in enumerate(np.broadcast_to(right, len(which))):
+        own = {n: complex(np.broadcast_to(v, len(which))[i]) for n, v in points.items()}
+        try:
+            rect = (float(edge), AREA[1], AREA[2], AREA[3])
+            kF[i] = arranged(ForceExtents.of(Trace(program, own, {})), rect)[1]
+        except PageError:
+            found.fits[which[i]] = False
+    lengths = {}
+    for item in form:
+        tail, tip = program.steps[program.targets[item.quantity, item.of]].args
+        lengths[item.field] = np.abs(points[tip] - points[tail]) / kF
+    put(found.lengths, iter(lengths.items()), which, len(found))
 
 
 def put(

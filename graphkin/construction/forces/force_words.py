@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Iterator
+from itertools import permutations
 
 from graphkin.construction.core.drawn_scene import Drawing
 from graphkin.construction.core.quantities import OnPaper, in_mm
 from graphkin.construction.core.relation import answer
+from graphkin.scene.model import Scene
 
 
 def newtons(drawing: Drawing, size: float) -> str:
@@ -47,3 +49,16 @@ def sub(sign: str, link: str) -> str:
 def link_pair(one: str, other: str) -> str:
     """The index of a force of one link on another: 34, or crank,rod."""
     return one + other if len(one) == len(other) == 1 else f"{one},{other}"
+
+
+def reaction_names(scene: Scene, asked: Iterable[str]) -> Iterator[str]:
+    """The symbols of the reactions in some pins and in all guides of some blocks, in both senses.
+
+    A plan draws one of the two senses.
+    """
+    for name in asked:
+        block = scene.links.get(name)
+        pairs = permutations([link.name for link in scene.every_link if name in link.points], 2)
+        if block is not None:
+            pairs = (pair for each in block.slides for pair in permutations((name, each.on)))
+        yield from (f"R_{link_pair(*pair)}" for pair in pairs)
