@@ -18,7 +18,7 @@ from msgspec.structs import astuple
 from graphkin.classroom.lab.items import arrow_steps, items, motion_of
 from graphkin.classroom.lab.lab_model import Fair, Item, Lab
 from graphkin.classroom.lab.rules import Settings
-from graphkin.classroom.lab.variant_scales import VariantSheet, scaling, sketches, taken
+from graphkin.classroom.lab.variant_scales import VariantSheet, boxes, scaling, sketches, taken
 from graphkin.construction.core.component import component_of
 from graphkin.construction.core.crossings import is_drawn, letter_of
 from graphkin.construction.core.drawn_scene import ENDLESS
@@ -33,17 +33,16 @@ from graphkin.construction.core.quantities import (
     PointMotion,
     SlideMotion,
 )
-from graphkin.construction.core.run import Trace, run_batch
+from graphkin.construction.core.run import run_batch
 from graphkin.construction.core.solution import FAIR
 from graphkin.construction.forces.force_drawing import ForceExtents
 from graphkin.construction.registry import LIMITED
-from graphkin.documents.force_fields import arranged
+from graphkin.documents.force_fields import cells_of, smallest
 from graphkin.drawing.field import AREA
 from graphkin.drawing.scale import Extent, Scales
 from graphkin.mechanism import Mechanism
 from graphkin.numbers.arithmetic import batch_kind, larger, np
 from graphkin.numbers.plane import Ratio, Vector
-from graphkin.text.errors import PageError
 
 Array = Any
 
@@ -392,20 +391,14 @@ def put_forces(
     drawn = [n for n, step in enumerate(program.steps) if step.plane in (Plane.FORCES, Plane.LEVER)]
     with np.errstate(all="ignore"):
         trace = run_batch(program, program.behind(drawn), values, batch_kind(), drawn)
-    points = {n: v for n, v in trace.values.items() if not isinstance(v, tuple)}
-    right = AREA[0] + mechanism_fields(sheets, scales).width
-    kF = np.full(len(which), np.nan)
-    for i, edge in enumerate(np.broadcast_to(right, len(which))):
-        own = {n: complex(np.broadcast_to(v, len(which))[i]) for n, v in points.items()}
-        try:
-            rect = (float(edge), AREA[1], AREA[2], AREA[3])
-            kF[i] = arranged(ForceExtents.of(Trace(program, own, {})), rect)[1]
-        except PageError:
-            found.fits[which[i]] = False
+    extents = ForceExtents.of(trace, lambda points: boxes(points, len(which)))
+    wide = np.broadcast_to(AREA[2] - AREA[0] - mechanism_fields(sheets, scales).width, len(which))
+    kF = smallest(cells_of(extents), wide, AREA[3] - AREA[1])
+    found.fits[which] &= np.isfinite(kF)
     lengths = {}
     for item in form:
         tail, tip = program.steps[program.targets[item.quantity, item.of]].args
-        lengths[item.field] = np.abs(points[tip] - points[tail]) / kF
+        lengths[item.field] = np.abs(trace.values[tip] - trace.values[tail]) / kF
     put(found.lengths, iter(lengths.items()), which, len(found))
 
 

@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from functools import cached_property
 from typing import Any, NamedTuple
 
-from graphkin.construction.core.drawn_scene import Drawing, ends
+from graphkin.construction.core.drawn_scene import Drawing
 from graphkin.construction.core.kind import constructions
 from graphkin.construction.core.layout import Layout
 from graphkin.construction.core.program import Part, Plane, Step
@@ -19,6 +19,7 @@ from graphkin.construction.forces.loads import InertiaMoment
 from graphkin.construction.forces.polygon import InPolygon
 from graphkin.drawing.field import Field
 from graphkin.drawing.scale import Extent, extent_of
+from graphkin.numbers.arithmetic import np
 
 
 class ForceLayout(Layout, frozen=True):
@@ -38,19 +39,28 @@ class ForceExtents(NamedTuple):
     lever: Extent | None
 
     @classmethod
-    def of(cls, trace: Trace) -> ForceExtents:
-        """The boxes of a plan of forces."""
-        polygons: dict[int, list[complex]] = {}
-        lever: list[complex] = []
+    def of(cls, trace: Trace, around: Callable[[list[Any]], Extent] = extent_of) -> ForceExtents:
+        """The boxes of a plan of forces, each ``around`` the points in it."""
+        polygons: dict[int, list[Any]] = {}
+        lever: list[Any] = []
         for number, value in trace.values.items():
             step = trace.program.steps[number]
             if isinstance(step.of, InPolygon) and step.plane is Plane.FORCES:
-                polygons.setdefault(step.of.polygon, []).extend(ends(value))
+                polygons.setdefault(step.of.polygon, []).extend(own_points(value))
             elif step.plane is Plane.LEVER and not isinstance(step.of, LeverBalance):
-                lever += [value] if is_point(value) else []
-        box = extent_of(lever)
-        own = {number: extent_of(points) for number, points in polygons.items()}
-        return cls(own, box if len(lever) > 1 and box.diagonal else None)
+                lever += own_points(value)
+        box = around(lever)
+        moves = len(lever) > 1 and np.any((box.width > 0) | (box.height > 0))
+        own = {number: around(points) for number, points in polygons.items()}
+        return cls(own, box if moves else None)
+
+
+def own_points(value: Any) -> tuple[Any, ...]:
+    """A value that is a point, or one of each variant; none for lines and arrows.
+
+    Arrows of a polygon join points that are there.
+    """
+    return () if isinstance(value, tuple) else (value,)
 
 
 class ForceDrawing(Drawing, frozen=True):
