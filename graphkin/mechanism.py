@@ -308,7 +308,7 @@ class Mechanism(Struct, frozen=True, dict=True):
         """Reactions and balance with the verdict of two independent routes; None without forces.
 
         Groups without a construction of their reactions have those of all equations at once. Raises
-        StructureError where equilibrium does not determine the reactions, and for wheels and cams.
+        StructureError where equilibrium does not determine the reactions, and for belts.
         """
         given = self.scene.forces
         if given is None:

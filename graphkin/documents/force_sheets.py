@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
+from contextlib import suppress
 
 from msgspec.structs import replace
 
@@ -85,7 +86,8 @@ def not_drawn(mechanism: Mechanism, group: Group) -> Problem:
     first, *others = group.links
     links = joined_words(group.links) if others else link_words(first)
     hint = message("leave reactions and balance out of [ask]")
-    if not any(link.rolls or link.cam is not None for link in mechanism.scene.every_link):
+    with suppress(StructureError):
+        mechanism.forces()
         hint = message("{hint}: graphkin solve gives their numbers", hint=hint)
     return Problem(
         "loads",

@@ -58,7 +58,8 @@ def reaction_names(scene: Scene, asked: Iterable[str]) -> Iterator[str]:
     """
     for name in asked:
         block = scene.links.get(name)
-        pairs = permutations([link.name for link in scene.every_link if name in link.points], 2)
+        pairs = [*permutations([link.name for link in scene.every_link if name in link.points], 2)]
         if block is not None:
-            pairs = (pair for each in block.slides for pair in permutations((name, each.on)))
+            others = (each.on for each in (*block.slides, *block.rolls))
+            pairs = [pair for other in others for pair in ((name, other), (other, name))]
         yield from (f"R_{link_pair(*pair)}" for pair in pairs)
