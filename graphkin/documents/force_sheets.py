@@ -15,6 +15,7 @@ from graphkin.construction.core.run import Trace, run
 from graphkin.construction.core.solution import UNPROVED
 from graphkin.construction.forces.force_drawing import ForceDrawing
 from graphkin.construction.forces.force_plan import undrawn
+from graphkin.construction.forces.force_words import is_asked
 from graphkin.construction.forces.loads import AppliedForce
 from graphkin.construction.reactions import ForceSolution
 from graphkin.documents.force_fields import laid_out
@@ -79,6 +80,20 @@ def force_scales(mechanism: Mechanism, chosen: Scales) -> Scales:
         if (found := targets_of(mechanism, kind))
     ]
     return laid_out(unplaced(mechanism, drawings), mechanism_field(drawings)).scales
+
+
+def with_force_plan(
+    mechanism: Mechanism, chosen: Scales
+) -> tuple[Mechanism, Scales, tuple[Target, ...]]:
+    """The mechanism with its plan of forces, its scale factors, and what the scene asks of both.
+
+    Without forces that are asked and drawn, it is the mechanism as it is.
+    """
+    forces, whole, asked = mechanism.scene.forces, mechanism.with_forces, mechanism.asked()
+    if forces is None or not forces.asked or whole is mechanism:
+        return mechanism, chosen, asked
+    own = [target for target in whole.program.targets if is_asked(mechanism.scene, forces, target)]
+    return whole, force_scales(mechanism, chosen), (*asked, *own)
 
 
 def not_drawn(mechanism: Mechanism, group: Group) -> Problem:

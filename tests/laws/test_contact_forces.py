@@ -96,18 +96,28 @@ WHEELS = sorted(
 )
 
 
+def loads_on(mechanism: Mechanism) -> set[str]:
+    """The links and points with masses and loads."""
+    given = mechanism.scene.forces
+    points = {load.at for load in given.loads if load.at} | {
+        e.centre for e in given.masses.values()
+    }
+    return points | {load.link for load in given.loads} | {*given.masses}
+
+
 @pytest.mark.parametrize("name", WHEELS)
 def test_virtual_power_and_the_frame_agree_wherever_forces_are_determined(name):
     """All loads, inertia forces and reactions of the frame together do not push the mechanism."""
     text = (FOLDER / f"{name}.toml").read_text(encoding="utf-8")
     mechanism = Mechanism(read_text(text, name, None, {}))
-    own = {link for link in mechanism.scene.links if link not in mechanism.scene.cam_links}
-    made = loaded(mechanism, random.Random(name))
-    given = made.scene.forces
-    points = {load.at for load in given.loads} | {mass.centre for mass in given.masses.values()}
-    links = {load.link for load in given.loads} | {*given.masses}
-    if not links <= own or not points.isdisjoint(made.scene.cam_centres):
-        pytest.skip("a load on a link of an equivalent linkage")
+    scene = mechanism.scene
+    own = {link for link in scene.links if link not in scene.cam_links}
+    made = next(
+        made
+        for seed in range(99)
+        for made in [loaded(mechanism, random.Random(f"{name} {seed}"))]
+        if loads_on(made) <= own | ({*scene.points} - {*scene.cam_centres})
+    )
     try:
         found, verdict = made.forces()
     except StructureError as error:

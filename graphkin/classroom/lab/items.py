@@ -22,7 +22,6 @@ from graphkin.construction.core.quantities import (
     BY_TARGET,
     CENTRES,
     FORCES,
-    PAIR_REACTION,
     RATES,
     SHEETS,
     SLIDING,
@@ -30,7 +29,7 @@ from graphkin.construction.core.quantities import (
     MotionQuantity,
     names_asked,
 )
-from graphkin.construction.forces.force_words import reaction_names
+from graphkin.construction.forces.force_words import is_asked
 from graphkin.drawing.symbol_markup import escape, symbol
 from graphkin.mechanism import Mechanism
 from graphkin.scene.forces import Forces
@@ -118,13 +117,13 @@ def asked(mechanism: Mechanism) -> Iterator[Item]:
 
 def forces_asked(mechanism: Mechanism, forces: Forces) -> Iterator[Item]:
     """The reactions in the pairs that are asked, and the balance, by the symbols of the plan."""
-    program, signs = mechanism.with_forces.program, mechanism.scene.sheet.signs
-    reactions = {*reaction_names(mechanism.scene, forces.reactions)}
+    scene = mechanism.scene
+    targets = mechanism.with_forces.program.targets
+    asked = [target for target in targets if is_asked(scene, forces, target)]
     for quantity in FORCES:
-        for target, name in program.targets:
-            wanted = name in reactions if quantity is PAIR_REACTION else forces.balance
-            if wanted and target == quantity.target:
-                yield from force_items(quantity, name, signs)
+        for target, name in asked:
+            if target == quantity.target:
+                yield from force_items(quantity, name, scene.sheet.signs)
 
 
 def moving(mechanism: Mechanism) -> Iterator[Item]:

@@ -93,7 +93,6 @@ class PolygonStart(InPolygon, frozen=True, kw_only=True):
     """The start of the polygon of some ``links``."""
 
     gives: ClassVar[tuple[str, ...]] = ("start",)
-    pencil: ClassVar[Mapping[str, ByHand]] = {"start": ByHand.KNOWN}
 
     links: tuple[str, ...]
     kind: str
