@@ -9,6 +9,7 @@ import pytest
 
 from graphkin.cli.report.cycle_report import cycle_rows
 from graphkin.mechanism import Mechanism, load
+from graphkin.motion.curves import over_driver
 from graphkin.motion.cycle import cycle
 from graphkin.scene.read_scene import read_text
 from tests.laws.force_routes import on_links
@@ -56,3 +57,9 @@ def test_a_scene_that_asks_for_no_force_has_no_such_column():
     found = cycle(Mechanism(read_text(text, "none", None, {})), steps=4)
     head, *_ = cycle_rows(found)
     assert found.forces is None and not [each for each in head if "[N" in each]
+
+
+def test_the_figure_of_forces_has_a_panel_for_the_moment():
+    found = over_driver.sampled(cycle(load(SCENES / "four-bar.toml"), steps=12), fine=24)
+    figure = over_driver.pictures(found)["forces"]()
+    assert len(figure.axes) == 2 and [ax.get_ylabel() for ax in figure.axes] == ["N", "N·m"]

@@ -71,6 +71,6 @@ def reaction_names(scene: Scene, asked: Iterable[str]) -> Iterator[str]:
         owners = [link.name for link in scene.every_link if name in link.points]
         pairs = [*permutations(owners, 2)]
         if block is not None:
-            others = (each.on for each in (*block.slides, *block.rolls))
+            others = [*(e.on for e in block.slides), *(e.on for e in block.rolls)]
             pairs = [pair for other in others for pair in ((name, other), (other, name))]
         yield from (f"R_{link_pair(*pair)}" for pair in pairs)
