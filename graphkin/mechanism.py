@@ -138,6 +138,21 @@ class Mechanism(Struct, frozen=True, dict=True):
         return self.laid[1]
 
     @cached_property
+    def with_forces(self) -> Mechanism:
+        """The mechanism with the plan of forces after its motion; itself where none is drawn."""
+        if self.scene.forces is None:
+            return self
+        from graphkin.construction.forces.force_plan import force_program, undrawn
+
+        groups = self.laid[0]
+        if undrawn(self.scene, groups) is not None:
+            return self
+        found = Mechanism(self.scene)
+        whole = force_program(self.scene, self.program, groups)
+        found.__dict__.update(groups=self.groups, laid=(groups, whole), with_forces=found)
+        return found
+
+    @cached_property
     def press(self) -> BatchRunner:
         """The runner of the program for many variants at once."""
         from graphkin.construction.tape.batch_runner import BatchRunner
@@ -296,7 +311,7 @@ class Mechanism(Struct, frozen=True, dict=True):
         """Reactions and balance with the verdict of two independent routes; None without forces.
 
         Groups without a construction of their reactions have those of all equations at once. Raises
-        StructureError where equilibrium does not determine the reactions, and for wheels and cams.
+        StructureError where equilibrium does not determine the reactions, and for belts.
         """
         given = self.scene.forces
         if given is None:

@@ -12,7 +12,7 @@ from graphkin.construction.core.component import as_drawn, may_give_way
 from graphkin.construction.core.drawn_scene import Drawing
 from graphkin.construction.core.program import PLACES, SPEEDS, Target
 from graphkin.construction.core.quantities import OMEGA, SHEETS, is_found_on
-from graphkin.construction.core.solution import Curve, Solution, Verdict, gathered
+from graphkin.construction.core.solution import UNPROVED, Curve, Solution, Verdict, gathered
 from graphkin.documents.composing import Needs, Search, Stated, searched_scales
 from graphkin.drawing.field import paper_of
 from graphkin.drawing.scale import Extent, Scales, digits, extent_of, preferred
@@ -153,9 +153,8 @@ def drafts_of(
     scales: Scales,
 ) -> list[Drawing]:
     """The drawings of all sheets at full size, with velocities as displacements in a time."""
-    nobody = Verdict(True, 0.0, "", 0.0, 0.0, 0.0)
     return [
-        drawing(mechanism, kind, found, replace(scales, kL=1.0), nobody, words("en"), curves)
+        drawing(mechanism, kind, found, replace(scales, kL=1.0), UNPROVED, words("en"), curves)
         for kind, found in sheets.items()
     ]
 

@@ -28,6 +28,7 @@ from graphkin.construction.core.kind import Construction, Sentence
 from graphkin.construction.core.layout import lay_out
 from graphkin.construction.core.program import Step
 from graphkin.construction.core.solution import Verdict
+from graphkin.documents.force_sheets import with_force_plan
 from graphkin.documents.relations import relations
 from graphkin.documents.scaling import sheet_motion
 from graphkin.documents.sentences import sentences
@@ -236,7 +237,7 @@ def marked(name: str) -> object:
 
 def errors(name: str) -> object:
     """What a pencil does to it."""
-    exact = original(mechanism(name), materials(name)[0].scales)
+    exact = original(*with_force_plan(mechanism(name), materials(name)[0].scales))
     return list(pencil_lines(forecast(exact, Pencil(0.25))))
 
 

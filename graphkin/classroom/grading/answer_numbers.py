@@ -9,7 +9,7 @@ from math import pi
 
 from graphkin.classroom.grading.graded import BLANK, Answer
 from graphkin.classroom.lab.lab_model import Item
-from graphkin.construction.core.quantities import TURNING
+from graphkin.construction.core.quantities import CLOCKWISE
 from graphkin.scene.quantity import LENGTHS
 
 
@@ -196,6 +196,8 @@ UNITS: dict[str, dict[str, float]] = {
         "°/s": pi / 180,
         **dict.fromkeys(TURNS_A_MINUTE, pi / 30),
     },
+    "N": {"N": 1, "kN": 1000},
+    "N·m": {"N·m": 1, "Nm": 1, "kN·m": 1000, "kNm": 1000, "N·mm": 0.001, "Nmm": 0.001},
     "rad/s²": {"rad/s2": 1, "1/s2": 1, "s-2": 1, "rads-2": 1, "deg/s2": pi / 180},
 }
 """For each field's unit, the factors that convert the units students may write."""
@@ -212,7 +214,7 @@ def read_answer(text: str, item: Item) -> Answer:
     stripped = text.strip()
     if not stripped:
         return BLANK
-    is_sense = item.what == "sense" and sense_of(stripped, turning=item.quantity in TURNING)
+    is_sense = item.what == "sense" and sense_of(stripped, turning=item.quantity in CLOCKWISE)
     if stripped.casefold() in BLANKS and not is_sense:
         return BLANK
     if item.what == "sense":
@@ -222,7 +224,7 @@ def read_answer(text: str, item: Item) -> Answer:
 
 def read_sense(text: str, stripped: str, quantity: str) -> Answer:
     """Read a sense written as a sign or a word, in any of the languages."""
-    turning = quantity in TURNING
+    turning = quantity in CLOCKWISE
     known = sense_of(stripped, turning=turning) if len(stripped) <= LONGEST else None
     if known is None:
         known = sign_of_number(stripped)

@@ -18,6 +18,7 @@ from typing import Any
 from msgspec import Struct
 from msgspec.structs import replace
 
+from graphkin.accuracy.pencil.pencil import SCALES
 from graphkin.classroom.grading.explanations import CauseWay
 from graphkin.classroom.grading.graded import Graded, Status, Suspicion
 from graphkin.classroom.grading.keys import Keys, distinct, read_of
@@ -71,10 +72,10 @@ def rightly(keys: Keys, variant: int) -> OwnWay:
 def by_own_scales(answers: Any, keys: Keys, variant: int, read: Any) -> Iterator[OwnWay]:
     """The way in which all values of a plan are too large by one factor.
 
-    The factor of each plan is the likeliest. Nothing is yielded where both are near 1.
+    The factor of each plan is the likeliest. Nothing is yielded where all are near 1.
     """
     sizes, times = keys.sizes[variant], np.ones(len(keys.fields))
-    for plan in (1, 2):
+    for plan in range(1, len(SCALES)):
         values = read & (keys.plans == plan) & (sizes > 0)
         ratio = np.median(answers[values] / sizes[values]) if values.sum() >= FEW else 1.0
         if ratio > 0 and abs(log(ratio)) >= log(ODD):

@@ -23,7 +23,7 @@ from graphkin.classroom.grading.graded import (
 from graphkin.classroom.lab.lab_model import Rubric
 from graphkin.classroom.printing.personal import printable_name
 from graphkin.construction.core.given_data import set_parameters
-from graphkin.construction.core.quantities import TURNING
+from graphkin.construction.core.quantities import CLOCKWISE, TURNING
 from graphkin.drawing.field import A4_AREA, A4_SIZE
 from graphkin.drawing.frame import page_frame
 from graphkin.drawing.marks import LineMark, Mark, Page, Text
@@ -204,7 +204,7 @@ def value_words(mark: EarnedMark, words: Words, value: float) -> str:
     """A value of a field as the page writes it."""
     item = mark.item
     if item.what == "sense":
-        turning = item.quantity in TURNING
+        turning = item.quantity in CLOCKWISE
         return words(SENSES[turning, value > 0]) if value else "0"
     if isnan(value):
         return "–"

@@ -14,11 +14,12 @@ from typing import Any
 from msgspec import Struct
 from msgspec.structs import replace
 
-from graphkin.accuracy.pencil.pencil import STRAIGHT
+from graphkin.accuracy.pencil.pencil import SCALES, STRAIGHT
 from graphkin.classroom.grading.answer_numbers import NUMBER, rounding
 from graphkin.classroom.grading.graded import Answer, Graded
 from graphkin.classroom.grading.likelihood import Key
 from graphkin.classroom.grading.standard import Expectation
+from graphkin.classroom.lab.items import motion_of
 from graphkin.numbers.arithmetic import np
 
 COMPUTED = 0.005
@@ -33,7 +34,7 @@ class Keys(Struct, frozen=True, dict=True):
 
     ``rulers`` are the deviations of a reading. ``beside`` is the index of each field's segment, or
     of the field itself. ``plans`` says by which plan's scale a value is computed: 1 for velocities,
-    2 for accelerations, 0 for what is measured.
+    2 for accelerations, 3 for forces, 0 for what is measured.
     """
 
     fields: tuple[str, ...]
@@ -52,8 +53,8 @@ class Keys(Struct, frozen=True, dict=True):
         places = np.array([standards[0].item[f].what == "place" for f in fields])
         at = {field: place for place, field in enumerate(fields)}
         beside = np.array([at.get(standards[0].item[f].segment, place) for f, place in at.items()])
-        units = [standards[0].item[f].unit for f in fields]
-        plans = np.array([0 if unit == "mm" else 1 + ("²" in unit) for unit in units])
+        items = [standards[0].item[f] for f in fields]
+        plans = np.array([0 if i.unit == "mm" else SCALES.index(motion_of(i).plane) for i in items])
         keys = np.array([[each.key[f] for f in fields] for each in standards])
         allowed = [[each.tolerance[f] for f in fields] for each in standards]
         deviations = np.array([[np.hypot(t.pencil, t.ruler) for t in row] for row in allowed])

@@ -9,7 +9,7 @@ from functools import cached_property
 from typing import Any, Protocol
 
 from msgspec import Struct
-from msgspec.structs import replace
+from msgspec.structs import astuple, replace
 
 from graphkin.accuracy.pencil.pencil import Paper
 from graphkin.classroom.grading.causes import Cause, plan_of
@@ -310,9 +310,9 @@ def at_scales_of(own: Standard, other: Standard) -> Standard:
 
 
 def scale_ratios(own: Paper, other: Paper) -> Any:
-    """How many times as long lengths are at one's own scales, in the mechanism and both plans."""
-    names = ("mechanism", "velocities", "accelerations")
-    return np.array([getattr(other, name) / getattr(own, name) for name in names])
+    """How many times as long lengths are at one's own scales, in the mechanism and each plan."""
+    pairs = zip(astuple(other), astuple(own), strict=True)
+    return np.array([theirs / mine if mine else 1.0 for theirs, mine in pairs])
 
 
 def values_by(standard: Standard, other: OtherData, way: str) -> Any:

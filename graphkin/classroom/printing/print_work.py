@@ -35,6 +35,7 @@ from graphkin.documents.sheet_documents import (
     drawn_sheets,
     language_of,
     proved,
+    with_forces,
 )
 from graphkin.documents.view_names import MOTION_VIEWS
 from graphkin.drawing.field import paper_of
@@ -116,7 +117,8 @@ class Sheets:
         self.whose: Owner = owner(taker, self.paper)
         self.words: Words = language_of(self.mechanism, taker.spoken or order.language)
         verdict = proved(self.mechanism, sheet_motion(self.mechanism))
-        self.drawings = drawings_of(self.mechanism, verdict, self.words)
+        drawings = drawings_of(self.mechanism, verdict, self.words)
+        self.drawings = with_forces(self.mechanism, drawings)
         self.made: dict[str, list[SheetDocument]] = {}
 
     def of(self, view: str) -> list[SheetDocument]:

@@ -39,16 +39,22 @@ PLANES = dict(
         strict=True,
     )
 )
+PLANES[FORCE] = Plane.FORCES
 
 
-Whose = Literal["points", "links", "slides"]
+Whose = Literal["points", "links", "slides", "pairs"]
 """The owner of a quantity: the part of a solution that holds it."""
 Sort = Literal["vector", "number", "place", "centre"]
 """The sort of a value: a vector of a plan, a number, a place, or a centre.
 
 A centre is a place on the mechanism that may lie at infinity: a Ratio.
 """
-OWNERS: Mapping[Whose, str] = {"points": "{of}", "links": "link {of}", "slides": "block {of}"}
+OWNERS: Mapping[Whose, str] = {
+    "points": "{of}",
+    "links": "link {of}",
+    "slides": "block {of}",
+    "pairs": "{of}",
+}
 """An owner of a quantity in words."""
 
 
@@ -188,7 +194,21 @@ QUANTITIES = (
     ),
 )
 """All quantities, in the order of the keys of [ask]."""
-BY_TARGET = {each.target: each for each in QUANTITIES}
+
+
+def of_force(target: str, sort: Sort, letter: str, unit: str, key: str) -> MotionQuantity:
+    """A quantity of the plan of forces, by its symbol there, such as R_12."""
+    named = (letter, unit, target, (key,), f"{target} {{of}}")
+    return MotionQuantity(target, "pairs", target, FORCE, sort, *named)
+
+
+FORCES = PAIR_REACTION, BALANCING_FORCE, BALANCING_MOMENT = (
+    of_force("reaction", "vector", "R", "N", "reactions"),
+    of_force("balancing force", "vector", "F", "N", "balance"),
+    of_force("balancing moment", "number", "M", "N·m", "balance"),
+)
+"""The quantities of the plan of forces, which only a scene with forces has."""
+BY_TARGET = {each.target: each for each in (*QUANTITIES, *FORCES)}
 ASKED = {
     key: tuple(each for each in QUANTITIES if key in each.asked_by)
     for key in dict.fromkeys(key for each in QUANTITIES for key in each.asked_by)
@@ -212,6 +232,8 @@ CIRCLES = {each.target: each.circle for each in CENTRES if each.circle}
 OF_SLIDES = those("slides", "number", "vector")
 MOTION = {each.kind: each for each in OF_POINTS}
 TURNING = OMEGA, EPSILON = tuple(each.target for each in RATES)
+CLOCKWISE = (*TURNING, BALANCING_MOMENT.target)
+"""The quantities whose sense is counter-clockwise or clockwise."""
 RATE = {each.kind: each for each in RATES}
 SLIDING = {each.kind: each for each in OF_SLIDES if each.sort == "number"}
 """The quantity of points, of links and of blocks that belongs to each sheet."""

@@ -10,8 +10,12 @@ import numpy as np
 from msgspec import Struct
 
 from graphkin.construction.core.quantities import (
+    BALANCING_FORCE,
+    BALANCING_MOMENT,
+    BY_TARGET,
     JERK,
     MOTION,
+    PAIR_REACTION,
     PLURALS,
     RATES,
     VECTORS,
@@ -43,6 +47,8 @@ from graphkin.writers.plot_style import (
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
+
+    from graphkin.motion.forces_along import ForcesAlong
 
 Reals = np.ndarray[tuple[int], np.dtype[np.float64]]
 
@@ -205,6 +211,8 @@ def pictures(found: Sampled) -> dict[str, Callable[[], Figure]]:
         drawn["slides"] = partial(of_slides, found, list(solution.slides))
     if found.cycle.profiles:
         drawn["cams"] = partial(of_cams, found)
+    if found.cycle.forces is not None:
+        drawn["forces"] = partial(of_forces, found, found.cycle.forces)
     return drawn
 
 
@@ -312,6 +320,32 @@ def of_cams(found: Sampled) -> Figure:
         angle = subscripted("\\alpha", name), profile.pressure, COLOURS[1], DASHES[0]
         panels.append((f"Pressure angle of link {name}", "deg", [angle]))
     return stacked(found, f"Cams{more}", panels)
+
+
+def of_forces(found: Sampled, forces: ForcesAlong) -> Figure:
+    """The magnitudes of reactions, and a panel for each driver's moment or force."""
+    every = forces.values.items()
+    reactions = {name: value for (what, name), value in every if what == PAIR_REACTION.target}
+    shown, more = some_of(list(reactions), MOST_CURVES, "reactions")
+    curves = [
+        (subscripted(*name.split("_", 1)), np.abs(reactions[name]), colour(i), dash(i))
+        for i, name in enumerate(shown)
+    ]
+    panels = [("Reactions, their magnitudes", PAIR_REACTION.unit, curves)] if curves else []
+    for (what, name), value in every:
+        quantity, letters = BY_TARGET[what], name.split("_", 1)
+        if quantity is BALANCING_MOMENT:
+            curve = (subscripted(*letters), value, INK, DASHES[0])
+            words = "Balancing moment, counter-clockwise positive"
+            panels.append((words, quantity.unit, [curve]))
+        elif quantity is BALANCING_FORCE:
+            along = [
+                (subscripted(*letters), np.abs(value), INK, DASHES[0]),
+                (f"{subscripted(*letters)} along x", value.real, COLOURS[0], DASHES[1]),
+                (f"{subscripted(*letters)} along y", value.imag, COLOURS[1], DASHES[2]),
+            ]
+            panels.append(("Balancing force", quantity.unit, along))
+    return stacked(found, f"Forces{more}", panels)
 
 
 def stacked(
