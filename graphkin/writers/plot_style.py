@@ -116,7 +116,7 @@ def picture_files(
                 continue
             for kind in formats:
                 files[f"{stem}.{kind}"] = figure_file(figure, kind)
-                figure.set_layout_engine("none")  # |the next format has the places of the first
+                figure.set_layout_engine(None)  # |the next format has the places of the first
     return files
 
 
