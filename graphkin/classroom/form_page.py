@@ -86,11 +86,14 @@ def form_fragment(
     words: Words,
     identity: Identity,
     pivot: str = "",
+    *,
+    says_right: bool = False,
 ) -> Form:
     """The form, its styles and its script: a labelled field for every item.
 
     Fields in ``compute`` are marked as computed. ``points`` are shown where the rubric gives any.
-    ``pivot`` is the first fixed point, from which places are measured.
+    ``pivot`` is the first fixed point, from which places are measured. With ``says_right`` the
+    board of its page tells when a point is right.
     """
     sheets = []
     for sheet in SHEETS:
@@ -109,7 +112,7 @@ def form_fragment(
         sheets=sheets,
         words=words,
     )
-    return Form(body, part("form.css"), together(FORM))
+    return Form(body, part("form.css"), together(FORM), says_right)
 
 
 def settings(items: Sequence[Item], words: Words, identity: Identity) -> dict[str, object]:
@@ -163,7 +166,8 @@ def field(item: Item, worth: Fraction | None, computed: bool, words: Words) -> F
 def lab_form(mechanism: Mechanism, lab: Lab, words: Words, identity: Identity) -> Form:
     """The form of a lab for its scene with the current data, not assigned to any student."""
     fields, points = fields_of(mechanism, lab), lab.rubric.points
-    return form_fragment(fields, points, (), words, identity, first_pivot(mechanism))
+    pivot, says_right = first_pivot(mechanism), lab.rubric.says_right
+    return form_fragment(fields, points, (), words, identity, pivot, says_right=says_right)
 
 
 def first_pivot(mechanism: Mechanism) -> str:

@@ -20,6 +20,8 @@ from graphkin.construction.core.palette import (
     PARALLEL,
     PERPENDICULAR,
     POLE,
+    RAY,
+    SET_OFF,
     SIMILAR,
     TRANSFER,
     PaletteAction,
@@ -63,6 +65,10 @@ PALETTE: Mapping[str, PaletteAction] = {
     )
 }
 """The actions of a page's palette, in its order."""
+BOARD: Mapping[str, PaletteAction] = {
+    action.key: action for action in (RAY, SET_OFF, *PALETTE.values()) if action.draw is not None
+}
+"""The actions of the board of a task page."""
 SLIPPING: tuple[type[Component] | type[PathCentre], ...] = (PathCentre, *COMPONENTS)
 """The kinds of constructions in which slips are made, each with its ``slips``."""
 CAUSES: tuple[type[Component] | TouchingEffect, ...] = (*COMPONENTS, *TOUCHING)

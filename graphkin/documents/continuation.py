@@ -111,17 +111,16 @@ def data_and_tables(drawing: Drawing, view: str, moved: Set[Moved]) -> Iterator[
     head, x, y = title_line(drawing, drawing.words("page.continued"))
     paper, low = drawing.paper, low_of(drawing.paper)
     room = int((low - y) / LEADING) + 1
-    lines = told_lines(drawing, view, moved, x)
-    parts = [lines[i : i + room] for i in range(0, len(lines), room)]
-    told = [
+    lines = continued_lines(drawing, view, moved, x)
+    pages = [
         [Text(x, y + i * LEADING, line, "caption", 2.5, name="data") for i, line in enumerate(part)]
-        for part in parts
+        for part in (lines[i : i + room] for i in range(0, len(lines), room))
     ]
     if Moved.TABLES not in moved:
-        yield from ([*head, *part] for part in told)
+        yield from ([*head, *part] for part in pages)
         return
-    yield from ([*head, *part] for part in told[:-1])
-    last = told[-1] if told else []
+    yield from ([*head, *part] for part in pages[:-1])
+    last = pages[-1] if pages else []
     top = y + len(last) * LEADING + GAP
     if top > low - LEAST:
         yield [*head, *last]
@@ -134,7 +133,7 @@ def data_and_tables(drawing: Drawing, view: str, moved: Set[Moved]) -> Iterator[
         last = []
 
 
-def told_lines(drawing: Drawing, view: str, moved: Set[Moved], x: float) -> list[str]:
+def continued_lines(drawing: Drawing, view: str, moved: Set[Moved], x: float) -> list[str]:
     """The moved data, requests and links, in lines across a sheet from a place on."""
     words, width, lines = drawing.words, drawing.paper.left[2] - x - 3, list[str]()
     if Moved.DATA in moved:
@@ -161,7 +160,7 @@ def one_sheet(drawing: Drawing, view: str, moved: Set[Moved], said: int) -> list
     """The content of a single continuation sheet. Raises PageError where it does not fit."""
     marks, x, y = title_line(drawing, drawing.words("page.continued"))
     paper, low = drawing.paper, low_of(drawing.paper)
-    if lines := told_lines(drawing, view, moved, x):
+    if lines := continued_lines(drawing, view, moved, x):
         for line in lines:
             marks.append(Text(x, y, line, "caption", 2.5, name="data"))
             y += LEADING

@@ -294,11 +294,11 @@ def construction(before: Axes, found: Derived, look: str) -> Iterator[Mark]:
     yield Text(
         pole[0] + aside, pole[1] + 0.9, letter, f"label {look}", LETTERS, anchor, f"P_{name}"
     )
-    told = f"*H* = {abs(found.distance):g} mm"
-    if abs(found.distance) > extent(told, SMALL)[0] + 3:
+    caption = f"*H* = {abs(found.distance):g} mm"
+    if abs(found.distance) > extent(caption, SMALL)[0] + 3:
         middle = (pole[0] + foot) / 2
         yield Text(
-            middle, axes.zero + 3.2, told, "caption", SMALL, "middle", f"pole distance {name}"
+            middle, axes.zero + 3.2, caption, "caption", SMALL, "middle", f"pole distance {name}"
         )
 
 
@@ -458,10 +458,10 @@ def levels(first: Axes, found: Derived) -> Iterator[Mark]:
     aside = 2.0 if behind else -2.0
     anchor: Anchor = "start" if behind else "end"
     yield Text(pole[0] + aside, pole[1] + 0.9, "*P*", "label velocity", LETTERS, anchor, "P")
-    told = f"*H* = {abs(found.distance):g} mm"
-    if abs(found.distance) > extent(told, SMALL)[0] + 3:
+    caption = f"*H* = {abs(found.distance):g} mm"
+    if abs(found.distance) > extent(caption, SMALL)[0] + 3:
         at = (pole[0] + foot) / 2, first.zero + 3.2
-        yield from cleared(Text(*at, told, "caption", SMALL, "middle", "pole distance"))
+        yield from cleared(Text(*at, caption, "caption", SMALL, "middle", "pole distance"))
 
 
 def strings_said(motion: FollowerMotion, first: Axes, found: Derived, where: Reals) -> list[str]:

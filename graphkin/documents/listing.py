@@ -159,8 +159,8 @@ def filled(
                 return marks, number
             y = columns[place][1]
         x = columns[place][0]
-        if told := numbers[number] if numbers else f"{number + 1}.":
-            marks.append(Text(x + 5, y, told, "caption", height, "end"))
+        if number_text := numbers[number] if numbers else f"{number + 1}.":
+            marks.append(Text(x + 5, y, number_text, "caption", height, "end"))
         for line in sets[place][number]:
             marks.append(Text(x + INDENT, y, line, "caption", height))
             y += leading

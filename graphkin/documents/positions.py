@@ -175,7 +175,7 @@ def positions_of(mechanism: Mechanism, words: Words) -> PositionSet:
         Position(name, u, alone, {})
         for (name, u), alone in zip(between, found[len(places) :], strict=True)
     )
-    own = moved.path.found_at(moved.sweep.stands, float(at[0]), float(at[-1]))
+    own = moved.path.found_at(moved.sweep.at_scene, float(at[0]), float(at[-1]))
     nearest = int(np.abs(at - own).argmin())
     strong = nearest if wanted.strong is None else wanted.strong
     return PositionSet(moved, wanted, numbered, dead, strong, travel, difference)

@@ -82,7 +82,7 @@ def plan_page(found: PositionSet, kind: str, kL: float, number: str) -> Page:
         *marks,
         *foot_line(found),
         *places_table(
-            found, found.numbered, [*told(found, kind), *exceptions(found, drawing, marks)]
+            found, found.numbered, [*scale_lines(found, kind), *exceptions(found, drawing, marks)]
         ),
         *proof(found),
     ]
@@ -111,7 +111,7 @@ def caption(found: PositionSet, drawing: Drawing, *, one: bool) -> Iterator[Mark
     yield from headline(found, f"{said};  {pole}")
 
 
-def told(found: PositionSet, kind: str) -> list[str]:
+def scale_lines(found: PositionSet, kind: str) -> list[str]:
     """What the sheet says below its table: positions without a plan, kinds of components."""
     words = found.shown.alone.words
     some = {each.name for each in found.planned(kind)}

@@ -259,14 +259,14 @@ def ruled(
     top: float,
 ) -> Iterator[Mark]:
     """The table: names above values, in rows of a height with their baselines."""
-    (upper, named), (lower, told) = rows
+    (upper, named), (lower, below) = rows
     middle, low, right = top + upper, top + upper + lower, x + sum(widths)
     yield box(x, top, right - x, upper, "shade")
     for y in (top, middle, low):
         yield LineMark(x, y, right, y, "panel")
     yield LineMark(x, top, x, low, "panel")
     for datum, width in zip(valued, widths, strict=True):
-        for y, markup in ((top + named, datum.name), (middle + told, datum.value)):
+        for y, markup in ((top + named, datum.name), (middle + below, datum.value)):
             yield Text(x + width / 2, y, markup, "table", LETTERS, "middle", NAME)
         x += width
         yield LineMark(x, top, x, low, "panel")
@@ -287,8 +287,8 @@ def in_lines(
     width = paper.left[2] - x - 3
     parted = words_of("; ".join(pieces))
     for i, (height, leading, room) in enumerate(looks(lowest(paper) - y, spare)):
-        for told, mark in ((pieces, "; "), (parted, " "))[: 1 + (i > 1)]:
-            lines = spread(told, mark, width, height, leading)
+        for parts, mark in ((pieces, "; "), (parted, " "))[: 1 + (i > 1)]:
+            lines = spread(parts, mark, width, height, leading)
             if len(lines) <= room and all(extent(line, height)[0] <= width for line in lines):
                 return [
                     Text(x, y + row * leading, line, "caption", height, name=NAME)
@@ -305,10 +305,10 @@ def in_lines(
 
 
 def spread(
-    told: Sequence[str], mark: str, width: float, height: float, leading: float
+    parts: Sequence[str], mark: str, width: float, height: float, leading: float
 ) -> list[str]:
     """Pieces in lines of at most a width, chosen so that their characters are clear if possible."""
-    every = (flowed(told, mark, width - less, height) for less in SHORTER)
+    every = (flowed(parts, mark, width - less, height) for less in SHORTER)
     first = next(every)
     return next((lines for lines in (first, *every) if are_clear(lines, height, leading)), first)
 
@@ -349,11 +349,11 @@ def rows(height: float, leading: float) -> int:
 def members(drawing: Drawing) -> str:
     """The links by their numbers and the points that they join, as in a task."""
     words, scene = drawing.words, drawing.scene.bare
-    told = [f"{escape(name)} = {of_link(words, link)}" for name, link in scene.links.items()]
+    links = [f"{escape(name)} = {of_link(words, link)}" for name, link in scene.links.items()]
     for centre, follower in scene.cam_centres.items():
         cam = escape(scene.cams[follower].on)
-        told.append(words("page.member_centre", point=drawing.symbol(centre), g=cam))
-    return words("page.members", list=words("list_mark").join(told))
+        links.append(words("page.member_centre", point=drawing.symbol(centre), g=cam))
+    return words("page.members", list=words("list_mark").join(links))
 
 
 def of_link(words: Words, link: Link) -> str:
@@ -719,8 +719,8 @@ def boards(
     settle_in_plates(both[0])
     letters = [x for x in both[0].labels if x.cls == "construction" and not segment_of(x)]
     if letters:
-        told = {name for each in said or sentences(drawing) for name in names_in(each.markup)}
-        both[0].dispensable = [label for label in letters if label.name not in told]
+        mentioned = {name for each in said or sentences(drawing) for name in names_in(each.markup)}
+        both[0].dispensable = [label for label in letters if label.name not in mentioned]
         both[0].labels = [x for x in both[0].labels if x not in both[0].dispensable]
     if view == "key" and not said and has_many_auxiliary(drawing):
         both[1].labels = [*without_auxiliary(drawing, both[1].labels)]
@@ -799,11 +799,11 @@ def below(drawing: Drawing, view: str) -> tuple[list[Mark], set[Moved], int]:
     if view == "key":
         place = drawing, left, top + 10.5, paper.writing - left - 2, low - 3.5
         try:
-            told = listed(*place)
+            listing = listed(*place)
         except PageError:
-            told, said = first_part(*place)
+            listing, said = first_part(*place)
             moved.add(Moved.CONSTRUCTION)
-        marks = [construction_head(drawing, left, top + 4.5), *told]
+        marks = [construction_head(drawing, left, top + 4.5), *listing]
     else:
         marks, moved = wanted(drawing, left, top)
     own = paper.empty_tables if view == "task" else paper.tables
@@ -867,8 +867,8 @@ def task_lines(drawing: Drawing, moved: set[Moved], width: float) -> list[str]:
     links = members(drawing)
     if Moved.MEMBERS in moved:
         links = drawing.words("page.members", list=elsewhere)
-    for told in filter(None, (links, plan_at(drawing))):
-        lines += ["", *flowed(words_of(told), " ", width, 2.5)]
+    for line in filter(None, (links, plan_at(drawing))):
+        lines += ["", *flowed(words_of(line), " ", width, 2.5)]
     return lines
 
 
@@ -885,7 +885,7 @@ def asked_words(drawing: Drawing) -> Sequence[str]:
         names: tuple[str, ...] = getattr(ask, key)
         if names and any(each.kind in shown for each in some if each.words):
             what = f"slides_{drawing.kind}" if key == "slides" else key
-            told = (symbol(lettered(n)) if WHOSE[key] == "points" else escape(n) for n in names)
-            mentioned = words("list_mark").join(told)
+            symbols = (symbol(lettered(n)) if WHOSE[key] == "points" else escape(n) for n in names)
+            mentioned = words("list_mark").join(symbols)
             found.append(words(f"ask.{what}" + ("_many" if len(names) > 1 else ""), list=mentioned))
     return found or ([words("ask.for_accelerations")] if ask.anything else [])

@@ -43,7 +43,7 @@ AT_LAST = ("detail", "note")
 """The names of marks that appear when everything is drawn."""
 PINS = ("pin", "hinge", "label", "leader")
 """The classes of a pin, and of its letter."""
-TOLD_BY = {"fixed-centrode": "moving-centrode"}
+DRAWN_WITH = {"fixed-centrode": "moving-centrode"}
 """Names of sentences for kinds of curves that have no sentence of their own."""
 BEFORE = -1
 """The stage of the marks before the first sentence."""
@@ -108,11 +108,11 @@ def stage_of(
         return staged.get(mark.step, BEFORE)
     if mark.name in AT_LAST:
         return len(said) - 1
-    told = stage_of_closing(drawing, mark, said)
-    if told is None:
-        told = stage_of_curve(drawing, mark, said)
-    if told is not None:
-        return told
+    found = stage_of_closing(drawing, mark, said)
+    if found is None:
+        found = stage_of_curve(drawing, mark, said)
+    if found is not None:
+        return found
     targets = drawing.trace.program.targets
     rests = ground[mark] if mark in ground else rests_on(drawing, mark)
     numbers = (targets[target] for target in rests if target in targets)
@@ -136,7 +136,7 @@ def stage_of_curve(drawing: Drawing, mark: Mark, said: Sequence[Sentence]) -> in
             if curve.kind == "locus":
                 return next(at for at, one in enumerate(said) if curve.of in traced(drawing, one))
             alike = [other.of for other in drawing.curves if other.kind == curve.kind]
-            name = TOLD_BY.get(curve.kind, curve.kind)
+            name = DRAWN_WITH.get(curve.kind, curve.kind)
             stages = [stage for stage, sentence in enumerate(said) if sentence.name == name]
             return stages[min(alike.index(curve.of), len(stages) - 1)]
     return None
@@ -180,7 +180,7 @@ def accompanied(marks: Sequence[Mark]) -> Iterator[tuple[Mark, Mark]]:
         yield mark, after if style_class(mark) == "number" and not mark.name else mark
 
 
-def when_told(drawing: Drawing, staged: Mapping[int, int]) -> dict[str, int]:
+def naming_stages(drawing: Drawing, staged: Mapping[int, int]) -> dict[str, int]:
     """The sentence that finds each letter of the plan, each centre and each vector.
 
     Vectors are given by their symbols.
@@ -241,11 +241,11 @@ def shared(mark: Text, stage: int, stages: Sequence[int], subject: float) -> Ite
 def noted(mark: Text, stage: int, telling: Mapping[str, int]) -> Iterator[Mark]:
     """The parts of a note line at the foot whose vectors and key numbers have appeared."""
     parts = mark.letters
-    stands = [telling.get(part.name, stage + 1) <= stage for part in parts]
+    is_written = [telling.get(part.name, stage + 1) <= stage for part in parts]
     for i, part in enumerate(parts):
-        if stands[i]:
+        if is_written[i]:
             before = extent("".join(each.joined for each in parts[: i + 1]), mark.height)[0]
-            ended = part.markup + BETWEEN.rstrip() if any(stands[i + 1 :]) else part.markup
+            ended = part.markup + BETWEEN.rstrip() if any(is_written[i + 1 :]) else part.markup
             aside = before - extent(part.markup, mark.height)[0]
             yield replace(mark, x=mark.x + aside, markup=ended)
 
@@ -315,7 +315,7 @@ def growing(drawing: Drawing, number: str) -> tuple[Page, ...]:
     said = sentences(drawing)
     staged = stages(drawing, said)
     (left, detail, _), (right, other, _) = parted(*boards(drawing, layout, "key", said))
-    telling = when_told(drawing, staged)
+    telling = naming_stages(drawing, staged)
     given = 0 if drawing.again else BEFORE
     field = layout.mechanism
     standing = appearing(drawing, field, left, staged, said)
@@ -350,7 +350,7 @@ def growing(drawing: Drawing, number: str) -> tuple[Page, ...]:
                 *same,
                 *fields[stage],
                 *(last if stage == len(said) - 1 else ()),
-                *told(drawing, said, first, stage, at),
+                *text_block(drawing, said, first, stage, at),
                 *crossed(drawing, [line for at, line in lines if first <= at <= stage]),
             ),
             f"{title}, {stage + 1}/{len(said)}",
@@ -443,7 +443,7 @@ def wrapped(markup: str, height: float, leading: float, y: float, at: StepLines)
         words, y = words[len(held) :], y + leading
 
 
-def told(
+def text_block(
     drawing: Drawing, said: Sequence[Sentence], first: int, stage: int, at: StepLines
 ) -> Iterator[Mark]:
     """The sentences to do in large lettering, and below them the last of those that are done."""

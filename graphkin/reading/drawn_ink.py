@@ -36,7 +36,7 @@ ENDS = 1.6
 """Millimetres at both ends of a line that are ignored: arrowheads, circles, letters."""
 LEAST_ERROR = 0.1
 """Least standard deviation across a line, in mm: a hand-drawn line is not quite straight."""
-TOLD = 0.4
+SEEN = 0.4
 """The least share of a line clear of printed ink for it to count as evidence."""
 BOW = 5.0
 """Half the length of the examined part of a compass arc, in mm."""
@@ -191,7 +191,7 @@ class DrawnInk(Struct, frozen=True):
         dark, known = self.at(rings.reshape(len(places), -1))
         seen = (known > 0).reshape(rings.shape)
         drawn = (dark > COVERED).reshape(rings.shape) & seen
-        full = drawn.sum(axis=2) / np.maximum(seen.sum(axis=2), 1) * (seen.mean(axis=2) > TOLD)
+        full = drawn.sum(axis=2) / np.maximum(seen.sum(axis=2), 1) * (seen.mean(axis=2) > SEEN)
         round_it = (full[:, :-BEYOND] - full[:, BEYOND:]).max(axis=1)
         half = turns.size // 2
         arms = drawn[:, :BEYOND].mean(axis=1) - drawn[:, -2:].mean(axis=1)
@@ -274,7 +274,7 @@ class DrawnInk(Struct, frozen=True):
         rays = way * np.exp(1j * turns[abs(turns - np.pi) > np.radians(ASLANT)])
         radii = np.arange(ENDS, RUN + ENDS, 1.5 * PITCH)
         dark, known = self.at(places[:, None, None] + rays[:, None] * radii)
-        drawn = ((dark > COVERED) | (known == 0)).mean(axis=2) * (known.mean(axis=2) > TOLD)
+        drawn = ((dark > COVERED) | (known == 0)).mean(axis=2) * (known.mean(axis=2) > SEEN)
         return np.clip(drawn - RUNS, 0, None) / (1 - RUNS), rays
 
     def cover(
@@ -301,7 +301,7 @@ class DrawnInk(Struct, frozen=True):
         dark, known = self.at(start + way * (along[:, None] + 1j * across[None, :]))
         drawn = dark.max(axis=1) > COVERED
         whole = known[:, len(across) // 2] > 0
-        if whole.mean() < TOLD:
+        if whole.mean() < SEEN:
             return hidden
         found = float((drawn & whole).sum() / max(whole.sum(), 1))
         last = whole & (along > long - ENDS - RUN)

@@ -27,7 +27,7 @@ STRAY, TRIED = 4.0, 3
 """A measurement this many deviations from its prediction is dropped; the most rounds of this."""
 PITCH = 4.0
 """Spacing of the grid of the field in mm; the grid begins at the corner of the sheet."""
-TOLD = 12.0
+SPACING = 12.0
 """Spacing in mm of the places in the fields at which the deviation is averaged."""
 
 
@@ -116,7 +116,7 @@ def covariance(known: Offsets, height: float) -> Any:
 def deviation(known: Offsets, inverse: Any, height: float, paper: SheetPaper) -> float:
     """The field's remaining standard deviation along each axis, averaged over the fields."""
     left, top, right, bottom = paper.fields
-    xs, ys = np.arange(left, right, TOLD), np.arange(top, bottom, TOLD)
+    xs, ys = np.arange(left, right, SPACING), np.arange(top, bottom, SPACING)
     places = np.stack(np.meshgrid(xs, ys), axis=-1).reshape(-1, 2)
     x, y = known.places.T
     alike = likeness(places[:, :1] - x) * likeness(places[:, 1:] - y) * height**2

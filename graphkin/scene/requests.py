@@ -107,8 +107,8 @@ def sides(name: str, links: Mapping[str, Link], branch: object = "") -> tuple[Me
             "P and Q are the outer pins of the two links that {name} joins", name=name
         )
     ways = [str(branch)] if branch else WAYS
-    told = either(f'{block} = "{way}"' for block in blocks for way in ways)
-    return told, message("a block's branch is written under the link's name")
+    expected = either(f'{block} = "{way}"' for block in blocks for way in ways)
+    return expected, message("a block's branch is written under the link's name")
 
 
 def read_ask(table: Table, findings: Findings, scene: Scene) -> Ask:

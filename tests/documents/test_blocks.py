@@ -145,7 +145,7 @@ def test_a_sentence_tells_the_side_of_the_line_that_the_data_name():
     """The arcs are drawn about G first; the scene says on which side of A to G their pin lies."""
     drawing = velocities(CYLINDER)
     assert "H left of A→G" in map(plain, given(drawing))
-    assert any(one.endswith("they meet in H, left of A→G") for one in told(drawing))
+    assert any(one.endswith("they meet at H, left of A→G") for one in told(drawing))
 
 
 def test_a_point_on_a_bar_that_is_given_by_its_parts_is_told_so():

@@ -33,6 +33,7 @@ from graphkin.drawing.field import A3
 from graphkin.reading import read_run, registration
 from graphkin.reading.codes import code_among, codes_in
 from graphkin.reading.desk_app import DeskSession, desk_application, desk_page
+from graphkin.reading.desk_drawings import DrawingDesk
 from graphkin.reading.drawn_answers import drawn_items, is_followed
 from graphkin.reading.drawn_ink import DENSITY as INK
 from graphkin.reading.drawn_ink import DrawnInk, fitted, offsets, refined
@@ -1246,8 +1247,8 @@ def test_one_seed_is_one_picture(a_class: Path, code: str) -> None:
 # --- the desk and what goes back -------------------------------------------------------------
 
 
-def asking(taken: Path) -> DeskSession:
-    return DeskSession(taken / "read", words("en"))
+def asking(taken: Path) -> DrawingDesk:
+    return DrawingDesk(taken / "read", words("en"))
 
 
 def test_the_desk_writes_a_decision_at_once_and_takes_it_back(taken: Path) -> None:
@@ -1260,9 +1261,9 @@ def test_the_desk_writes_a_decision_at_once_and_takes_it_back(taken: Path) -> No
     assert (point["verdict"], point["ask"], point["decided"]) == ("wrong", False, True)
     again = asking(taken)  # the page was closed, or the desk was killed
     (sheet,) = [each for each in again.sheets() if each["name"] == "hard"]
-    assert {**told, "points": list(told["points"])} == {**sheet, "points": list(sheet["points"])}
+    assert told == sheet
     assert again.undo()["step"] == asked.step
-    points = again.told(record, again.settled.standing)["points"]
+    points = again.told(record)["points"]
     (point,) = [each for each in points if each["step"] == asked.step]
     assert point["ask"]
 
@@ -1288,7 +1289,7 @@ def test_the_desk_refuses_what_its_page_does_not_ask(taken: Path, said: bytes) -
 
 
 def test_only_the_page_with_its_token_gets_pictures(taken: Path) -> None:
-    session = asking(taken)
+    session = DeskSession(taken / "read", words("en"))
     guard = Guard(desk_application(session), "secret", ("127.0.0.1:1",), lambda: None)
     answers = []
 
@@ -1311,7 +1312,7 @@ def test_the_desk_speaks_each_language(taken: Path, language: str) -> None:
     session = DeskSession(taken / "read", words(language))
     page = desk_page(session).decode()
     assert words(language)("desk.title") in page
-    (sheet,) = [each for each in session.sheets() if each["name"] == "hard"]
+    (sheet,) = [each for each in session.everything()["sheets"] if each["name"] == "hard"]
     assert sheet["kind"] == words(language)("sheet.acceleration")
     assert sheet["who"].startswith("0042 ")
     assert "<built-in" not in page

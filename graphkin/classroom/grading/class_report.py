@@ -336,7 +336,7 @@ def decision_lines(result: Result, words: Words) -> Iterator[str]:
             key, amounts["after"] = "class.decided_row", points_words(each.points, words)
         field = each.field or words("class.whole")
         yield words(
-            key, who=graded.taker.student.called, field=field, reason=each.reason, **amounts
+            key, who=graded.taker.student.called, field=field, reason=each.reason or "–", **amounts
         )
 
 
@@ -344,16 +344,15 @@ def request_lines(result: Result, words: Words) -> Iterator[str]:
     """A sentence for each request that is not decided yet."""
     for graded, each in decisions_of(result, is_open=True):
         field = each.field or words("class.whole")
-        yield words(
-            "class.request_row", who=graded.taker.student.called, field=field, reason=each.reason
-        )
+        asked = each.reason if each.is_open else each.asked
+        yield words("class.request_row", who=graded.taker.student.called, field=field, reason=asked)
 
 
 def decisions_of(result: Result, *, is_open: bool) -> Iterator[tuple[Graded, Decision]]:
-    """The lecturer's decisions, or the open requests, each with its student."""
+    """The lecturer's decisions, or those with an open request, each with its student."""
     for graded in result.graded:
         for each in graded.decisions:
-            if each.is_open == is_open:
+            if (each.is_open or bool(each.asked)) if is_open else not each.is_open:
                 yield graded, each
 
 

@@ -405,10 +405,10 @@ def read_rubric(marks: Table, marking: Table, mechanism: Mechanism) -> Rubric:
             message("{given:g} is above cap", given=given["floor"]),
             message("at most cap"),
         )
-    hold = marking.flag("hold")
+    flags = {name: marking.flag(name) for name in ("hold", "says_right")}
     marking.finish()
     return Rubric(
-        points=points, causes=causes, grades=grades, own=own, hold=hold, digits=digits, **given
+        points=points, causes=causes, grades=grades, own=own, digits=digits, **flags, **given
     )
 
 

@@ -207,9 +207,9 @@ def sure_lines(verdict: Verdict | None) -> list[str]:
     """The number of sure digits, and the quantities without a sure digit."""
     if verdict is None or not verdict.digits:
         return []
-    told = [] if verdict.differs else [f"sure: {digits_words(verdict)}"]
-    told += [unsure_words(verdict)] if verdict.unsure else []
-    return [f"{head:9}{words}" for head, words in zip(("digits", ""), told, strict=False)]
+    lines = [] if verdict.differs else [f"sure: {digits_words(verdict)}"]
+    lines += [unsure_words(verdict)] if verdict.unsure else []
+    return [f"{head:9}{words}" for head, words in zip(("digits", ""), lines, strict=False)]
 
 
 def is_flat(trace: Trace) -> bool:
