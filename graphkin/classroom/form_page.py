@@ -23,13 +23,14 @@ from graphkin.classroom.grading.answer_numbers import (
     MISTYPED,
     NUMBER,
     RAISED,
+    RUSSIAN,
     UNITS,
 )
 from graphkin.classroom.lab.items import items as fields_of
 from graphkin.classroom.lab.items import motion_of
 from graphkin.classroom.lab.lab_model import Item, Lab
 from graphkin.classroom.printing.answer_form import advice, why
-from graphkin.construction.core.quantities import BY_TARGET, RATES, SHEETS
+from graphkin.construction.core.quantities import CLOCKWISE, FORCE, SHEETS
 from graphkin.mechanism import Mechanism
 from graphkin.text import Words
 from graphkin.web.offline_page import FORM, part, together
@@ -96,7 +97,7 @@ def form_fragment(
     board of its page tells when a point is right.
     """
     sheets = []
-    for sheet in SHEETS:
+    for sheet in (*SHEETS, FORCE):
         alike = groupby((item for item in items if motion_of(item).kind == sheet), kind_of)
         groups = [
             [field(item, points.get(item.field), item.field in compute, words) for item in own]
@@ -125,6 +126,7 @@ def settings(items: Sequence[Item], words: Words, identity: Identity) -> dict[st
         "number": in_javascript(NUMBER.pattern),
         "mistyped": MISTYPED.pattern,
         "raised": {chr(sign): chr(plain) for sign, plain in RAISED.items()},
+        "russian": RUSSIAN,
         "letters": LETTERS,
         "blanks": BLANKS,
         "longest": LONGEST,
@@ -152,7 +154,7 @@ class FormField(Struct, frozen=True):
 
 def field(item: Item, worth: Fraction | None, computed: bool, words: Words) -> FormField:
     """The field that asks for an item."""
-    asks_sense, turning = item.what == "sense", BY_TARGET.get(item.quantity) in RATES
+    asks_sense, turning = item.what == "sense", item.quantity in CLOCKWISE
     keys = ("anticlockwise", "clockwise") if turning else ("forward", "backward")
     return FormField(
         item,

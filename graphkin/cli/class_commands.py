@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -307,7 +308,7 @@ def quiz(
     whole = read_edition(Path(name)) if (Path(name) / MANIFEST).is_file() else None
     lab = whole.lab if whole else lab_of_command(name)
     lang = lang or (whole.language if whole else "")
-    written_by = {
+    written_by: dict[str, tuple[str, Callable[..., bytes]]] = {
         "moodle": (f"{lab.name}-moodle.xml", lambda found, words: bank(lab.name, found)),
         "canvas": (f"{lab.name}-canvas.zip", partial(canvas_package, lab.name)),
         "qti3": (f"{lab.name}-qti3.zip", partial(qti3_package, lab.name)),

@@ -344,8 +344,9 @@ def by_pencil(
     """The errors of a drawing made with a pencil, as a record and as lines; prints warnings."""
     from graphkin.accuracy.pencil import Pencil, forecast, original
     from graphkin.cli.report.pencil_report import pencil_lines, pencil_record, warnings
+    from graphkin.documents.force_sheets import with_force_plan
 
-    found = forecast(original(mechanism, drawn_at), Pencil(millimetres))
+    found = forecast(original(*with_force_plan(mechanism, drawn_at)), Pencil(millimetres))
     for warning in warnings(found):
         complain(f"{mechanism.scene.name} {warning}")
     return pencil_record(found), ("", *pencil_lines(found))

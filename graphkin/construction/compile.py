@@ -71,6 +71,10 @@ def write(scene: Scene, groups: tuple[Group, ...], *, fitted: bool = True) -> Pr
 
         draw_ladder(pen)
     write_plan(pen, standing, ACCELERATIONS)
+    if scene.ask.jerk:
+        from graphkin.construction.third_order import draw_jerks
+
+        draw_jerks(pen)
     refuse_unused_method(pen)
     every = [base for _, found in standing for base in found]
     draw_centres(pen, every)

@@ -17,11 +17,10 @@ from graphkin.construction.core.component import (
     Measured,
     OwnSizes,
     Size,
-    Slip,
     TriangleComponent,
 )
 from graphkin.construction.core.drawn_scene import NOISE, Drawing
-from graphkin.construction.core.kind import ByHand, Wording, construction
+from graphkin.construction.core.kind import ByHand, Slip, Wording, construction
 from graphkin.construction.core.naming import NAUGHT, plan_amount, rate_symbol, vector_of, way_of
 from graphkin.construction.core.palette import NUMBERS, PaletteAction, Picks
 from graphkin.construction.core.pen import PRIME, Pen, letter

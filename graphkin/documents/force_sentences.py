@@ -103,7 +103,7 @@ def forces_asked(drawing: Drawing) -> list[str]:
             mentioned = words("list_mark").join(symbols)
             found.append(words(many if len(names) > 1 else one, list=mentioned))
     if forces.balance:
-        lever = isinstance(drawing, ForceDrawing) and drawing.lever_extent() is not None
+        lever = isinstance(drawing, ForceDrawing) and drawing.extents.lever is not None
         found.append(words("ask.balance_lever" if lever else "ask.balance"))
     return found
 

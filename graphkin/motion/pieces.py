@@ -47,6 +47,8 @@ FEWER = 360
 
 This search serves a group that does not close where the scene is drawn.
 """
+COARSE = 1 / 12
+"""The longest step, in turns, where it is only asked whether a motion ends."""
 MOST_WAYS = 200
 """The most turns, or slide lengths, over which a motion is followed."""
 
@@ -329,7 +331,7 @@ def ends_within(course: Course, start: float, way: float) -> bool:
     """
     if not course.closers or abs(way) <= TURN:
         return True
-    closures = carried(course, start, start + way).closures
+    closures = carried(course, start, start + way, COARSE).closures
     return any(each.lost(np.array([start + way]))[0] for each in closures)
 
 

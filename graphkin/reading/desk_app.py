@@ -6,6 +6,7 @@ decision to a file in the folder, so that several people can decide at once.
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from pathlib import Path
 from threading import Lock
 from typing import Any
@@ -33,9 +34,9 @@ SAID = (
     "title", "open", "none_open", "point", "verdict", "off", "note", "right", "follows", "wrong",
     "missing", "unread", "next", "undo", "key", "flicker", "by_keys", "refused", "saved", "failed",
     "sheets", "help", "pin", "pins", "rivals", "reason", "points", "reading", "remark", "decided",
-    "disagree", "marks_by_keys", "pin_help", "to_decide",
+    "disagree", "marks_by_keys", "pin_help", "to_decide", *(f"kind_{kind}" for kind in KINDS),
 )  # fmt: skip
-"""The sentences of the page; with one for each kind of thing to decide."""
+"""The sentences of the page."""
 
 
 class DeskSession(Struct, dict=True):
@@ -152,7 +153,6 @@ def desk_page(session: DeskSession) -> bytes:
     words = session.words
     said = {key: words.open(f"desk.{key}") for key in SAID}
     said["student"] = words("studio.student")
-    said |= {f"kind_{kind}": words.open(f"desk.kind_{kind}") for kind in KINDS}
     start = {"said": said, "verdicts": VERDICTS, "density": SHOWN, "kinds": KINDS}
     text = msgspec.json.encode(start, enc_hook=as_text).decode()
     page = from_template("reading/web/desk.html", said=said, language=words.language, start=text)
@@ -182,12 +182,17 @@ def desk_application(session: DeskSession) -> Any:
     app.route("/everything", "GET", lambda: answer(200, JSON, encoded(session.everything())))
     app.route("/picture/<name>.jpg", "GET", picture)
     app.route("/item/<name>", "GET", item)
-    for path, work in (
-        ("/news", session.news),
-        ("/decide", session.decide),
-        ("/rule", session.rule),
-        ("/remark", session.remark),
-        ("/undo", lambda _: session.undo()),
-    ):
-        app.route(path, "POST", answering(lambda data, work=work: encoded(work(data)), MOST_BYTES))
+    works: dict[str, Callable[[bytes], dict[str, Any]]] = {
+        "/news": session.news,
+        "/decide": session.decide,
+        "/rule": session.rule,
+        "/remark": session.remark,
+        "/undo": lambda _: session.undo(),
+    }
+
+    def handler(work: Callable[[bytes], dict[str, Any]]) -> Callable[[], Any]:
+        return answering(lambda data: encoded(work(data)), MOST_BYTES)
+
+    for path, work in works.items():
+        app.route(path, "POST", handler(work))
     return app

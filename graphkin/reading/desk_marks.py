@@ -139,7 +139,7 @@ class MarkDesk(Struct, dict=True):
         )
         return "decided" if all(settled) else "open"
 
-    def about(self, item: DeskItem, place: Place) -> Iterator[tuple[Said, ...]]:
+    def about(self, item: DeskItem, place: Place) -> Iterator[tuple[Said[DeskAct], ...]]:
         """What counts about a place of an item: rulings on its mark, and on its cell."""
         said = self.rulings.about(SetPoints, place)
         if item.kind != "appeal" or (said and said[-1].what.asked == item.own):
@@ -221,11 +221,11 @@ class MarkDesk(Struct, dict=True):
                     found[self.said(each, len(item.places) > 1)] = None
         return list(found)
 
-    def said(self, each: Said, several: bool) -> str:
+    def said(self, each: Said[DeskAct], several: bool) -> str:
         """A ruling in words, with its marker."""
         ruling: AnyRuling = each.what
         who = f"{self.queue.names[ruling.who]}: " if several and not ruling.field else ""
-        told = self.words("desk.stays")
+        told: str = self.words("desk.stays")
         if isinstance(ruling, SetPoints):
             told = self.words("desk.earns", points=points_words(ruling.points, self.words))
         elif isinstance(ruling, ReadAs):
@@ -278,7 +278,8 @@ class MarkDesk(Struct, dict=True):
         item = self.item(asked.item)
         if not 0 <= asked.row < len(item.shown) or len(asked.text) > LONGEST:
             raise PageRequestError(str(asked.row))
-        remark = Remark(*item.shown[asked.row], text=asked.text.strip())
+        who, field = item.shown[asked.row]
+        remark = Remark(who, field, asked.text.strip())
         self.rulings.add(DeskAct(by=self.marker, seen=asked.known, rulings=(remark,)))
         return self.shown(asked.item)
 

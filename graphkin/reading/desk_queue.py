@@ -222,6 +222,7 @@ class DeskQueue(Struct, frozen=True):
                 if mark.item.what != "sense" and mark.answer.is_read:
                     every[mark.item.field].append((who, mark))
         for field, told in every.items():
+            found: list[tuple[str, list[Wrong]]]
             if told[0][1].item.what == "place":
                 found = [(words("desk.same_value"), each) for each in alike(told, value_of)]
             else:

@@ -20,6 +20,7 @@ from graphkin.classroom.printing.edition import Edition
 from graphkin.classroom.printing.file_names import stems
 from graphkin.classroom.roster.taker import Taker
 from graphkin.construction.core.quantities import MOTION
+from graphkin.drawing.field import A3, SheetPaper
 from graphkin.drawing.richtext import font_file
 from graphkin.reading.kept_readings import PICTURE, records_in
 from graphkin.reading.point_reading import PointReading
@@ -46,8 +47,9 @@ class MarkedSheet(Struct, frozen=True):
     picture: bytes
     points: tuple[PointReading, ...]
     lines: tuple[tuple[str, str], ...]
-    """The remark on each point, and its colour; then those on other places."""
+    """The remarks on the whole plan, on each point, and on other places, with their colours."""
     pins: tuple[DrawingRemark, ...] = ()
+    paper: SheetPaper = A3
 
 
 def drawings_of_class(
@@ -77,14 +79,16 @@ def marked_sheet(
     standing = settled.standing
     points = settled_points(record, standing)
     here = [each for each in standing.values() if each.sheet == record.name]
-    notes = {each.step: each.note for each in here}
+    notes = {each.step: each.note for each in here if each.step is not None}
     who = taker.student.name or taker.student.id
     head = words("marked.head", sheet=words(f"sheet.{record.kind}"), who=who)
     picture = (folder / f"{record.name}{PICTURE}").read_bytes()
     pins = tuple(remarks_on(record, settled))
     pinned = ((f"{each.number}. {each.text}", BLUE) for each in pins)
-    lines = (*said_of(points, notes, words), *pinned)
-    return MarkedSheet(head, picture, points, lines, pins)
+    causes = () if record.cause is None else record.cause.sentences(words)
+    whole = ((cause, RED) for cause in causes)
+    lines = (*whole, *said_of(points, notes, words), *pinned)
+    return MarkedSheet(head, picture, points, lines, pins, record.on)
 
 
 def remarks_on(record: SheetRecord, settled: SettledPoints) -> Iterator[DrawingRemark]:
@@ -151,6 +155,7 @@ def as_page(sheets: Sequence[MarkedSheet], words: Words) -> bytes:
     shown = [
         {
             "title": sheet.title,
+            "size": [f"{side:g}" for side in (sheet.paper.width, sheet.paper.height)],
             "picture": b64encode(sheet.picture).decode("ascii"),
             "points": [(point, colour_of(point)) for point in sheet.points],
             "pins": sheet.pins,
@@ -177,7 +182,7 @@ def as_pdf(sheets: Sequence[MarkedSheet], words: Words) -> bytes:
     pages = []
     for sheet in sheets:
         image = Image.open(io.BytesIO(sheet.picture)).convert("RGB")
-        width, height = round(420 * DENSITY), round(297 * DENSITY)
+        width, height = (round(sheet.paper.width * DENSITY), round(sheet.paper.height * DENSITY))
         rows = [(sheet.title, "#000000"), *sheet.lines, (words("marked.legend"), "#000000")]
         page = Image.new("RGB", (width, height + 2 * MARGIN + LINE * len(rows)), "white")
         page.paste(image.resize((width, height)), (0, 0))

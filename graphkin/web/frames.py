@@ -16,7 +16,7 @@ from msgspec.structs import replace
 
 from graphkin.construction.core.drawn_scene import Drawing
 from graphkin.construction.core.quantities import SHEETS
-from graphkin.construction.core.solution import Verdict
+from graphkin.construction.core.solution import UNPROVED
 from graphkin.documents.scaling import drawing, natural_seconds, targets_of
 from graphkin.drawing.scale import Scales
 from graphkin.mechanism import Mechanism
@@ -223,7 +223,7 @@ def moment_at(cycle: Cycle, place: float, words: Words) -> Frame | None:
     piece, within = piece_at(cycle, place)
     if piece is None:
         return None
-    mechanism = Mechanism(piece.course.standing(within))
+    mechanism = piece.course.mechanism(within)
     try:
         scales = Scales(1.0, natural_seconds(mechanism), triangles=False)
         drawings = {
@@ -242,8 +242,7 @@ def made(
     mechanism: Mechanism, kind: str, targets: Sequence[Any], scales: Scales, words: Words
 ) -> Drawing:
     """The drawing of one plan."""
-    nobody = Verdict(True, 0.0, "", 0.0, 0.0, 0.0)
-    return drawing(mechanism, kind, tuple(targets), scales, nobody, words)
+    return drawing(mechanism, kind, tuple(targets), scales, UNPROVED, words)
 
 
 def piece_at(cycle: Cycle, place: float) -> tuple[Piece | None, float]:

@@ -19,7 +19,7 @@ from graphkin.construction.core.quantities import CENTRES
 from graphkin.construction.result_tables import unread
 from graphkin.documents.scheme import scheme
 from graphkin.documents.sheet import HEADING, apart, asked_words, title_of
-from graphkin.drawing.field import SCHEME, Rect
+from graphkin.drawing.field import Rect
 from graphkin.drawing.marks import Mark
 from graphkin.drawing.style import BY_SIGN, Ink
 from graphkin.drawing.symbol_markup import symbol
@@ -329,7 +329,9 @@ def scheme_figure(drawing: Drawing, marks: Sequence[Mark]) -> tuple[str, str]:
     if title is None:
         return "", ""
     timed = [("", Timed(mark, 0, None)) for mark in drawn]
-    return drawing.words("task.scheme"), field_picture(timed, SCHEME, "caption-scheme")
+    return drawing.words("task.scheme"), field_picture(
+        timed, drawing.paper.scheme, "caption-scheme"
+    )
 
 
 def tell_unread(sheets: Sequence[ScreenSheet], tell: Tell) -> None:

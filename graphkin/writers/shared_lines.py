@@ -42,11 +42,11 @@ Targets = Callable[[L], Iterable[tuple[Any, Any]]]
 """What a line decides: pairs of a target and of what is said about it."""
 
 
-class Said(Struct, frozen=True):
+class Said(Struct, Generic[L], frozen=True):
     """What was said about a target, by whom, and in which line."""
 
     number: int
-    line: SharedLine
+    line: L
     what: Any
 
 
@@ -60,7 +60,7 @@ class SharedLines(Generic[L]):
         self.path, self.kind, self.targets = path, kind, targets
         self.whole = self.count = 0
         self.numbered: list[tuple[int, L]] = []
-        self.replayed: dict[Any, tuple[Said, ...]] | None = None
+        self.replayed: dict[Any, tuple[Said[L], ...]] | None = None
         self.refresh()
 
     @property
@@ -125,11 +125,11 @@ class SharedLines(Generic[L]):
             self.refresh()
 
     @property
-    def decided(self) -> Mapping[Any, tuple[Said, ...]]:
+    def decided(self) -> Mapping[Any, tuple[Said[L], ...]]:
         """What counts for each target: one statement, or those of writers who disagree."""
         if self.replayed is not None:
             return self.replayed
-        found: dict[Any, tuple[Said, ...]] = {}
+        found: dict[Any, tuple[Said[L], ...]] = {}
         for number, line in self.numbered:
             for target, what in self.targets(line):
                 found[target] = (
@@ -145,7 +145,7 @@ def exact(kind: type, text: object) -> object:
     return kind(text)
 
 
-def disagree(other: Said, line: SharedLine, what: Any) -> bool:
+def disagree(other: Said[Any], line: SharedLine, what: Any) -> bool:
     """Whether a line says something else than another writer's, which its own had not seen."""
     unseen = line.seen is not None and other.number > line.seen
     return unseen and other.line.by != line.by and other.what != what

@@ -28,6 +28,7 @@ from graphkin.construction.core.kind import Construction, Sentence
 from graphkin.construction.core.layout import lay_out
 from graphkin.construction.core.program import Step
 from graphkin.construction.core.solution import Verdict
+from graphkin.documents.force_sheets import with_force_plan
 from graphkin.documents.relations import relations
 from graphkin.documents.scaling import sheet_motion
 from graphkin.documents.sentences import sentences
@@ -236,13 +237,13 @@ def marked(name: str) -> object:
 
 def errors(name: str) -> object:
     """What a pencil does to it."""
-    exact = original(mechanism(name), materials(name)[0].scales)
+    exact = original(*with_force_plan(mechanism(name), materials(name)[0].scales))
     return list(pencil_lines(forecast(exact, Pencil(0.25))))
 
 
 def pages(name: str) -> object:
     """Its sheets, with every label in its place."""
-    return [sheet(drawing, "key", "1/2").marks for drawing in materials(name)]
+    return [sheet(drawing, "key", "1/2")[0].marks for drawing in materials(name)]
 
 
 def moves(name: str) -> object:

@@ -129,7 +129,7 @@ def test_a_point_of_a_block_is_laid_off_along_its_guide():
 def test_the_field_of_the_mechanism_holds_its_profiles(angle):
     """The slot's arc reaches far beyond all pins."""
     drawing = velocities(NEEDLE.replace("angle = 60", f"angle = {angle}"))
-    page = sheet(drawing, "key", "1/1")
+    page = sheet(drawing, "key", "1/1")[0]
     arcs = [mark for mark in page.marks if isinstance(mark, Arc) and mark.cls == "profile"]
     assert arcs
     box = drawing.mechanism_extent()

@@ -160,7 +160,7 @@ def test_a_figure_and_its_sentence_have_the_same_factor_of_the_relative_velocity
     drawing = drawings(name)[1]
     said = next(s.markup for s in sentences(drawing) if "Coriolis" in s.markup)
     _, slid = re.search(r"set 2·(\*v\*_\{(\w+)\}) = ", said).groups()
-    page = sheet(drawing, "key", "2/2", lay_out(drawing))
+    page = sheet(drawing, "key", "2/2", lay_out(drawing))[0]
     labels = {mark.markup for mark in page.marks if isinstance(mark, Text)}
     assert any(f"2*v*_{{{slid}}}" in label for label in labels), labels
     assert ("of the velocity plan’s scale" in said) is (drawing.scales.larger > 1)

@@ -29,7 +29,7 @@ from graphkin.classroom.printing.personal import modules
 from graphkin.classroom.roster.taker import Taker
 from graphkin.cli.main import app
 from graphkin.construction.core.program import Plane
-from graphkin.drawing.field import AREA
+from graphkin.drawing.field import A3
 from graphkin.reading import read_run, registration
 from graphkin.reading.codes import code_among, codes_in
 from graphkin.reading.desk_app import DeskSession, desk_application, desk_page
@@ -531,11 +531,11 @@ def test_halves_that_are_no_sheet_are_refused(a_class: Path, code: str, tmp_path
 
 def ink_of(*lines: tuple[complex, complex]) -> DrawnInk:
     """Lines between places of the paper, and nothing printed."""
-    width, height = (round((AREA[i + 2] - AREA[i]) * INK) for i in (0, 1))
+    width, height = (round((A3.fields[i + 2] - A3.fields[i]) * INK) for i in (0, 1))
     dark = np.zeros((height, width), np.float32)
     for start, end in lines:
         a, b = (
-            (round((p.real - AREA[0]) * INK * 16), round((p.imag - AREA[1]) * INK * 16))
+            (round((p.real - A3.fields[0]) * INK * 16), round((p.imag - A3.fields[1]) * INK * 16))
             for p in (start, end)
         )
         cv2.line(dark, a, b, 1.0, 2, cv2.LINE_8, 4)

@@ -47,6 +47,8 @@ FILLS = {
 WIDTH = 7.2
 BARS = 10
 """The number of classes of points, in percent."""
+FEW, EVERYBODY = 6, 0.8
+"""The fewest students of whom a cause may be everybody's, and the share that shares it."""
 MOST = 12
 """The most causes shown."""
 ACROSS = 92
@@ -234,6 +236,7 @@ def class_report(
         causes=[(cause_sentence(each, words), *counts) for each, *counts in cause_counts(own)],
         wrong_variants=list(wrong_variant_lines(result, words)),
         copies=[copies_words(each, names, words) for each in result.copies],
+        everybody=list(everybody_lines(result, words)),
         others=list(another_lines(result, words)),
         computed=list(computed_lines(result, words)),
         held=held_line(result, words),
@@ -299,6 +302,15 @@ def another_lines(result: Result, words: Words) -> Iterator[str]:
                 yield words(
                     "class.another_row", who=each.taker.student.called, other=other, cost=cost
                 )
+
+
+def everybody_lines(result: Result, words: Words) -> Iterator[str]:
+    """A sentence for each cause that nearly the whole class shares: it may not be the students'."""
+    present = [each for each in result.graded if each.present]
+    counts = Counter(name for each in present for name in {c.name for c in each.causes})
+    for name, count in counts.items():
+        if len(present) >= FEW and count >= EVERYBODY * len(present):
+            yield words("class.everybody_row", cause=name, count=count, all=len(present))
 
 
 def computed_lines(result: Result, words: Words) -> Iterator[str]:
@@ -453,6 +465,7 @@ def unsure_lines(result: Result, words: Words) -> Iterator[str]:
 def result_lines(result: Result, words: Words) -> Iterator[str]:
     """The lines for the terminal: how the class did, and the evidence."""
     yield summary(result.graded, words)
+    yield from everybody_lines(result, words)
     names = names_of(result)
     yield from wrong_variant_lines(result, words)
     for each in result.copies:

@@ -80,7 +80,7 @@ class DeskRulings(SharedLines[DeskAct]):
     def __init__(self, report: Path) -> None:
         super().__init__(report / RULINGS, DeskAct, targets_of)
 
-    def about(self, kind: type[Ruling], place: Place) -> tuple[Said, ...]:
+    def about(self, kind: type[Ruling], place: Place) -> tuple[Said[DeskAct], ...]:
         """What counts of one kind about a place: none, one, or those that disagree."""
         return self.decided.get((family(kind), *place), ())
 
@@ -107,7 +107,7 @@ class DeskDecided(Struct):
     readings: dict[Place, ReadAs] = field(default_factory=dict)
     remarks: dict[Place, str] = field(default_factory=dict)
     strangers: list[Ruling] = field(default_factory=list)
-    rivals: list[tuple[Said, ...]] = field(default_factory=list)
+    rivals: list[tuple[Said[DeskAct], ...]] = field(default_factory=list)
 
 
 def desk_decided(report: Path, on: Deciding) -> DeskDecided:
@@ -131,8 +131,8 @@ def desk_decided(report: Path, on: Deciding) -> DeskDecided:
                 found.remarks[ruling.place] = ruling.text
         else:
             earned = ruling.points if isinstance(ruling, SetPoints) else None
-            decision = Decision(*ruling.place, earned, ruling.reason, answers=ruling.asked)
-            found.decisions.append(replace(decision, at_desk=True))
+            decision = Decision(ruling.who, ruling.field, earned, ruling.reason, at_desk=True)
+            found.decisions.append(replace(decision, answers=ruling.asked))
     return found
 
 

@@ -23,7 +23,7 @@ from graphkin.classroom.grading.graded import (
 from graphkin.classroom.lab.lab_model import Rubric
 from graphkin.classroom.printing.personal import printable_name
 from graphkin.construction.core.given_data import set_parameters
-from graphkin.construction.core.quantities import TURNING
+from graphkin.construction.core.quantities import CLOCKWISE, TURNING
 from graphkin.drawing.field import A4_AREA, A4_SIZE
 from graphkin.drawing.frame import page_frame
 from graphkin.drawing.marks import LineMark, Mark, Page, Text
@@ -204,7 +204,7 @@ def value_words(mark: EarnedMark, words: Words, value: float) -> str:
     """A value of a field as the page writes it."""
     item = mark.item
     if item.what == "sense":
-        turning = item.quantity in TURNING
+        turning = item.quantity in CLOCKWISE
         return words(SENSES[turning, value > 0]) if value else "0"
     if isnan(value):
         return "–"
@@ -275,10 +275,10 @@ def decision_words(decision: Decision, words: Words) -> str:
     reason = escape(printable(decision.reason))
     if decision.is_open:
         return words("feedback.asked", reason=reason)
+    keys = ("feedback.decided", "feedback.decided_so")
     if decision.points is None:
-        told = words("feedback.kept", reason=reason) if reason else words("feedback.kept_so")
-    else:
-        told = words("feedback.decided", reason=reason) if reason else words("feedback.decided_so")
+        keys = ("feedback.kept", "feedback.kept_so")
+    told: str = words(keys[0], reason=reason) if reason else words(keys[1])
     if decision.answers:
         told = f"{words('feedback.you_asked', text=escape(printable(decision.answers)))}; {told}"
     if decision.asked:

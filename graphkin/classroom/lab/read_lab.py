@@ -412,9 +412,9 @@ def read_rubric(marks: Table, marking: Table, mechanism: Mechanism) -> Rubric:
         causes=causes,
         grades=grades,
         own=own,
+        digits=digits,
         hold=hold,
         says_right=says_right,
-        digits=digits,
         **given,
     )
 

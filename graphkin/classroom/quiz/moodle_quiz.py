@@ -35,7 +35,7 @@ from graphkin.classroom.printing.workers import chunks, engine, results
 from graphkin.classroom.roster.student import Student
 from graphkin.classroom.roster.taker import Taker
 from graphkin.classroom.variants.assign import Assigned, assigned
-from graphkin.construction.core.quantities import TURNING
+from graphkin.construction.core.quantities import CLOCKWISE
 from graphkin.drawing.richtext import plain
 from graphkin.text import Words
 from graphkin.writers.templates import from_template
@@ -101,7 +101,7 @@ def keyed(marker: Marker, item: Item, words: Words) -> Iterator[Taken]:
 
 def sensed(marker: Marker, item: Item, words: Words) -> tuple[Taken, ...]:
     """Both senses; each is correct if no drawing can decide the sense."""
-    standard, turning = marker.standard, item.quantity in TURNING
+    standard, turning = marker.standard, item.quantity in CLOCKWISE
     is_open = sense_is_open(standard, item.field)
     right, wrong = words("feedback.right"), plain(words("feedback.wrong_sense"))
     found = []

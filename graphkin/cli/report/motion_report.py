@@ -11,6 +11,7 @@ from graphkin.construction.core.quantities import (
     CENTRES,
     OF_POINTS,
     OF_SLIDES,
+    PLURALS,
     RATES,
     MotionQuantity,
     motion_value,
@@ -232,13 +233,10 @@ def flat_words(scene: Scene, trace: Trace) -> str:
     )
 
 
-KINDS = {"position": "positions", "velocity": "velocities", "acceleration": "accelerations"}
-
-
 def digits_words(verdict: Verdict) -> str:
     """The numbers of sure digits of positions, velocities and accelerations."""
-    known = [(kind, verdict.digits[kind]) for kind in KINDS if kind in verdict.digits]
-    return ", ".join(f"{KINDS[kind]} {digits}" for kind, digits in known)
+    known = [(kind, verdict.digits[kind]) for kind in PLURALS if kind in verdict.digits]
+    return ", ".join(f"{PLURALS[kind]} {digits}" for kind, digits in known)
 
 
 def unsure_words(verdict: Verdict) -> str:

@@ -17,11 +17,10 @@ from graphkin.construction.core.component import (
     Measured,
     OwnSizes,
     Size,
-    Slip,
     TriangleComponent,
 )
 from graphkin.construction.core.drawn_scene import Drawing
-from graphkin.construction.core.kind import ByHand, Sentence, Wording, in_one, together
+from graphkin.construction.core.kind import ByHand, Sentence, Slip, Wording, in_one, together
 from graphkin.construction.core.naming import plan_amount
 from graphkin.construction.core.palette import NUMBERS, PaletteAction, Picks, normal_towards
 from graphkin.construction.core.pen import Pen, about, against, letter

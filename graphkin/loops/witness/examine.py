@@ -12,6 +12,7 @@ from msgspec import Struct
 from msgspec.structs import replace
 
 from graphkin.construction.core.quantities import (
+    JERK,
     QUANTITIES,
     LinkMotion,
     PointMotion,
@@ -430,7 +431,7 @@ def has_acceleration(solution: Solution) -> bool:
     return any(
         motion_value(motion, quantity) is not None
         for quantity in QUANTITIES
-        if quantity.kind == "acceleration"
+        if quantity.kind in ("acceleration", JERK)
         for motion in getattr(solution, quantity.whose).values()
     )
 

@@ -5,7 +5,7 @@
   const said = start.said;
   const find = (name) => document.getElementById(name);
   const paper = find("paper");
-  const WHOLE = [0, 0, 420, 297];
+  const whole = () => [0, 0, ...(sheet()?.size ?? [420, 297])];
   const CLOSE = 60; // mm of paper that are seen about a doubtful point
   const EVERY = 4000; // ms between two looks at what others decided
   let sheets = [];
@@ -18,7 +18,7 @@
   let place = null; // where it is put, before a verdict
   let spot = null; // where the pointer was last
   let pinning = null; // the place of a remark that is being written
-  let view = WHOLE;
+  let view = [0, 0, 420, 297];
 
   const shape = (name, attributes) => {
     const made = document.createElementNS("http://www.w3.org/2000/svg", name);
@@ -57,14 +57,14 @@
     if (!now) return;
     if (now.refused === null) {
       paper.append(shape("image", {
-        href: `picture/${encodeURIComponent(now.name)}.jpg`, x: 0, y: 0, width: 420, height: 297,
+        href: `picture/${encodeURIComponent(now.name)}.jpg`, x: 0, y: 0, width: now.size[0], height: now.size[1],
         preserveAspectRatio: "none",
       }));
     }
     const key = shape("g", { id: "key-lines" });
     if (find("key").getAttribute("aria-pressed") !== "true") key.classList.add("hidden");
     for (const [x1, y1, x2, y2] of now.lines) key.append(shape("line", { x1, y1, x2, y2, class: "line" }));
-    const size = view[2] / 420;
+    const size = view[2] / whole()[2];
     for (const each of now.points) {
       key.append(shape("circle", { cx: each.key[0], cy: each.key[1], r: 0.9 * size + 0.15, class: "place" }));
     }
@@ -294,7 +294,7 @@
       const middle = now.at ?? now.own;
       const wide = CLOSE * Math.max(1, Math.hypot(middle[0] - now.key[0], middle[1] - now.key[1]) / 20);
       look([middle[0] - wide / 2, middle[1] - wide / 2 * 0.7, wide, wide * 0.7]);
-    } else look(WHOLE);
+    } else look(whole());
     list();
   }
 
@@ -357,8 +357,8 @@
   function put(x, y) {
     const now = point();
     if (!now) return;
-    place = [Math.round(Math.min(420, Math.max(0, x)) * 100) / 100,
-      Math.round(Math.min(297, Math.max(0, y)) * 100) / 100];
+    place = [Math.round(Math.min(whole()[2], Math.max(0, x)) * 100) / 100,
+      Math.round(Math.min(whole()[3], Math.max(0, y)) * 100) / 100];
     draw();
     propose(likely(now));
   }
@@ -398,7 +398,7 @@
     flickering = setInterval(() => paper.classList.toggle("flicker"), 350);
   };
   const zoom = (times, x = view[0] + view[2] / 2, y = view[1] + view[3] / 2) => {
-    const wide = Math.min(420, Math.max(8, view[2] * times));
+    const wide = Math.min(whole()[2], Math.max(8, view[2] * times));
     const ratio = wide / view[2];
     look([x - (x - view[0]) * ratio, y - (y - view[1]) * ratio, wide, view[3] * ratio]);
   };
@@ -436,7 +436,7 @@
     ...Object.fromEntries([...Array(9).keys()].map((i) => [i + 1, choose(i)])),
   };
   const onPaper = {
-    k: toggle, f: flicker, "+": () => zoom(1 / 1.4), "-": () => zoom(1.4), 0: () => look(WHOLE),
+    k: toggle, f: flicker, "+": () => zoom(1 / 1.4), "-": () => zoom(1.4), 0: () => look(whole()),
     1: () => decide("right"), 2: () => decide("follows"), 3: () => decide("wrong"), 4: () => decide("missing"),
     Enter: () => {
       const likely = document.querySelector('#choices button[aria-pressed="true"]');

@@ -31,12 +31,13 @@ function wrong(text, unit, name) {
   const rest = stripped.slice(found[0].length);
   const written = plainUnit(rest);
   const known = told.units[unit];
-  if (written && !Object.hasOwn(known, written)) {
+  const factor = Object.keys(known).find((each) => each.toLowerCase() === written.toLowerCase());
+  if (written && !factor) {
     if (MISTYPED.test(rest)) return say("no_number", { text: shown(stripped) });
     const list = Object.keys(known).join(", ");
     return say("no_unit", { unit: shown(written), list });
   }
-  const value = Number(`${digits(found.groups)}e${power(found.groups)}`) * (written ? known[written] : 1);
+  const value = Number(`${digits(found.groups)}e${power(found.groups)}`) * (written ? known[factor] : 1);
   return value < told.largest ? "" : say("too_large", { text: shown(stripped) });
 }
 
@@ -58,8 +59,9 @@ function power({ power: plain, raised }) {
 }
 
 function plainUnit(text) {
-  const bare = text.replace(/[\s()[\]^*·]/g, "");
-  return bare.replaceAll("²", "2").replaceAll("⁻¹", "-1").replaceAll("−", "-");
+  const bare = [...text.replace(/[\s()[\]^*·]/g, "")].map((sign) => told.raised[sign] || sign).join("");
+  const plain = bare.replace(/[а-я]+\.?/g, (part) => told.russian[part.replace(".", "")] || part);
+  return plain.replaceAll("sec", "s").replace(/([\p{L}\p{N}])[.,;]$|^;$/u, "$1");
 }
 
 // Show the error of a field next to it, and return whether there is one.
