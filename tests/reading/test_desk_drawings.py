@@ -19,7 +19,7 @@ from graphkin.reading.settled_points import SETTLED, PointDecision, SettledPoint
 from graphkin.studio.session import PageRequestError
 from graphkin.text import words
 from graphkin.text.errors import Refusals
-from tests.reading.test_reading import a_class, code, taken  # noqa: F401 - fixtures
+from tests.reading.test_reading import a_class, code, taken  # noqa: F401
 from tests.running import ran
 
 STUDENT = (350, 251, 410, 266)
@@ -44,8 +44,8 @@ def pin(session: DrawingDesk, note: str, at: tuple[float, float], sheet: str = "
 
 
 def test_a_remark_is_pinned_to_a_place_and_goes_back(
-    a_class: Path,
-    read: Path,  # noqa: F811
+    a_class: Path,  # noqa: F811
+    read: Path,
 ) -> None:
     session = desk(read)
     pin(session, "draw thinner", (100.0, 50.0))
@@ -69,9 +69,9 @@ def test_a_remark_is_pinned_to_a_place_and_goes_back(
 
 
 def test_a_report_shows_its_drawings_and_pins_reach_the_feedback(
-    a_class: Path,
+    a_class: Path,  # noqa: F811
     read: Path,
-    tmp_path: Path,  # noqa: F811
+    tmp_path: Path,
 ) -> None:
     report = tmp_path / "report"
     pin(desk(read), "draw thinner", (100.0, 50.0))
@@ -80,6 +80,9 @@ def test_a_report_shows_its_drawings_and_pins_reach_the_feedback(
     assert {each["name"] for each in session.everything()["sheets"]} == {"plain", "hard"}
     page = (report / "feedback" / "0042.html").read_text(encoding="utf-8")
     assert "on your drawing (Acceleration plan, 1): draw thinner" in page
+    assert not session.everything()["items"]  # its open cells wait for the points of its drawings
+    asked = [p for s in session.everything()["sheets"] for p in s["points"] if p["ask"]]
+    assert asked
     said = {"sheet": "hard", "step": None, "verdict": "unread", "at": [9, 9], "note": "later"}
     session.decide(json.dumps(said).encode())
     assert session.undo()["name"] == "hard"
@@ -115,5 +118,5 @@ def test_an_anonymous_desk_shows_no_name(read: Path) -> None:
         for data in (session.picture("1"), desk(read).picture(session.named["1"]))
     )
     box = [side * 6 + inset for side, inset in zip(STUDENT, (6, 6, -6, -6), strict=True)]
-    assert min(shown.crop(box).convert("L").getdata()) > 245
-    assert min(whole.crop(box).convert("L").getdata()) < 200
+    assert shown.crop(box).convert("L").getextrema()[0] > 245
+    assert whole.crop(box).convert("L").getextrema()[0] < 200
