@@ -102,10 +102,13 @@ class Mechanism(Struct, frozen=True, dict=True):
     """A scene with its derived data; lengths in m, angles in rad, times in s.
 
     The scene states the branches of its groups, also where it was ``written`` with the number of a
-    closure of links that are grouped otherwise.
+    closure of links that are grouped otherwise. ``closings`` holds what closes groups of higher
+    class in this position, by their links, where a motion has found it; other closures are
+    searched for.
     """
 
     scene: Scene
+    closings: Mapping[tuple[str, ...], tuple[Any, ...]] = {}
 
     def __post_init__(self) -> None:
         if not may_be_numbered(self.scene):
@@ -138,6 +141,21 @@ class Mechanism(Struct, frozen=True, dict=True):
         return self.laid[1]
 
     @cached_property
+    def with_forces(self) -> Mechanism:
+        """The mechanism with the plan of forces after its motion; itself where none is drawn."""
+        if self.scene.forces is None:
+            return self
+        from graphkin.construction.forces.force_plan import force_program, undrawn
+
+        groups = self.laid[0]
+        if undrawn(self.scene, groups) is not None:
+            return self
+        found = Mechanism(self.scene)
+        whole = force_program(self.scene, self.program, groups)
+        found.__dict__.update(groups=self.groups, laid=(groups, whole), with_forces=found)
+        return found
+
+    @cached_property
     def press(self) -> BatchRunner:
         """The runner of the program for many variants at once."""
         from graphkin.construction.tape.batch_runner import BatchRunner
@@ -156,7 +174,19 @@ class Mechanism(Struct, frozen=True, dict=True):
             return {}
         from graphkin.construction.higher_class.trial_rates import trial_rates
 
-        return trial_rates(self.scene, self.program)
+        return trial_rates(self.scene, self.program, self.closed)
+
+    @cached_property
+    def closed(self) -> Mapping[int, tuple[Any, ...]]:
+        """The steps of groups of higher class whose closings are known, with these closings."""
+        if not self.closings:
+            return {}
+        from graphkin.construction.core.kind import constructions
+        from graphkin.construction.higher_class.closed_group import ClosedGroup
+
+        groups = constructions(self.program, ClosedGroup)
+        known = (each for each in groups if each.closes in self.closings)
+        return {each.closing: self.closings[each.closes] for each in known}
 
     @cached_property
     def check(self) -> Check:
@@ -271,6 +301,7 @@ class Mechanism(Struct, frozen=True, dict=True):
             from graphkin.construction.higher_class.closure_solver import run_settled
 
             begun = begun if by_hand else None
+            overrides = {**self.closed, **overrides}
             trace = run_settled(self.scene, program, needed, overrides=overrides, begun=begun)
         if by_hand or not self.is_of_higher_class:
             kept(self.drawings, needed, trace)
@@ -293,7 +324,7 @@ class Mechanism(Struct, frozen=True, dict=True):
         """Reactions and balance with the verdict of two independent routes; None without forces.
 
         Groups without a construction of their reactions have those of all equations at once. Raises
-        StructureError where equilibrium does not determine the reactions, and for wheels and cams.
+        StructureError where equilibrium does not determine the reactions, and for belts.
         """
         given = self.scene.forces
         if given is None:

@@ -23,13 +23,14 @@ from graphkin.classroom.grading.answer_numbers import (
     MISTYPED,
     NUMBER,
     RAISED,
+    RUSSIAN,
     UNITS,
 )
 from graphkin.classroom.lab.items import items as fields_of
 from graphkin.classroom.lab.items import motion_of
 from graphkin.classroom.lab.lab_model import Item, Lab
 from graphkin.classroom.printing.answer_form import advice, why
-from graphkin.construction.core.quantities import BY_TARGET, RATES, SHEETS
+from graphkin.construction.core.quantities import CLOCKWISE, FORCE, SHEETS
 from graphkin.mechanism import Mechanism
 from graphkin.text import Words
 from graphkin.web.offline_page import FORM, part, together
@@ -86,14 +87,17 @@ def form_fragment(
     words: Words,
     identity: Identity,
     pivot: str = "",
+    *,
+    says_right: bool = False,
 ) -> Form:
     """The form, its styles and its script: a labelled field for every item.
 
     Fields in ``compute`` are marked as computed. ``points`` are shown where the rubric gives any.
-    ``pivot`` is the first fixed point, from which places are measured.
+    ``pivot`` is the first fixed point, from which places are measured. With ``says_right`` the
+    board of its page tells when a point is right.
     """
     sheets = []
-    for sheet in SHEETS:
+    for sheet in (*SHEETS, FORCE):
         alike = groupby((item for item in items if motion_of(item).kind == sheet), kind_of)
         groups = [
             [field(item, points.get(item.field), item.field in compute, words) for item in own]
@@ -109,7 +113,7 @@ def form_fragment(
         sheets=sheets,
         words=words,
     )
-    return Form(body, part("form.css"), together(FORM))
+    return Form(body, part("form.css"), together(FORM), says_right)
 
 
 def settings(items: Sequence[Item], words: Words, identity: Identity) -> dict[str, object]:
@@ -122,6 +126,7 @@ def settings(items: Sequence[Item], words: Words, identity: Identity) -> dict[st
         "number": in_javascript(NUMBER.pattern),
         "mistyped": MISTYPED.pattern,
         "raised": {chr(sign): chr(plain) for sign, plain in RAISED.items()},
+        "russian": RUSSIAN,
         "letters": LETTERS,
         "blanks": BLANKS,
         "longest": LONGEST,
@@ -149,7 +154,7 @@ class FormField(Struct, frozen=True):
 
 def field(item: Item, worth: Fraction | None, computed: bool, words: Words) -> FormField:
     """The field that asks for an item."""
-    asks_sense, turning = item.what == "sense", BY_TARGET.get(item.quantity) in RATES
+    asks_sense, turning = item.what == "sense", item.quantity in CLOCKWISE
     keys = ("anticlockwise", "clockwise") if turning else ("forward", "backward")
     return FormField(
         item,
@@ -163,7 +168,8 @@ def field(item: Item, worth: Fraction | None, computed: bool, words: Words) -> F
 def lab_form(mechanism: Mechanism, lab: Lab, words: Words, identity: Identity) -> Form:
     """The form of a lab for its scene with the current data, not assigned to any student."""
     fields, points = fields_of(mechanism, lab), lab.rubric.points
-    return form_fragment(fields, points, (), words, identity, first_pivot(mechanism))
+    pivot, says_right = first_pivot(mechanism), lab.rubric.says_right
+    return form_fragment(fields, points, (), words, identity, pivot, says_right=says_right)
 
 
 def first_pivot(mechanism: Mechanism) -> str:

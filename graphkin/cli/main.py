@@ -11,13 +11,13 @@ from graphkin.cli.options import (
     FAILED,
     CommandGroup,
     complain,
+    eager_option,
     leave,
     mechanism_of,
     say,
     scales_of,
     scene_argument,
     tell,
-    told_at_once,
 )
 
 if TYPE_CHECKING:
@@ -65,7 +65,7 @@ class Commands(CommandGroup):
     cls=Commands,
     invoke_without_command=True,
     context_settings=HELP,
-    params=[told_at_once("-V", "--version", help="the version", what=lambda context: VERSION)],
+    params=[eager_option("-V", "--version", help="the version", what=lambda context: VERSION)],
 )
 @click.pass_context
 def app(context: click.Context) -> None:
@@ -344,8 +344,9 @@ def by_pencil(
     """The errors of a drawing made with a pencil, as a record and as lines; prints warnings."""
     from graphkin.accuracy.pencil import Pencil, forecast, original
     from graphkin.cli.report.pencil_report import pencil_lines, pencil_record, warnings
+    from graphkin.documents.force_sheets import with_force_plan
 
-    found = forecast(original(mechanism, drawn_at), Pencil(millimetres))
+    found = forecast(original(*with_force_plan(mechanism, drawn_at)), Pencil(millimetres))
     for warning in warnings(found):
         complain(f"{mechanism.scene.name} {warning}")
     return pencil_record(found), ("", *pencil_lines(found))

@@ -55,9 +55,10 @@ def force_at(place: complex, force: complex, couple: float = 0.0) -> Wrench:
 class PairReaction(Struct, frozen=True):
     """The force on a link in a pin or guide, and its moment about the pin or the block's point.
 
-    ``name`` is the pin's point, or the block with the link on which it slides, such as 5-0.
-    ``block`` is that block, None for a pin. ``at`` is a point on the line of the force; None where
-    a guide carries a couple alone.
+    ``name`` is the pin's point, or the block or wheel with the link on which it slides or rolls,
+    such as 5-0.
+    ``block`` is that block or wheel, None for a pin. ``at`` is a point on the line of the force;
+    None where a guide carries a couple alone.
     """
 
     name: str
@@ -333,7 +334,7 @@ def sense_of(driver: Driver, link: str) -> int:
 
 
 def by_name(found: ForceSolution, name: str) -> Mapping[str, tuple[PairReaction, ...]]:
-    """The reactions that a name asks for: a pin, or all guides of a block."""
+    """The reactions that a name asks for: a pin, or all guides and contacts of a link."""
     some: dict[str, tuple[PairReaction, ...]] = {}
     for each in found.reactions:
         if name == (each.block or each.name):

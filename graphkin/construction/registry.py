@@ -8,7 +8,7 @@ from graphkin.construction.centres.path_curvature import CURVATURE, PathCentre
 from graphkin.construction.centres.relative_centre import with_centres_together
 from graphkin.construction.core.component import Component
 from graphkin.construction.core.drawn_scene import Drawing
-from graphkin.construction.core.kind import Sentence
+from graphkin.construction.core.kind import Construction, Sentence
 from graphkin.construction.core.palette import (
     COINCIDE,
     COMPASS,
@@ -20,12 +20,17 @@ from graphkin.construction.core.palette import (
     PARALLEL,
     PERPENDICULAR,
     POLE,
+    RAY,
+    SET_OFF,
     SIMILAR,
     TRANSFER,
     PaletteAction,
 )
 from graphkin.construction.core.relation import Relation
 from graphkin.construction.coriolis import CoriolisComponent
+from graphkin.construction.forces.loads import InertiaForce, InertiaMoment, Weight
+from graphkin.construction.forces.moments import ForceArm, TangentialPart
+from graphkin.construction.forces.polygon import ClosedByLines
 from graphkin.construction.higher_class.two_trials import with_trials_together
 from graphkin.construction.links.plate_points import with_starts_together
 from graphkin.construction.normal_component.klein import KleinComponent
@@ -63,8 +68,23 @@ PALETTE: Mapping[str, PaletteAction] = {
     )
 }
 """The actions of a page's palette, in its order."""
-SLIPPING: tuple[type[Component] | type[PathCentre], ...] = (PathCentre, *COMPONENTS)
+BOARD: Mapping[str, PaletteAction] = {
+    action.key: action for action in (RAY, SET_OFF, *PALETTE.values()) if action.draw is not None
+}
+"""The actions of the board of a task page."""
+SLIPPING: tuple[type[Construction], ...] = (
+    ClosedByLines,
+    TangentialPart,
+    ForceArm,
+    Weight,
+    InertiaMoment,
+    InertiaForce,
+    PathCentre,
+    *COMPONENTS,
+)
 """The kinds of constructions in which slips are made, each with its ``slips``."""
+SLIPS = {name: slip for kind in reversed(SLIPPING) for name, slip in kind.slips.items()}
+"""All slips by name; several kinds may share one."""
 CAUSES: tuple[type[Component] | TouchingEffect, ...] = (*COMPONENTS, *TOUCHING)
 """The classes that can say why an effect is in or out of a scene."""
 SAID_FIRST = {PLAN: BEGINNING}

@@ -3,8 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
+from functools import reduce
 from itertools import combinations, pairwise
-from typing import NamedTuple
+from math import isfinite
+from typing import Any, NamedTuple
 
 from msgspec.structs import replace
 
@@ -14,14 +16,15 @@ from graphkin.construction.core.layout import Layout, centre, line_span, points_
 from graphkin.construction.core.paper_canvas import PaperCanvas, Plot, draw_part
 from graphkin.construction.core.program import Plane
 from graphkin.construction.core.relation import figure
-from graphkin.construction.forces.force_drawing import ForceDrawing, ForceLayout
+from graphkin.construction.forces.force_drawing import ForceDrawing, ForceExtents, ForceLayout
 from graphkin.construction.forces.lever import LeverPole
 from graphkin.construction.forces.polygon import InPolygon, PolygonStart, links_words
-from graphkin.drawing.field import AREA, Field, Rect
+from graphkin.drawing.field import Field, Rect
 from graphkin.drawing.labels import FieldContent
 from graphkin.drawing.marks import LineMark, Text
 from graphkin.drawing.richtext import extent
 from graphkin.drawing.scale import REDUCED, Extent, preferred
+from graphkin.numbers.arithmetic import larger, np, pick, smaller
 from graphkin.numbers.plane import Line
 from graphkin.text.errors import PageError, Problem, message
 
@@ -35,23 +38,28 @@ LEVER_SIDE = 16.0
 """Room around the lever in mm, for the arrows of forces."""
 SMALL = 2.5
 """Height of the captions in mm."""
-MOST = 60
-"""The number of scale factors that are tried."""
+SPAN = 1e9
+"""The most times by which a scale factor exceeds the one of the largest force on a whole field."""
+ROUNDING = 1e-12
+"""The share by which a preferred number may be below the least one."""
 
 
 class FieldNeed(NamedTuple):
-    """A field to be placed: the size of its drawing in N, or in mm where it is ``fixed``."""
+    """A field to be placed: the size of its drawing in N, or in mm where it is ``fixed``.
 
-    wide: float
-    high: float
+    Sizes are arrays for many variants.
+    """
+
+    wide: Any
+    high: Any
     fixed: bool = False
 
-    def width(self, mm: float) -> float:
+    def width(self, mm: float) -> Any:
         """The width of the field at a scale in mm/N."""
         side = LEVER_SIDE if self.fixed else SIDE
-        return max(self.wide * (1 if self.fixed else mm) + 2 * side, LEAST)
+        return larger(self.wide * (1 if self.fixed else mm) + 2 * side, LEAST)
 
-    def height(self, mm: float) -> float:
+    def height(self, mm: float) -> Any:
         """The height of the field at a scale in mm/N."""
         return self.high * (1 if self.fixed else mm) + (2 * LEVER_SIDE if self.fixed else TOP + LOW)
 
@@ -65,14 +73,10 @@ def laid_out(drawing: ForceDrawing, mechanism: Field) -> ForceDrawing:
 
     Raises PageError where the fields have no room.
     """
-    rect: Rect = (mechanism.rect[2], AREA[1], AREA[2], AREA[3])
-    boxes, lever = drawing.polygon_extents(), drawing.lever_extent()
-    cells = [FieldNeed(box.width, box.height) for box in boxes.values()]
-    if lever is not None:
-        size = max(lever.width, lever.height)
-        cells.append(FieldNeed(lever.width / size * LEVER, lever.height / size * LEVER, fixed=True))
-    largest = max((max(cell.wide, cell.high) for cell in cells if not cell.fixed), default=0.0)
-    kF, rows = found(cells, rect, largest)
+    rect = drawing.paper.beside(mechanism.rect)
+    boxes, lever = drawing.extents
+    cells = cells_of(drawing.extents)
+    kF, rows = found(cells, rect)
     fields = placed(cells, rows, rect, 1 / kF)
     polygons = {
         number: field_of(box, part, 1 / kF, (TOP - LOW) / 2)
@@ -92,23 +96,34 @@ def laid_out(drawing: ForceDrawing, mechanism: Field) -> ForceDrawing:
     return replace(fixed, fields=replace(found_at, spans=spans_of(fixed)))
 
 
+def cells_of(extents: ForceExtents) -> list[FieldNeed]:
+    """The needs of polygons and lever; arrays where the extents are those of many variants."""
+    cells = [FieldNeed(box.width, box.height) for box in extents.polygons.values()]
+    lever = extents.lever
+    if lever is not None:
+        size = larger(lever.width, lever.height)
+        whole = LEVER / pick(size == 0, 1.0, size)
+        cells.append(FieldNeed(lever.width * whole, lever.height * whole, fixed=True))
+    return cells
+
+
 def field_of(box: Extent, rect: Rect, mm: float, lower: float) -> Field:
     """The field of a drawing in the middle of a rectangle, ``lower`` by some mm."""
     x, y = centre(rect)
     return Field(rect, mm, box.middle, (x, y + lower))
 
 
-def found(cells: Sequence[FieldNeed], rect: Rect, largest: float) -> tuple[float, Rows]:
-    """The smallest preferred kF in N/mm at which all cells have room, and their rows."""
+def found(cells: Sequence[FieldNeed], rect: Rect) -> tuple[float, Rows]:
+    """The smallest preferred kF in N/mm at which all cells have room, and their rows.
+
+    Raises PageError where they have none.
+    """
     wide, high = rect[2] - rect[0], rect[3] - rect[1]
-    scales = preferred(largest / high if largest else 1.0, REDUCED)
-    for _, kF in zip(range(MOST), scales, strict=False):
-        fitting = [
-            (slack(cells, rows, wide, high, 1 / kF), rows) for rows in arrangements(len(cells))
-        ]
-        room, rows = max(fitting)
-        if room >= 0:
-            return kF, rows
+    kF = float(smallest(cells, np.array([wide]), high)[0])
+    if isfinite(kF):
+        return kF, max(
+            arrangements(len(cells)), key=lambda rows: slack(cells, rows, wide, high, 1 / kF)
+        )
     raise PageError(
         Problem(
             "sheet",
@@ -121,11 +136,31 @@ def found(cells: Sequence[FieldNeed], rect: Rect, largest: float) -> tuple[float
     )
 
 
-def slack(cells: Sequence[FieldNeed], rows: Rows, wide: float, high: float, mm: float) -> float:
+def smallest(cells: Sequence[FieldNeed], wide: Any, high: float) -> Any:
+    """The smallest preferred kF in N/mm of many variants; NaN where the cells have no room.
+
+    The needs of cells, and the widths for them, are arrays.
+    """
+    sizes = [larger(cell.wide, cell.high) for cell in cells if not cell.fixed]
+    largest = np.broadcast_to(reduce(larger, sizes, 0.0), np.shape(wide))
+    least = np.where(largest > 0, largest / high, 1.0)
+    kF, waiting = np.full(np.shape(wide), np.nan), np.isfinite(least)
+    most = SPAN * max(least[waiting], default=0.0)
+    for each in preferred(min(least[waiting], default=1.0), REDUCED):
+        if each > most or not waiting.any():
+            return kF
+        free = (slack(cells, rows, wide, high, 1 / each) for rows in arrangements(len(cells)))
+        fits = waiting & (each >= least * (1 - ROUNDING)) & (reduce(larger, free) >= 0)
+        kF[fits] = each
+        waiting = waiting & ~fits
+    return kF
+
+
+def slack(cells: Sequence[FieldNeed], rows: Rows, wide: Any, high: float, mm: float) -> Any:
     """The least share of free room of an arrangement; negative where it does not fit."""
-    across = (1 - sum(cells[i].width(mm) for i in row) / wide for row in rows)
-    down = 1 - sum(max(cells[i].height(mm) for i in row) for row in rows) / high
-    return min(down, *across)
+    across = [1 - sum(cells[i].width(mm) for i in row) / wide for row in rows]
+    heights = (reduce(larger, (cells[i].height(mm) for i in row)) for row in rows)
+    return reduce(smaller, across, 1 - sum(heights) / high)
 
 
 def arrangements(count: int) -> Iterator[Rows]:

@@ -3,23 +3,29 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
+from contextlib import suppress
 
 from msgspec.structs import replace
 
 from graphkin.construction.core.drawn_scene import Drawing
 from graphkin.construction.core.layout import mechanism_field
 from graphkin.construction.core.program import Part, Target
-from graphkin.construction.core.quantities import FORCE
+from graphkin.construction.core.quantities import FORCE, SHEETS
 from graphkin.construction.core.run import Trace, run
+from graphkin.construction.core.solution import UNPROVED
 from graphkin.construction.forces.force_drawing import ForceDrawing
-from graphkin.construction.forces.force_plan import force_program, undrawn
+from graphkin.construction.forces.force_plan import undrawn
+from graphkin.construction.forces.force_words import is_asked
 from graphkin.construction.forces.loads import AppliedForce
 from graphkin.construction.reactions import ForceSolution
 from graphkin.documents.force_fields import laid_out
+from graphkin.documents.scaling import curves_drawn, drawing, targets_of
+from graphkin.drawing.scale import Scales
 from graphkin.mechanism import Mechanism
 from graphkin.numbers.arithmetic import FLOAT
 from graphkin.scene.model import joined_words, link_words
 from graphkin.structure.groups import Group
+from graphkin.text import words
 from graphkin.text.errors import Problem, StructureError, WitnessError, message
 
 HELD = 1e-9
@@ -39,18 +45,7 @@ def force_drawing(mechanism: Mechanism, drawings: Sequence[Drawing]) -> ForceDra
     by_forces = mechanism.forces()
     assert by_forces is not None
     found, verdict = by_forces
-    trace = traced(mechanism)
-    first = drawings[0]
-    drawing = ForceDrawing(
-        FORCE,
-        mechanism.scene,
-        trace,
-        first.scales,
-        first.verdict,
-        first.words,
-        again=True,
-        computed={},
-    )
+    drawing, first = unplaced(mechanism, drawings), drawings[0]
     worst = max(verdict.largest_difference, abs(verdict.power), *differences(drawing, found))
     if worst > HELD:
         raise WitnessError(
@@ -68,12 +63,46 @@ def force_drawing(mechanism: Mechanism, drawings: Sequence[Drawing]) -> ForceDra
     return laid_out(drawing, first.stand or mechanism_field(drawings))
 
 
+def unplaced(mechanism: Mechanism, drawings: Sequence[Drawing]) -> ForceDrawing:
+    """The drawing of the forces without its fields."""
+    first, trace = drawings[0], traced(mechanism)
+    own = FORCE, mechanism.scene, trace, first.scales, first.verdict, first.words
+    return ForceDrawing(*own, again=True, computed={})
+
+
+def force_scales(mechanism: Mechanism, chosen: Scales) -> Scales:
+    """The scale factors of the sheets, ``chosen`` without forces, with those of the forces."""
+    mechanism = mechanism.measured
+    curves = curves_drawn(mechanism)
+    drawings = [
+        drawing(mechanism, kind, found, chosen, UNPROVED, words("en"), curves)
+        for kind in SHEETS
+        if (found := targets_of(mechanism, kind))
+    ]
+    return laid_out(unplaced(mechanism, drawings), mechanism_field(drawings)).scales
+
+
+def with_force_plan(
+    mechanism: Mechanism, chosen: Scales
+) -> tuple[Mechanism, Scales, tuple[Target, ...]]:
+    """The mechanism with its plan of forces, its scale factors, and what the scene asks of both.
+
+    Without forces that are asked and drawn, it is the mechanism as it is.
+    """
+    forces, whole, asked = mechanism.scene.forces, mechanism.with_forces, mechanism.asked()
+    if forces is None or not forces.asked or whole is mechanism:
+        return mechanism, chosen, asked
+    own = [target for target in whole.program.targets if is_asked(mechanism.scene, forces, target)]
+    return whole, force_scales(mechanism, chosen), (*asked, *own)
+
+
 def not_drawn(mechanism: Mechanism, group: Group) -> Problem:
     """The problem of a group whose forces are not drawn, with a hint where its numbers are."""
     first, *others = group.links
     links = joined_words(group.links) if others else link_words(first)
     hint = message("leave reactions and balance out of [ask]")
-    if not any(link.rolls or link.cam is not None for link in mechanism.scene.every_link):
+    with suppress(StructureError):
+        mechanism.forces()
         hint = message("{hint}: graphkin solve gives their numbers", hint=hint)
     return Problem(
         "loads",
@@ -90,7 +119,7 @@ def not_drawn(mechanism: Mechanism, group: Group) -> Problem:
 def traced(mechanism: Mechanism) -> Trace:
     """The values of the plan of forces, and of everything that it needs."""
     scene = mechanism.scene
-    program = force_program(scene, mechanism.program, mechanism.laid[0])
+    program = mechanism.with_forces.program
     own = [number for number, step in enumerate(program.steps) if step.part is Part.FORCE]
     placed = [n for target, n in program.targets.items() if is_place(target)]
     return run(program, program.behind([*own, *placed]), scene.values, FLOAT)

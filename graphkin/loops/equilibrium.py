@@ -7,22 +7,30 @@ construction of reactions but the scene. Units are SI.
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+import math
+from collections.abc import Iterator, Mapping, Sequence
 from itertools import pairwise
 from typing import Any
 
 import numpy as np
 from msgspec import Struct
+from msgspec.structs import replace
 
 from graphkin.construction.reactions import Balance, ForceSolution, PairReaction
 from graphkin.loops.loop_motion import Motion
 from graphkin.loops.rigid_bodies import Reals
 from graphkin.scene.forces import Forces
-from graphkin.scene.model import FRAME, Driver, Scene
+from graphkin.scene.model import FRAME, Driver, Scene, joined_words
+from graphkin.structure.pairs import contacts
+from graphkin.structure.touching_wheels import radius, track_line
 from graphkin.text.errors import Problem, StructureError, joined, message
 
 RANK = 1e-10
 """Share of the largest singular value below which a constraint counts as redundant."""
+PRESSURE = math.radians(20)
+"""The pressure angle of teeth: ISO 53."""
+LOOSE = 1e-6
+"""The share of an unknown in what no equation determines, above which it is not determined."""
 LITTLE = 1e-3
 """Share of the largest possible power below which the work of loads counts as none."""
 HELD = 1e-9
@@ -40,6 +48,12 @@ class Equilibrium(Struct, frozen=True):
     pairs: Mapping[tuple[str, str], tuple[complex, float]]
     drivers: Mapping[str, complex]
     size: float
+
+    @property
+    def largest(self) -> float:
+        """The largest force of a pair, or moment per longest length, in N."""
+        every = (max(abs(force), abs(m) / self.size) for force, m in self.pairs.values())
+        return max(every, default=0.0)
 
 
 class ForceVerdict(Struct, frozen=True):
@@ -114,14 +128,16 @@ def columns_of(scene: Scene, motion: Motion) -> Iterator[Column]:
     """The unknowns: two for each pair, one for each driver."""
     owners: dict[str, list[str]] = {}
     for link in scene.every_link:
-        for point in link.points:
-            owners.setdefault(point, []).append(link.name)
+        for point in link.points if link.name not in scene.cam_links else ():
+            if point not in scene.cam_centres:
+                owners.setdefault(point, []).append(link.name)
     for point, links in owners.items():
         for one, other in pairwise(links):
             for way in (1, 1j):
                 yield Column(point, (other, one), pin_of(motion, point), way, 0.0)
-    for number, guide in enumerate(motion.loops.guides):
-        ends, name = (guide.block, guide.on), f"{guide.block}-{guide.on}"
+    for name, number in guides_of(scene, motion).items():
+        guide = motion.loops.guides[number]
+        ends = guide.block, guide.on
         way = 1j * along_guide(motion, number)
         yield Column(name, ends, pin_of(motion, guide.point), way, 0.0)
         yield Column(name, ends, 0j, 0j, 1.0)
@@ -133,6 +149,100 @@ def columns_of(scene: Scene, motion: Motion) -> Iterator[Column]:
         number = guide_of(motion, driver)
         place = pin_of(motion, motion.loops.guides[number].point)
         yield Column(name, ends, place, along_guide(motion, number), 0.0, drives=True)
+
+
+class Touching(Struct, frozen=True):
+    """Two links in contact at a place: wheels, a wheel and its track, or a cam and its follower.
+
+    ``along`` is the unit vector of the force that the contact always carries, ``away`` the one that
+    pushes the links apart. Where the distance is ``kept``, only teeth push, by their ``pressure``
+    angle, on the ``side`` of the force along: +1 or -1, and 0 while it is not known.
+    """
+
+    name: str
+    links: tuple[str, str]
+    place: complex
+    along: complex
+    away: complex = 0j
+    kept: bool = True
+    pressure: float = 0.0
+    side: int = 0
+
+    def columns(self) -> Iterator[Column]:
+        """The unknown along the line of action; also the one across, where nothing keeps it."""
+        pushed = self.side * math.tan(self.pressure) if self.kept else 0.0
+        yield Column(self.name, self.links, self.place, self.along + pushed * self.away, 0.0)
+        if not self.kept:
+            yield Column(self.name, self.links, self.place, self.away, 0.0)
+
+
+def touching_of(scene: Scene, motion: Motion) -> Iterator[Touching]:
+    """The contacts of wheels. Raises StructureError for belts, whose tension nothing states."""
+    for each in contacts(scene):
+        if each.rolling.belt is not None:
+            found = message("the forces of the belt of {links}", links=joined_words(each.links))
+            hint = message("equilibrium gives the difference of both strands, not their sum")
+            raise StructureError(Problem("loads", found, message("wheels that touch"), hint))
+        centre, track = pin_of(motion, each.wheel.centre), each.track
+        if track is None:
+            line, k = track_line(scene, each.rolling), motion.index[each.links[1]]
+            turned = complex(motion.heading[0, k])
+            start = complex(motion.origin.place[0, k]) + turned * line.point
+            way = turned * line.along
+            place = start + ((centre - start) * way.conjugate()).real * way
+            away = centre - place
+        else:
+            other = pin_of(motion, track.centre)
+            to_wheel = (centre - other) / abs(centre - other)
+            place = other + radius(scene, track) * to_wheel * (-1 if each.wheel.inside else 1)
+            away = place - other if each.wheel.inside else centre - place
+        away /= abs(away)
+        teeth = each.wheel.teeth is not None or (track is not None and track.teeth is not None)
+        name, pressure = "-".join(each.links), PRESSURE if teeth else 0.0
+        kept = each.arm is not None
+        yield Touching(name, each.links, place, 1j * away, away, kept, pressure)
+
+
+def cams_of(scene: Scene, motion: Motion) -> Iterator[Touching]:
+    """The contacts of cams with their followers, each along the common normal.
+
+    The follower slips along the cam, so the normal is square to its velocity relative to the cam.
+    Raises StructureError where nothing slips, and for a second roller, which presses as well.
+    """
+    for follower, cam in scene.cams.items():
+        name, links = f"{follower}-{cam.on}", (follower, cam.on)
+        tip = pin_of(motion, cam.point)
+        one, other = (motion.carried(e, np.array([tip])) for e in links)
+        slip = complex(one.velocity[0] - other.velocity[0])
+        turned = float(
+            motion.omega[0, motion.index[follower]] - motion.omega[0, motion.index[cam.on]]
+        )
+        if cam.conjugate is not None or not slip or (cam.is_flat and not turned):
+            raise StructureError(
+                Problem(
+                    "loads",
+                    message("the force of the cam of {links}", links=joined_words(links)),
+                    message("one roller, knife or face that slips along a moving cam"),
+                )
+            )
+        if not cam.is_flat:
+            yield Touching(name, links, tip, 1j * slip / abs(slip))
+            continue
+        if cam.lever is not None:
+            bar = tip - pin_of(motion, cam.lever.pin)
+            normal = 1j * bar / abs(bar)
+        else:
+            guides = motion.loops.guides
+            normal = along_guide(motion, [guide.block for guide in guides].index(follower))
+        centre = tip + 1j * slip / turned
+        yield Touching(name, links, centre, normal)
+
+
+def guides_of(scene: Scene, motion: Motion) -> dict[str, int]:
+    """The numbers of the guides of blocks, by their names; those of wheels on tracks are none."""
+    sliding = {(link.name, slide.on) for link in scene.every_link for slide in link.slides}
+    ends = [(guide.block, guide.on) for guide in motion.loops.guides]
+    return {"-".join(pair): number for number, pair in enumerate(ends) if pair in sliding}
 
 
 def guide_of(motion: Motion, driver: Driver) -> int:
@@ -157,40 +267,88 @@ def equilibrium(scene: Scene, forces: Forces, motion: Motion) -> Equilibrium:
     Raises StructureError where the equations do not determine them: by redundant constraints, or
     in a singular position.
     """
-    if any(link.rolls or link.cam is not None for link in scene.every_link):
-        found = message("reactions of wheels and cams")
-        raise StructureError(Problem("loads", found, message("a mechanism of pins and slides")))
-    columns, size = [*columns_of(scene, motion)], float(np.max(motion.loops.size))
-    rows = {name: 3 * k for k, name in enumerate(scene.links)}
-    matrix, right = np.zeros((3 * len(rows), len(columns))), np.zeros(3 * len(rows))
-    first = pin_of(motion, next(iter(scene.points)))
-    for j, column in enumerate(columns):
-        turned = moment(column.place - first, column.force) / size + column.couple
-        entries = np.array([complex(column.force).real, complex(column.force).imag, turned])
-        for link, sign in zip(column.links, (1, -1), strict=True):
-            if link != FRAME:
-                matrix[rows[link] : rows[link] + 3, j] += sign * entries
-    for each in known_forces(scene, forces, motion):
-        turned = (moment(each.place - first, each.force) + each.couple) / size
-        k = rows[each.link]
-        right[k : k + 3] -= [each.force.real, each.force.imag, turned]
-    refuse_undetermined(columns, matrix)
-    values = np.linalg.lstsq(matrix, right, rcond=None)[0]
-    return gathered(columns, values.tolist(), size)
+    system = System(scene, motion)
+    touching = system.without_pressing([*touching_of(scene, motion), *cams_of(scene, motion)])
+    columns = system.columns(touching)
+    values = system.solved(forces, columns)
+    if any(each.pressure for each in touching):
+        along = {c.name: v for c, v in reversed([*zip(columns, values, strict=True)])}
+        columns = system.columns(
+            [replace(e, side=1 if along[e.name] > 0 else -1) for e in touching]
+        )
+        values = system.solved(forces, columns)
+    return gathered(columns, values, system.size)
+
+
+class System:
+    """The equations of equilibrium of the moving links, about one pin of the mechanism."""
+
+    def __init__(self, scene: Scene, motion: Motion) -> None:
+        self.scene, self.motion = scene, motion
+        self.size = float(np.max(motion.loops.size))
+        self.about = pin_of(motion, next(iter(scene.points)))
+        self.pairs = [*columns_of(scene, motion)]
+        links = (name for name in scene.links if name not in scene.cam_links)
+        self.rows = {name: 3 * k for k, name in enumerate(links)}
+
+    def columns(self, touching: Sequence[Touching]) -> list[Column]:
+        """The unknowns of all pairs, drivers and contacts."""
+        return [*self.pairs, *(column for each in touching for column in each.columns())]
+
+    def matrix(self, columns: Sequence[Column]) -> Reals:
+        """The coefficients of some unknowns; moments are parts of the longest length."""
+        found = np.zeros((3 * len(self.rows), len(columns)))
+        for j, column in enumerate(columns):
+            turned = moment(column.place - self.about, column.force) / self.size + column.couple
+            entries = np.array([complex(column.force).real, complex(column.force).imag, turned])
+            for link, sign in zip(column.links, (1, -1), strict=True):
+                if link != FRAME:
+                    found[self.rows[link] : self.rows[link] + 3, j] += sign * entries
+        return found
+
+    def without_pressing(self, touching: list[Touching]) -> list[Touching]:
+        """The contacts, without the pressing force where other pairs keep the distance as well.
+
+        No equation determines such a force. Only teeth then push the links apart.
+        """
+        for k, each in enumerate(touching):
+            if not each.kept:
+                columns = self.columns(touching)
+                j = next(j for j, c in enumerate(columns) if c.name == each.name) + 1
+                if shares(self.matrix(columns))[j] > LOOSE:
+                    touching = [*touching[:k], replace(each, kept=True), *touching[k + 1 :]]
+        return touching
+
+    def solved(self, forces: Forces, columns: list[Column]) -> list[float]:
+        """The unknowns. Raises StructureError where the equations do not determine them."""
+        matrix, right = self.matrix(columns), np.zeros(3 * len(self.rows))
+        for each in known_forces(self.scene, forces, self.motion):
+            turned = (moment(each.place - self.about, each.force) + each.couple) / self.size
+            k = self.rows[each.link]
+            right[k : k + 3] -= [each.force.real, each.force.imag, turned]
+        refuse_undetermined(columns, matrix)
+        found: list[float] = np.linalg.lstsq(matrix, right, rcond=None)[0].tolist()
+        return found
+
+
+def shares(matrix: Reals) -> Reals:
+    """The largest share of each unknown in what no equation determines."""
+    _, sines, across = np.linalg.svd(matrix)
+    rank = int((sines > RANK * sines[0]).sum())
+    return np.asarray(np.abs(across[rank:]).max(axis=0, initial=0.0))
 
 
 def refuse_undetermined(columns: list[Column], matrix: Reals) -> None:
     """Raise StructureError for unknowns that no equation determines, with the pairs concerned."""
-    _, sines, across = np.linalg.svd(matrix)
-    rank = int((sines > RANK * sines[0]).sum())
-    if rank == len(columns):
+    free = shares(matrix)
+    names = dict.fromkeys(c.name for c, each in zip(columns, free, strict=True) if each > LOOSE)
+    if not names:
         return
-    free = np.abs(across[rank:]).max(axis=0)
-    names = dict.fromkeys(c.name for c, share in zip(columns, free, strict=True) if share > 1e-6)
     if len(columns) > matrix.shape[0]:
         found = message(
             "{count} redundant constraints among {names}: equilibrium does not determine reactions",
-            count=len(columns) - rank,
+            count=len(columns)
+            - int(np.linalg.matrix_rank(matrix, RANK * np.linalg.norm(matrix, 2))),
             names=joined(", ", names),
         )
         expected = message("as many unknown forces as equations")
@@ -247,10 +405,15 @@ def power(
 
 def by_equations(scene: Scene, motion: Motion, here: Equilibrium) -> ForceSolution:
     """The reactions and balances of the equations, for groups without a construction."""
-    guides = {f"{guide.block}-{guide.on}": k for k, guide in enumerate(motion.loops.guides)}
+    guides = guides_of(scene, motion)
+    touching = {e.name: e for e in (*touching_of(scene, motion), *cams_of(scene, motion))}
     reactions = []
     for (name, link), (force, turned) in here.pairs.items():
         number = guides.get(name)
+        if name in touching:
+            contact = touching[name]
+            reactions.append(PairReaction(name, link, force, 0.0, contact.place, contact.links[0]))
+            continue
         if number is None:
             place = pin_of(motion, name)
             reactions.append(PairReaction(name, link, force, 0.0, place))
@@ -270,8 +433,7 @@ def by_equations(scene: Scene, motion: Motion, here: Equilibrium) -> ForceSoluti
 
 def by_power_alone(scene: Scene, forces: Forces, motion: Motion, here: Equilibrium) -> ForceVerdict:
     """The verdict on forces of the equations: virtual power is their only check."""
-    largest = max([abs(force) for force, _ in here.pairs.values()], default=0.0)
-    done = float(power(scene, forces, motion, here.drivers, largest))
+    done = float(power(scene, forces, motion, here.drivers, here.largest))
     return ForceVerdict(0.0, "", done, constructed=False)
 
 
@@ -279,8 +441,7 @@ def compare_forces(
     scene: Scene, forces: Forces, motion: Motion, here: Equilibrium, found: ForceSolution
 ) -> ForceVerdict:
     """The difference of constructed reactions and balance from two independent routes."""
-    largest = max([abs(force) for force, _ in here.pairs.values()], default=0.0)
-    largest = max([largest, *(abs(m) / here.size for _, m in here.pairs.values())])
+    largest = here.largest
     for balance in found.balance:
         value = abs(here.drivers[balance.link])
         largest = max(largest, value if balance.moment is None else value / here.size)

@@ -34,6 +34,7 @@ from graphkin.text.errors import (
 if TYPE_CHECKING:
     from graphkin.construction.core.cam_profiles import CamProfile
     from graphkin.mechanism import Mechanism
+    from graphkin.motion.forces_along import ForcesAlong
 
 BESIDE = 1e-6
 """Distance from a singular position (degrees, mm or ms) within which a row has no values."""
@@ -131,6 +132,15 @@ class Cycle(Struct, frozen=True, eq=False, dict=True):
                     given = given - (0 if cam.slides else self.turned(cam.carrier))
                 found[follower] = CamProfile(self.scene, follower, given=given)
         return found
+
+    @cached_property
+    def forces(self) -> ForcesAlong | None:
+        """The reactions and the balance that the scene asks, at every position."""
+        if self.scene.forces is None or not self.scene.forces.asked:
+            return None
+        from graphkin.motion.forces_along import forces_along
+
+        return forces_along(self, self.scene.forces)
 
     def slid(self, block: str) -> Reals:
         """The coordinate (m) of a block on its first guide at every position: (N,)."""

@@ -47,6 +47,8 @@ FEWER = 360
 
 This search serves a group that does not close where the scene is drawn.
 """
+COARSE = 1 / 12
+"""The longest step, in turns, where it is only asked whether a motion ends."""
 MOST_WAYS = 200
 """The most turns, or slide lengths, over which a motion is followed."""
 
@@ -121,10 +123,10 @@ def range_about(sweep: Sweep) -> Path | None:
     The closures have no numbers along it. None where nothing closes in that position.
     """
     course = Course(sweep, sweep.original.branches)
-    start = beside_touch(course, sweep.stands)
+    start = beside_touch(course, sweep.at_scene)
     if start is None:
         return None
-    turns = turns_back(led(course, sweep.stands, sweep.start), sweep.start) if sweep.whole else 0
+    turns = turns_back(led(course, sweep.at_scene, sweep.start), sweep.start) if sweep.whole else 0
     return from_start(carried_about(course, start), start, turns)
 
 
@@ -137,9 +139,9 @@ def reachable_ranges(sweep: Sweep, branches: Branches | None = None) -> Path:
     """
     course = Course(sweep, sweep.original.branches if branches is None else branches)
     refuse_far(sweep)
-    near = led(course, sweep.stands, sweep.start)
+    near = led(course, sweep.at_scene, sweep.start)
     turns = turns_back(near, sweep.start) if sweep.whole else 0
-    if course.closers and (start := beside_touch(course, sweep.stands)) is not None:
+    if course.closers and (start := beside_touch(course, sweep.at_scene)) is not None:
         return shown(sweep, from_start(carried_about(course, start), start, turns))
     course = led_round(near, sweep.start, sweep.start + turns * TURN) if turns > 1 else near
     start = beside_touch(course, sweep.start)
@@ -329,7 +331,7 @@ def ends_within(course: Course, start: float, way: float) -> bool:
     """
     if not course.closers or abs(way) <= TURN:
         return True
-    closures = carried(course, start, start + way).closures
+    closures = carried(course, start, start + way, COARSE).closures
     return any(each.lost(np.array([start + way]))[0] for each in closures)
 
 

@@ -86,7 +86,7 @@ class LetteredSheet(Struct, frozen=True, dict=True):
     def exact(self) -> Original:
         """The construction without drawing errors."""
         scales = self.drawing.scales
-        paper = Paper(scales.kL, scales.kv, scales.ka)
+        paper = Paper.of(scales)
         return Original(self.drawing.trace, paper, (), scales.triangles)
 
     def field(self, number: int) -> Field:

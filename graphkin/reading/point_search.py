@@ -17,7 +17,7 @@ from msgspec import Struct
 
 from graphkin.accuracy.pencil.pencil import Pencil
 from graphkin.accuracy.pencil.redrawing import step_drawn
-from graphkin.drawing.field import AREA
+from graphkin.drawing.field import Rect
 from graphkin.numbers.plane import Line
 from graphkin.reading.drawn_ink import COVERED, PAPER, PITCH, DrawnInk, InkLine
 from graphkin.reading.lettered_points import AHEAD, LONGEST, SHORT, Leading, LetteredSheet
@@ -592,7 +592,7 @@ class PointSearch:
         plausible = [
             place
             for place in places
-            if in_fields(place)
+            if in_fields(place, self.ink.paper.fields)
             and all(abs(place - other) > 2 * APART for other in taken)
             and sum(abs(place - end) > 2 * SHORT for end in ends) >= min(2, len(ends))
         ]
@@ -698,7 +698,7 @@ class PointSearch:
         ways = np.exp(1j * angles)
         places = start + ways[:, None] * radii[None, :]
         dark, known = self.ink.at(places)
-        drawn = ((dark > COVERED) | (known == 0)) & in_fields(places)
+        drawn = ((dark > COVERED) | (known == 0)) & in_fields(places, self.ink.paper.fields)
         share = np.cumsum(drawn, axis=1) / np.arange(1, len(radii) + 1)
         alive = (share > 0.85) & (recent(drawn) > RECENT / 2) & unbroken(drawn)
         lengths = np.where(alive.any(1), radii[alive.shape[1] - 1 - alive[:, ::-1].argmax(1)], 0.0)
@@ -848,7 +848,8 @@ def is_parted(far: complex, way: complex, long: float) -> bool:
     return not (same or (0 < ratio.real < long and abs(ratio.imag) < BROAD))
 
 
-def in_fields(places: Any) -> Any:
+def in_fields(places: Any, fields: Rect) -> Any:
     """Whether places are inside the drawing fields."""
     x, y = np.real(places), np.imag(places)
-    return (AREA[0] < x) & (x < AREA[2]) & (AREA[1] < y) & (y < AREA[3])
+    left, top, right, bottom = fields
+    return (left < x) & (x < right) & (top < y) & (y < bottom)

@@ -151,7 +151,7 @@ def read_load(table: Table, scene: Scene, measures: Measures) -> Load | None:
 
 
 def reactions(asked: Table, scene: Scene) -> tuple[str, ...]:
-    """The pins and the blocks whose reactions are asked, without repetition."""
+    """The pins, blocks and wheels whose reactions are asked, without repetition."""
     raw, findings = asked.take("reactions"), asked.findings
     place = asked.at("reactions")
     if raw is None:
@@ -170,17 +170,19 @@ def reactions(asked: Table, scene: Scene) -> tuple[str, ...]:
         findings.add(
             f"{place}[{index}]",
             shown(each),
-            message("a pin or a block, {names}", names=listed(known)),
+            message("a pin, a block or a wheel, {names}", names=listed(known)),
             hint,
         )
     return tuple(dict.fromkeys(found))
 
 
 def asked_names(scene: Scene) -> Mapping[str, None]:
-    """The points that links share, and the links that slide."""
+    """The points that links share, and the links that slide, roll or follow a cam."""
     owners: dict[str, int] = {}
     for link in scene.every_link:
         for point in link.points:
             owners[point] = owners.get(point, 0) + 1
     pins = [point for point, count in owners.items() if count > 1]
-    return dict.fromkeys([*pins, *(e.name for e in scene.links.values() if e.slides)])
+    return dict.fromkeys(
+        [*pins, *(e.name for e in scene.links.values() if e.slides or e.rolls or e.cam)]
+    )

@@ -28,6 +28,7 @@ from graphkin.construction.core.kind import Construction, Sentence
 from graphkin.construction.core.layout import lay_out
 from graphkin.construction.core.program import Step
 from graphkin.construction.core.solution import Verdict
+from graphkin.documents.force_sheets import with_force_plan
 from graphkin.documents.relations import relations
 from graphkin.documents.scaling import sheet_motion
 from graphkin.documents.sentences import sentences
@@ -80,7 +81,7 @@ FAILING = {
     "undetermined",
 }
 """Faces that only the words for what cannot be drawn look at: tests/diagnosis holds them."""
-DECLARED = {"imaged", "laid_at", "pencil", "titled", "told_after"}
+DECLARED = {"imaged", "laid_at", "pencil", "titled", "lines_before"}
 """Faces that a kind says by the roles that they have, without a method."""
 PLANNING = {"absence", "cause", "comes_along", "draw", "lines_at"}
 """Faces of classes: how a program is written, and why ``explain`` leaves an effect out."""
@@ -98,7 +99,7 @@ UNREACHED = {
     "RelativeCentre.needs_ray",
     "SpeedPole.pencil",
     "TurnedAcceleration.index_at",
-    "TurnedVelocity.told_after",
+    "TurnedVelocity.lines_before",
     "VelocityNormal.places",
 }
 """Faces that none of the scenes here needs where it stands; each wants a scene, or to go."""
@@ -236,13 +237,13 @@ def marked(name: str) -> object:
 
 def errors(name: str) -> object:
     """What a pencil does to it."""
-    exact = original(mechanism(name), materials(name)[0].scales)
+    exact = original(*with_force_plan(mechanism(name), materials(name)[0].scales))
     return list(pencil_lines(forecast(exact, Pencil(0.25))))
 
 
 def pages(name: str) -> object:
     """Its sheets, with every label in its place."""
-    return [sheet(drawing, "key", "1/2").marks for drawing in materials(name)]
+    return [sheet(drawing, "key", "1/2")[0].marks for drawing in materials(name)]
 
 
 def moves(name: str) -> object:

@@ -151,12 +151,13 @@ moment = 10
     [
         ("cylinders-two", 3, "with driven cylinders", True),
         ("stephenson-3-crank", 3, "class III", True),
-        ("gears-pair", 2, "link 2", False),
-        ("cam-roller", 2, "cam", False),
+        ("gears-pair", 2, "link 2", True),
+        ("cam-roller", 2, "cam", True),
+        ("belts-crossed", 2, "belt", False),
     ],
 )
 def test_a_group_whose_forces_are_not_drawn_is_named(name, link, said, solved):
-    """The sheet refuses with one sentence; the numbers are there but for wheels and cams."""
+    """The sheet refuses with one sentence; the numbers are there but for belts."""
     text = (FOLDER / f"{name}.toml").read_text(encoding="utf-8")
     text = text.replace("[[drivers]]", LOADED.format(link=link), 1)
     text = text.replace("[ask]", "[ask]\nbalance = true", 1)

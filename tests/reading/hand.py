@@ -19,6 +19,7 @@ from msgspec import Struct
 from msgspec.structs import replace
 
 from graphkin.classroom.printing.edition import read_edition
+from graphkin.classroom.printing.personal import joined
 from graphkin.classroom.printing.print_work import PrintOrder, Sheets
 from graphkin.construction.core.drawn_scene import Drawing
 from graphkin.construction.core.layout import Layout, lay_out, spans
@@ -105,7 +106,8 @@ def sheets_of(folder: Path, code: str) -> Sheets:
 def printed(folder: Path, code: str, kind: str) -> Any:
     """A student's task sheet as it leaves the printer."""
     found = next(each for each in sheets_of(folder, code).of("task") if each.kind == kind)
-    return printed_page(found.pages[0])
+    leaves = sheets_of(folder, code).paper.leaves
+    return np.hstack([printed_page(page) for page in found.pages[:leaves]])
 
 
 def printed_page(sheet: Page) -> Any:
@@ -439,7 +441,7 @@ def own_page(drawing: Drawing, own: Any) -> Page:
     layout = lay_out(drawing)
     places = Layout(layout.mechanism, layout.plan, spans(mine, layout))
     said = documents.Writing([], [], frozenset())
-    return documents.sheet(mine, "key", "1/1", places, said)
+    return joined(documents.sheet(mine, "key", "1/1", places, said))
 
 
 # --- the pencil -----------------------------------------------------------------------------------

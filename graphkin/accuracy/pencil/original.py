@@ -145,7 +145,7 @@ def together(every: Sequence[Original]) -> Original:
     paper = Paper(
         *(
             stacked([getattr(each.paper, name) for each in every])
-            for name in ("mechanism", "velocities", "accelerations")
+            for name in Paper.__struct_fields__
         )
     )
     trace = Trace(first.program, values, {})
@@ -171,5 +171,5 @@ def original(
     """The drawing of what a scene asks, or of some targets, at the scales of its sheets."""
     wanted = tuple(mechanism.asked() if targets is None else targets)
     trace = mechanism.trace(wanted, by_hand=True, seconds=scales.seconds)
-    paper = Paper(scales.kL, scales.kv, scales.ka)
+    paper = Paper.of(scales)
     return Original(trace, paper, wanted, scales.triangles)

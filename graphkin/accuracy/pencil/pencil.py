@@ -11,6 +11,7 @@ from msgspec import Struct
 from graphkin.construction.core.kind import ByHand, construction
 from graphkin.construction.core.program import Plane, Step
 from graphkin.construction.higher_class.closure_solver import closer_of
+from graphkin.drawing.scale import Scales
 from graphkin.numbers.arithmetic import Point, Real, np, turn_by
 from graphkin.numbers.plane import Circle, Line, Ratio, Vector
 from graphkin.text.errors import Problem, SceneError, message, verbatim
@@ -113,12 +114,25 @@ def mark_of(step: Step, value: Any) -> PencilMark | None:
     return PencilMark.POINT if by_hand is None else PencilMark.ARROW
 
 
+SCALES = (Plane.MECHANISM, Plane.VELOCITIES, Plane.ACCELERATIONS, Plane.FORCES)
+"""The drawings in the order of their scales on paper."""
+
+
 class Paper(Struct, frozen=True):
-    """The amount that a metre of paper represents in each plan: m, m/s, m/s²."""
+    """The amount that a metre of paper represents in each plan: m, m/s, m/s², N.
+
+    ``forces`` is zero where no polygon of forces is drawn.
+    """
 
     mechanism: float
     velocities: float
     accelerations: float
+    forces: float = 0.0
+
+    @classmethod
+    def of(cls, scales: Scales) -> Paper:
+        """The paper of some sheets."""
+        return cls(scales.kL, scales.kv, scales.ka, scales.kF)
 
     def millimetre(self, plane: Plane) -> float:
         """The amount that a millimetre of paper represents in a plane."""
@@ -127,6 +141,8 @@ class Paper(Struct, frozen=True):
                 return self.velocities / 1000
             case Plane.ACCELERATIONS:
                 return self.accelerations / 1000
+            case Plane.FORCES:
+                return self.forces / 1000
         return self.mechanism / 1000
 
 

@@ -10,7 +10,7 @@ from msgspec import Struct
 
 from graphkin.accuracy.pencil.original import Original
 from graphkin.construction.core.program import Step, Target
-from graphkin.construction.core.quantities import BY_TARGET, RATES, MotionQuantity
+from graphkin.construction.core.quantities import BALANCING_MOMENT, BY_TARGET, RATES, MotionQuantity
 from graphkin.numbers.plane import Ratio
 
 FAR = 10.0
@@ -73,6 +73,8 @@ def answer(
         value = placed(value)
         if value is None or not isfinite(abs(value)) or abs(value) > FAR * 1000 * mm:
             return None
+    elif quantity is BALANCING_MOMENT:
+        mm = 0.0
     elif quantity in RATES:
         mm = mm / bar_of(original, original.program.steps[number])
     return DrawnQuantity(target, number, quantity.is_place, value, quantity.unit, mm)

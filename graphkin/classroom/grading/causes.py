@@ -7,25 +7,26 @@ draw alike at once. Names of causes in components come from the kinds' own recor
 from __future__ import annotations
 
 from collections.abc import Callable, Collection, Iterator, Mapping, Sequence
-from functools import cached_property
+from functools import cached_property, partial
+from itertools import groupby
 from math import pi
 from typing import Any
 
 from msgspec import Struct
-from msgspec.structs import replace
+from msgspec.structs import astuple, replace
 
 from graphkin.accuracy.pencil.original import together
-from graphkin.accuracy.pencil.pencil import Paper, Pencil, PencilMark, mark_of, marked
+from graphkin.accuracy.pencil.pencil import SCALES, Paper, Pencil, PencilMark, mark_of, marked
 from graphkin.classroom.grading.standard import FormLayout, Standard, ruler_unit
 from graphkin.construction.core.bases import crank_tip
 from graphkin.construction.core.component import component_of
 from graphkin.construction.core.crossings import Determined
-from graphkin.construction.core.kind import Construction
+from graphkin.construction.core.kind import Slip
 from graphkin.construction.core.program import Drive, Plane, Step
 from graphkin.construction.core.quantities import OMEGA
 from graphkin.construction.core.vocabulary import similar_point
 from graphkin.construction.higher_class.closure_solver import closer_of
-from graphkin.construction.registry import SLIPPING
+from graphkin.construction.registry import SLIPPING, SLIPS
 from graphkin.construction.velocity.lines_through import square_to
 from graphkin.construction.velocity.turning_of_link import TurningOfLink
 from graphkin.mechanism import Mechanism
@@ -295,20 +296,27 @@ def without_sense(layout: FormLayout, rates: Collection[int]) -> Callable[..., A
 
 
 def of_components(layout: FormLayout) -> Iterator[Cause]:
-    """Components left out or laid off wrongly, centres on the wrong side: all of a kind, or one."""
+    """Slips in components, centres and forces: in all of a kind, or in one."""
     steps = layout.program.steps
-    for kind in reversed(SLIPPING):
-        numbers = [n for n in layout.needed if is_result(steps[n], kind)]
-        ways = [tuple(numbers), *((n,) for n in numbers if len(numbers) > 1)] if numbers else []
-        for name, slip in kind.slips.items():
-            for way in ways:
-                told = str(way[0]) if len(way) < len(numbers) else ""
-                yield Cause(name, told, Change(dict.fromkeys(way, times(slip.factor))))
+    for name in SLIPS:
+        mends = {
+            number: partial(slip.value, step.of)
+            for number in layout.needed
+            if (slip := slip_at(step := steps[number], name)) is not None
+        }
+        alone = [[*own] for _, own in groupby(mends, lambda number: id(steps[number].of))]
+        for way in [[*mends], *(alone if len(alone) > 1 else [])] if mends else []:
+            told = str(way[0]) if len(way) < len(mends) else ""
+            yield Cause(name, told, Change({number: mends[number] for number in way}))
 
 
-def is_result(step: Step, kind: type[Construction]) -> bool:
-    """Whether a step is the result of a kind of construction: its component, or its centre."""
-    return isinstance(step.of, kind) and step.role in ("vector", "found")
+def slip_at(step: Step, name: str) -> Slip | None:
+    """The slip of a name in the construction of a step, if that step is its result."""
+    for kind in SLIPPING:
+        slip = kind.slips.get(name) if isinstance(step.of, kind) else None
+        if slip is not None and slip.meets(step):
+            return slip
+    return None
 
 
 def laid_anew(layout: FormLayout, misread: Callable[[Value, Value], Value]) -> Change:
@@ -366,7 +374,7 @@ class Variants(Struct, frozen=True, dict=True):
     def paper(self) -> Paper:
         """The scale factors, in columns."""
         papers = [each.paper for each in self.standards]
-        names = ("mechanism", "velocities", "accelerations")
+        names = Paper.__struct_fields__
         columns: list[Any] = [np.array([[getattr(p, name)] for p in papers]) for name in names]
         return Paper(*columns)
 
@@ -433,7 +441,11 @@ class Variants(Struct, frozen=True, dict=True):
             return paper
         by_crank: Any = np.array([[float(bool(each.scales.of_crank))] for each in self.standards])
         ratio = faster**by_crank
-        return Paper(paper.mechanism, paper.velocities * ratio, paper.accelerations * ratio**2)
+        return replace(
+            paper,
+            velocities=paper.velocities * ratio,
+            accelerations=paper.accelerations * ratio**2,
+        )
 
     # --- how far off a drawing is -----------------------------------------------------------------
 
@@ -525,8 +537,7 @@ def first_of(value: Value) -> Any:
 def repeated(value: Value, rows: Any, count: int) -> Any:
     """The values of some variants, each so many times; a value that all share stays single."""
     if isinstance(value, Paper):
-        own = (value.mechanism, value.velocities, value.accelerations)
-        return Paper(*(repeated(each, rows, count) for each in own))
+        return Paper(*(repeated(each, rows, count) for each in astuple(value)))
     if isinstance(value, tuple):
         return by_parts(lambda part: repeated(part, rows, count), value)
     if isinstance(value, np.ndarray) and value.ndim > 1:
@@ -548,9 +559,6 @@ def millimetre(standard: Standard, place: int) -> float:
 
 
 def plan_of(layout: FormLayout, place: int) -> int:
-    """The plan by whose scale a field is computed: 1 velocities, 2 accelerations, 0 mechanism."""
+    """The plan by whose scale a field is computed, as an index in ``SCALES``."""
     probe = layout.probes[place]
-    if probe.item.what == "place":
-        return 0
-    plane = probe.plane
-    return 2 if plane is Plane.ACCELERATIONS else 1
+    return 0 if probe.item.what == "place" else SCALES.index(probe.plane)

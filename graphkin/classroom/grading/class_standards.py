@@ -15,7 +15,14 @@ from msgspec.structs import replace
 
 from graphkin.accuracy.pencil.original import original
 from graphkin.accuracy.pencil.pencil import Pencil, PencilMark
-from graphkin.classroom.grading.standard import FormLayout, Standard, alike, layout, pencil_errors
+from graphkin.classroom.grading.standard import (
+    FormLayout,
+    Standard,
+    alike,
+    layout,
+    pencil_errors,
+    with_force_scales,
+)
 from graphkin.classroom.lab.lab_model import Item, Rubric
 from graphkin.classroom.lab.variant_scales import Scaling, by_arrays, scaled
 from graphkin.construction.core.program import Program, Step
@@ -49,6 +56,12 @@ class VariantMechanism(Mechanism, frozen=True, dict=True):
         """The program of ``like``."""
         return self.like.program
 
+    @cached_property
+    def with_forces(self) -> Mechanism:
+        """The mechanism with the plan of forces of ``like``."""
+        whole = self.like.with_forces
+        return self if whole is self.like else VariantMechanism(self.scene, whole)
+
 
 def standards(
     usual: Mechanism,
@@ -63,8 +76,11 @@ def standards(
     :func:`~graphkin.classroom.grading.standard.standard` raises.
     """
     own = mechanisms(usual, text, [settings for settings, _ in many])
-    chosen = all_scales(usual, own)
     shared = layout(usual, form)
+    chosen = [
+        with_force_scales(mechanism, scale, shared)
+        for mechanism, scale in zip(own, all_scales(usual, own), strict=True)
+    ]
     found = [
         single(mechanism, scale, shared, rubric, computed)
         for mechanism, scale, (_, computed) in zip(own, chosen, many, strict=True)
@@ -101,10 +117,10 @@ def single(
 
     A variant whose steps differ gets its own layout.
     """
-    same = mechanism.program is shared.program
-    form = shared if same else layout(mechanism, shared.items)
-    exact = original(mechanism, chosen, form.targets)
-    return Standard(mechanism, chosen, form, exact, rubric, computed)
+    whole = mechanism.with_forces
+    form = shared if whole.program is shared.program else layout(mechanism, shared.items)
+    exact = original(whole, chosen, form.targets)
+    return Standard(whole, chosen, form, exact, rubric, computed)
 
 
 # --- mechanisms and scales --------------------------------------------------------------------

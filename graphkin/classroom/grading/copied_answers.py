@@ -18,6 +18,7 @@ from typing import Any
 from msgspec import Struct
 from msgspec.structs import replace
 
+from graphkin.accuracy.pencil.pencil import SCALES
 from graphkin.classroom.grading.explanations import CauseWay
 from graphkin.classroom.grading.graded import Graded, Status, Suspicion
 from graphkin.classroom.grading.keys import Keys, distinct, read_of
@@ -71,10 +72,10 @@ def rightly(keys: Keys, variant: int) -> OwnWay:
 def by_own_scales(answers: Any, keys: Keys, variant: int, read: Any) -> Iterator[OwnWay]:
     """The way in which all values of a plan are too large by one factor.
 
-    The factor of each plan is the likeliest. Nothing is yielded where both are near 1.
+    The factor of each plan is the likeliest. Nothing is yielded where all are near 1.
     """
     sizes, times = keys.sizes[variant], np.ones(len(keys.fields))
-    for plan in (1, 2):
+    for plan in range(1, len(SCALES)):
         values = read & (keys.plans == plan) & (sizes > 0)
         ratio = np.median(answers[values] / sizes[values]) if values.sum() >= FEW else 1.0
         if ratio > 0 and abs(log(ratio)) >= log(ODD):
@@ -111,6 +112,8 @@ STRONG = 1000.0
 """The least odds at which a wrong variant is reported, after correction for all comparisons."""
 TRIED = 3
 """The number of variants compared closely: those nearest to the answers taken singly."""
+CLOSE = 64
+"""The number of variants of which the nearest are chosen, by the digits of the answers too."""
 
 
 Ways = Callable[[Graded], Sequence[CauseWay]]
@@ -195,7 +198,7 @@ def best_other(
         agree = abs(answers - keys.sizes[other]) <= 1.01 * digits
         both = keys.known(mine) & keys.known(other)
         read = ~np.isnan(answers) & both & (~explained | agree)
-        if read.sum() < FEW:
+        if read.sum() < FEW or not keys.tells(mine, other, read):
             continue
         given, rounded = answers[read], digits[read]
         theirs = fit(given, rounded, keys.key(other, read))
@@ -224,13 +227,17 @@ def as_drawn(way: OwnWay, keys: Keys, other: int, read: Any) -> Key:
 def nearest(answers: Any, digits: Any, keys: Keys, mine: int) -> Any:
     """At most ``TRIED`` variants that are nearer to the answers than the student's own.
 
-    Each answer counts by itself.
+    Each answer counts by itself. Rounding is looked at only in the ``CLOSE`` nearest of all.
     """
+    some = np.arange(len(keys.sizes))
+    if len(some) > CLOSE:
+        some = np.append(np.argpartition(keys.away(answers, FAR), CLOSE)[:CLOSE], mine)
     with np.errstate(invalid="ignore", divide="ignore"):
-        apart = (answers - keys.sizes) ** 2 / (keys.deviations**2 + digits**2 / 3)
+        apart = (answers - keys.sizes[some]) ** 2 / (keys.deviations[some] ** 2 + digits**2 / 3)
     far = np.nansum(np.minimum(apart, FAR**2), axis=1)
-    nearer = np.flatnonzero(far < far[mine])
-    return [int(i) for i in nearer[np.argsort(far[nearer], kind="stable")[:TRIED]]]
+    nearer = np.flatnonzero(far < far[some == mine][0])
+    order = nearer[np.lexsort((some[nearer], far[nearer]))[:TRIED]]
+    return [int(some[i]) for i in order]
 
 
 # --- two students with the same digits ------------------------------------------------------------

@@ -13,7 +13,7 @@ from graphkin.classroom.lab.items import arrow_steps, motion_of
 from graphkin.classroom.lab.lab_model import Item
 from graphkin.construction.core.kind import PlanPole, construction
 from graphkin.construction.core.program import Plane, Target
-from graphkin.construction.core.quantities import BY_TARGET, VECTORS
+from graphkin.construction.core.quantities import BY_TARGET, FORCES
 from graphkin.mechanism import Mechanism
 from graphkin.numbers.plane import Ratio
 from graphkin.scene.link_points import point_of
@@ -103,22 +103,27 @@ def probe_of(mechanism: Mechanism, item: Item) -> Probe | None:
 def plane_of(item: Item) -> Plane | None:
     """The plan with a field's vector; None where the field is no vector."""
     quantity = motion_of(item)
-    return quantity.plane if quantity in VECTORS else None
+    return quantity.plane if quantity.sort == "vector" else None
 
 
 def vector_ends(mechanism: Mechanism, item: Item) -> tuple[int, ...] | None:
     """The tail and tip of a vector; None where it is not constructed.
 
-    The vector of a point starts at the pole. Any other vector is the arrow with its symbol.
+    The vector of a point starts at the pole, a force at the tail of its side. Any other vector is
+    the arrow with its symbol.
     """
     program = mechanism.program
     if item.vector is not None:
         arrow = arrow_steps(program).get(item.of)
         return None if arrow is None else program.steps[arrow].args[:2]
-    target = (item.quantity, point_of(mechanism.scene, item.of))
+    quantity = BY_TARGET[item.quantity]
+    of = item.of if quantity in FORCES else point_of(mechanism.scene, item.of)
+    target = (item.quantity, of)
     if target not in program.targets:
         return None
-    plane = BY_TARGET[item.quantity].plane
+    if quantity in FORCES:
+        return program.steps[program.targets[target]].args
+    plane = quantity.plane
     on_plan = (n for n, step in enumerate(program.steps) if step.plane is plane)
     pole = next(n for n in on_plan if isinstance(construction(program.steps[n]), PlanPole))
     return pole, program.targets[target]
@@ -130,6 +135,8 @@ def targets_of(mechanism: Mechanism, items: Iterable[Item]) -> tuple[Target, ...
     program = mechanism.program
     at_step = {number: target for target, number in program.targets.items()}
     for probe in probes(mechanism, items):
+        if motion_of(probe.item) in FORCES:
+            wanted[probe.item.quantity, probe.item.of] = None
         for step in probe.steps:
             if step in at_step:
                 wanted[at_step[step]] = None

@@ -13,8 +13,9 @@ from math import degrees, pi
 from typing import Any
 
 from msgspec import Struct
-from msgspec.structs import replace
+from msgspec.structs import astuple, replace
 
+from graphkin.accuracy.pencil.pencil import SCALES
 from graphkin.classroom.grading.causes import (
     Cause,
     Change,
@@ -27,7 +28,8 @@ from graphkin.classroom.grading.causes import (
 )
 from graphkin.classroom.lab.items import motion_of
 from graphkin.classroom.lab.lab_model import Item
-from graphkin.construction.core.quantities import EPSILON, OMEGA, RATES
+from graphkin.construction.core.program import Plane
+from graphkin.construction.core.quantities import BALANCING_MOMENT, EPSILON, OMEGA, RATES
 from graphkin.construction.velocity.turning_of_link import TurningOfLink
 from graphkin.numbers.arithmetic import np
 
@@ -86,13 +88,18 @@ class FormFields(Struct, frozen=True, dict=True):
         return self.those(lambda item: item.what == "value" and motion_of(item) in RATES)
 
     @cached_property
+    def moments(self) -> Array:
+        """The balancing moments, which are computed from forces and arms."""
+        return self.those(lambda item: item.what == "value" and motion_of(item) is BALANCING_MOMENT)
+
+    @cached_property
     def computed(self) -> Array:
-        """The vectors, rates and speeds that are computed from a length."""
+        """The vectors, rates, speeds, forces and moments that are computed."""
         return self.those(lambda item: item.what == "value")
 
     @cached_property
     def plans(self) -> Array:
-        """The plan of each field: 1 velocities, 2 accelerations, 0 the mechanism."""
+        """The plan of each field: 1 velocities, 2 accelerations, 3 forces, 0 the mechanism."""
         return np.array([plan_of(self.variants.layout, i) for i in self.variants.places])
 
     @cached_property
@@ -138,12 +145,9 @@ class View(Struct, frozen=True, dict=True):
         return np.nan_to_num(self.form.variants.units[self.rows], posinf=0.0)
 
     @cached_property
-    def scales(self) -> tuple[Array, Array, Array]:
-        """What a millimetre of the mechanism and of both plans is worth, in columns."""
-        paper = self.form.variants.paper
-        every: tuple[Any, ...] = (paper.mechanism, paper.velocities, paper.accelerations)
-        kL, kv, ka = (each[self.rows] / 1000 for each in every)
-        return kL, kv, ka
+    def scales(self) -> tuple[Array, ...]:
+        """What a millimetre of each drawing of ``SCALES`` is worth, in columns."""
+        return tuple(each[self.rows] / 1000 for each in astuple(self.form.variants.paper))
 
     def own(self, scale: int) -> Array:
         """What a millimetre of one plan is worth, where another plan's is due."""
@@ -275,7 +279,8 @@ def shifted(form: FormFields, mask: Array, shift: float, *, upwards: bool = Fals
 
 def of_scales(form: FormFields) -> Iterator[Cause]:
     """Scale factors exchanged, forgotten or of one's own."""
-    first, second = ((form.plans == plan) & form.computed for plan in (1, 2))
+    values = form.computed & ~form.moments
+    first, second, third = ((form.plans == plan) & values for plan in (1, 2, 3))
     either = first | second
 
     def exchanged(own: int, other: int) -> Callable[[View], Array]:
@@ -286,7 +291,8 @@ def of_scales(form: FormFields) -> Iterator[Cause]:
         yield reading("wrong_scale", way, scaled(mask, exchanged(own, other), form.rates))
     both = crossed(form, first, second)
     yield reading("wrong_scale", "exchanged", both)
-    for plans, mask in (("1", first), ("2", second), ("1 and 2", either)):
+    owns = (("1", first), ("2", second), ("1 and 2", either), ("3", third))
+    for plans, mask in owns if third.any() else owns[:3]:
         for free in (None, form.rates) if (mask & form.rates).any() else (None,):
             way = f"own {plans}" if free is None else f"own {plans} or right"
             yield reading("wrong_scale", way, by_own(form, mask, free), FREE)
@@ -294,7 +300,7 @@ def of_scales(form: FormFields) -> Iterator[Cause]:
     if form.lengths.any():
         yield reading("scale_missing", "lengths", taken_in_full(form))
         yield reading("drawn_in_full", "", scaled(form.lengths, lambda view: 1000 * view.own(0)))
-        for number in (1, 2):
+        for number in range(1, len(SCALES)):
             mask = form.lengths & (form.plans == number)
             if mask.sum() >= FEW:
                 yield reading("own_scale", str(number), by_own(form, mask, None), FREE)
@@ -319,7 +325,7 @@ def crossed(form: FormFields, first: Array, second: Array) -> Reads:
     """The scales of both plans exchanged."""
 
     def reads(shown: Array, view: View, values: Mapping[int, Value]) -> Told:
-        _, kv, ka = view.scales
+        _, kv, ka, _ = view.scales
         changed = only(first, shown * ka / kv, only(second, shown * kv / ka, shown))
         return changed, only(form.rates, shown, changed)
 
@@ -341,7 +347,7 @@ def by_plan(form: FormFields, mask: Array) -> Reads:
 
     def reads(shown: Array, view: View, values: Mapping[int, Value]) -> Told:
         changed = shown
-        for plan in (0, 1, 2):
+        for plan in range(len(SCALES)):
             here = mask & (form.plans == plan)
             if here.any():
                 changed = only(here, shown * view.factor(shown, here), changed)
@@ -352,7 +358,7 @@ def by_plan(form: FormFields, mask: Array) -> Reads:
 
 def forgotten(form: FormFields) -> Reads:
     """Vectors given as the millimetres that were measured."""
-    vectors = form.computed & ~form.rates
+    vectors = form.computed & ~(form.rates | form.moments)
 
     def reads(shown: Array, view: View, values: Mapping[int, Value]) -> Told:
         with np.errstate(all="ignore"):
@@ -384,10 +390,11 @@ def taken_in_full(form: FormFields) -> Reads:
 
 def of_units(form: FormFields) -> Iterator[Cause]:
     """A speed in another unit in the answers only, rates in degrees or turns, powers of ten."""
+    moving = form.computed & ~form.moments & (form.plans != SCALES.index(Plane.FORCES))
     for name, ratio in speed_factors(form.variants.standards[0].mechanism).items():
         for way, power in (("once", 1), ("squared", 2)):
-            factors = np.where(form.computed, ratio ** np.where(form.plans == 2, power, 1), 1.0)
-            yield reading(name, way, free_factors(factors, form.computed), 0.5)
+            factors = np.where(moving, ratio ** np.where(form.plans == 2, power, 1), 1.0)
+            yield reading(name, way, free_factors(factors, moving), 0.5)
     for name, ratio in (("rate_in_degrees", degrees(1)), ("rate_in_turns", 30 / pi)):
         if form.rates.any():
             factors = np.where(form.rates, ratio, 1.0)
@@ -558,7 +565,7 @@ def of_table(form: FormFields) -> Iterator[Cause]:
         ways = {"": shared} | {
             plan: [kind for kind in shared if kind[0] == plan] for plan, _, _ in shared
         }
-        ways |= {" ".join(kind[:2]): [kind] for kind in shared if kind[1] != "place"}
+        ways |= {" ".join(kind[:2]): [kind] for kind in shared if kind[1] not in ("place", "sense")}
         seen: list[list[tuple[int, int]]] = []
         for way, kinds in ways.items():
             pairs = [(owners[one][kind], owners[other][kind]) for kind in kinds]

@@ -16,9 +16,12 @@ from graphkin.accuracy.pencil.pencil import STRAIGHT, Paper, Pencil, PencilMark
 from graphkin.accuracy.pencil.read_off import bar_of
 from graphkin.accuracy.pencil.redrawing import COMMON, redrawn
 from graphkin.classroom.grading.probes import Probe, probes, targets_of
+from graphkin.classroom.lab.items import motion_of
 from graphkin.classroom.lab.lab_model import Item, Rubric
 from graphkin.construction.core.program import Drive, Plane, Program, Target
+from graphkin.construction.core.quantities import BALANCING_MOMENT, FORCES
 from graphkin.construction.core.run import StepFailed, run
+from graphkin.documents.force_sheets import force_scales
 from graphkin.documents.scaling import scales
 from graphkin.drawing.scale import Scales
 from graphkin.mechanism import Mechanism
@@ -197,10 +200,12 @@ def combined(
 
 
 def ruler_unit(reading: Reading) -> float:
-    """A millimetre on the ruler in the field's unit."""
+    """A millimetre on the ruler in the field's unit; zero for a moment, which no ruler reads."""
     probe, exact = reading.probe, reading.exact
     if probe.item.unit == "mm":
         return 1.0
+    if motion_of(probe.item) is BALANCING_MOMENT:
+        return 0.0
     mm = exact.paper.millimetre(probe.plane)
     if not probe.item.unit.startswith("rad"):
         return mm
@@ -268,6 +273,11 @@ class FormLayout(Struct, frozen=True, dict=True):
         """The steps that the fields depend on, composite ones by value."""
         return self.program.behind(step for probe in self.probes for step in probe.steps)
 
+    @property
+    def has_forces(self) -> bool:
+        """Whether a field is read off the polygons of forces."""
+        return any(motion_of(item) in FORCES for item in self.items)
+
     @cached_property
     def followers(self) -> dict[int, frozenset[int]]:
         """A cache of the steps that depend on each step, the step included."""
@@ -282,9 +292,8 @@ class FormLayout(Struct, frozen=True, dict=True):
 
 def layout(mechanism: Mechanism, items: Iterable[Item]) -> FormLayout:
     """How the fields are read off a mechanism's construction."""
-    form = tuple(items)
-    program = mechanism.program
-    return FormLayout(program, form, probes(mechanism, form), targets_of(mechanism, form))
+    form, whole = tuple(items), mechanism.with_forces
+    return FormLayout(whole.program, form, probes(whole, form), targets_of(whole, form))
 
 
 class Standard(Struct, frozen=True, dict=True):
@@ -435,9 +444,16 @@ def standard(
     mechanism: Mechanism, items: Iterable[Item], rubric: Rubric, computed: Iterable[str] = ()
 ) -> Standard:
     """The standard for the answers to a variant, at the scales of its sheets."""
-    chosen, form = scales(mechanism), layout(mechanism, items)
-    exact = original(mechanism, chosen, form.targets)
-    return Standard(mechanism, chosen, form, exact, rubric, tuple(computed))
+    form = layout(mechanism, items)
+    chosen = with_force_scales(mechanism, scales(mechanism), form)
+    whole = mechanism.with_forces
+    exact = original(whole, chosen, form.targets)
+    return Standard(whole, chosen, form, exact, rubric, tuple(computed))
+
+
+def with_force_scales(mechanism: Mechanism, chosen: Scales, form: FormLayout) -> Scales:
+    """The scale factors of a variant's sheets; those of forces if a field needs them."""
+    return force_scales(mechanism, chosen) if form.has_forces else chosen
 
 
 def sense_is_open(standard: Standard, field: str) -> bool:

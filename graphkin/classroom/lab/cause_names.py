@@ -2,7 +2,7 @@
 
 from collections.abc import Mapping
 
-from graphkin.construction.registry import SLIPPING
+from graphkin.construction.registry import SLIPS
 
 SHARES = {"slight": 0.1, "moderate": 0.15, "serious": 0.2}
 """The share of all points that a cause costs, by its grade."""
@@ -23,7 +23,7 @@ GRADES: Mapping[str, str] = {
     "degrees_as_radians": "moderate",
     "driver_acceleration_missing": "moderate",
     "parallel_for_perpendicular": "serious",
-    **{name: slip.grade for kind in reversed(SLIPPING) for name, slip in kind.slips.items()},
+    **{name: slip.grade for name, slip in SLIPS.items()},
     "sense_reversed": "slight",
     "ruler_scale": "slight",
     "ruler_from_ten": "slight",

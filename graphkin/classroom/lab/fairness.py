@@ -15,29 +15,33 @@ from typing import Any
 from msgspec import Struct, field
 from msgspec.structs import astuple
 
-from graphkin.classroom.lab.items import arrow_steps, items
+from graphkin.classroom.lab.items import arrow_steps, items, motion_of
 from graphkin.classroom.lab.lab_model import Fair, Item, Lab
 from graphkin.classroom.lab.rules import Settings
-from graphkin.classroom.lab.variant_scales import VariantSheet, scaling, sketches, taken
+from graphkin.classroom.lab.variant_scales import VariantSheet, boxes, scaling, sketches, taken
 from graphkin.construction.core.component import component_of
 from graphkin.construction.core.crossings import is_drawn, letter_of
 from graphkin.construction.core.drawn_scene import ENDLESS
-from graphkin.construction.core.layout import held_beside, room_below
+from graphkin.construction.core.layout import Held, held_beside, room_below
 from graphkin.construction.core.paper_canvas import WITHIN
 from graphkin.construction.core.program import Part, Plane
 from graphkin.construction.core.quantities import (
     BY_TARGET,
+    FORCES,
     RATES,
     LinkMotion,
     PointMotion,
     SlideMotion,
 )
+from graphkin.construction.core.run import run_batch
 from graphkin.construction.core.solution import FAIR
+from graphkin.construction.forces.force_drawing import ForceExtents
 from graphkin.construction.registry import LIMITED
-from graphkin.drawing.field import AREA
+from graphkin.documents.force_fields import cells_of, smallest
+from graphkin.drawing.field import SheetPaper, paper_of
 from graphkin.drawing.scale import Extent, Scales
 from graphkin.mechanism import Mechanism
-from graphkin.numbers.arithmetic import larger, np
+from graphkin.numbers.arithmetic import batch_kind, larger, np
 from graphkin.numbers.plane import Ratio, Vector
 
 Array = Any
@@ -119,6 +123,15 @@ def ray_angles(sheet: VariantSheet, form: Sequence[Item]) -> Iterator[tuple[str,
 PARTS = {"velocity": Part.CENTRE, "acceleration": Part.POLE}
 
 
+def mechanism_fields(sheets: Sequence[VariantSheet], scales: Scales, paper: SheetPaper) -> Held:
+    """The mechanism's field on the sheets of many variants; scales are arrays."""
+    mm = 1000 / scales.kL
+    plans = (each.plan_box.width * mm * scales.times(each.kind) for each in sheets)
+    box = reduce(Extent.joined, (each.mechanism_box for each in sheets))
+    poles = (place for each in sheets for place in poles_of(each))
+    return held_beside(paper, box, poles, mm, reduce(larger, plans))
+
+
 def held(
     sheets: Sequence[VariantSheet], sheet: VariantSheet, form: Sequence[Item], scales: Scales
 ) -> Iterator[tuple[str, Array]]:
@@ -133,14 +146,13 @@ def held(
     }
     if not places:
         return
+    stated = sheet.mechanism.scene.sheet
+    paper = paper_of(stated.paper, stated.frame)
     mm = 1000 / scales.kL
-    plans = (each.plan_box.width * mm * scales.times(each.kind) for each in sheets)
-    box = reduce(Extent.joined, (each.mechanism_box for each in sheets))
-    poles = (place for each in sheets for place in poles_of(each))
-    field = held_beside(box, poles, mm, reduce(larger, plans))
+    field = mechanism_fields(sheets, scales, paper)
     left, bottom, right, top = field.box.sides
-    height, room = (top - bottom) * mm, AREA[3] - AREA[1]
-    lift = room_below(height) + height / 2 - room / 2
+    height, room = (top - bottom) * mm, paper.fields[3] - paper.fields[1]
+    lift = room_below(paper, height) + height / 2 - room / 2
     for name, value in places.items():
         point = placed(sheet, value)
         x = (point.real - (left + right) / 2) * mm
@@ -175,6 +187,7 @@ WORDS = {
     "triangle": f"has a {LIMITED} outside its limits",
     "pencil": "is drawn less exactly than the limit",
     "apart": "earns more with another's right values than the limit",
+    "room": "is not compared, since there was no room for hundreds in a row",
 }
 
 
@@ -333,6 +346,7 @@ def judge(
                 margins=True,
             )
             put_drawn(found, drawn, own, start + which)
+            put_forces(found, mechanism, taken(values, which), drawn, own, start + which)
 
 
 def closing(mechanism: Mechanism, values: Mapping[str, Any], count: int) -> Array:
@@ -359,6 +373,39 @@ def put_drawn(found: Fairness, drawn: Sequence[VariantSheet], scales: Scales, wh
         put(found.triangles, triangle_ratios(sheet), which, len(found))
         put(found.rays, ray_angles(sheet, form), which, len(found))
         put(found.on_page, held(drawn, sheet, form, scales), which, len(found))
+
+
+def put_forces(
+    found: Fairness,
+    mechanism: Mechanism,
+    values: Mapping[str, Any],
+    sheets: Sequence[VariantSheet],
+    scales: Scales,
+    which: Array,
+) -> None:
+    """Write the lengths of forces in the polygons of some variants at their indices.
+
+    A variant whose polygons have no room does not fit its page.
+    """
+    form = [item for item in found.form if item.what == "segment" and motion_of(item) in FORCES]
+    if not form:
+        return
+    program = mechanism.with_forces.program
+    drawn = [n for n, step in enumerate(program.steps) if step.plane in (Plane.FORCES, Plane.LEVER)]
+    with np.errstate(all="ignore"):
+        trace = run_batch(program, program.behind(drawn), values, batch_kind(), drawn)
+    extents = ForceExtents.of(trace, lambda points: boxes(points, len(which)))
+    stated = mechanism.scene.sheet
+    paper = paper_of(stated.paper, stated.frame)
+    ends = paper.fields[0] + mechanism_fields(sheets, scales, paper).width
+    left, top, right, low = paper.beside((0.0, 0.0, ends, 0.0))
+    kF = smallest(cells_of(extents), np.broadcast_to(right - left, len(which)), low - top)
+    found.fits[which] &= np.isfinite(kF)
+    lengths = {}
+    for item in form:
+        tail, tip = program.steps[program.targets[item.quantity, item.of]].args
+        lengths[item.field] = np.abs(trace.values[tip] - trace.values[tail]) / kF
+    put(found.lengths, iter(lengths.items()), which, len(found))
 
 
 def put(

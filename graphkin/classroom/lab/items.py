@@ -1,7 +1,8 @@
 """The fields of a lab's form: what a student reads off the drawing, computes, and gives a sense to.
 
 Every field has a name in plain letters, for files and rubrics. v_D_mm is the segment measured in
-the plan, and v_D the velocity in m/s. omega_3 is in rad/s, and omega_3_sense its sense. J_3_x_mm is
+the plan, and v_D the velocity in m/s. omega_3 is in rad/s, and omega_3_sense its sense.
+R_12_mm is a side of a polygon of forces, R_12 the reaction of link 1 on link 2 in N. J_3_x_mm is
 a place on paper, measured to the right and up from the first fixed pivot. The components ν, τ and c
 are written nu, tau and cor.
 """
@@ -20,6 +21,7 @@ from graphkin.construction.core.program import Program
 from graphkin.construction.core.quantities import (
     BY_TARGET,
     CENTRES,
+    FORCES,
     RATES,
     SHEETS,
     SLIDING,
@@ -27,8 +29,10 @@ from graphkin.construction.core.quantities import (
     MotionQuantity,
     names_asked,
 )
+from graphkin.construction.forces.force_words import is_asked
 from graphkin.drawing.symbol_markup import escape, symbol
 from graphkin.mechanism import Mechanism
+from graphkin.scene.forces import Forces
 from graphkin.scene.link_points import lettered, point_of
 from graphkin.text import words
 from graphkin.text.school_signs import USUAL, SchoolSigns
@@ -89,10 +93,7 @@ def meant(item: Item) -> tuple[str, str]:
 
 
 def asked(mechanism: Mechanism) -> Iterator[Item]:
-    """The items that the scene asks for; everything it can ask where it asks nothing.
-
-    A scene that asks for forces alone has no items: forms have no fields for forces.
-    """
+    """The items that the scene asks for; everything it can ask where it asks nothing."""
     ask, scene = mechanism.scene.ask, mechanism.scene
     forces = scene.forces
     nothing = not ask.anything and not (forces is not None and forces.asked)
@@ -110,6 +111,19 @@ def asked(mechanism: Mechanism) -> Iterator[Item]:
             own = point_of(scene, name) if quantity.whose == "points" else name
             if mechanism.gives((quantity.target, own)):
                 yield from place_items(quantity, own)
+    if forces is not None:
+        yield from forces_asked(mechanism, forces)
+
+
+def forces_asked(mechanism: Mechanism, forces: Forces) -> Iterator[Item]:
+    """The reactions in the pairs that are asked, and the balance, by the symbols of the plan."""
+    scene = mechanism.scene
+    targets = mechanism.with_forces.program.targets
+    asked = [target for target in targets if is_asked(scene, forces, target)]
+    for quantity in FORCES:
+        for target, name in asked:
+            if target == quantity.target:
+                yield from force_items(quantity, name, scene.sheet.signs)
 
 
 def moving(mechanism: Mechanism) -> Iterator[Item]:
@@ -168,10 +182,15 @@ def arrow_steps(program: Program) -> Mapping[str, int]:
 
 def vector_items(quantity: MotionQuantity, point: str) -> Iterator[Item]:
     """The segment of a vector in its plan, and its true size."""
-    letter, what = quantity.letter, quantity.target
+    letter = quantity.letter
     name, sign = f"{letter}_{plain(point)}", symbol(f"{letter}_{lettered(point)}")
-    yield Item(name, "segment", sign, "mm", what, point)
-    yield Item(name, "value", sign, quantity.unit, what, point)
+    yield from with_segment(name, sign, quantity, point)
+
+
+def with_segment(name: str, sign: str, quantity: MotionQuantity, of: str) -> Iterator[Item]:
+    """The segment of a vector, and its true size."""
+    yield Item(name, "segment", sign, "mm", quantity.target, of)
+    yield Item(name, "value", sign, quantity.unit, quantity.target, of)
 
 
 def rate_items(quantity: MotionQuantity, link: str, signs: SchoolSigns = USUAL) -> Iterator[Item]:
@@ -192,6 +211,12 @@ def with_sense(name: str, sign: str, quantity: MotionQuantity, of: str) -> Itera
     """A magnitude and its sense."""
     yield Item(name, "value", sign, quantity.unit, quantity.target, of)
     yield Item(name, "sense", sign, "", quantity.target, of)
+
+
+def force_items(quantity: MotionQuantity, name: str, signs: SchoolSigns = USUAL) -> Iterator[Item]:
+    """A side of a polygon of forces and its force, or a balancing moment and its sense."""
+    make = with_segment if quantity.sort == "vector" else with_sense
+    yield from make(plain(name), symbol(name, signs=signs), quantity, name)
 
 
 def place_items(quantity: MotionQuantity, of: str) -> Iterator[Item]:

@@ -15,6 +15,7 @@ from graphkin.classroom.lab.items import (
     all_fields,
     arrow_items,
     asked_fields,
+    force_items,
     place_items,
     plain,
     rate_items,
@@ -34,9 +35,10 @@ from graphkin.construction.core.plan_vector import PlanVector
 from graphkin.construction.core.quantities import (
     BY_TARGET,
     CENTRES,
+    CLOCKWISE,
+    FORCES,
     RATES,
     SHEETS,
-    TURNING,
     VECTORS,
     Whose,
 )
@@ -51,6 +53,8 @@ from graphkin.writers.files import RESERVED, refuse_folder, write_all
 
 COMPONENT = {kind.sign: words("en")(kind.legend).partition(":")[0] for kind in COMPONENTS}
 """The name of each component of an acceleration, by its sign."""
+FORCE_NAMES = ("R_23", "F_b5", "M_b1")
+"""The symbols of a reaction, a balancing force and a balancing moment."""
 SHEET = {sheet[0]: sheet for sheet in SHEETS}
 """The sheet for the first letter of an arrow's symbol."""
 
@@ -75,6 +79,8 @@ def examples() -> Iterator[Item]:
     yield from slide_items(names["slides"], "0")
     for centre in CENTRES:
         yield from place_items(centre, names[centre.whose])
+    for force, name in zip(FORCES, FORCE_NAMES, strict=True):
+        yield from force_items(force, name)
     for quantity in VECTORS:
         for sign in ("", *COMPONENT) if quantity.kind == "acceleration" else ("",):
             yield from arrow_items(PlanVector(quantity.letter, "BA", sign=sign), quantity.unit)
@@ -85,7 +91,7 @@ def meaning(item: Item) -> str:
     of = thing(item)
     if item.what == "sense":
         ways = "counter-clockwise or clockwise"
-        ways = ways if item.quantity in TURNING else "along the guide as the data say, or against"
+        ways = ways if item.quantity in CLOCKWISE else "along the guide as the data say, or against"
         return f"sense of the {of}: {ways}"
     if item.what == "segment":
         return f"{of}: its length in the plan, {item.unit}"

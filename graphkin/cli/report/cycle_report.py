@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any
 
 from graphkin.cli.report.solution_record import heading
 from graphkin.construction.core.quantities import (
+    BY_TARGET,
     CENTRES,
     OF_POINTS,
     OF_SLIDES,
@@ -73,10 +74,28 @@ def columns_of(cycle: Cycle) -> Iterator[Column]:
     yield from of_centres(cycle)
     yield from of_slides(cycle)
     yield from of_cams(cycle)
+    yield from of_forces(cycle)
     for pin, margin in cycle.margins.items():
         yield f"margin_{pin}", margin
     if not cycle.witnessed.refused:
         yield "witness", cycle.witnessed.difference
+
+
+def of_forces(cycle: Cycle) -> Iterator[Column]:
+    """The asked reactions by components, the balance, and how far the lever is from it."""
+    found = cycle.forces
+    if found is None:
+        return
+    for (target, name), value in found.values.items():
+        quantity = BY_TARGET[target]
+        if quantity.sort == "number":
+            yield f"{name} [{quantity.unit}]", value
+        else:
+            letter, _, index = name.partition("_")
+            yield f"{letter}x_{index} [{quantity.unit}]", value.real
+            yield f"{letter}y_{index} [{quantity.unit}]", value.imag
+    if found.difference is not None:
+        yield "force_witness", found.difference
 
 
 def of_points(cycle: Cycle) -> Iterator[Column]:
@@ -525,7 +544,7 @@ def extremes_rows(
     return rows
 
 
-PLAIN_UNITS = str.maketrans({"²": "^2", "°": "deg"})
+PLAIN_UNITS = str.maketrans({"²": "^2", "³": "^3", "°": "deg"})
 """How units are written in a table."""
 ENDS = {None: "inside", "dead": "dead point", "window": "edge"}
 """Where an extreme is in its range, in the table."""

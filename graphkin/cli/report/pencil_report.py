@@ -34,6 +34,7 @@ DRAWN_IN = {
     Part.ACCELERATION: "acceleration plan",
     Part.CENTRE: "centre",
     Part.POLE: "acceleration pole",
+    Part.FORCE: "force plan",
 }
 """The drawing of a crossing, if its construction does not name one."""
 

@@ -19,9 +19,8 @@ from graphkin.construction.centres.centre import (
     normals_at,
 )
 from graphkin.construction.core.canvas import Canvas
-from graphkin.construction.core.component import Slip
 from graphkin.construction.core.drawn_scene import NOISE, Drawing
-from graphkin.construction.core.kind import constructions
+from graphkin.construction.core.kind import Slip, constructions
 from graphkin.construction.core.naming import drawn_amount, drawn_in, scale_of
 from graphkin.construction.core.palette import MECHANISM, Move, PaletteAction, Picked, Picks
 from graphkin.construction.core.pen import Pen, letter

@@ -43,16 +43,6 @@ class Size(Struct, frozen=True):
     bar: float
 
 
-class Slip(Struct, frozen=True):
-    """A common mistake in a component: the ``factor`` by which it multiplies the component.
-
-    ``grade`` says how grave it is: slight, moderate or serious.
-    """
-
-    factor: complex
-    grade: str
-
-
 class OwnSizes(Protocol):
     """A student's measurements in SI with their fields, or the answer key where there are none."""
 
@@ -78,7 +68,7 @@ class Component(Construction, frozen=True, kw_only=True):
     ``vector`` is the step with the numerically stable value. ``read`` is the step that reads the
     same vector off a triangle on the mechanism; None where no triangle is drawn. ``palette`` is the
     page action that draws the component, if there is one. ``limited`` names the figure where its
-    proportions decide whether it can be drawn. ``slips`` are common mistakes of students in it.
+    proportions decide whether it can be drawn.
     ``forgotten`` and ``turned`` are the keys of the sentences of a page for a student who goes on
     without it, or lays it off backwards.
     """
@@ -93,7 +83,6 @@ class Component(Construction, frozen=True, kw_only=True):
     follows: ClassVar[bool] = False
     gives_way: ClassVar[bool] = False
 
-    slips: ClassVar[Mapping[str, Slip]] = {}
     forgotten: ClassVar[str] = ""
     turned: ClassVar[str] = ""
 
@@ -151,7 +140,7 @@ class Component(Construction, frozen=True, kw_only=True):
     def sentence(self, drawing: Drawing, *, first: bool) -> Wording:
         """The instruction to draw the component; in full if it is the ``first`` of its kind."""
 
-    def told_in_parts(self, drawing: Drawing) -> Iterator[tuple[int, str]]:
+    def parts_of_sentence(self, drawing: Drawing) -> Iterator[tuple[int, str]]:
         """The instruction for the component alone, in parts, each with the step that ends it."""
         assert self.vector is not None
         if self.is_left_out(drawing):

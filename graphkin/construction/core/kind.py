@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 from abc import abstractmethod
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from enum import Enum
-from typing import ClassVar, TypeVar
+from typing import Any, ClassVar, TypeVar
 
 from msgspec import Struct
 from msgspec.structs import asdict
@@ -15,6 +15,8 @@ from graphkin.construction.core.drawn_scene import Drawing
 from graphkin.construction.core.palette import KnownError, Picks
 from graphkin.construction.core.program import Program, Roles, Step
 from graphkin.construction.core.relation import Relation
+from graphkin.construction.core.vocabulary import Action
+from graphkin.numbers.plane import Ratio
 from graphkin.text.errors import message
 
 K = TypeVar("K", bound=Roles)
@@ -35,26 +37,59 @@ class ByHand(Enum):
     KNOWN = "not made: the point is there already"
 
 
+Taken = Callable[[Any, Any, Callable[[int], Any]], Any]
+"""A result as a student has it, from its construction, its right value, and other steps' values."""
+
+
+class Slip(Struct, frozen=True):
+    """A common mistake in a construction: the ``factor`` by which it multiplies a result.
+
+    ``grade`` says how grave it is: slight, moderate or serious. ``roles`` are those of the results
+    with the mistake, drawn by ``action`` if one is given. ``taken`` gives the value of such a
+    result as a student has it, from its construction and its right value, and from the values of
+    other steps. It replaces the factor.
+    """
+
+    factor: complex
+    grade: str
+    roles: tuple[str, ...] = ("vector", "found")
+    action: Action | None = None
+    taken: Taken | None = None
+
+    def meets(self, step: Step) -> bool:
+        """Whether a step of the construction is a result with the mistake."""
+        return step.role in self.roles and self.action in (None, step.action)
+
+    def value(self, kind: Any, value: Any, get: Callable[[int], Any]) -> Any:
+        """The value of a result as a student with the mistake has it."""
+        if self.taken is not None:
+            return self.taken(kind, value, get)
+        if isinstance(value, Ratio):
+            return value._replace(shift=self.factor * value.shift)
+        return self.factor * value
+
+
 class Construction(Roles, frozen=True):
     """One construction: the steps of its roles are its fields.
 
     For reports: ``titled`` says what is found, and ``lines`` names the line of a role. ``guided``
     is the role of the block or wheel along whose guide its line lies.
 
-    For sheets: ``reasons`` holds the key of the reason for a role's step. ``told_after`` lists the
-    roles of the lines that a sentence names before its step. ``between`` lists the roles of the
+    For sheets: ``reasons`` holds the key of the reason for a role's step. ``lines_before`` lists
+    the roles of the lines that a sentence names before its step. ``between`` lists the roles of the
     names of the points that it joins. ``imaged`` lists the roles of points marked with their
     letters in a plan. ``laid_at`` is the role of the step that lays off the distance of the first
     and the last of the joined points.
 
     For drawing by hand: ``pencil`` says how the mark of a role is made, where it is neither a
-    marked point nor a line.
+    marked point nor a line. ``slips`` are common mistakes of students in it.
     """
 
     reasons: ClassVar[Mapping[str, str]] = {}
     lines: ClassVar[Mapping[str, str]] = {}
     pencil: ClassVar[Mapping[str, ByHand]] = {}
-    told_after: ClassVar[tuple[str, ...]] = ()
+    slips: ClassVar[Mapping[str, Slip]] = {}
+    lines_before: ClassVar[tuple[str, ...]] = ()
     between: ClassVar[tuple[str, ...]] = ()
     laid_at: ClassVar[str] = ""
     guided: ClassVar[str] = ""
@@ -100,7 +135,7 @@ class Construction(Roles, frozen=True):
 
     def said_before(self, drawing: Drawing, role: str) -> tuple[int, ...]:
         """The steps of the lines that the text names before the step of a role."""
-        return tuple(getattr(self, each) for each in self.told_after)
+        return tuple(getattr(self, each) for each in self.lines_before)
 
     def clause(self, drawing: Drawing, role: str) -> str:
         """The clause for a role's line within the sentence of the point that it helps to find."""

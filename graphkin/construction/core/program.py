@@ -24,6 +24,7 @@ Effect = Literal[
     "normal components",
     "tangential components",
     "Coriolis",
+    "jerk",
     "instantaneous centres",
     "centrodes",
     "acceleration poles",
@@ -209,7 +210,11 @@ class Program(Struct, frozen=True):
     @property
     def answers(self) -> tuple[Target, ...]:
         """The targets that are motions, centres and poles: everything that a scene can request."""
-        return tuple(target for target in self.targets if target[0] not in PLACES)
+        return tuple(
+            target
+            for target, number in self.targets.items()
+            if target[0] not in PLACES and self.steps[number].part is not Part.FORCE
+        )
 
     def needed(self, targets: Iterable[Target], *, by_hand: bool = False) -> tuple[int, ...]:
         """The steps that the targets need, in order: the backward slice.

@@ -98,6 +98,10 @@ class Verdict(Struct, frozen=True):
         return ", ".join(f'{name} = "{branches[name]}"' for name in self.branches)
 
 
+UNPROVED = Verdict(True, 0.0, "", 0.0, 0.0, 0.0)
+"""The verdict on a drawing that is only measured."""
+
+
 TOUCHING = 8
 """Sine of a crossing, in units of sqrt(eps), at which two loci count as touching in a batch."""
 ALL = -1

@@ -2,15 +2,16 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from functools import cached_property
-from typing import Any
+from typing import Any, NamedTuple
 
-from graphkin.construction.core.drawn_scene import Drawing, ends
+from graphkin.construction.core.drawn_scene import Drawing
 from graphkin.construction.core.kind import constructions
 from graphkin.construction.core.layout import Layout
 from graphkin.construction.core.program import Part, Plane, Step
 from graphkin.construction.core.quantities import RATE, MotionQuantity
+from graphkin.construction.core.run import Trace
 from graphkin.construction.forces.balance import BalancingMoment
 from graphkin.construction.forces.force_words import sub
 from graphkin.construction.forces.lever import LeverBalance
@@ -18,6 +19,7 @@ from graphkin.construction.forces.loads import InertiaMoment
 from graphkin.construction.forces.polygon import InPolygon
 from graphkin.drawing.field import Field
 from graphkin.drawing.scale import Extent, extent_of
+from graphkin.numbers.arithmetic import np
 
 
 class ForceLayout(Layout, frozen=True):
@@ -25,6 +27,40 @@ class ForceLayout(Layout, frozen=True):
 
     polygons: Mapping[int, Field] = {}
     lever: Field | None = None
+
+
+class ForceExtents(NamedTuple):
+    """The box of each polygon in N, by its number, and that of the lever in m/s.
+
+    The lever is None where there is none, or where nothing moves.
+    """
+
+    polygons: Mapping[int, Extent]
+    lever: Extent | None
+
+    @classmethod
+    def of(cls, trace: Trace, around: Callable[[list[Any]], Extent] = extent_of) -> ForceExtents:
+        """The boxes of a plan of forces, each ``around`` the points in it."""
+        polygons: dict[int, list[Any]] = {}
+        lever: list[Any] = []
+        for number, value in trace.values.items():
+            step = trace.program.steps[number]
+            if isinstance(step.of, InPolygon) and step.plane is Plane.FORCES:
+                polygons.setdefault(step.of.polygon, []).extend(own_points(value))
+            elif step.plane is Plane.LEVER and not isinstance(step.of, LeverBalance):
+                lever += own_points(value)
+        box = around(lever)
+        moves = len(lever) > 1 and np.any((box.width > 0) | (box.height > 0))
+        own = {number: around(points) for number, points in polygons.items()}
+        return cls(own, box if moves else None)
+
+
+def own_points(value: Any) -> tuple[Any, ...]:
+    """A value that is a point, or one of each variant; none for lines and arrows.
+
+    Arrows of a polygon join points that are there.
+    """
+    return () if isinstance(value, tuple) else (value,)
 
 
 class ForceDrawing(Drawing, frozen=True):
@@ -86,27 +122,14 @@ class ForceDrawing(Drawing, frozen=True):
         forces = [abs(value) for _, _, value in self.steps(Plane.FORCES) if is_point(value)]
         return max(forces, default=0.0)
 
-    def polygon_extents(self) -> dict[int, Extent]:
-        """The box of each polygon in N, by its number."""
-        found: dict[int, list[complex]] = {}
-        for _, step, value in self.steps(Plane.FORCES):
-            if isinstance(step.of, InPolygon):
-                found.setdefault(step.of.polygon, []).extend(ends(value))
-        return {number: extent_of(points) for number, points in found.items()}
-
-    def lever_extent(self) -> Extent | None:
-        """The box of the lever in m/s; None where there is none, or where nothing moves."""
-        points = [
-            value
-            for _, step, value in self.steps(Plane.LEVER)
-            if is_point(value) and not isinstance(step.of, LeverBalance)
-        ]
-        box = extent_of(points)
-        return box if len(points) > 1 and box.diagonal else None
+    @cached_property
+    def extents(self) -> ForceExtents:
+        """The boxes of its polygons and of its lever."""
+        return ForceExtents.of(self.trace)
 
     def lever_balances(self) -> Iterator[LeverBalance]:
         """The balance by the lever, if it is drawn."""
-        if self.lever_extent() is not None:
+        if self.extents.lever is not None:
             for step in self.trace.program.steps:
                 if isinstance(step.of, LeverBalance) and step.role == "force":
                     yield step.of

@@ -12,6 +12,11 @@ from itertools import count
 from graphkin.construction.core.bases import crank_tip
 from graphkin.construction.core.pen import Pen
 from graphkin.construction.core.program import Part, Plane, Program
+from graphkin.construction.core.quantities import (
+    BALANCING_FORCE,
+    BALANCING_MOMENT,
+    PAIR_REACTION,
+)
 from graphkin.construction.forces.balance import balance_of
 from graphkin.construction.forces.force_words import link_pair, sub
 from graphkin.construction.forces.lever import LeverPlan
@@ -23,7 +28,13 @@ from graphkin.construction.forces.moments import (
     place_on_guide,
     tangential,
 )
-from graphkin.construction.forces.polygon import PART, REACTION, Polygon, SideDirection
+from graphkin.construction.forces.polygon import (
+    PART,
+    REACTION,
+    Polygon,
+    SideDirection,
+    side_between,
+)
 from graphkin.construction.forces.slide_pressure import pressure
 from graphkin.scene.model import FRAME, Scene
 from graphkin.structure.groups import Crank, Driven, Dyad, Group
@@ -244,14 +255,17 @@ class ForcePlan:
         self.pressed(inner, one, other, force, place)
         self.turn(inner, one, couple_on_guide(pen, guide, force, others), both=True)
         for link, pin in (far, near):
-            self.closed_at(group.type, link, pin)
+            polygon = self.closed_at(group.type, link, pin)
+        with pen.on(Part.FORCE, Plane.NUMBERS):
+            pen.want(PAIR_REACTION.target, name, pen.draw(side_between, *polygon.ends[name]))
 
-    def closed_at(self, kind: str, link: str, pin: Pin) -> None:
+    def closed_at(self, kind: str, link: str, pin: Pin) -> Polygon:
         """The polygon of one link, which the reaction in its pin closes."""
         polygon = self.new_polygon((link,), kind)
         last = polygon.lay_all(self.acting[link])
         force = polygon.reaction(self.name(pin, link), last, polygon.start, closes=True)
         self.at_pin(pin, link, force)
+        return polygon
 
     def has_moments(self, link: str, pin: Pin) -> bool:
         """Whether a force on a link acts elsewhere than at a pin."""
@@ -302,7 +316,9 @@ class ForcePlan:
         pen, link = self.pen, group.link
         pivot = pen.the("position", group.pivot)
         moments = moments_about(pen, pivot, group.pivot, self.acting[link], self.arms)
-        moment = balance_of(pen, "M_" + sub("b", link), link, moments)
+        name = "M_" + sub("b", link)
+        moment = balance_of(pen, name, link, moments)
+        pen.want(BALANCING_MOMENT.target, name, moment)
         self.closed_at("crank", link, Pin(group.pivot, (FRAME, link)))
         return moment
 
@@ -321,7 +337,13 @@ class ForcePlan:
         )
         names = "F_" + sub("b", link), self.name(pair, link)
         closed = polygon.close(names, ways, ("balance", REACTION))
-        push = polygon.reaction(names[0], closed.corner, polygon.start, drawn=False)
+        push = polygon.reaction(
+            names[0],
+            closed.corner,
+            polygon.start,
+            drawn=False,
+            quantity=BALANCING_FORCE.target,
+        )
         force = polygon.reaction(names[1], last, closed.corner, drawn=False)
         applied(pen, LinkForce(names[0], "balance", push, pin, at=point))
         self.settle(pair, link, force, moments)

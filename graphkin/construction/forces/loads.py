@@ -11,7 +11,7 @@ from typing import Any, ClassVar, NamedTuple
 
 from graphkin.construction.core.canvas import Canvas
 from graphkin.construction.core.drawn_scene import Drawing
-from graphkin.construction.core.kind import Construction, constructions
+from graphkin.construction.core.kind import Construction, Slip, constructions
 from graphkin.construction.core.naming import sense
 from graphkin.construction.core.pen import Pen
 from graphkin.construction.core.program import Part, Plane
@@ -123,6 +123,14 @@ class AppliedForce(Construction, frozen=True, kw_only=True):
             canvas.vector(self.name, self.look, place, place + way)
 
 
+def moment_slips(role: str) -> Mapping[str, Slip]:
+    """The slips in an inertia moment, which is the result of a role."""
+    return {
+        "inertia_moment_missing": Slip(0, "moderate", (role,), inertia_moment),
+        "inertia_moment_reversed": Slip(-1, "moderate", (role,), inertia_moment),
+    }
+
+
 class InertiaForce(Construction, frozen=True, kw_only=True):
     """The inertia force of a ``link`` with its centre of mass in ``point``, and its displacement.
 
@@ -131,6 +139,11 @@ class InertiaForce(Construction, frozen=True, kw_only=True):
 
     gives: ClassVar[tuple[str, ...]] = ("force", "moment", "place")
     reasons: ClassVar[Mapping[str, str]] = {"force": "why.force_inertia"}
+    slips: ClassVar[Mapping[str, Slip]] = {
+        "inertia_along": Slip(-1, "moderate", ("force",)),
+        "inertia_missing": Slip(0, "serious", ("force", "moment")),
+        **moment_slips("moment"),
+    }
 
     link: str
     point: str
@@ -216,6 +229,10 @@ class InertiaMoment(Construction, frozen=True, kw_only=True):
 
     gives: ClassVar[tuple[str, ...]] = ("couple",)
     reasons: ClassVar[Mapping[str, str]] = {"couple": "why.force_inertia"}
+    slips: ClassVar[Mapping[str, Slip]] = {
+        "inertia_missing": Slip(0, "serious", ("couple",), inertia_moment),
+        **moment_slips("couple"),
+    }
 
     link: str
     inertia: int
@@ -245,10 +262,10 @@ class InertiaMoment(Construction, frozen=True, kw_only=True):
 def of_moment(drawing: Drawing, link: str, inertia: int, epsilon: int) -> Relation:
     """The relation of an inertia moment."""
     j, spun = (abs(float(drawing.trace.values[n])) for n in (inertia, epsilon))
-    told = answer(drawing, j * spun)
-    figures = put_in(drawing, told, lambda j, e: j * e, j, spun)
+    result = answer(drawing, j * spun)
+    figures = put_in(drawing, result, lambda j, e: j * e, j, spun)
     symbols = f"{symbol(f'J_{link}')}·{symbol(f'ε_{link}')}"
-    return Relation(symbol("M_" + sub("i", link)), symbols, "·".join(figures), told, "N·m")
+    return Relation(symbol("M_" + sub("i", link)), symbols, "·".join(figures), result, "N·m")
 
 
 def of_shift(drawing: Drawing, force: InertiaForce, moment: float, size: float) -> Relation:
@@ -262,7 +279,7 @@ def of_shift(drawing: Drawing, force: InertiaForce, moment: float, size: float) 
         moment,
         size,
         scale,
-        told=lambda drawing, value: drawing.words.fixed(value, 2),
+        shown_as=lambda drawing, value: drawing.words.fixed(value, 2),
     )
     turning = symbol("M_" + sub("i", force.link))
     symbols = f"{turning}/({symbol(force.name)}·*k*_L)"
@@ -275,6 +292,12 @@ class Weight(Construction, frozen=True, kw_only=True):
 
     gives: ClassVar[tuple[str, ...]] = ("force",)
     reasons: ClassVar[Mapping[str, str]] = {"force": "why.force_weight"}
+    slips: ClassVar[Mapping[str, Slip]] = {
+        "weight_missing": Slip(0, "serious", ("force",)),
+        "mass_for_weight": Slip(
+            0, "moderate", ("force",), taken=lambda kind, force, get: force / abs(get(kind.gravity))
+        ),
+    }
 
     link: str
     point: str
@@ -290,14 +313,14 @@ class Weight(Construction, frozen=True, kw_only=True):
             return ""
         values = drawing.trace.values
         falls = values[self.gravity]
-        told = (
+        names = (
             saying(f"{symbol(e.name)} = {newtons(drawing, abs(values[e.force]))}", symbol(e.name))
             for e in every
         )
         one, many = "step.force-weight", "step.force-weights"
         if falls.real or falls.imag > 0:
             one, many = "step.force-weight-along", "step.force-weights-along"
-        return drawing.words(many if len(every) > 1 else one, list=COMMA.join(told))
+        return drawing.words(many if len(every) > 1 else one, list=COMMA.join(names))
 
     def equations(self, drawing: Drawing, role: str) -> Iterator[Relation]:
         """m·g."""

@@ -6,14 +6,14 @@ a guide's reaction follows from the moments about the block's pin.
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from typing import Any, ClassVar, NamedTuple
 
 from msgspec import Struct
 
 from graphkin.construction.core.canvas import Canvas
 from graphkin.construction.core.drawn_scene import Drawing
-from graphkin.construction.core.kind import Construction
+from graphkin.construction.core.kind import Construction, Slip
 from graphkin.construction.core.naming import sense
 from graphkin.construction.core.pen import Pen
 from graphkin.construction.core.program import Part, Plane
@@ -89,10 +89,35 @@ def left_couple(about: Point, guide: Line, reaction: Point, *rest: Any) -> Real:
     return pick(arm == 0, -moment_sum(about, rest), 0.0)
 
 
+def slanted(kind: ForceArm, foot: Any, get: Callable[[int], Any]) -> Any:
+    """The foot of an arm that was measured to the place of the force, not to its line of action."""
+    about = get(kind.about)
+    arm = abs(foot - about)
+    return about + (foot - about) * (abs(get(kind.place) - about) / pick(arm == 0, 1.0, arm))
+
+
+def about_outer(kind: TangentialPart, force: Any, get: Callable[[int], Any]) -> Any:
+    """The part of a reaction by arms about the outer pin, each with its right sense."""
+    outer, inner = get(kind.outer), get(kind.inner)
+    total: Any = 0.0
+    for term in kind.moments.terms:
+        if term.foot is None or term.force is None:
+            assert term.couple is not None
+            total = total + get(term.couple)
+            continue
+        foot, acting = get(term.foot), get(term.force)
+        moment, other = cross(foot - inner, acting), abs(cross(foot - outer, acting))
+        total = total + pick(moment < 0, -other, other)
+    return tangential_part.value(outer, inner, total, 0.0)
+
+
 class ForceArm(Construction, frozen=True, kw_only=True):
     """The arm of a force ``name`` about a point: its ``foot``, and its symbol ``number``."""
 
     gives: ClassVar[tuple[str, ...]] = ("foot",)
+    slips: ClassVar[Mapping[str, Slip]] = {
+        "arm_slanted": Slip(1, "moderate", ("foot",), taken=slanted),
+    }
 
     name: str
     number: str
@@ -197,6 +222,10 @@ class TangentialPart(Construction, frozen=True, kw_only=True):
 
     gives: ClassVar[tuple[str, ...]] = ("force",)
     reasons: ClassVar[Mapping[str, str]] = {"force": "why.force_tangential"}
+    slips: ClassVar[Mapping[str, Slip]] = {
+        "tangential_reversed": Slip(-1, "moderate", ("force",)),
+        "arms_about_outer": Slip(1, "moderate", ("force",), taken=about_outer),
+    }
 
     name: str
     link: str
@@ -349,8 +378,8 @@ def of_moments(
     in symbols, whose signs are part of the answer, comes with the figures.
     """
     left, result, unit = found
-    (told, put), (under, divisor) = sums, below
-    figures = f"({told})/{under} = ({put})/{divisor}"
+    (signed, put), (under, divisor) = sums, below
+    figures = f"({signed})/{under} = ({put})/{divisor}"
     return Relation(left, f"Σ*M*({about})/{by}", figures, result, unit)
 
 

@@ -12,11 +12,11 @@ from typing import Any, ClassVar, NamedTuple
 
 from graphkin.construction.core.canvas import Canvas
 from graphkin.construction.core.drawn_scene import Drawing
-from graphkin.construction.core.kind import Construction
+from graphkin.construction.core.kind import ByHand, Construction, Slip
 from graphkin.construction.core.naming import way_of
 from graphkin.construction.core.pen import Pen
 from graphkin.construction.core.program import Part, Plane
-from graphkin.construction.core.quantities import in_mm
+from graphkin.construction.core.quantities import PAIR_REACTION, in_mm
 from graphkin.construction.core.relation import Relation, as_read
 from graphkin.construction.core.segments import TINY
 from graphkin.construction.core.vocabulary import action, along_bar, join, lay_off, meet
@@ -107,6 +107,7 @@ class PolygonSide(InPolygon, frozen=True, kw_only=True):
     """A known force laid off from the last point of a polygon."""
 
     gives: ClassVar[tuple[str, ...]] = ("corner",)
+    pencil: ClassVar[Mapping[str, ByHand]] = {"corner": ByHand.LAID_OFF}
 
     name: str
     look: str
@@ -135,6 +136,15 @@ class ClosedByLines(InPolygon, frozen=True, kw_only=True):
     reasons: ClassVar[Mapping[str, str]] = {"corner": "why.force_polygon"}
     lines: ClassVar[Mapping[str, str]] = {"one": "the side {first}", "other": "the side {last}"}
     titled: ClassVar[str] = "the polygon of {kind}"
+    slips: ClassVar[Mapping[str, Slip]] = {
+        "reaction_along_guide": Slip(
+            1,
+            "serious",
+            ("one", "other"),
+            normal_to_guide,
+            lambda kind, line, get: Line(line.point, 1j * line.along),
+        ),
+    }
 
     kind: str
     links: tuple[str, ...]
@@ -300,6 +310,7 @@ class Polygon:
         pen.make(record)
         self.kind = kind
         self.sides: list[KnownSide] = []
+        self.ends: dict[str, tuple[int, int]] = {}
 
     def lay(self, name: str, look: str, force: int) -> int:
         """Lay off a force; its end."""
@@ -312,6 +323,7 @@ class Polygon:
             )
         )
         self.sides.append(KnownSide(name, force))
+        self.ends[name] = start, corner
         self.last = corner
         return corner
 
@@ -368,11 +380,13 @@ class Polygon:
         whole: tuple[str, ...] = (),
         closes: bool = False,
         drawn: bool = True,
+        quantity: str = PAIR_REACTION.target,
     ) -> int:
-        """The force from one point of the polygon to another, with its arrow."""
+        """The force from one point of the polygon to another, with its arrow: a ``quantity``."""
         pen = self.pen
         with pen.on(Part.FORCE, Plane.NUMBERS):
             force = pen.draw(side_between, tail, tip)
+        pen.want(quantity, name, force)
         if not drawn:
             return force
         with pen.on(Part.FORCE, Plane.FORCES):

@@ -9,7 +9,19 @@ from typing import TYPE_CHECKING
 import numpy as np
 from msgspec import Struct
 
-from graphkin.construction.core.quantities import RATES, VECTORS, motion_value, names_asked
+from graphkin.construction.core.quantities import (
+    BALANCING_FORCE,
+    BALANCING_MOMENT,
+    BY_TARGET,
+    JERK,
+    MOTION,
+    PAIR_REACTION,
+    PLURALS,
+    RATES,
+    VECTORS,
+    motion_value,
+    names_asked,
+)
 from graphkin.construction.core.solution import Solution
 from graphkin.motion.cycle import Cycle
 from graphkin.motion.driving import TURN
@@ -35,6 +47,8 @@ from graphkin.writers.plot_style import (
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
+
+    from graphkin.motion.forces_along import ForcesAlong
 
 Reals = np.ndarray[tuple[int], np.dtype[np.float64]]
 
@@ -125,7 +139,7 @@ def sampled(cycle: Cycle, fine: int = FINE) -> Sampled:
 
 def moving_points(scene: Scene, solution: Solution) -> list[str]:
     """The requested points, else all that are neither fixed nor on a driven link alone."""
-    asked = names_asked(scene.ask, *VECTORS)
+    asked = names_asked(scene.ask, *VECTORS, MOTION[JERK])
     known = [name for name in asked if name in solution.points]
     if known:
         return known
@@ -187,7 +201,7 @@ def pictures(found: Sampled) -> dict[str, Callable[[], Figure]]:
     scene, solution = found.scene, found.solution
     points = moving_points(scene, solution)
     drawn: dict[str, Callable[[], Figure]] = {}
-    for quantity, name in NAMES.items():
+    for quantity, name in PLURALS.items():
         if any(getattr(solution.points[p], quantity) is not None for p in points):
             drawn[name] = partial(of_points, found, points, quantity)
     links = turning_links(scene, solution)
@@ -197,21 +211,14 @@ def pictures(found: Sampled) -> dict[str, Callable[[], Figure]]:
         drawn["slides"] = partial(of_slides, found, list(solution.slides))
     if found.cycle.profiles:
         drawn["cams"] = partial(of_cams, found)
+    if found.cycle.forces is not None:
+        drawn["forces"] = partial(of_forces, found, found.cycle.forces)
     return drawn
-
-
-NAMES = {"position": "positions", "velocity": "velocities", "acceleration": "accelerations"}
-WORDS = {
-    "position": ("Positions", ("x", "y", ""), ""),
-    "velocity": ("Velocities", ("v", "v", "v"), "m/s"),
-    "acceleration": ("Accelerations", ("a", "a", "a"), "m/s²"),
-}
 
 
 def of_points(found: Sampled, points: Sequence[str], quantity: str) -> Figure:
     """A panel for each point with its components and its magnitude."""
-    title, letters, unit = WORDS[quantity]
-    factor = 1.0
+    letter, unit, factor = MOTION[quantity].letter, MOTION[quantity].unit, 1.0
     if quantity == "position":
         unit, factor = found.length_unit, found.per_length
     known = [n for n in points if getattr(found.solution.points[n], quantity) is not None]
@@ -225,14 +232,13 @@ def of_points(found: Sampled, points: Sequence[str], quantity: str) -> Figure:
                 (subscripted("y", name), value.imag, COLOURS[1], DASHES[1]),
             ]
         else:
-            letter = letters[0]
             curves = [
                 (subscripted(letter, name), np.abs(value), INK, DASHES[0]),
                 (f"{subscripted(letter, name)} along x", value.real, COLOURS[0], DASHES[1]),
                 (f"{subscripted(letter, name)} along y", value.imag, COLOURS[1], DASHES[2]),
             ]
         panels.append((f"Point {name.replace('@', ' of link ')}", unit, curves))
-    return stacked(found, title + more, panels)
+    return stacked(found, PLURALS[quantity].capitalize() + more, panels)
 
 
 def of_links(found: Sampled, links: Sequence[str]) -> Figure:
@@ -314,6 +320,32 @@ def of_cams(found: Sampled) -> Figure:
         angle = subscripted("\\alpha", name), profile.pressure, COLOURS[1], DASHES[0]
         panels.append((f"Pressure angle of link {name}", "deg", [angle]))
     return stacked(found, f"Cams{more}", panels)
+
+
+def of_forces(found: Sampled, forces: ForcesAlong) -> Figure:
+    """The magnitudes of reactions, and a panel for each driver's moment or force."""
+    every = forces.values.items()
+    reactions = {name: value for (what, name), value in every if what == PAIR_REACTION.target}
+    shown, more = some_of(list(reactions), MOST_CURVES, "reactions")
+    curves = [
+        (subscripted(*name.split("_", 1)), np.abs(reactions[name]), colour(i), dash(i))
+        for i, name in enumerate(shown)
+    ]
+    panels = [("Reactions, their magnitudes", PAIR_REACTION.unit, curves)] if curves else []
+    for (what, name), value in every:
+        quantity, letters = BY_TARGET[what], name.split("_", 1)
+        if quantity is BALANCING_MOMENT:
+            curve = (subscripted(*letters), value, INK, DASHES[0])
+            words = "Balancing moment, counter-clockwise positive"
+            panels.append((words, quantity.unit, [curve]))
+        elif quantity is BALANCING_FORCE:
+            along = [
+                (subscripted(*letters), np.abs(value), INK, DASHES[0]),
+                (f"{subscripted(*letters)} along x", value.real, COLOURS[0], DASHES[1]),
+                (f"{subscripted(*letters)} along y", value.imag, COLOURS[1], DASHES[2]),
+            ]
+            panels.append(("Balancing force", quantity.unit, along))
+    return stacked(found, f"Forces{more}", panels)
 
 
 def stacked(

@@ -11,7 +11,7 @@ from msgspec import Struct
 from msgspec.structs import replace
 
 from graphkin.construction.core.drawn_scene import Drawing
-from graphkin.construction.core.solution import Verdict
+from graphkin.construction.core.solution import UNPROVED
 from graphkin.construction.links.mechanism_symbols import draw_ground, draw_links
 from graphkin.drawing.field import Field
 from graphkin.drawing.labels import FieldContent, free_ones
@@ -77,15 +77,14 @@ def stand_of(cycle: Cycle, factor: float) -> Outline:
         return Outline(placed(cycle.mechanism), factor, True)
     except ClosureError:
         first = cycle.pieces[cycle.piece[0] - 1]
-        return Outline(placed(Mechanism(first.course.standing(cycle.at[0]))), factor, False)
+        return Outline(placed(first.course.mechanism(cycle.at[0])), factor, False)
 
 
 def placed(mechanism: Mechanism) -> Drawing:
     """The drawing of a mechanism without its plans."""
     trace = mechanism.trace([t for t in mechanism.program.targets if t[0] in ("position", "axis")])
-    nobody = Verdict(True, 0.0, "", 0.0, 0.0, 0.0)
     scales = Scales(1.0, 1.0, triangles=False)
-    return Drawing("velocity", mechanism.scene, trace, scales, nobody, words("en"))
+    return Drawing("velocity", mechanism.scene, trace, scales, UNPROVED, words("en"))
 
 
 def stand_about(cycle: Cycle, factor: float, points: Collection[str]) -> Outline:

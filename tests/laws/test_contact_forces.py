@@ -1,0 +1,136 @@
+"""Forces of wheels and cams by all equations of equilibrium, held to formulas and to power."""
+
+from __future__ import annotations
+
+import math
+import random
+from pathlib import Path
+
+import pytest
+
+from graphkin.construction.reactions import ForceSolution
+from graphkin.mechanism import Mechanism
+from graphkin.scene.model import FRAME
+from graphkin.scene.read_scene import read_text
+from graphkin.text.errors import StructureError
+from tests.chosen import FOLDER
+from tests.laws.force_routes import loaded
+
+CLOSE = 1e-9
+
+
+def forces_of(name: str, load: str, *changes: tuple[str, str]) -> ForceSolution:
+    """The forces of a scene of the gallery with a load."""
+    text = (FOLDER / f"{name}.toml").read_text(encoding="utf-8")
+    for old, new in (*changes, ("[[drivers]]", f"[[loads]]\n{load}\n[[drivers]]")):
+        assert old in text
+        text = text.replace(old, new, 1)
+    found, verdict = Mechanism(read_text(text, name, None, {})).forces()
+    assert verdict.agrees and not verdict.constructed
+    return found
+
+
+def on(found: ForceSolution, name: str, link: str) -> complex:
+    return next(each.force for each in found.reactions if (each.name, each.link) == (name, link))
+
+
+@pytest.mark.parametrize("moment", [40, -40])
+def test_teeth_push_along_a_line_of_action_at_20_degrees(moment):
+    """F_t = M/r_2, F_r = F_t·tan 20° pushes the wheels apart; the driver holds M·z_1/z_2."""
+    found = forces_of("gears-pair", f"link = 2\nmoment = {moment}")
+    force, radius = on(found, "2-1", "2"), 0.1
+    assert math.isclose(force.imag, moment / radius, rel_tol=CLOSE)
+    assert math.isclose(
+        force.real, abs(moment) / radius * math.tan(math.radians(20)), rel_tol=CLOSE
+    )
+    (balance,) = found.balance
+    assert math.isclose(balance.moment, moment * 24 / 40, rel_tol=CLOSE)
+
+
+def test_plain_wheels_push_along_the_tangent():
+    plain = (("module = 5\n", ""), ('teeth = "z1"', 'radius = "2.5*z1"'))
+    found = forces_of(
+        "gears-pair", "link = 2\nmoment = 40", *plain, ('teeth = "z2"', "radius = 100")
+    )
+    assert abs(on(found, "2-1", "2") - 400j) < 400 * CLOSE
+
+
+def test_a_pinion_pushes_its_rack_along_the_line_of_action():
+    """The force along the rack is the load; its moment is that of the radius 60 mm."""
+    found = forces_of("gears-rack", 'link = 2\nat = "B"\nforce = [50, 0]')
+    force = on(found, "1-2", "2")
+    assert math.isclose(force.real, -50, rel_tol=CLOSE)
+    assert math.isclose(abs(force.imag), 50 * math.tan(math.radians(20)), rel_tol=CLOSE)
+
+
+def test_a_cam_and_its_roller_push_along_the_normal():
+    """M = F·s′, and the side thrust is F·tan α with tan α = (s′ − e)/(s_0 + s); e = 10 mm left.
+
+    At 50° of a cycloidal rise of h = 20 mm in β = 120°.
+    """
+    found = forces_of("cam-roller", 'link = 2\nat = "B"\nforce = [0, -100]')
+    h, beta, u, base = 0.02, math.radians(120), 50 / 120, 0.05
+    slope = h / beta * (1 - math.cos(2 * math.pi * u))
+    rise = h * (u - math.sin(2 * math.pi * u) / (2 * math.pi))
+    offset = on(found, "2-0", "2").real / 100
+    (balance,) = found.balance
+    assert math.isclose(balance.moment, 100 * slope, rel_tol=CLOSE)
+    height = math.sqrt(base**2 - 0.01**2) + rise
+    assert math.isclose(abs(offset), abs(slope - 0.01) / height, rel_tol=1e-6) or math.isclose(
+        abs(offset), abs(slope + 0.01) / height, rel_tol=1e-6
+    )
+
+
+def test_a_flat_face_of_an_eccentric_is_pushed_square_to_the_face():
+    """M = F·e·cos φ, and the guide carries the load along the face with a moment."""
+    found = forces_of("cam-flat", 'link = 2\nat = "F"\nforce = [5, -100]')
+    (balance,) = found.balance
+    assert math.isclose(balance.moment, 100 * 0.04 * math.cos(math.radians(40)), rel_tol=CLOSE)
+    assert abs(on(found, "2-1", "2") - 100j) < 100 * CLOSE
+
+
+WHEELS = sorted(
+    path.stem
+    for path in Path(FOLDER).glob("*.toml")
+    if path.stem.startswith(("gears-", "cam-", "bar-on-"))
+)
+
+
+def loads_on(mechanism: Mechanism) -> set[str]:
+    """The links and points with masses and loads."""
+    given = mechanism.scene.forces
+    points = {load.at for load in given.loads if load.at} | {
+        e.centre for e in given.masses.values()
+    }
+    return points | {load.link for load in given.loads} | {*given.masses}
+
+
+@pytest.mark.parametrize("name", WHEELS)
+def test_virtual_power_and_the_frame_agree_wherever_forces_are_determined(name):
+    """All loads, inertia forces and reactions of the frame together do not push the mechanism."""
+    text = (FOLDER / f"{name}.toml").read_text(encoding="utf-8")
+    mechanism = Mechanism(read_text(text, name, None, {}))
+    scene = mechanism.scene
+    own = {link for link in scene.links if link not in scene.cam_links}
+    made = next(
+        made
+        for seed in range(99)
+        for made in [loaded(mechanism, random.Random(f"{name} {seed}"))]
+        if loads_on(made) <= own | ({*scene.points} - {*scene.cam_centres})
+    )
+    try:
+        found, verdict = made.forces()
+    except StructureError as error:
+        assert "redundant" in str(error) or "cam of" in str(error) or "finite" in str(error)
+        return
+    assert verdict.agrees
+    assert any(each.link == FRAME for each in found.reactions)
+
+
+@pytest.mark.parametrize(
+    ("name", "said"), [("belts-equal", "strands"), ("cam-conjugate", "roller")]
+)
+def test_what_equilibrium_does_not_determine_is_refused(name, said):
+    with pytest.raises(StructureError) as caught:
+        forces_of(name, "link = 2\nmoment = 3")
+    assert said in str(caught.value)
