@@ -14,7 +14,6 @@ from typing import Any
 import cv2
 import numpy as np
 
-from graphkin.drawing.field import AREA
 from graphkin.reading.drawn_ink import DENSITY, DrawnInk
 
 WEIGHTS = Path(__file__).parent / "letter_weights.npz"
@@ -55,8 +54,9 @@ def pieces(dark: Any) -> Iterator[tuple[tuple[int, int, int, int], Any]]:
         names = names * left
         for name in range(1, count):
             mask = (names == name).astype(np.uint8)
-            box = tuple(int(each) for each in cv2.boundingRect(mask))
-            long, short = max(box[2:]), min(box[2:])
+            x, y, width, height = cv2.boundingRect(mask)
+            box = int(x), int(y), int(width), int(height)
+            long, short = max(width, height), min(width, height)
             if low <= long <= high and short >= 2 and box not in seen:
                 seen.add(box)
                 yield box, shown(dark * cv2.dilate(mask, np.ones((3, 3), np.uint8)), box)
@@ -119,7 +119,8 @@ def letters_near(ink: DrawnInk, place: complex, letters: str = ALPHABET) -> Mapp
 
     A piece is taken for one of these letters, or for none.
     """
-    x, y = (place.real - AREA[0]) * DENSITY, (place.imag - AREA[1]) * DENSITY
+    corner = complex(*ink.paper.fields[:2])
+    x, y = (place - corner).real * DENSITY, (place - corner).imag * DENSITY
     half = round(ROOM * DENSITY)
     left, top = max(0, round(x) - half), max(0, round(y) - half)
     part = slice(top, round(y) + half), slice(left, round(x) + half)
