@@ -117,13 +117,13 @@ class Path(Struct, frozen=True):
         return next((place for place in every if low <= place <= high), at)
 
 
-def range_about(sweep: Sweep) -> Path | None:
-    """The range of a mechanism with followed closures that contains the scene's position.
+def range_about(sweep: Sweep, at: float | None = None) -> Path | None:
+    """The range of a mechanism with followed closures that contains a given u, or the scene's.
 
     The closures have no numbers along it. None where nothing closes in that position.
     """
     course = Course(sweep, sweep.original.branches)
-    start = beside_touch(course, sweep.at_scene)
+    start = beside_touch(course, sweep.at_scene if at is None else at)
     if start is None:
         return None
     turns = turns_back(led(course, sweep.at_scene, sweep.start), sweep.start) if sweep.whole else 0

@@ -102,7 +102,8 @@ class GroupOnWay(Struct, frozen=True, dict=True):
     ) -> FollowedClosure:
         """The path of a closure from one place to another, or as far as it goes.
 
-        A step is at most ``longest`` usual ranges. ``seen`` is called for each place, in order, with the values that close the group there.
+        A step is at most ``longest`` usual ranges. ``seen`` is called for each place, in order,
+        with the values that close the group there.
         """
         tried, signs, _ = self.trying.split(row)
         here, way = np.array([start]), 1.0 if stop > start else -1.0
