@@ -45,7 +45,7 @@ def pieces(dark: Any) -> Iterator[tuple[tuple[int, int, int, int], Any]]:
     the network sees of them.
     """
     inked = (dark > INKED).astype(np.uint8)
-    left = inked & ~cv2.dilate(straight(inked), np.ones((3, 3), np.uint8))
+    left = inked * (cv2.dilate(straight(inked), np.ones((3, 3), np.uint8)) == 0)
     low, high = SMALLEST * DENSITY, LARGEST * DENSITY
     seen = set[tuple[int, int, int, int]]()
     for gap in JOINED:
