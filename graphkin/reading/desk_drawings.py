@@ -61,6 +61,7 @@ class DrawingDesk(Struct, dict=True):
     def told(self, record: SheetRecord) -> dict[str, Any]:
         """A sheet in the form that the page expects."""
         standing = self.settled.standing
+        whole = () if record.cause is None else record.cause.sentences(self.words)
         return {
             "name": self.shown[record.name],
             "code": "" if self.anonymous else record.code,
@@ -68,6 +69,7 @@ class DrawingDesk(Struct, dict=True):
             "kind": self.words(f"sheet.{record.kind}") if record.kind else "",
             "size": (record.on.width, record.on.height),
             "refused": record.refused,
+            "whole": " ".join(f"{each}." for each in whole),
             "lines": record.key_lines,
             "points": [
                 self.point(each, standing.get((record.name, each.step)))
