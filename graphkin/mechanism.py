@@ -242,11 +242,13 @@ class Mechanism(Struct, frozen=True, dict=True):
         seconds: float | None = None,
         kind: Kind = FLOAT,
         aside: bool = True,
+        closed: Mapping[int, Any] | None = None,
     ) -> Trace:
         """Every value that the targets need (all targets if None), for this one scene.
 
         ``by_hand`` runs the drawn steps too, with velocities drawn on the mechanism at the scale
         ``seconds`` = kL/kv. Auxiliary plans that nobody sees (not ``aside``) have any trial rates.
+        ``closed`` are the values of steps that close groups, where a motion has led there.
         ``kind`` is the kind of numbers (see kinds). Raises ClosureError for a step that cannot be
         drawn.
         """
@@ -255,6 +257,7 @@ class Mechanism(Struct, frozen=True, dict=True):
         needed = self.steps_of(wanted, by_hand)
         overrides = {} if seconds is None or program.seconds is None else {program.seconds: seconds}
         overrides |= self.trial_rates if by_hand and aside else {}
+        overrides |= closed or {}
         try:
             if kind is FLOAT:
                 trace = self.in_doubles(needed, overrides, by_hand)

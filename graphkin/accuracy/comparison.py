@@ -100,7 +100,7 @@ class Ground(Struct, frozen=True, eq=False):
 def ground_of(scene: Scene) -> Ground:
     """The sweep of a scene; raises ClosureError if the scene does not close."""
     sweep = sweep_of(scene)
-    centre = sweep.stands
+    centre = sweep.at_scene
     path = reachable_ranges(sweep)
     low, high = path.spans[0]
     if sweep.what == "turn":

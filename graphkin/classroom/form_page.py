@@ -23,6 +23,7 @@ from graphkin.classroom.grading.answer_numbers import (
     MISTYPED,
     NUMBER,
     RAISED,
+    RUSSIAN,
     UNITS,
 )
 from graphkin.classroom.lab.items import items as fields_of
@@ -86,11 +87,14 @@ def form_fragment(
     words: Words,
     identity: Identity,
     pivot: str = "",
+    *,
+    says_right: bool = False,
 ) -> Form:
     """The form, its styles and its script: a labelled field for every item.
 
     Fields in ``compute`` are marked as computed. ``points`` are shown where the rubric gives any.
-    ``pivot`` is the first fixed point, from which places are measured.
+    ``pivot`` is the first fixed point, from which places are measured. With ``says_right`` the
+    board of its page tells when a point is right.
     """
     sheets = []
     for sheet in (*SHEETS, FORCE):
@@ -109,7 +113,7 @@ def form_fragment(
         sheets=sheets,
         words=words,
     )
-    return Form(body, part("form.css"), together(FORM))
+    return Form(body, part("form.css"), together(FORM), says_right)
 
 
 def settings(items: Sequence[Item], words: Words, identity: Identity) -> dict[str, object]:
@@ -122,6 +126,7 @@ def settings(items: Sequence[Item], words: Words, identity: Identity) -> dict[st
         "number": in_javascript(NUMBER.pattern),
         "mistyped": MISTYPED.pattern,
         "raised": {chr(sign): chr(plain) for sign, plain in RAISED.items()},
+        "russian": RUSSIAN,
         "letters": LETTERS,
         "blanks": BLANKS,
         "longest": LONGEST,
@@ -163,7 +168,8 @@ def field(item: Item, worth: Fraction | None, computed: bool, words: Words) -> F
 def lab_form(mechanism: Mechanism, lab: Lab, words: Words, identity: Identity) -> Form:
     """The form of a lab for its scene with the current data, not assigned to any student."""
     fields, points = fields_of(mechanism, lab), lab.rubric.points
-    return form_fragment(fields, points, (), words, identity, first_pivot(mechanism))
+    pivot, says_right = first_pivot(mechanism), lab.rubric.says_right
+    return form_fragment(fields, points, (), words, identity, pivot, says_right=says_right)
 
 
 def first_pivot(mechanism: Mechanism) -> str:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Collection
 
-from graphkin.documents.sheet_documents import language_of
+from graphkin.documents.sheet_documents import CALCULATED, calculation_text, language_of
 from graphkin.documents.view_names import PAPER_VIEWS
 from graphkin.drawing.style import Ink
 from graphkin.mechanism import Mechanism
@@ -26,7 +26,8 @@ def sheet_files(
     """The files by name, and notes on quantities that are asked for but cannot be read off.
 
     ``name`` is the name of the scene's lab or file; ``stem`` begins the names of the new files.
-    ``kinds`` are svg, pdf, dxf, html and pmks. Raises as hand_out, hand_out_page and pmks_file do.
+    ``kinds`` are svg, pdf, dxf, tikz, tex, html and pmks. Raises as hand_out, hand_out_page and
+    pmks_file do.
     """
     files: dict[str, bytes] = {}
     notes: list[str] = []
@@ -37,7 +38,10 @@ def sheet_files(
         from graphkin.documents.pmks_file import pmks_file
 
         files[f"{stem}.pmks"] = pmks_file(mechanism, message("leave pmks out"))
-    if {*kinds} - {"html", "pmks"}:
+    if "tex" in kinds and view in CALCULATED:
+        text = calculation_text(mechanism, view, language)
+        files[f"{stem}-calculation-{view}.tex"] = text.encode("utf-8")
+    if {*kinds} - {"html", "pmks", "tex"}:
         from graphkin.documents.sheet_documents import hand_out
         from graphkin.writers.files import rendered
 

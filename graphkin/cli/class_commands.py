@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
+from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -16,12 +18,14 @@ from graphkin.cli.options import (
     current,
     folder_option,
     force_option,
+    formats_option,
     house_option,
     jobs_option,
     lab_of_command,
     lang_option,
     language_option,
     leave,
+    option_words,
     output_option,
     say,
     tell,
@@ -250,6 +254,11 @@ SHOWN = 5
     show_default=True,
     help="Largest number of variants.",
 )
+@formats_option(
+    "moodle,canvas,qti3",
+    "moodle",
+    "Platforms: moodle (XML), canvas (QTI 1.2), qti3 (QTI 3.0 for any other).",
+)
 @jobs_option()
 @house_option
 @force_option
@@ -260,10 +269,11 @@ def quiz(
     folder: Path,
     lang: str | None,
     count: int,
+    formats: str,
     jobs: int | None,
     force: bool,
 ) -> None:
-    """Write a lab as a bank of questions for Moodle.
+    """Write a lab as a bank of questions for Moodle, Canvas or another platform.
 
     LAB is the name of a shipped lab or a folder with scene.toml and lab.toml. It may also be a
     class folder, for its lab in its language.
@@ -274,14 +284,20 @@ def quiz(
     accepts the results of causes, each with what the cause leaves (lab.toml) and a sentence of
     feedback. Only graphkin grade can recognise what follows from a student's own wrong values.
 
+    --format canvas writes LAB-canvas.zip (QTI 1.2) with a quiz for each fair variant: the task, and
+    a question for each field. Canvas gives a number all points or none. --format qti3 writes
+    LAB-qti3.zip (QTI 3.0) with an item for each fair variant, and what causes leave.
+
     \b
-    Example:
+    Examples:
       graphkin quiz pump -o out --lang en
+      graphkin quiz pump -o out --format moodle,canvas
     """
     from graphkin.classroom.printing.edition import read_edition
     from graphkin.classroom.printing.print_work import PrintOrder
     from graphkin.classroom.printing.workers import cores
     from graphkin.classroom.quiz.moodle_quiz import bank, questions, variants_of
+    from graphkin.classroom.quiz.qti_packages import canvas_package, qti3_package
     from graphkin.classroom.variants.manifest import MANIFEST
     from graphkin.documents.sheet_documents import language_of
     from graphkin.mechanism import Mechanism
@@ -292,7 +308,13 @@ def quiz(
     whole = read_edition(Path(name)) if (Path(name) / MANIFEST).is_file() else None
     lab = whole.lab if whole else lab_of_command(name)
     lang = lang or (whole.language if whole else "")
-    refuse_folder(folder, [f"{lab.name}-moodle.xml"], force=force)
+    written_by: dict[str, tuple[str, Callable[..., bytes]]] = {
+        "moodle": (f"{lab.name}-moodle.xml", lambda found, words: bank(lab.name, found)),
+        "canvas": (f"{lab.name}-canvas.zip", partial(canvas_package, lab.name)),
+        "qti3": (f"{lab.name}-qti3.zip", partial(qti3_package, lab.name)),
+    }
+    chosen = [written_by[each] for each in option_words("--format", formats, tuple(written_by))]
+    refuse_folder(folder, [file for file, _ in chosen], force=force)
     if not lab.rubric.points:
         hint = message("give points in [marks] of lab.toml")
         raise SceneError(
@@ -300,8 +322,8 @@ def quiz(
         )
     fair, unfair = variants_of(lab, count)
     for each in unfair[:SHOWN]:
-        told = ", ".join(f"{key} = {value}" for key, value in each.settings.items())
-        complain(f"{told} is left out: {'; '.join(map(str, each.faults))}")
+        named = ", ".join(f"{key} = {value}" for key, value in each.settings.items())
+        complain(f"{named} is left out: {'; '.join(map(str, each.faults))}")
     if len(unfair) > SHOWN:
         complain(f"and {len(unfair) - SHOWN} more unfair variants")
     if not fair:
@@ -310,8 +332,7 @@ def quiz(
     words = language_of(Mechanism(read_text(scene, lab.name, house=lab.house)), lang)
     order = PrintOrder(lab, scene, words.language, "colour")
     found = questions(order, fair, jobs or cores())
-    file = {f"{lab.name}-moodle.xml": bank(lab.name, found)}
-    written = write_all(folder, file, force)
+    written = write_all(folder, {file: work(found, words) for file, work in chosen}, force)
     say(f"{len(found)} questions, a category for each")
     tell(map(str, written))
 

@@ -44,16 +44,18 @@ if TYPE_CHECKING:
     help="key: everything drawn; task: what the student is given; steps: pages that grow sentence"
     " by sentence; overlay: the key alone, to lay over a drawing; positions: the mechanism and its"
     " plans in all positions of [positions]; diagrams: their courses, differentiated and integrated"
-    " by chords, and hodographs.",
+    " on paper, laws of cams, and hodographs.",
 )
 @language_option
 @ink_option
 @formats_option(
-    "svg,pdf,html,dxf,pmks",
+    "svg,pdf,html,dxf,tikz,tex,pmks",
     "svg,pdf",
     "Kinds of file to write; calculations are PDF only. html: one page for a browser, which"
     " draws itself step by step (key and steps alike), or holds the task. dxf: the drawings at"
-    " true scale for a CAD program, a layer for each class of line; needs the extra [cad]. pmks:"
+    " true scale for a CAD program, a layer for each class of line; needs the extra [cad]. tikz:"
+    " the mechanism and the plan as a picture for LaTeX. tex: the relations of the calculation for"
+    " LaTeX. pmks:"
     " the mechanism for PMKS+, if it has only pins, blocks with one pin and one crank.",
 )
 @force_option
@@ -69,9 +71,9 @@ def sheet(
 ) -> None:
     """Draw the velocity, acceleration and force sheets and the calculations.
 
-    Writes A3 drawings (SVG and PDF) and A4 calculation pages (PDF), named after the scene and its
-    settings: pump-n7-velocity-key.pdf. Existing files are kept unless you give --force. The force
-    sheet is drawn if [ask] has reactions or balance.
+    Writes drawings (SVG and PDF) on A3 or the paper of house.toml, and calculation pages (PDF),
+    named after the scene and its settings: pump-n7-velocity-key.pdf. Existing files are kept unless
+    you give --force. The force sheet is drawn if [ask] has reactions or balance.
 
     With --view positions, draws the whole motion: pump-n7-mechanism-positions.pdf has the mechanism
     in twelve positions, or as [positions] says, and two more files have the plans of all of them.
@@ -86,7 +88,7 @@ def sheet(
       graphkin sheet pump --set n=7 -o sheets --view task --lang en --format pdf
       graphkin sheet pump --set n=7 -o sheets --view positions
     """
-    kinds = option_words("--format", formats, ("svg", "pdf", "html", "dxf", "pmks"))
+    kinds = option_words("--format", formats, ("svg", "pdf", "html", "dxf", "tikz", "tex", "pmks"))
     from graphkin.classroom.sheet_files import sheet_files
     from graphkin.writers.files import file_stem, refuse_folder, write_all
 

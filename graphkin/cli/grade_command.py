@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Collection, Iterator, Mapping
+from os.path import relpath
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -23,8 +24,10 @@ if TYPE_CHECKING:
     from fractions import Fraction
 
     from graphkin.classroom.grading.answers import Answers
+    from graphkin.classroom.grading.desk_rulings import DeskDecided
+    from graphkin.classroom.grading.feedback import DrawingBack
     from graphkin.classroom.grading.gradebook import Filled
-    from graphkin.classroom.grading.graded import Result
+    from graphkin.classroom.grading.graded import DrawingRemark, Graded, Result
     from graphkin.classroom.printing.edition import Edition
     from graphkin.classroom.roster.student_signs import Match
     from graphkin.text import Words
@@ -155,6 +158,14 @@ def grade(  # noqa: PLR0915
     points the mark stays; "?" records a student's request that is not yet decided. Mark again with
     --force to update feedback, report and gradebook.
 
+    A row or column named drawing holds what a student drew on the board of the task page. Fields in
+    mm that are left empty are measured on the drawing, and the feedback page shows it in green and
+    red. A drawing that cannot be drawn again waits like a cell that cannot be read.
+
+    graphkin desk REPORT shows everything that waits for you, one by one, and keeps what you decide.
+    Mark again with --force to apply it. Put what students object to into REPORT/appeals.csv, with
+    the columns id;field;text: it is on the desk too.
+
     Students can save score sheets from "your turn" on their pages, as ID-turn.json in the same
     folder as their answers. These sheets are listed in turns.csv; they earn nothing and prove
     nothing.
@@ -176,7 +187,10 @@ def grade(  # noqa: PLR0915
     \b
     Exit status: 0 success; 1 some cells, rows or files cannot be read; 2 nothing was marked.
     """
+    from msgspec.structs import replace
+
     from graphkin.classroom.grading.answers import read_answers
+    from graphkin.classroom.grading.appeals import read_appeals
     from graphkin.classroom.grading.class_marking import graded_class
     from graphkin.classroom.grading.class_report import open_cells, result_lines
     from graphkin.classroom.grading.decisions import (
@@ -187,8 +201,10 @@ def grade(  # noqa: PLR0915
         releases,
         settled,
     )
+    from graphkin.classroom.grading.desk_rulings import all_decisions, desk_decided, read_as
     from graphkin.classroom.grading.gradebook import read_gradebook, with_marks
     from graphkin.classroom.grading.grading_files import gradebook_name, points_by_id
+    from graphkin.classroom.grading.kept_marks import KEPT_MARKS, kept_marks
     from graphkin.classroom.grading.turn_scores import TURNS, read_turns, turns_table
     from graphkin.classroom.printing.edition import read_edition
     from graphkin.text import words as words_in
@@ -210,15 +226,20 @@ def grade(  # noqa: PLR0915
     settle(out)
     free = releases(out, tuple(ids), released, held)
     deciding = Deciding(opened.takers, opened.book.form, opened.book.lab.rubric, opened.signs)
-    decisions = read_decisions(out, deciding)
+    table, desk = read_decisions(out, deciding), desk_decided(out, deciding)
+    fields = {taker.student.id: deciding.worth_of(taker) for taker in opened.takers}
+    appeals = read_appeals(out, opened.signs, fields)
+    decisions = all_decisions(table, desk.decisions, appeals.every)
     if both := ", ".join(who for who in held if who in settled(decisions)):
-        said = f"--hold: {both} is decided in {DECISIONS}; take the row out of it"
+        said = f"--hold: {both} is decided in {DECISIONS} or at the desk; take that back"
         raise click.UsageError(said, context)
     refusals = Refusals()
     drawings, answers = answers, drawn_table(opened, answers, refusals)
     given = read_answers(answers, opened.book.form, opened.signs, match or "")
+    given.of = read_as(given.of, desk.readings, opened.book.form)
     if drawings != answers:
         note_followed(opened, drawings, given, refusals)
+    pictures = boards(opened, given, refusals)
     turns = read_turns(answers, ids, refusals)
     words = opened.words(lang)
     processes = jobs or usual_jobs(opened)
@@ -231,10 +252,15 @@ def grade(  # noqa: PLR0915
         decisions,
         as_it_is=as_it_is,
     )
-    given.unread = open_cells(found, given.unread)
+    pins = pins_of(opened, drawings) if drawings != answers else {}
+    found = replace(found, graded=tuple(remarked(g, desk.remarks, pins) for g in found.graded))
+    asked, given.unread = given.unread, open_cells(found, given.unread)
     for who, problems in found.refused.items():
         refusals.add(who, problems)
-    files = all_files(opened, found, given, words, kinds, out, refusals) | free.files()
+    files = all_files(opened, found, given, words, kinds, out, refusals, pictures) | free.files()
+    cells = [c for c in asked if c in given.unread or (c.who, c.field) in desk.readings]
+    readings = relpath(drawings, out) if drawings != answers else ""
+    files[KEPT_MARKS] = kept_marks(found, opened.book.form, cells, readings)
     if drawings != answers:
         files |= marked_drawings(opened, drawings, words, kinds, refusals)
     files |= {} if (out / DECISIONS).exists() else {DECISIONS: EMPTY}
@@ -256,11 +282,46 @@ def grade(  # noqa: PLR0915
         say(spoken("class.turns", count=len(turns), file=TURNS))
     changes(files, spoken)
     notes(opened, given, refusals, spoken)
+    left_out = [*desk_lines(desk, spoken), *map(str, appeals.problems)]
+    tell_some(left_out, spoken)
     say("")
-    for path in told_paths(written):
+    for path in paths_printed(written):
         say(path)
-    if given.unread or given.refused or refusals.found:
+    if given.unread or given.refused or refusals.found or left_out:
         context.exit(FAILED)
+
+
+def pins_of(opened: Edition, folder: Path) -> dict[str, tuple[DrawingRemark, ...]]:
+    """The remarks pinned to the drawings of each student, by id."""
+    from graphkin.reading.marked_drawing import pinned_remarks
+
+    owners = {taker.code: taker.student.id for taker in opened.takers}
+    told = pinned_remarks(folder)
+    return {owners[code]: pins for code, pins in told.items() if code in owners}
+
+
+def remarked(
+    graded: Graded,
+    remarks: Mapping[tuple[str, str], str],
+    pins: Mapping[str, tuple[DrawingRemark, ...]],
+) -> Graded:
+    """A student's marks with the lecturer's remarks."""
+    from msgspec.structs import replace
+
+    who = graded.taker.student.id
+    own = {field: text for (of, field), text in remarks.items() if of == who}
+    return replace(graded, remarks=own, pins=pins.get(who, ()))
+
+
+def desk_lines(desk: DeskDecided, words: Words) -> Iterator[str]:
+    """A line for each decision of the desk that does not count."""
+    for each in desk.strangers:
+        yield words("class.desk_stranger", who=each.who, field=each.field or words("class.whole"))
+    for rivals in desk.rivals:
+        about = rivals[-1].what
+        markers = words("list_mark").join(dict.fromkeys(each.line.by for each in rivals))
+        field = about.field or words("class.whole")
+        yield words("class.desk_rivals", who=about.who, field=field, markers=markers)
 
 
 def is_read(answers: Path) -> bool:
@@ -290,6 +351,15 @@ def note_followed(opened: Edition, folder: Path, given: Answers, refusals: Refus
     for row in drawn_rows(opened, folder, refusals):
         own = given.of.get(row.who, {})
         own |= {field: replace(own[field], followed=True) for field in row.followed if field in own}
+
+
+def boards(opened: Edition, given: Answers, refusals: Refusals) -> dict[str, DrawingBack]:
+    """The drawings made on task pages, in green and red; what they answer is added."""
+    if not given.drawings:
+        return {}
+    from graphkin.reading.board_drawing import add_drawings
+
+    return add_drawings(opened, given, refusals)
 
 
 def marked_drawings(
@@ -337,6 +407,7 @@ def all_files(
     kinds: tuple[str, ...],
     report: Path,
     refusals: Refusals,
+    pictures: Mapping[str, DrawingBack],
 ) -> dict[str, bytes]:
     """The files of the report, with the changes since the marks already in its folder."""
     from graphkin.classroom.grading.grading_files import (
@@ -352,8 +423,10 @@ def all_files(
     before = report / MARKS
     earlier = whole_file(before) if before.is_file() else b""
     refused = list(refused_lines(opened, given, refusals, words))
-    told = ReportSettings(title, words, given.unread, scene.titles, scene, refused, refusals)
-    files = report_files(found, opened.lab, told, kinds, earlier)
+    written = ReportSettings(
+        title, words, given.unread, scene.titles, scene, refused, refusals, pictures
+    )
+    files = report_files(found, opened.lab, written, kinds, earlier)
     return files | returned(files, found.graded, given.senders, kinds)
 
 
@@ -398,8 +471,8 @@ def tell_books(
             rows = [f"{row} ({shown_cell(who)})" for row, who in book.strangers.items()]
             more = len(rows) - SHOWN
             others = words("class.more", count=more) if more > 0 else ""
-            told = ", ".join(rows[:SHOWN]) + others
-            complain(words("class.not_ours", file=path.name, who=told))
+            strangers = ", ".join(rows[:SHOWN]) + others
+            complain(words("class.not_ours", file=path.name, who=strangers))
 
 
 def changes(files: dict[str, bytes], words: Words) -> None:
@@ -411,7 +484,7 @@ def changes(files: dict[str, bytes], words: Words) -> None:
             say(line)
 
 
-def told_paths(written: list[Path]) -> list[str]:
+def paths_printed(written: list[Path]) -> list[str]:
     """The paths written; feedback pages only as their folder and number."""
     from graphkin.classroom.grading.grading_files import FEEDBACK
 

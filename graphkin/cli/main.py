@@ -11,13 +11,13 @@ from graphkin.cli.options import (
     FAILED,
     CommandGroup,
     complain,
+    eager_option,
     leave,
     mechanism_of,
     say,
     scales_of,
     scene_argument,
     tell,
-    told_at_once,
 )
 
 if TYPE_CHECKING:
@@ -65,7 +65,7 @@ class Commands(CommandGroup):
     cls=Commands,
     invoke_without_command=True,
     context_settings=HELP,
-    params=[told_at_once("-V", "--version", help="the version", what=lambda context: VERSION)],
+    params=[eager_option("-V", "--version", help="the version", what=lambda context: VERSION)],
 )
 @click.pass_context
 def app(context: click.Context) -> None:

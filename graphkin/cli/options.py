@@ -67,11 +67,11 @@ class Command(click.Command):
     def __init__(self, *args: Any, **kwargs: Any) -> None:
         super().__init__(*args, **kwargs | {"add_help_option": False})
         self.params.append(
-            told_at_once("-h", "--help", help="this message", what=click.Context.get_help)
+            eager_option("-h", "--help", help="this message", what=click.Context.get_help)
         )
 
 
-def told_at_once(*names: str, help: str, what: Callable[[click.Context], str]) -> click.Option:
+def eager_option(*names: str, help: str, what: Callable[[click.Context], str]) -> click.Option:
     """An option that prints a text, whatever the other arguments, and ends the command."""
 
     def tell(context: click.Context, option: click.Parameter, asked: bool) -> None:
@@ -370,8 +370,10 @@ def option_words(option: str, text: str, known: tuple[str, ...]) -> tuple[str, .
     wrong = [word for word in words if word not in known]
     if wrong or not words:
         found = ", ".join(wrong) or "nothing"
-        told = f"{found} is none of {', '.join(known)}; several are written {','.join(known[:2])}"
-        raise click.UsageError(f"{option}: {told}", current())
+        expected = (
+            f"{found} is none of {', '.join(known)}; several are written {','.join(known[:2])}"
+        )
+        raise click.UsageError(f"{option}: {expected}", current())
     return tuple(word for word in known if word in words)
 
 

@@ -136,13 +136,13 @@ def progress(what: str = "students") -> Iterator[Tell]:
 
             yield move
         return
-    told = -1
+    last_tenth = -1
 
     def line(done: int, total: int) -> None:
-        nonlocal told
+        nonlocal last_tenth
         tenth = TENTHS * done // max(total, 1)
-        if tenth > told:
-            told = tenth
+        if tenth > last_tenth:
+            last_tenth = tenth
             say_aside(f"{done} of {total} {what}")
 
     yield line

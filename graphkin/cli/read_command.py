@@ -96,12 +96,12 @@ def read(
     with progress("photographs") as shown:
         outcome = read_class(opened, pictures, out, order, jobs or cores(), shown)
     if as_json:
-        told = {r.name: points_file(r) for r in outcome.records if r.key}
+        point_files = {r.name: points_file(r) for r in outcome.records if r.key}
         beside: dict[Path, dict[str, bytes]] = {}
         for each in pictures:
-            if each.name in told:
+            if each.name in point_files:
                 files = beside.setdefault(each.path.parent, {})
-                files[f"{each.shown_name}{POINTS}"] = told[each.name]
+                files[f"{each.shown_name}{POINTS}"] = point_files[each.name]
         for place, files in beside.items():
             write_all(place, files, force=True)
     tell(said(opened, outcome))
@@ -133,35 +133,59 @@ def read_grid(path: Path | None) -> Grid:
 
 
 @click.command("desk")
-@click.argument("folder", metavar="READ", type=click.Path(path_type=Path))
+@click.argument("folder", metavar="FOLDER", type=click.Path(path_type=Path))
 @port_option
 @browser_option
 @lang_option("Language of the page.", "en")
-def desk(folder: Path, port: int, no_browser: bool, lang: str) -> None:
-    """Decide in a browser what graphkin read left open.
+@click.option(
+    "--marker",
+    metavar="NAME",
+    help="Your name beside your decisions, for other markers; by default your login name.",
+)
+@click.option("--anonymous", is_flag=True, help="Hide the names of the students.")
+def desk(
+    folder: Path, port: int, no_browser: bool, lang: str, marker: str | None, anonymous: bool
+) -> None:
+    """Decide in a browser what waits for you.
 
-    READ is the folder that graphkin read wrote. The page shows one doubtful point after the other,
-    enlarged, with the key over the drawing; press a key or click to decide. Each decision is
-    written at once into READ/decisions.jsonl, and can be undone.
+    FOLDER is what graphkin grade wrote (a report), or what graphkin read wrote. The page shows one
+    thing after the other; press a key or click to decide:
+
+    \b
+    - cells that cannot be read
+    - doubtful points of drawings, enlarged, with the key over the drawing
+    - appeals of students, from REPORT/appeals.csv (id;field;text)
+    - suspected copies
+    - sheets that lost much and that no known cause explains
+    - clusters of like wrong answers, decided once for all
+
+    Each decision is appended at once to decisions.jsonl in the folder, and can be undone. The next
+    graphkin grade applies it. Several markers can have a desk on one folder; where they disagree,
+    nothing counts until one of them decides again.
 
     Only this computer can reach the page, and its address holds a secret token. The page ends with
     this command (Ctrl+C).
 
     \b
     Examples:
-      graphkin desk read
+      graphkin desk report
+      graphkin desk report --marker Ana --anonymous
       graphkin desk read --lang it --no-browser --port 8080
     """
-    refuse_without("desk", "read", NEEDED.items())
+    needed = ((module, NEEDED[module]) for module in ("bottle", "waitress"))
+    refuse_without("desk", "read", needed)
+    from getpass import getuser
+
     from graphkin.reading.desk_app import DeskSession, desk_application
     from graphkin.studio.server import served
     from graphkin.text import words
-    from graphkin.writers.commit import held, settle
+    from graphkin.writers.commit import settle
 
     settle(folder)
-    session = DeskSession(folder, words(lang))
-    with held(folder):
-        show(
-            lambda known: served(lambda: desk_application(session), port, known=known),
-            no_browser=no_browser,
-        )
+    who = getuser() if marker is None else marker.strip()
+    session = DeskSession(folder, words(lang), who, anonymous)
+    tell(map(str, session.problems()))
+    show(
+        lambda known: served(lambda: desk_application(session), port, known=known),
+        no_browser=no_browser,
+    )

@@ -71,6 +71,10 @@ def write(scene: Scene, groups: tuple[Group, ...], *, fitted: bool = True) -> Pr
 
         draw_ladder(pen)
     write_plan(pen, standing, ACCELERATIONS)
+    if scene.ask.jerk:
+        from graphkin.construction.third_order import draw_jerks
+
+        draw_jerks(pen)
     refuse_unused_method(pen)
     every = [base for _, found in standing for base in found]
     draw_centres(pen, every)
@@ -84,17 +88,17 @@ def stand(scene: Scene, groups: tuple[Group, ...]) -> Standing:
     """
     problems: list[Problem] = []
     standing: Standing = []
-    told: set[str] = set()
+    reported: set[str] = set()
     for group in groups:
         try:
             standing.append((group, bases(scene, group)))
             refuse_unstated(scene, group)
         except StructureError as error:
             others = stray(scene, groups, group)
-            told.update(others)
+            reported.update(others)
             problems += [in_place_of(scene, each, others) for each in error.problems]
     if not any(isinstance(group, Unresolved) for group in groups):
-        problems += unused_branches(scene, groups, told)
+        problems += unused_branches(scene, groups, reported)
     if problems:
         raise StructureError(problems)
     return standing

@@ -138,6 +138,9 @@ class CoriolisComponent(TriangleComponent, frozen=True, kw_only=True):
         "(rate, velocity) => [scaled(quarter(value_of(velocity)), 2 * value_of(rate))]",
         plane=NUMBERS,
         typed=("cor",),
+        draw=lambda things, rate, velocity: [
+            2j * things.value_of(rate) * things.value_of(velocity)
+        ],
     )
     titled: ClassVar[str] = "the Coriolis triangles of {pin_name} about {pivot_name}"
 
@@ -328,10 +331,10 @@ class CoriolisComponent(TriangleComponent, frozen=True, kw_only=True):
         foot = drawing.words("step.coriolis-foot", **fields)
         return foot, drawing.words(top, line=line, **fields)
 
-    def told_in_parts(self, drawing: Drawing) -> Iterator[tuple[int, str]]:
+    def parts_of_sentence(self, drawing: Drawing) -> Iterator[tuple[int, str]]:
         """The instruction in two parts: 2v with the perpendicular, and the line that cuts it."""
         if self.edge is None or self.vector is None or not self.is_drawn(drawing):
-            yield from super().told_in_parts(drawing)
+            yield from super().parts_of_sentence(drawing)
             return
         foot, top = self.in_full(drawing, "step.coriolis-top-apart")
         yield self.edge, foot

@@ -91,7 +91,7 @@ def of_gears(drawing: Drawing) -> Iterator[Relation]:
 
     The first sheet also derives the radii of gears, from module and number of teeth, before use.
     """
-    told: set[str] = set()
+    given_teeth: set[str] = set()
     links = (drawing.scene.frame, *drawing.scene.links.values())
     for touch in drawing.standing.touches:
         if touch.other is None:
@@ -102,8 +102,8 @@ def of_gears(drawing: Drawing) -> Iterator[Relation]:
         rates = [rate for name in names if (rate := rate_at(drawing, name)) is not None]
         if len(rates) == 3 and names[0] != FRAME:
             for disc in (touch.disc, touch.other):
-                if drawing.kind == "velocity" and disc.wheel.teeth and disc.sign not in told:
-                    told.add(disc.sign)
+                if drawing.kind == "velocity" and disc.wheel.teeth and disc.sign not in given_teeth:
+                    given_teeth.add(disc.sign)
                     yield by_teeth(drawing, disc)
             yield by_radii(drawing, names, rates, (touch.disc, touch.other), touch.belt)
 

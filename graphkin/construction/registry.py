@@ -20,6 +20,8 @@ from graphkin.construction.core.palette import (
     PARALLEL,
     PERPENDICULAR,
     POLE,
+    RAY,
+    SET_OFF,
     SIMILAR,
     TRANSFER,
     PaletteAction,
@@ -66,6 +68,10 @@ PALETTE: Mapping[str, PaletteAction] = {
     )
 }
 """The actions of a page's palette, in its order."""
+BOARD: Mapping[str, PaletteAction] = {
+    action.key: action for action in (RAY, SET_OFF, *PALETTE.values()) if action.draw is not None
+}
+"""The actions of the board of a task page."""
 SLIPPING: tuple[type[Construction], ...] = (
     ClosedByLines,
     TangentialPart,

@@ -126,7 +126,11 @@ def beside_dead_point(scene: Scene, program: Program, number: int) -> Message:
     needed = set(program.behind((number,)))
     causes = [driver for driver, drive in drivers if drive.position in needed]
     places = either(
-        message("{driver} from {ranges}", driver=driver_name(driver), ranges=stands(scene, driver))
+        message(
+            "{driver} from {ranges}",
+            driver=driver_name(driver),
+            ranges=driver_position(scene, driver),
+        )
         for driver in causes[:MOST]
     )
     words = in_line(scene, program, number, nearly=True)
@@ -135,7 +139,7 @@ def beside_dead_point(scene: Scene, program: Program, number: int) -> Message:
     return message("{words}: move {places} to another position", words=words, places=places)
 
 
-def stands(scene: Scene, driver: Driver) -> str:
+def driver_position(scene: Scene, driver: Driver) -> str:
     """A driver's position in the scene, with its unit."""
     number = float(driver.position.number(scene.values))
     unit = driver.position.unit

@@ -102,18 +102,18 @@ def choices(
         if number is None:
             continue
         taken.add(number)
-        targets = told_by(scene, group, program)
+        targets = distinguishing_targets(scene, group, program)
         if isinstance(group, Dyad):
             both = [dyad_closure(positions, number, group, targets, way) for way in (1, -1)]
             closures, complete = tuple(both), None
         else:
             closures, complete = numbered(positions, number, targets, proving=proving)
-        choice = told_apart(group.links, targets, closures, key_of(scene, group) or "")
+        choice = distinguished(group.links, targets, closures, key_of(scene, group) or "")
         found.append(replace(choice, is_complete=complete))
     return tuple(found)
 
 
-def told_by(scene: Scene, group: Group, program: Program) -> tuple[Target, ...]:
+def distinguishing_targets(scene: Scene, group: Group, program: Program) -> tuple[Target, ...]:
     """Targets that may distinguish a group's closures: a point, other points, then links."""
     turned = [group.rail] if isinstance(group, OnTwoPins) else list(group.links)
     own = (p for link in group.links for p in scene.links[link].points)
@@ -122,7 +122,7 @@ def told_by(scene: Scene, group: Group, program: Program) -> tuple[Target, ...]:
     return tuple(target for target in every if target in program.targets)
 
 
-def told_apart(
+def distinguished(
     links: tuple[str, ...],
     targets: tuple[Target, ...],
     closures: tuple[GroupClosure, ...],

@@ -103,7 +103,7 @@ def closes_for(scene: Scene, known: Sequence[ClosingRanges]) -> Message:
             if turns
             else "it closes for no position of the driver: check the lengths"
         )
-    told = [
+    ranges_by_driver = [
         message(
             "{driver} from {ranges}",
             driver=driver_name(driver),
@@ -112,14 +112,15 @@ def closes_for(scene: Scene, known: Sequence[ClosingRanges]) -> Message:
         for n, (driver, found) in enumerate(zip(scene.drivers, known, strict=False), 1)
         if found.ranges
     ]
-    if not told:
+    if not ranges_by_driver:
         return message(
             "no driver alone can close it: check lengths, sides and the drivers' positions"
         )
     return message(
         "with the other drivers where they are, it closes for {ranges}",
         ranges=reduce(
-            lambda one, other: message("{one}; or for {other}", one=one, other=other), told
+            lambda one, other: message("{one}; or for {other}", one=one, other=other),
+            ranges_by_driver,
         ),
     )
 

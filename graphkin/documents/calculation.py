@@ -9,12 +9,13 @@ from msgspec import Struct
 
 from graphkin.construction.core.drawn_scene import Drawing
 from graphkin.construction.core.given_data import parameters
+from graphkin.construction.core.quantities import FORCE
 from graphkin.construction.core.relation import Relation, Term, VectorEquation
-from graphkin.documents.relations import relations
+from graphkin.documents.relations import answers, in_results, relations
 from graphkin.documents.sheet import title_of
 from graphkin.drawing.field import A4_AREA, A4_SIZE
 from graphkin.drawing.frame import page_frame
-from graphkin.drawing.marks import LineMark, Mark, Page, Polyline, Text
+from graphkin.drawing.marks import LineMark, Mark, Page, Polyline, Text, box
 from graphkin.drawing.richtext import (
     TextRun,
     advance,
@@ -128,10 +129,10 @@ def vector_mark(x: float, y: float, runs: Sequence[TextRun], kind: str) -> Itera
 
 
 LETTER = 2.5
-LINE, GAP = 6.0, 3.0
-"""Distance of lines, and the extra distance above a heading, in mm."""
-BY_HAND = (7.5, 7.0, 6.5)
-"""Distances of lines to be filled in, wider first; a wider one must not need more pages."""
+LINE, GAP = 5.5, 3.0
+"""Least distance of lines, and the extra distance above a heading, in mm."""
+SOLVED, BY_HAND = (6.0,), (7.5, 7.0, 6.5, 6.0)
+"""Distances of lines, solved and to be filled in; a wider one must not need more pages."""
 LEFT, RIGHT = A4_AREA[0] + 4, A4_AREA[2] - 4
 INDENT = 3.0
 """Indent of lines below their heading, in mm."""
@@ -150,7 +151,7 @@ NUMBER = 12.0
 class CalculationRow(Struct, frozen=True):
     """A line of the page: a heading, a legend, a numbered relation, or a vector equation.
 
-    ``depth`` is the extra depth of the line in mm.
+    ``depth`` is the extra depth of the line in mm. A frame is drawn around ``boxed`` lines.
     """
 
     markup: str
@@ -158,6 +159,7 @@ class CalculationRow(Struct, frozen=True):
     heading: bool = False
     legend: bool = False
     equation: VectorEquation | None = None
+    boxed: bool = False
     depth: float = 0.0
 
 
@@ -202,6 +204,22 @@ def all_rows(
             tag = f"({number})" if relation.result else ""
             hint = computed.get(relation.left, "") if relation.result else ""
             yield from broken(relation, tag, drawings[0], hint, solved=solved)
+    if solved:
+        yield from boxed_answers(drawings)
+
+
+def boxed_answers(drawings: Sequence[Drawing]) -> Iterator[CalculationRow]:
+    """All results that the scene asks for, together."""
+    found = [
+        " ".join(in_results(drawing, each).parts(solved=True))
+        for drawing in drawings
+        if drawing.kind != FORCE
+        for each in answers(drawing)
+    ]
+    if found:
+        yield CalculationRow(drawings[0].words("calculation.answers"), heading=True, boxed=True)
+        for line in flowed(found, ";", ROOM - INDENT, LETTER):
+            yield CalculationRow(line, boxed=True)
 
 
 def legends(drawings: Sequence[Drawing], found: Sequence[Relation]) -> Iterator[str]:
@@ -259,12 +277,12 @@ def laid_out(
 ) -> list[list[tuple[float, CalculationRow]]]:
     """The lines on as few pages as possible, balanced between the pages.
 
-    Pages begin with a heading where that needs no extra page. Lines to be filled in are spaced as
-    widely as the number of pages allows.
+    Pages begin with a heading where that needs no extra page. Lines are spaced as widely as the
+    number of pages allows.
     """
     count = len(paged(rows, LINE, BOTTOM))
-    wider = (line for line in BY_HAND if len(paged(rows, line, BOTTOM)) == count)
-    line = LINE if solved else next(wider, LINE)
+    some = SOLVED if solved else BY_HAND
+    line = next((line for line in some if len(paged(rows, line, BOTTOM)) == count), LINE)
 
     def held(bottom: float, *, whole: bool) -> list[list[tuple[float, CalculationRow]]] | None:
         pages = paged(rows, line, bottom, whole=whole)
@@ -319,18 +337,24 @@ def page_of(
         foot = whose or words("page.student"), "   ".join(filter(None, (made, number)))
     else:
         foot = made, number
+    boxed: list[float] = []
     marks: list[Mark] = [*page_frame((title, name), foot, drawing.scene.house.header)]
     for y, row in rows:
+        look = "caption equation" if row.legend else "caption answer" if row.boxed else "caption"
         if row.heading:
-            marks.append(Text(LEFT, y, row.markup, "caption", 3.5))
+            marks.append(Text(LEFT, y, row.markup, look, 3.5))
             continue
         if row.equation:
             marks += equation_marks(row.equation, LEFT + INDENT, y, words, solved=view == "key")
             continue
-        look = "caption equation" if row.legend else "caption"
+        if row.boxed:
+            boxed.append(y)
         marks.append(Text(LEFT + INDENT, y, row.markup, look, LETTER))
         if row.number:
             marks.append(Text(RIGHT, y, row.number, "caption", LETTER, "end"))
+    if boxed:
+        high, low = boxed[0] - LINE + APART, boxed[-1] + APART
+        marks.append(box(LEFT, high, RIGHT - LEFT, low - high, "panel answer"))
     page = Page(*A4_SIZE, tuple(marks), f"{title_of(drawing)} – {name}", words.language)
     page.check()
     return page

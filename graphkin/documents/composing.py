@@ -18,7 +18,7 @@ from math import log, sqrt
 from msgspec import Struct
 from msgspec.structs import replace
 
-from graphkin.drawing.field import ABOVE, HEIGHT, LEAST_FIELD, MARGIN, WIDTH
+from graphkin.drawing.field import A3, ABOVE, LEAST_FIELD, MARGIN, SheetPaper
 from graphkin.drawing.scale import Extent, Scales, digits, preferred, preferred_scales, ratio
 from graphkin.text.errors import PageError, Problem, message
 
@@ -92,6 +92,7 @@ class Stated(Struct, frozen=True):
     times: Mapping[str, float]
     ka: float
     steps: tuple[float, ...] = ()
+    paper: SheetPaper = A3
 
     @property
     def keys(self) -> list[str]:
@@ -243,12 +244,13 @@ def lengths(needs: Needs, stated: Stated) -> Iterator[float]:
     """The scales to try: the stated one, or the preferred ones from the first that may fit."""
     if stated.scale:
         return iter([stated.scale])
-    return preferred_scales(least(needs.bare), stated.steps)
+    return preferred_scales(least(needs.bare, stated.paper), stated.steps)
 
 
-def least(box: Extent) -> float:
+def least(box: Extent, paper: SheetPaper) -> float:
     """The kL at which a mechanism just leaves room for a plan. Raises PageError for a dot."""
-    needed = max(1000 * box.width / (WIDTH - NARROW), 1000 * box.height / HEIGHT)
+    room = paper.room / 2 if paper.is_parted else paper.room - NARROW
+    needed = max(1000 * box.width / room, 1000 * box.height / paper.upright)
     if not needed > 0:
         raise PageError(
             Problem("scale", message("the mechanism has no extent"), message("points apart"))
@@ -281,22 +283,23 @@ def composed(
     at many times their length.
     """
     mm = 1000 / kL
-    room = WIDTH - max(needs.whole.width * mm, NARROW)
-    if needs.whole.height * mm > HEIGHT * JUST or room < NARROW:
+    paper = stated.paper
+    room = paper.room_beside(max(needs.whole.width * mm, NARROW))
+    if needs.whole.height * mm > paper.upright * JUST or room < NARROW:
         return None
     times, sizes, lack = {}, [], 0.0
     for kind, box in needs.plans.items():
         apart = stated.ka and kind == "acceleration"
         tried: Iterable[float] = [kL / stated.ka / seconds**2] if apart else ladders[kind]
         wide, high = box.width * mm, box.height * mm
-        fits = (m for m in tried if wide * m <= room * JUST and high * m <= HEIGHT * JUST)
+        fits = (m for m in tried if wide * m <= room * JUST and high * m <= paper.upright * JUST)
         found = next(fits, None)
         if found is None:
             return None
         drawn = box.diagonal > NOISE * needs.bare.diagonal
         times[kind] = found if drawn or apart else 1.0
         sizes += [box.diagonal * mm * found] if drawn else []
-        share = wide * high * found**2 / ((room + 2 * MARGIN) * (HEIGHT + 2 * ABOVE))
+        share = wide * high * found**2 / ((room + 2 * MARGIN) * (paper.upright + 2 * ABOVE))
         if drawn and min(wide, high) > LINE * max(wide, high):
             lack += max(log(LITTLE / share), 0.0)
     small = sum(1 / size for size in sizes) / len(sizes) if sizes else 0.0
@@ -318,7 +321,7 @@ def no_room(needs: Needs, stated: Stated, seconds: float) -> Problem:
             message("a larger one"),
             message("write a larger ka, or leave it out"),
         )
-    free = Stated(0.0, stated.times, 0.0, stated.steps)
+    free = Stated(0.0, stated.times, 0.0, stated.steps, stated.paper)
     fits = largest(needs, free, seconds, times_of(free, TIMES, 1.0))
     found = message(
         "does not fit: at {scale} the drawing leaves its fields", scale=ratio(stated.scale or 1.0)
@@ -326,7 +329,9 @@ def no_room(needs: Needs, stated: Stated, seconds: float) -> Problem:
     if fits is None:
         return Problem("sheet", found, message("drawings of a size"), message("leave [sheet] out"))
     kL = next(
-        kL for kL in preferred_scales(least(needs.bare), stated.steps) if fits_at(needs, free, kL)
+        kL
+        for kL in preferred_scales(least(needs.bare, stated.paper), stated.steps)
+        if fits_at(needs, free, kL)
     )
     hint = message("write scale = {kL}, or leave it out", kL=digits(kL))
     return Problem("sheet.scale", found, message("{kL} or smaller", kL=ratio(kL)), hint)

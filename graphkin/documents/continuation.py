@@ -17,17 +17,16 @@ from graphkin.documents.listing import in_columns, on_sheets
 from graphkin.documents.sheet import (
     HEADING,
     Moved,
-    a3_page,
     asked_words,
     construction_head,
     members,
+    pages_of,
     plan_enlarged,
     right_board,
     title_block,
     title_line,
 )
-from graphkin.drawing.field import A3_TITLE_BLOCK, ABOVE, AREA, BELOW, MARGIN, MARKED, Field, Rect
-from graphkin.drawing.frame import sheet_frame
+from graphkin.drawing.field import ABOVE, MARGIN, Field, Rect, SheetPaper
 from graphkin.drawing.marks import Mark, Page, Text, reach
 from graphkin.drawing.richtext import extent, flowed, narrow_words
 from graphkin.text.errors import PageError, Problem, message
@@ -38,10 +37,6 @@ GAP, HEAD = 8.0, 6.0
 """Room above and below the heading of a part, in mm."""
 INSIDE = 3.0
 """Clearance of tables and sentence numbers from the centring mark at the left, in mm."""
-MIDDLE = MARKED[0]
-"""The right end of the left column, clear of the centring mark, in mm."""
-LOW = A3_TITLE_BLOCK[1] - 4
-"""The lower end of the right column, above the title block, in mm."""
 TIMES = (2.0, 1.5, 1.25, 1.0)
 """Possible enlargements of a plan that is drawn again."""
 LEAST = 60.0
@@ -69,9 +64,9 @@ def rest(drawing: Drawing, view: str, moved: Set[Moved], said: int = 0) -> list[
     if Moved.CONSTRUCTION not in moved:
         return sheets
     head, x, y = title_line(drawing, drawing.words("page.continued"))
-    top, low = y + GAP, BELOW[3] - 3.5
-    left: Rect = (x + INSIDE, top + HEAD, MIDDLE, low)
-    right: Rect = (MIDDLE + 6, top + HEAD, AREA[2], LOW)
+    top, paper = y + GAP, drawing.paper
+    left: Rect = (x + INSIDE, top + HEAD, paper.marked[0], paper.below[3] - 3.5)
+    right: Rect = (paper.second, top + HEAD, paper.fields[2], low_of(paper))
     head = [*head, construction_head(drawing, x, top)]
     return [*sheets, *([*head, *marks] for marks in on_sheets(drawing, [left, right], said))]
 
@@ -82,14 +77,15 @@ def with_trials(drawing: Drawing, sheets: list[list[Mark]]) -> list[list[Mark]]:
     The plan is drawn as large as possible, with the names of its auxiliary points.
     """
     head, x, y = title_line(drawing, drawing.words("page.continued"))
-    top = y + GAP
-    beside: Rect = (MIDDLE + 6, top + HEAD, AREA[2], LOW)
+    top, paper = y + GAP, drawing.paper
+    beside: Rect = (paper.second, top + HEAD, paper.fields[2], low_of(paper))
     last = sheets[-1] if sheets else head
     is_free = all(reach(mark)[2] < beside[0] or reach(mark)[3] < top for mark in last)
     marks = plan_with_trials(drawing, beside) if sheets and is_free else []
     if marks:
         return [*sheets[:-1], [*last, *marks]]
-    return [*sheets, [*head, *plan_with_trials(drawing, (x, *beside[1:]))]]
+    left = beside[0] if paper.is_parted else x
+    return [*sheets, [*head, *plan_with_trials(drawing, (left, *beside[1:]))]]
 
 
 def plan_with_trials(drawing: Drawing, rect: Rect) -> list[Mark]:
@@ -113,32 +109,33 @@ def plan_with_trials(drawing: Drawing, rect: Rect) -> list[Mark]:
 def data_and_tables(drawing: Drawing, view: str, moved: Set[Moved]) -> Iterator[list[Mark]]:
     """The sheets of data too long for one sheet, and of tables, which begin below the data."""
     head, x, y = title_line(drawing, drawing.words("page.continued"))
-    room = int((LOW - y) / LEADING) + 1
-    lines = told_lines(drawing, view, moved, x)
-    parts = [lines[i : i + room] for i in range(0, len(lines), room)]
-    told = [
+    paper, low = drawing.paper, low_of(drawing.paper)
+    room = int((low - y) / LEADING) + 1
+    lines = continued_lines(drawing, view, moved, x)
+    pages = [
         [Text(x, y + i * LEADING, line, "caption", 2.5, name="data") for i, line in enumerate(part)]
-        for part in parts
+        for part in (lines[i : i + room] for i in range(0, len(lines), room))
     ]
     if Moved.TABLES not in moved:
-        yield from ([*head, *part] for part in told)
+        yield from ([*head, *part] for part in pages)
         return
-    yield from ([*head, *part] for part in told[:-1])
-    last = told[-1] if told else []
+    yield from ([*head, *part] for part in pages[:-1])
+    last = pages[-1] if pages else []
     top = y + len(last) * LEADING + GAP
-    if top > LOW - LEAST:
+    if top > low - LEAST:
         yield [*head, *last]
         last, top = [], y + GAP
     left = x + INSIDE
-    rects: tuple[Rect, Rect] = (left, top, AREA[2], LOW), (left, y + GAP, AREA[2], LOW)
+    right = paper.left[2]
+    rects: tuple[Rect, Rect] = (left, top, right, low), (left, y + GAP, right, low)
     for marks in tables_on_sheets(drawing, *rects, empty=view == "task"):
         yield [*head, *last, *marks]
         last = []
 
 
-def told_lines(drawing: Drawing, view: str, moved: Set[Moved], x: float) -> list[str]:
+def continued_lines(drawing: Drawing, view: str, moved: Set[Moved], x: float) -> list[str]:
     """The moved data, requests and links, in lines across a sheet from a place on."""
-    words, width, lines = drawing.words, AREA[2] - x - 3, list[str]()
+    words, width, lines = drawing.words, drawing.paper.left[2] - x - 3, list[str]()
     if Moved.DATA in moved:
         first, *others = given(drawing, solved=view != "task", laws=True)
         lines += flowed([f"{words('page.data')}: {first}", *others], "; ", width, 2.5)
@@ -162,28 +159,33 @@ def cut(line: str, width: float) -> list[str]:
 def one_sheet(drawing: Drawing, view: str, moved: Set[Moved], said: int) -> list[Mark]:
     """The content of a single continuation sheet. Raises PageError where it does not fit."""
     marks, x, y = title_line(drawing, drawing.words("page.continued"))
-    if lines := told_lines(drawing, view, moved, x):
+    paper, low = drawing.paper, low_of(drawing.paper)
+    if lines := continued_lines(drawing, view, moved, x):
         for line in lines:
             marks.append(Text(x, y, line, "caption", 2.5, name="data"))
             y += LEADING
-        if y > LOW + LEADING:
+        if y > low + LEADING:
             found = message("does not fit: {count} lines of data", count=len(lines))
             raise PageError(Problem("data", found, message("data for one sheet")))
     top = y + GAP
-    right: Rect = (MIDDLE + 6, top, AREA[2], LOW)
+    right: Rect = (paper.second, top, paper.fields[2], low)
     if Moved.CONSTRUCTION in moved:
-        left: Rect = (x + INSIDE, top + HEAD, MIDDLE, BELOW[3] - 3.5)
+        left: Rect = (x + INSIDE, top + HEAD, paper.marked[0], paper.below[3] - 3.5)
         beside = [] if Moved.TABLES in moved else [(right[0], left[1], *right[2:])]
         marks.append(construction_head(drawing, x, top))
         marks += in_columns(drawing, [left, *beside], said)
     if Moved.TABLES in moved:
         alone = Moved.CONSTRUCTION not in moved
-        own = (x + INSIDE, *right[1:]) if alone else right
+        own: Rect = (x + INSIDE, top, paper.left[2], low) if alone else right
         marks += tables(drawing, own, empty=view == "task")
     return marks
 
 
-def as_page(drawing: Drawing, view: str, number: str, marks: list[Mark]) -> Page:
+def low_of(paper: SheetPaper) -> float:
+    """The lower end of the right column, above the title block, in mm."""
+    return paper.title_block[1] - 4
+
+
+def as_pages(drawing: Drawing, view: str, number: str, marks: list[Mark]) -> tuple[Page, ...]:
     """The marks in the frame of a sheet."""
-    block = title_block(drawing, view, number)
-    return a3_page(drawing, block, (*sheet_frame(block), *marks))
+    return pages_of(drawing, title_block(drawing, view, number), marks)

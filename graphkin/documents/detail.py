@@ -120,8 +120,8 @@ def parted(*boards: FieldContent) -> list[FieldMarks]:
     tried = enlarged(before, lost)
     shown = [{m.markup for m in each.details if isinstance(m, Text)} for each in tried]
     both = zip(lost, shown, strict=True)
-    is_told = all(letter.markup in said for letters, said in both for letter in letters)
-    return tried if is_told else fields
+    is_mentioned = all(letter.markup in said for letters, said in both for letter in letters)
+    return tried if is_mentioned else fields
 
 
 def copied(board: FieldContent) -> FieldContent:

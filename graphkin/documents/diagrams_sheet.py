@@ -10,19 +10,22 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator, Sequence
 from functools import partial
 from itertools import pairwise
-from math import ceil, degrees, floor, isfinite, sqrt
+from math import ceil, degrees, floor, hypot, isfinite, radians, sqrt
 
 import numpy as np
 from msgspec import Struct
 
 from graphkin.accuracy.pencil.pencil import STRAIGHT, Pencil
 from graphkin.construction.core.paper_canvas import clipped_path
-from graphkin.construction.core.quantities import BY_TARGET
+from graphkin.construction.core.quantities import BY_TARGET, JERK, SHEETS
 from graphkin.construction.core.relation import figure
 from graphkin.construction.diagram_steps import (
     CHORD,
     SECOND,
+    SECOND_TANGENT,
+    TANGENT,
     ChordRay,
+    by_tangents,
     differentiated,
     integrated,
     smooth,
@@ -31,15 +34,17 @@ from graphkin.documents.diagram_numbers import FINE, FollowerMotion, calm
 from graphkin.documents.positions import PositionSet, at_position, is_whole
 from graphkin.documents.positions_sheet import (
     AIR,
-    FIELD,
     MANY,
+    field_on,
+    foot_line,
     framed,
     heading,
+    headline,
     places_table,
     proof,
 )
 from graphkin.documents.sheet import title_of
-from graphkin.drawing.field import A3_TITLE_BLOCK, AREA, XY, Rect
+from graphkin.drawing.field import XY, Rect
 from graphkin.drawing.marks import Anchor, CircleMark, LineMark, Mark, Page, Text, box
 from graphkin.drawing.richtext import extent, flowed
 from graphkin.drawing.scale import preferred
@@ -51,12 +56,15 @@ from graphkin.motion.extremes import asked_measures
 from graphkin.scene.link_points import lettered
 from graphkin.text import Words
 
-LEFT, RIGHT = 118.0, 396.0
-"""The axis of ordinates and the right end of the diagrams, in mm; poles lie left of the axis."""
-BEHIND = (130.0, 310.0)
+FORWARD = (96 / 386, 12 / 386)
+"""The room before the axis of ordinates, where poles lie, and after the diagrams: parts of the
+field's width."""
+BACKWARD = (108 / 386, 98 / 386)
 """The same where the driver runs backwards and poles lie right of the diagrams."""
-TOP, GAP = FIELD[1] + 6.0, 7.0
-"""The upper edge of the first diagram, and the room between two, in mm."""
+NAMED = 12.0
+"""The least room after the diagrams, for the name of the axis, in mm."""
+OVER, GAP = 6.0, 7.0
+"""The room above the first diagram, and between two, in mm."""
 ARROW = 5.0
 """Length of an axis beyond the diagram, in mm."""
 LETTERS, SMALL = 2.5, 1.8
@@ -109,7 +117,15 @@ def axes_for(motion: FollowerMotion, top: float, low: float, values: Reals, most
 
 def sides(motion: FollowerMotion) -> tuple[float, float]:
     """The left and right ends of the diagrams: room for poles before them, or behind."""
-    return (LEFT, RIGHT) if motion.pace > 0 else BEHIND
+    left, _, right, _ = field_on(motion.found)
+    before, after = FORWARD if motion.pace > 0 else BACKWARD
+    return left + before * (right - left), right - max(after * (right - left), NAMED)
+
+
+def room_for_pole(motion: FollowerMotion) -> float:
+    """The largest distance of a pole from its axis, in mm."""
+    (left, right), field = sides(motion), field_on(motion.found)
+    return left - field[0] - 8 if motion.pace > 0 else field[2] - right - 14
 
 
 # --- one diagram: axes, curves, points ------------------------------------------------------------
@@ -122,14 +138,9 @@ def frame_of(
 
     ``factor`` is the number of printed units in one SI unit.
     """
-    left, top, right, low = axes.rect
+    _, top, right, low = axes.rect
     words = motion.found.shown.alone.words
-    yield LineMark(left, axes.zero, right + ARROW, axes.zero, "dimension", f"axis {name}")
-    yield head((left, axes.zero), (right + ARROW, axes.zero), "dimension", f"axis {name}")
-    yield LineMark(left, low, left, top - ARROW / 2, "dimension", f"axis {name}")
-    yield head((left, low), (left, top - ARROW / 2), "dimension", f"axis {name}")
-    said = f"*{name}*, {escape(unit).replace('²', '^2')}"
-    yield Text(left + 1.8, top - 0.6, said, "caption", LETTERS, name=f"axis {name}")
+    yield from axis_lines(axes, name, f"*{name}*, {escape(unit).replace('²', '^2')}")
     at = right + ARROW + 1, axes.zero + 0.9
     yield Text(*at, f"*{u_symbol(motion)}*", "caption", LETTERS, name="axis")
     names = position_names(motion.found, motion.at)
@@ -138,6 +149,18 @@ def frame_of(
         yield LineMark(x, top, x, low, "register", f"position {i}")
         yield Text(x + 0.7, axes.zero + 2.6, names[i], "caption", SMALL, name=f"position {i}")
     yield from numbers_along(words, axes, name, factor, TICKS)
+
+
+def axis_lines(axes: Axes, name: str, said: str) -> Iterator[Mark]:
+    """The two axes of a diagram, the axis of ordinates with its symbol and unit."""
+    left, top, right, low = axes.rect
+    for start, end in (
+        ((left, axes.zero), (right + ARROW, axes.zero)),
+        ((left, low), (left, top - ARROW / 2)),
+    ):
+        yield LineMark(*start, *end, "dimension", f"axis {name}")
+        yield head(start, end, "dimension", f"axis {name}")
+    yield Text(left + 1.8, top - 0.6, said, "caption", LETTERS, name=f"axis {name}")
 
 
 def numbers_along(words: Words, axes: Axes, name: str, factor: float, count: int) -> Iterator[Mark]:
@@ -219,6 +242,36 @@ def dots(axes: Axes, points: Sequence[XY], look: str, name: str) -> Iterator[Mar
 # --- the construction: chords, pole, rays ---------------------------------------------------------
 
 
+class RateMethod(Struct, frozen=True):
+    """A way to differentiate: its lines, and the shares of h² in the errors of both rates.
+
+    ``signs``, ``said`` and ``cost`` are the keys of its sentences.
+    """
+
+    name: str
+    first: float
+    second: float
+    signs: str
+    said: str
+    cost: str
+
+    def steps(self, points: Sequence[XY], distance: float, *, closed: bool) -> list[ChordRay]:
+        """The rates of a diagram, which is ``closed`` if it begins anew at its end."""
+        if self is TANGENTS:
+            return by_tangents(points, distance, closed=closed)
+        return differentiated(points, distance)
+
+
+CHORDS = RateMethod(
+    *("chord", CHORD, SECOND),
+    *("diagrams.chord_signs", "diagrams.chord_steps", "diagrams.chord_cost"),
+)
+TANGENTS = RateMethod(
+    *("tangent", TANGENT, SECOND_TANGENT),
+    *("diagrams.tangent_signs", "diagrams.tangent_steps", "diagrams.tangent_cost"),
+)
+
+
 class Derived(Struct, frozen=True):
     """A diagram differentiated: the steps, the frame of the result, and the pole's distance."""
 
@@ -226,6 +279,17 @@ class Derived(Struct, frozen=True):
     axes: Axes
     distance: float
     name: str
+    method: RateMethod = CHORDS
+
+    @property
+    def points(self) -> list[XY]:
+        """The points that the construction finds."""
+        return [each.found for each in self.steps]
+
+    @property
+    def places(self) -> Reals:
+        """The places u of these points."""
+        return np.array([x for x, _ in self.points]) / self.axes.wide + self.axes.start
 
 
 def derive(
@@ -235,28 +299,30 @@ def derive(
     top: float,
     low: float,
     name: str,
-    most: float,
+    exact: Reals,
+    method: RateMethod = CHORDS,
 ) -> Derived:
     """The diagram of the rate, drawn from some points of another with the largest pole distance.
 
-    The distance is a round number of mm at which the values fit; the scale follows from it. Where
-    the driver runs backwards, the pole lies behind the diagram.
+    The distance is a round number of mm at which these values and the ``exact`` course fit; the
+    scale follows from it. Where the driver runs backwards, the pole lies behind the diagram.
     """
     left, right = sides(motion)
     sign = 1.0 if motion.pace > 0 else -1.0
-    room = left - FIELD[0] - 8 if sign > 0 else FIELD[2] - right - 14
-    unit = differentiated(points, sign)
-    heights = np.array([each.found[1] for each in unit])
-    cap = most * axes.high / axes.wide / abs(motion.pace) * motion.found.cycle.sweep.per_unit
-    heights = np.clip(heights, -cap, cap)
+    room = room_for_pole(motion)
+    closed = is_whole(motion.found.cycle)
+    unit = method.steps(points, sign, closed=closed)
+    share = axes.high / axes.wide / abs(motion.pace) * motion.found.cycle.sweep.per_unit
+    most, known = calm(motion.found, exact), exact[np.isfinite(exact)]
+    heights = np.concatenate([[each.found[1] for each in unit], known * share])
+    heights = np.clip(heights, -most * share, most * share)
     least, largest = min(float(heights.min()), 0.0), max(float(heights.max()), 0.0)
     fits = [h for h in POLES if h <= room and h * (largest - least) <= FILLED * (low - top)]
     distance = sign * (fits[0] if fits else POLES[-1])
-    high = abs(distance) * axes.high / axes.wide * motion.found.cycle.sweep.per_unit
-    high /= abs(motion.pace)
+    high = abs(distance) * share
     middle = (top + low) / 2 + (largest + least) / 2 * abs(distance)
     own = Axes((left, top, right, low), middle, axes.wide, high, axes.start)
-    return Derived(differentiated(points, distance), own, distance, name)
+    return Derived(method.steps(points, distance, closed=closed), own, distance, name, method)
 
 
 def construction(before: Axes, found: Derived, look: str) -> Iterator[Mark]:
@@ -267,7 +333,7 @@ def construction(before: Axes, found: Derived, look: str) -> Iterator[Mark]:
     pole = foot - found.distance, axes.zero
     for i, each in enumerate(found.steps):
         start, end = before.on_page(each.first), before.on_page(each.last)
-        yield LineMark(*start, *end, "construction", f"chord {name}_{i}")
+        yield LineMark(*start, *end, "construction", f"{found.method.name} {name}_{i}")
         height = axes.zero - each.end[1]
         x, y = axes.on_page(each.found)
         if axes.rect[1] <= height <= axes.rect[3]:
@@ -281,12 +347,10 @@ def construction(before: Axes, found: Derived, look: str) -> Iterator[Mark]:
     yield Text(
         pole[0] + aside, pole[1] + 0.9, letter, f"label {look}", LETTERS, anchor, f"P_{name}"
     )
-    told = f"*H* = {abs(found.distance):g} mm"
-    if abs(found.distance) > extent(told, SMALL)[0] + 3:
-        middle = (pole[0] + foot) / 2
-        yield Text(
-            middle, axes.zero + 3.2, told, "caption", SMALL, "middle", f"pole distance {name}"
-        )
+    caption = f"*H* = {abs(found.distance):g} mm"
+    if abs(found.distance) > extent(caption, SMALL)[0] + 3:
+        at = (pole[0] + foot) / 2, axes.zero + 3.2
+        yield from cleared(Text(*at, caption, "caption", SMALL, "middle", f"pole distance {name}"))
 
 
 # --- the sheet of differentiation -----------------------------------------------------------------
@@ -303,32 +367,22 @@ def units_of(
     return (unit, drawing.length(1.0)), ("m/s", 1.0), ("m/s²", 1.0)
 
 
-def differentiation_page(motion: FollowerMotion, number: str) -> Page:
-    """The sheet of place, speed and acceleration, each from the one before by chords."""
+def differentiation_page(motion: FollowerMotion, method: RateMethod, number: str) -> Page:
+    """The sheet of place, speed and acceleration, each from the one before by one method."""
     drawing, words = motion.found.shown.alone, motion.found.shown.alone.words
-    height = (FIELD[3] - TOP - 3 - 2 * GAP) / 3
-    tops = [TOP + i * (height + GAP) for i in range(3)]
+    _, top, _, foot = field_on(motion.found)
+    height = (foot - top - OVER - 3 - 2 * GAP) / 3
+    tops = [top + OVER + i * (height + GAP) for i in range(3)]
     where, speed, push = values_at(motion, motion.at)
     exact = values_at(motion, motion.fine)
     low = float(min(np.nanmin(exact[0]), np.nanmin(where)))
     units, kinds = units_of(motion), motion.kinds
     first = axes_for(motion, tops[0], tops[0] + height, exact[0] - low, np.inf)
     points = [first.place(float(u), float(v - low)) for u, v in zip(motion.at, where, strict=True)]
-    most = calm(motion.found, exact[1]), calm(motion.found, exact[2])
-    rate = derive(motion, first, points, tops[1], tops[1] + height, kinds[1], most[0])
-    again = derive(
-        motion,
-        rate.axes,
-        closed_round(motion, rate),
-        tops[2],
-        tops[2] + height,
-        kinds[2],
-        most[1],
-    )
+    rate, again = derived_twice(motion, method, first, points, tops, exact)
     marks: list[Mark] = [
-        *framed(drawing, number, words("sheet.document_diagrams"), "–"),
         *heading(motion.found, drawing, words("sheet.differentiation")),
-        *field_caption(motion),
+        *field_caption(motion, method.signs),
         *construction(first, rate, "velocity"),
         *construction(rate.axes, again, "acceleration"),
         *frame_of(motion, first, kinds[0], *units[0]),
@@ -340,16 +394,34 @@ def differentiation_page(motion: FollowerMotion, number: str) -> Page:
         *through(motion, rate, "velocity"),
         *through(motion, again, "acceleration"),
         *dots(first, points, "construction", kinds[0]),
-        *dots(rate.axes, [each.found for each in rate.steps], "velocity", kinds[1]),
-        *dots(again.axes, [each.found for each in again.steps], "acceleration", kinds[2]),
+        *dots(rate.axes, rate.points, "velocity", kinds[1]),
+        *dots(again.axes, again.points, "acceleration", kinds[2]),
         *crosses(motion, rate.axes, speed, "velocity", kinds[1]),
         *crosses(motion, again.axes, push, "acceleration", kinds[2]),
-        LineMark(FIELD[0], FIELD[3], FIELD[2], FIELD[3], "panel"),
-        *sentences(motion, [*scales_said(motion, first, rate, again), *costs(motion, rate, again)]),
+        *foot_line(motion.found),
+        *sentence_lines(
+            motion.found, [*scales_said(motion, first, rate, again), *costs(motion, rate, again)]
+        ),
         *proof(motion.found),
     ]
     title = f"{words('sheet.differentiation')} – {title_of(drawing)}"
-    return Page(420, 297, tuple(marks), title, words.language)
+    return framed(drawing, number, words("sheet.document_diagrams"), "–", marks, title)
+
+
+def derived_twice(
+    motion: FollowerMotion,
+    method: RateMethod,
+    first: Axes,
+    points: Sequence[XY],
+    tops: Sequence[float],
+    exact: Sequence[Reals],
+) -> tuple[Derived, Derived]:
+    """The diagrams of the speed and of the acceleration, with room for their exact courses."""
+    height, kinds = first.rect[3] - first.rect[1], motion.kinds
+    room = [(top, top + height) for top in tops]
+    rate = derive(motion, first, points, *room[1], kinds[1], exact[1], method)
+    then = closed_round(motion, rate)
+    return rate, derive(motion, rate.axes, then, *room[2], kinds[2], exact[2], method)
 
 
 # --- the sheet of integration ---------------------------------------------------------------------
@@ -358,8 +430,9 @@ def differentiation_page(motion: FollowerMotion, number: str) -> Page:
 def integration_page(motion: FollowerMotion, number: str) -> Page:
     """The sheet of the speed from the plans, and of the place by a string polygon."""
     drawing, words = motion.found.shown.alone, motion.found.shown.alone.words
-    height = (FIELD[3] - TOP - 3 - GAP) / 2
-    tops = [TOP, TOP + height + GAP]
+    _, top, _, foot = field_on(motion.found)
+    height = (foot - top - OVER - 3 - GAP) / 2
+    tops = [top + OVER, top + OVER + height + GAP]
     where, speed, _ = values_at(motion, motion.at)
     exact = values_at(motion, motion.fine)
     low = float(min(np.nanmin(exact[0]), np.nanmin(where)))
@@ -373,7 +446,6 @@ def integration_page(motion: FollowerMotion, number: str) -> Page:
     strings = integrated([x for x, _ in points], means, distance, begun)
     found = Derived(strings, second, distance, kinds[0])
     marks: list[Mark] = [
-        *framed(drawing, number, words("sheet.document_diagrams"), "–"),
         *heading(motion.found, drawing, words("sheet.integration")),
         *field_caption(motion, "diagrams.strings"),
         *levels(first, found),
@@ -385,12 +457,12 @@ def integration_page(motion: FollowerMotion, number: str) -> Page:
         *curve(second, [strings[0].first, *(s.last for s in strings)], "profile", kinds[0]),
         *dots(second, [strings[0].first, *(s.last for s in strings)], "construction", kinds[0]),
         *crosses(motion, second, where - low, "construction", kinds[0]),
-        LineMark(FIELD[0], FIELD[3], FIELD[2], FIELD[3], "panel"),
-        *sentences(motion, strings_said(motion, first, found, where - low)),
+        *foot_line(motion.found),
+        *sentence_lines(motion.found, strings_said(motion, first, found, where - low)),
         *proof(motion.found),
     ]
     title = f"{words('sheet.integration')} – {title_of(drawing)}"
-    return Page(420, 297, tuple(marks), title, words.language)
+    return framed(drawing, number, words("sheet.document_diagrams"), "–", marks, title)
 
 
 def mean_ordinates(points: Sequence[XY], *, closed: bool) -> list[float]:
@@ -410,16 +482,15 @@ def string_scale(
     motion: FollowerMotion, first: Axes, last: Axes, means: Sequence[float]
 ) -> tuple[float, Axes]:
     """The pole distance with which the strings fill their diagram, and the frame at its scale."""
-    left, right = sides(motion)
     sign = 1.0 if motion.pace > 0 else -1.0
-    room = left - FIELD[0] - 8 if sign > 0 else FIELD[2] - right - 14
+    room = room_for_pole(motion)
     per_unit = motion.found.cycle.sweep.per_unit
 
     def high(distance: float) -> float:
         return abs(motion.pace) * first.high * first.wide / per_unit / distance
 
     fits = [h for h in reversed(POLES) if h <= room and high(h) <= last.high]
-    distance = fits[0] if fits else POLES[0]
+    distance = fits[0] if fits else max(h for h in POLES if h <= room)
     factor = high(distance)
     grown = (last.rect[3] - last.zero) * factor / last.high
     lowered = last.rect[3] - grown
@@ -446,10 +517,10 @@ def levels(first: Axes, found: Derived) -> Iterator[Mark]:
     aside = 2.0 if behind else -2.0
     anchor: Anchor = "start" if behind else "end"
     yield Text(pole[0] + aside, pole[1] + 0.9, "*P*", "label velocity", LETTERS, anchor, "P")
-    told = f"*H* = {abs(found.distance):g} mm"
-    if abs(found.distance) > extent(told, SMALL)[0] + 3:
+    caption = f"*H* = {abs(found.distance):g} mm"
+    if abs(found.distance) > extent(caption, SMALL)[0] + 3:
         at = (pole[0] + foot) / 2, first.zero + 3.2
-        yield from cleared(Text(*at, told, "caption", SMALL, "middle", "pole distance"))
+        yield from cleared(Text(*at, caption, "caption", SMALL, "middle", "pole distance"))
 
 
 def strings_said(motion: FollowerMotion, first: Axes, found: Derived, where: Reals) -> list[str]:
@@ -495,9 +566,12 @@ def values_at(motion: FollowerMotion, at: Reals) -> list[Reals]:
 
 
 def closed_round(motion: FollowerMotion, rate: Derived) -> list[XY]:
-    """The points of a derived diagram; over a whole turn with the last of the turn before."""
-    points = [each.found for each in rate.steps]
-    if not is_whole(motion.found.cycle):
+    """The points of a derived diagram; over a whole turn with the last of the turn before.
+
+    Tangents find the points at both ends of a turn.
+    """
+    points = rate.points
+    if not is_whole(motion.found.cycle) or rate.method is TANGENTS:
         return points
     turn = rate.axes.wide * float(motion.at[-1] - motion.at[0])
     (x, y), (u, v) = points[-1], points[0]
@@ -506,29 +580,30 @@ def closed_round(motion: FollowerMotion, rate: Derived) -> list[XY]:
 
 def through(motion: FollowerMotion, found: Derived, look: str) -> Iterator[Mark]:
     """The smooth curve through the points that the chords give."""
-    points = [each.found for each in found.steps]
+    points = found.points
     if is_whole(motion.found.cycle):
         turn = found.axes.wide * float(motion.at[-1] - motion.at[0])
-        before = [(x - turn, y) for x, y in points[-2:]]
-        after = [(x + turn, y) for x, y in points[:2]]
+        once = points[:-1] if found.method is TANGENTS else points
+        before = [(x - turn, y) for x, y in once[-2:]]
+        after = [(x + turn, y) for x, y in once[len(points) - len(once) :][:2]]
         points = [*before, *points, *after]
     if len(points) > 2:
         yield from curve(found.axes, smooth(points), look, found.name)
 
 
-def field_caption(motion: FollowerMotion, signs: str = "diagrams.signs") -> Iterator[Mark]:
+def field_caption(motion: FollowerMotion, signs: str) -> Iterator[Mark]:
     """The caption of the field: whose motion it is, and what the kinds of points are."""
     words = motion.found.shown.alone.words
     key = "diagrams.link" if motion.is_link else "diagrams.block"
     said = words(key, k=escape(motion.mover.name))
     text = f"{said};  {words(signs)}"
-    yield Text(FIELD[0] + 3, FIELD[1] - 2.2, text, "caption", LETTERS, name="heading")
+    yield from headline(motion.found, text)
 
 
-def sentences(motion: FollowerMotion, said: Sequence[str]) -> Iterator[Mark]:
+def sentence_lines(found: PositionSet, said: Sequence[str]) -> Iterator[Mark]:
     """Sentences below the field, left of the title block."""
-    left, right = AREA[0] + 4, A3_TITLE_BLOCK[0] - 4
-    y = A3_TITLE_BLOCK[1] + 4.2
+    left, y, right, _ = found.shown.alone.paper.leaf.notes
+    y += 4.2
     for number, sentence in enumerate(said, 1):
         for i, line in enumerate(flowed(sentence.split(" "), " ", right - left - 5, 2.2)):
             if not i:
@@ -565,7 +640,7 @@ def scales_said(motion: FollowerMotion, first: Axes, rate: Derived, again: Deriv
             again=f"*k*_{{*{a}*}} = {pace}*k*_{{*{v}*}}/(*k*_{{*{u}*}}·*H*)",
             more=f"{figure(drawing, 1 / again.axes.high)} {units[2]}",
         ),
-        words("diagrams.steps", s=s, v=v),
+        words(rate.method.said, s=s, v=v),
     ]
 
 
@@ -577,8 +652,8 @@ def rates_units(motion: FollowerMotion) -> tuple[str, str]:
 class Cost(Struct, frozen=True):
     """The errors of a derived diagram, as shares of its largest value.
 
-    ``chord`` is that of the exact chords, ``forecast`` what the derivatives predict for it, and
-    ``pencil`` what the marks of a hand add for 95 of 100 points.
+    ``chord`` is that of the exact chords or tangents, ``forecast`` what the derivatives predict for
+    it, and ``pencil`` what the marks of a hand add for 95 of 100 points.
     """
 
     chord: float
@@ -587,30 +662,44 @@ class Cost(Struct, frozen=True):
 
 
 def cost_of_rate(motion: FollowerMotion, rate: Derived) -> Cost:
-    """The error of the speed: h²/24 of the third derivative."""
-    middles = (motion.at[1:] + motion.at[:-1]) / 2
-    exact = values_at(motion, middles)[1]
-    drawn = np.array([each.found[1] for each in rate.steps]) / rate.axes.high
-    third = motion.derivatives(middles)[2]
+    """The error of the speed: a share of h² of the third derivative."""
+    exact = values_at(motion, rate.places)[1]
+    drawn = np.array([y for _, y in rate.points]) / rate.axes.high
+    third = motion.derivatives(rate.places)[2]
     size = largest(motion, exact)
-    forecast = CHORD * motion.step**2 * np.abs(motion.pace * third)
-    interval = rate.axes.wide * float(motion.at[1] - motion.at[0])
-    hand = sqrt(2) * mark() * abs(rate.distance) / interval / rate.axes.high
+    forecast = rate.method.first * motion.step**2 * np.abs(motion.pace * third)
+    hand = hand_of_rate(motion, rate) / rate.axes.high
     return Cost(worst(drawn - exact) / size, worst(forecast) / size, hand / size)
 
 
 def cost_of_second(motion: FollowerMotion, rate: Derived, again: Derived) -> Cost:
-    """The error of the acceleration: h²/12 of the fourth derivative."""
-    places = np.array([each.found[0] for each in again.steps]) / again.axes.wide + again.axes.start
-    exact = values_at(motion, places)[2]
-    drawn = np.array([each.found[1] for each in again.steps]) / again.axes.high
-    fourth = motion.derivatives(places)[3]
+    """The error of the acceleration: a share of h² of the fourth derivative."""
+    exact = values_at(motion, again.places)[2]
+    drawn = np.array([y for _, y in again.points]) / again.axes.high
+    fourth = motion.derivatives(again.places)[3]
     size = largest(motion, exact)
-    forecast = SECOND * motion.step**2 * np.abs(motion.pace**2 * fourth)
-    interval = rate.axes.wide * float(motion.at[1] - motion.at[0])
-    lever = abs(rate.distance * again.distance) / interval**2
-    hand = sqrt(6) * mark() * lever / again.axes.high
+    forecast = again.method.second * motion.step**2 * np.abs(motion.pace**2 * fourth)
+    interval = interval_of(motion, rate)
+    if again.method is TANGENTS:
+        before = sqrt(2) * hand_of_rate(motion, rate) * abs(again.distance) / (2 * interval)
+        hand = hypot(before, hand_of_rate(motion, again))
+    else:
+        hand = sqrt(6) * mark() * abs(rate.distance * again.distance) / interval**2
+    hand /= again.axes.high
     return Cost(worst(drawn - exact) / size, worst(forecast) / size, hand / size)
+
+
+def interval_of(motion: FollowerMotion, found: Derived) -> float:
+    """The interval between two positions, in mm."""
+    return found.axes.wide * float(motion.at[1] - motion.at[0])
+
+
+def hand_of_rate(motion: FollowerMotion, rate: Derived) -> float:
+    """What a hand adds to an ordinate, in mm: by two marks of a chord, or by a tangent's angle."""
+    if rate.method is CHORDS:
+        return sqrt(2) * mark() * abs(rate.distance) / interval_of(motion, rate)
+    tangent = float(np.median([abs(y / rate.distance) for _, y in rate.points]))
+    return abs(rate.distance) * (1 + tangent**2) * radians(Pencil().degrees)
 
 
 def mark() -> float:
@@ -628,9 +717,8 @@ def worst(values: Reals) -> float:
 
 
 def costs(motion: FollowerMotion, rate: Derived, again: Derived) -> list[str]:
-    """What the method costs in accuracy: chords against the exact course, and the pencil."""
-    words = motion.found.shown.alone.words
-    found = []
+    """What the method costs in accuracy, against the exact course, and what the pencil adds."""
+    words, found = motion.found.shown.alone.words, []
     for name, cost in (
         (motion.kinds[1], cost_of_rate(motion, rate)),
         (motion.kinds[2], cost_of_second(motion, rate, again)),
@@ -639,7 +727,7 @@ def costs(motion: FollowerMotion, rate: Derived, again: Derived) -> list[str]:
             key: words.significant(100 * getattr(cost, key), 2)
             for key in ("chord", "forecast", "pencil")
         }
-        found.append(words("diagrams.cost", v=name, **shares))
+        found.append(words(rate.method.cost, v=name, **shares))
     limit = words.significant(mark(), 1)
     return [*found, words("diagrams.plans", mark=limit)]
 
@@ -647,8 +735,10 @@ def costs(motion: FollowerMotion, rate: Derived, again: Derived) -> list[str]:
 # --- the sheets of everything asked over the positions --------------------------------------------
 
 
-COLUMNS, ROWS = 3, 4
-"""The most diagrams side by side, and one above the other, on a sheet."""
+LOOKS = {kind: kind for kind in SHEETS} | {JERK: "acceleration"}
+"""The look of the curve of each derivative."""
+LEAST, ROWS = 85.0, 4
+"""Least width in mm of a diagram, and the most diagrams one above the other, on a sheet."""
 
 
 class Asked(Struct, frozen=True):
@@ -695,8 +785,16 @@ def asked_courses(found: PositionSet, at: Reals, fine: Reals) -> list[Asked]:
         here, between = (each.value(columns) for columns in both)
         text = f"|{letter}|" if size else letter
         name = f"{quantity.letter}_{each.of}"
-        made.append(Asked(text, each.unit, name, quantity.kind, here, between))
+        if quantity.kind not in SHEETS:  # a jerk has no plan
+            here = np.full(len(at), np.nan)
+        made.append(Asked(text, each.unit, name, LOOKS[quantity.kind], here, between))
     return made
+
+
+def columns_on(found: PositionSet) -> int:
+    """The most diagrams side by side on a sheet."""
+    left, _, right, _ = field_on(found)
+    return max(min(int((right - left) / LEAST), 3), 1)
 
 
 def course_pages(found: PositionSet, motion: FollowerMotion | None) -> list[Callable[[str], Page]]:
@@ -706,7 +804,7 @@ def course_pages(found: PositionSet, motion: FollowerMotion | None) -> list[Call
     every = asked_courses(found, at, fine)
     every += of_follower(motion, at, fine) if motion else []
     every = [each for each in every if np.isfinite(each.fine).any()]
-    per = COLUMNS * ROWS
+    per = columns_on(found) * ROWS
     parts = [every[i : i + per] for i in range(0, len(every), per)]
     return [partial(course_page, found, at, fine, part) for part in parts]
 
@@ -716,29 +814,27 @@ def course_page(
 ) -> Page:
     """A sheet of diagrams from the plans: crosses at the positions on the exact courses."""
     drawing, words = found.shown.alone, found.shown.alone.words
-    columns = min(COLUMNS, len(some))
+    left_of, top_of, right_of, foot = field_on(found)
+    columns = min(columns_on(found), len(some))
     rows = ceil(len(some) / columns)
-    wide, high = (FIELD[2] - FIELD[0]) / columns, (FIELD[3] - TOP) / rows
+    begin = top_of + OVER
+    wide, high = (right_of - left_of) / columns, (foot - begin) / rows
     marks: list[Mark] = []
     for index, each in enumerate(some):
         row, column = divmod(index, columns)
-        left, top = FIELD[0] + column * wide + 12, TOP + row * high + 3
+        left, top = left_of + column * wide + 12, begin + row * high + 3
         rect = left, top, left + wide - 24, top + high - 10
         marks += small_diagram(found, at, fine, each, rect)
     whole: list[Mark] = [
-        *framed(drawing, number, words("sheet.document_diagrams"), "–"),
         *heading(found, drawing, words("sheet.courses")),
-        Text(
-            *(FIELD[0] + 3, FIELD[1] - 2.2, words("diagrams.crosses"), "caption", LETTERS),
-            name="heading",
-        ),
+        *headline(found, words("diagrams.crosses")),
         *marks,
-        LineMark(FIELD[0], FIELD[3], FIELD[2], FIELD[3], "panel"),
+        *foot_line(found),
         *places_table(found, found.numbered, advantage_said(words, some)),
         *proof(found),
     ]
     title = f"{words('sheet.courses')} – {title_of(drawing)}"
-    return Page(420, 297, tuple(whole), title, words.language)
+    return framed(drawing, number, words("sheet.document_diagrams"), "–", whole, title)
 
 
 def advantage_said(words: Words, some: Sequence[Asked]) -> list[str]:
@@ -759,12 +855,8 @@ def small_diagram(
     wide = (right - left) / float(at[-1] - at[0])
     zero = (top + low) / 2 + (highest + least) / 2 * high
     axes = Axes(rect, zero, wide, high, float(at[0]))
-    yield LineMark(left, zero, right + ARROW, zero, "dimension", f"axis {each.name}")
-    yield head((left, zero), (right + ARROW, zero), "dimension", f"axis {each.name}")
-    yield LineMark(left, low, left, top - ARROW / 2, "dimension", f"axis {each.name}")
-    yield head((left, low), (left, top - ARROW / 2), "dimension", f"axis {each.name}")
     unit = each.unit.replace("²", "^2").replace("³", "^3")
-    yield Text(left + 1.8, top - 0.6, f"{each.symbol}, {unit}", "caption", LETTERS, name=each.name)
+    yield from axis_lines(axes, each.name, f"{each.symbol}, {unit}")
     yield from numbers_along(found.shown.alone.words, axes, each.name, 1.0, 4)
     both = zip(fine, each.fine, strict=True)
     yield from curve(axes, [axes.place(float(u), float(v)) for u, v in both], each.kind, each.name)
@@ -777,5 +869,14 @@ def small_diagram(
                 yield LineMark(*ends, f"centre {each.kind}", at_position(each.name, name))
         yield LineMark(x, zero - 0.8, x, zero + 0.8, "dimension", f"position {name}")
         if len(names) <= MANY or int(name) % 2 == 0:
-            number = Text(x, zero + 3.2, name, "caption", SMALL, "middle", f"position {name}")
+            below = not np.interp(u, fine, each.fine) < 0  # away from the curve
+            number = Text(
+                x,
+                zero + (3.2 if below else -1.4),
+                name,
+                "caption",
+                SMALL,
+                "middle",
+                f"position {name}",
+            )
             yield from cleared(number)

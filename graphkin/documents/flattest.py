@@ -15,7 +15,6 @@ from graphkin.construction.core.program import Part
 from graphkin.construction.core.quantities import FORCE
 from graphkin.construction.higher_class.closed_group import ClosedGroup
 from graphkin.documents.sentences import sentences
-from graphkin.drawing.field import BELOW, TABLES
 from graphkin.drawing.marks import Mark, Text
 from graphkin.drawing.richtext import extent
 from graphkin.drawing.symbol_markup import without_index
@@ -24,8 +23,8 @@ HEIGHT = 1.8
 """Height of the lettering in mm."""
 APART = 2.5
 """Room in mm between this line and the text before it."""
-END = TABLES[0] - 22.0
-"""The right end of the line, in mm from the page's left edge, clear of the centring mark."""
+BESIDE = 22.0
+"""Distance in mm of the line's end from the title block, clear of the centring mark."""
 OWN = {
     "velocity": (Part.POSITION, Part.VELOCITY, Part.CENTRE),
     "acceleration": (Part.POSITION, Part.NORMAL, Part.ACCELERATION, Part.POLE),
@@ -44,6 +43,8 @@ def flattest_line(drawing: Drawing, start: float) -> Iterator[Mark]:
     worst = flattest(crossings_on(drawing))
     if worst is None:
         return
+    paper = drawing.paper
+    end = paper.left[2] if paper.is_leaf else paper.tables[0] - BESIDE
     forms = "page.flattest", "page.flattest_angle"
     for form, name in product(forms, names_of_crossing(drawing, worst)):
         text = drawing.words(
@@ -52,8 +53,8 @@ def flattest_line(drawing: Drawing, start: float) -> Iterator[Mark]:
             angle=drawing.words.fixed(degrees(worst.angle), 0),
             factor=drawing.words.significant(worst.factor, 2),
         )
-        if END - extent(text, HEIGHT)[0] >= start + APART:
-            yield Text(END, BELOW[3] + 0.8, text, "caption", HEIGHT, "end", name="flattest")
+        if end - extent(text, HEIGHT)[0] >= start + APART:
+            yield Text(end, paper.below[3] + 0.8, text, "caption", HEIGHT, "end", name="flattest")
             return
 
 

@@ -19,7 +19,7 @@ from graphkin.construction.core.relation import figure
 from graphkin.construction.forces.force_drawing import ForceDrawing, ForceExtents, ForceLayout
 from graphkin.construction.forces.lever import LeverPole
 from graphkin.construction.forces.polygon import InPolygon, PolygonStart, links_words
-from graphkin.drawing.field import AREA, Field, Rect
+from graphkin.drawing.field import Field, Rect
 from graphkin.drawing.labels import FieldContent
 from graphkin.drawing.marks import LineMark, Text
 from graphkin.drawing.richtext import extent
@@ -73,7 +73,7 @@ def laid_out(drawing: ForceDrawing, mechanism: Field) -> ForceDrawing:
 
     Raises PageError where the fields have no room.
     """
-    rect: Rect = (mechanism.rect[2], AREA[1], AREA[2], AREA[3])
+    rect = drawing.paper.beside(mechanism.rect)
     boxes, lever = drawing.extents
     cells = cells_of(drawing.extents)
     kF, rows = found(cells, rect)

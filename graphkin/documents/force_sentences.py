@@ -99,8 +99,8 @@ def forces_asked(drawing: Drawing) -> list[str]:
     for one, many, blocks in keys:
         names = [e for e in forces.reactions if (e in drawing.scene.links) is blocks]
         if names:
-            told = (escape(n) if blocks else symbol(lettered(n)) for n in names)
-            mentioned = words("list_mark").join(told)
+            symbols = (escape(n) if blocks else symbol(lettered(n)) for n in names)
+            mentioned = words("list_mark").join(symbols)
             found.append(words(many if len(names) > 1 else one, list=mentioned))
     if forces.balance:
         lever = isinstance(drawing, ForceDrawing) and drawing.extents.lever is not None

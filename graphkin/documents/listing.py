@@ -7,7 +7,7 @@ from itertools import product
 
 from graphkin.construction.core.drawn_scene import Drawing
 from graphkin.documents.sentences import sentences
-from graphkin.drawing.field import MARKED, Rect
+from graphkin.drawing.field import Rect
 from graphkin.drawing.marks import Mark, Text
 from graphkin.drawing.richtext import are_clear, flowed, words_of
 from graphkin.text.errors import Message, PageError, Problem, message
@@ -33,10 +33,11 @@ def listed(drawing: Drawing, x: float, y: float, width: float, bottom: float) ->
     Where characters of neighbouring lines would touch, lines are shortened, then the lettering is
     made smaller. Raises PageError where there are too many lines even in small lettering.
     """
-    for (height, most, least), less in product(LOOKS, SHORTER):
+    looks = [look for look in LOOKS if look[0] >= drawing.paper.smallest]
+    for (height, most, least), less in product(looks, SHORTER):
         flown = both_ways(drawing, x, width - less, height)
         for leading in distances(most, least):
-            lines = lined(*flown, int((MARKED[1] - y) / leading + 1))
+            lines = lined(*flown, int((drawing.paper.marked[1] - y) / leading + 1))
             if y + (len(lines) - 1) * leading <= bottom:
                 break
         else:
@@ -57,7 +58,7 @@ def first_part(
     """
     height, leading = LOOKS[0][0], PARTED
     wide, narrow = both_ways(drawing, x, width, height)
-    above = int((MARKED[1] - y) / leading + 1)
+    above = int((drawing.paper.marked[1] - y) / leading + 1)
     room = int((bottom - y) / leading)
     said = max(
         number
@@ -76,7 +77,10 @@ def both_ways(
     said = [words_of(sentence.markup) for sentence in sentences(drawing)]
     return (
         [flowed(words, " ", width - INDENT, height) for words in said],
-        [flowed(words, " ", min(width, MARKED[0] - x) - INDENT, height) for words in said],
+        [
+            flowed(words, " ", min(width, drawing.paper.marked[0] - x) - INDENT, height)
+            for words in said
+        ],
     )
 
 
@@ -98,7 +102,7 @@ def in_columns(drawing: Drawing, columns: Sequence[Rect], begun: int) -> list[Ma
     The first ``begun`` sentences are left out. Raises PageError where there are too many.
     """
     said = [words_of(sentence.markup) for sentence in sentences(drawing)]
-    for height, most, least in LOOKS:
+    for height, most, least in (x for x in LOOKS if x[0] >= drawing.paper.smallest):
         sets = [
             [flowed(words, " ", right - left - INDENT, height) for words in said]
             for left, _, right, _ in columns
@@ -155,8 +159,8 @@ def filled(
                 return marks, number
             y = columns[place][1]
         x = columns[place][0]
-        if told := numbers[number] if numbers else f"{number + 1}.":
-            marks.append(Text(x + 5, y, told, "caption", height, "end"))
+        if number_text := numbers[number] if numbers else f"{number + 1}.":
+            marks.append(Text(x + 5, y, number_text, "caption", height, "end"))
         for line in sets[place][number]:
             marks.append(Text(x + INDENT, y, line, "caption", height))
             y += leading

@@ -48,9 +48,11 @@ def position_sheets(found: PositionSet) -> Iterator[Made]:
 
 
 def diagram_sheets(found: PositionSet) -> Iterator[Made]:
-    """Differentiation and integration by chords, all that is asked, and the hodographs."""
+    """Differentiation and integration, courses of all that is asked, cams, and the hodographs."""
     from graphkin.documents.diagram_numbers import motion_of
     from graphkin.documents.diagrams_sheet import (
+        CHORDS,
+        TANGENTS,
         course_pages,
         differentiation_page,
         integration_page,
@@ -58,10 +60,16 @@ def diagram_sheets(found: PositionSet) -> Iterator[Made]:
 
     motion = motion_of(found)
     if motion is not None:
-        yield "differentiation", partial(differentiation_page, motion)
+        for method in (CHORDS, TANGENTS):
+            yield "differentiation", partial(differentiation_page, motion, method)
         yield "integration", partial(integration_page, motion)
     for page in course_pages(found, motion):
         yield "courses", page
+    if found.cycle.scene.cams:
+        from graphkin.documents.cam_law_sheet import cam_law_pages
+
+        for page in cam_law_pages(found):
+            yield "cams", page
     kL = at_scale(found).alone.scales.kL
     for kind in SHEETS:
         if found.planned(kind) and hodographs(found, kind):

@@ -103,7 +103,7 @@ def for_axes(
     mm, metres = 1000 / drawing.scales.kL, drawing.scales.metres(drawing.kind)
     body, plan = drawing.mechanism_extent(), drawing.plan_extent()
     larger = times(body, mm, width, height), times(plan, mm, width, height)
-    middle = with_poles(body, poles_of(drawing), mm * larger[0], width).middle
+    middle = with_poles(drawing.paper, body, poles_of(drawing), mm * larger[0], width).middle
     left = Field(rect, mm * larger[0], middle, centre(rect))
     right = Field(rect, mm * larger[1] * metres, plan.middle / metres, centre(rect))
     layout = Layout(left, right, {})

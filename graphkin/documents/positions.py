@@ -175,7 +175,7 @@ def positions_of(mechanism: Mechanism, words: Words) -> PositionSet:
         Position(name, u, alone, {})
         for (name, u), alone in zip(between, found[len(places) :], strict=True)
     )
-    own = moved.path.found_at(moved.sweep.stands, float(at[0]), float(at[-1]))
+    own = moved.path.found_at(moved.sweep.at_scene, float(at[0]), float(at[-1]))
     nearest = int(np.abs(at - own).argmin())
     strong = nearest if wanted.strong is None else wanted.strong
     return PositionSet(moved, wanted, numbered, dead, strong, travel, difference)
@@ -307,6 +307,7 @@ def plans_at(moved: Cycle, place: float, seconds: float, words: Words) -> dict[s
     """The plans that the scene asks for at a place, each constructed by hand."""
     piece, within = piece_at(moved, place)
     mechanism = Mechanism(piece.course.standing(within))
+    closed = piece.course.closed_at(within, mechanism.program)
     scales = Scales(1.0, seconds, of_crank=float(the_crank(moved.mechanism) > 0), triangles=False)
     nobody = Verdict(True, 0.0, "", 0.0, 0.0, 0.0)
     kinds = {kind: targets_of(mechanism, kind) for kind in SHEETS}
@@ -314,7 +315,9 @@ def plans_at(moved: Cycle, place: float, seconds: float, words: Words) -> dict[s
     try:
         for kind, targets in kinds.items():
             if targets:
-                trace = mechanism.trace(targets, by_hand=True, seconds=seconds, aside=False)
+                trace = mechanism.trace(
+                    targets, by_hand=True, seconds=seconds, aside=False, closed=closed
+                )
                 own = as_drawn(trace, triangles=False)
                 found[kind] = Drawing(kind, mechanism.scene, own, scales, nobody, words)
     except GraphkinError:

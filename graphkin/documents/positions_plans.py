@@ -26,11 +26,13 @@ from graphkin.documents.positions import (
     numbers_of,
 )
 from graphkin.documents.positions_sheet import (
-    FIELD,
     MANY,
     document,
+    field_on,
+    foot_line,
     framed,
     heading,
+    headline,
     placed,
     places_table,
     proof,
@@ -75,15 +77,23 @@ def plan_page(found: PositionSet, kind: str, kL: float, number: str) -> Page:
     words = drawing.words
     name = words(NAMES[kind])
     whole: list[Mark] = [
-        *framed(drawing, number, document(drawing, kind), caption_scale(drawing)),
         *heading(found, drawing, name),
-        *caption(drawing, one=one),
+        *caption(found, drawing, one=one),
         *marks,
-        LineMark(FIELD[0], FIELD[3], FIELD[2], FIELD[3], "panel"),
-        *places_table(found, found.numbered, [*told(found, kind), *exceptions(drawing, marks)]),
+        *foot_line(found),
+        *places_table(
+            found, found.numbered, [*scale_lines(found, kind), *exceptions(found, drawing, marks)]
+        ),
         *proof(found),
     ]
-    return Page(420, 297, tuple(whole), f"{name} – {title_of(drawing)}", words.language)
+    return framed(
+        drawing,
+        number,
+        document(drawing, kind),
+        caption_scale(drawing),
+        whole,
+        f"{name} – {title_of(drawing)}",
+    )
 
 
 def caption_scale(drawing: Drawing) -> str:
@@ -92,16 +102,16 @@ def caption_scale(drawing: Drawing) -> str:
     return f"{figure(drawing, scale_of(drawing, drawing.plane) / 1000)} {unit}"
 
 
-def caption(drawing: Drawing, *, one: bool) -> Iterator[Mark]:
+def caption(found: PositionSet, drawing: Drawing, *, one: bool) -> Iterator[Mark]:
     """The caption of the field: the scale of all plans, and where their poles are."""
     words = drawing.words
     k = figure(drawing, scale_of(drawing, drawing.plane) / 1000)
     said = words(f"page.{drawing.kind}_heading", k=k)
     pole = words("positions.one_pole" if one else "positions.own_poles")
-    yield Text(FIELD[0] + 3, FIELD[1] - 2.2, f"{said};  {pole}", "caption", 2.5, name="heading")
+    yield from headline(found, f"{said};  {pole}")
 
 
-def told(found: PositionSet, kind: str) -> list[str]:
+def scale_lines(found: PositionSet, kind: str) -> list[str]:
     """What the sheet says below its table: positions without a plan, kinds of components."""
     words = found.shown.alone.words
     some = {each.name for each in found.planned(kind)}
@@ -117,11 +127,12 @@ def told(found: PositionSet, kind: str) -> list[str]:
     return said
 
 
-def exceptions(drawing: Drawing, marks: Sequence[Mark]) -> Iterator[str]:
+def exceptions(found: PositionSet, drawing: Drawing, marks: Sequence[Mark]) -> Iterator[str]:
     """What the sheet says of plans at a scale of their own, and of vectors that are cut off."""
     if any(mark.name.startswith(f"{SCALE}_") for mark in marks):
         yield drawing.words("positions.own_scale")
-    edge = FIELD[0] + EDGE, FIELD[1] + EDGE, FIELD[2] - EDGE, above_foot(FIELD)[3]
+    left, top, right, _ = rect = field_on(found)
+    edge = left + EDGE, top + EDGE, right - EDGE, above_foot(rect)[3]
     ends = [(m.x2, m.y2) for m in marks if isinstance(m, LineMark) and BRIEF in m.cls]
     if any(abs(at[i % 2] - side) < 1e-6 for at in ends for i, side in enumerate(edge)):
         yield drawing.words("positions.cut_off")
@@ -176,23 +187,30 @@ def box_of_plan(drawing: Drawing) -> Extent:
 
 
 class PlanGrid(Struct, frozen=True):
-    """A division of the field into cells: columns, rows, and mm for one unit of the plans."""
+    """A division of a field into cells: columns, rows, and mm for one unit of the plans."""
 
+    rect: Rect
     columns: int
     rows: int
     most: float
 
+    @property
+    def cell_size(self) -> tuple[float, float]:
+        """The width and the height of a cell, in mm."""
+        left, top, right, low = self.rect
+        return (right - left) / self.columns, (low - top) / self.rows
+
     def coarser(self, box: Extent, mm: float) -> float:
         """How many times smaller a plan must be drawn than the usual ones: 1, 2, 5, 10 …"""
-        wide, high = (FIELD[2] - FIELD[0]) / self.columns, (FIELD[3] - FIELD[1]) / self.rows
+        wide, high = self.cell_size
         across, upright = wide - 2 * SIDE, high - ABOVE - BELOW
         return next(preferred(max(box.width * mm / across, box.height * mm / upright, 1.0)))
 
     def cell(self, index: int) -> Rect:
         """The cell of a plan, row by row."""
         row, column = divmod(index, self.columns)
-        wide, high = (FIELD[2] - FIELD[0]) / self.columns, (FIELD[3] - FIELD[1]) / self.rows
-        left, top = FIELD[0] + column * wide, FIELD[1] + row * high
+        wide, high = self.cell_size
+        left, top = self.rect[0] + column * wide, self.rect[1] + row * high
         return left, top, left + wide, top + high
 
 
@@ -202,13 +220,16 @@ def usual(boxes: Sequence[Extent]) -> list[Extent]:
     return [box for box in boxes if box.diagonal <= most] or list(boxes)
 
 
-def grid_for(boxes: Sequence[Extent], deciding: Sequence[Extent] | None = None) -> PlanGrid:
+def grid_for(
+    rect: Rect, boxes: Sequence[Extent], deciding: Sequence[Extent] | None = None
+) -> PlanGrid:
     """The division in which the largest of the deciding plans is drawn largest."""
     some = boxes if deciding is None else deciding
     found = []
     for columns in range(1, len(boxes) + 1):
         rows = ceil(len(boxes) / columns)
-        wide, high = (FIELD[2] - FIELD[0]) / columns, (FIELD[3] - FIELD[1]) / rows
+        grid = PlanGrid(rect, columns, rows, 1.0)
+        wide, high = grid.cell_size
         if min(wide, high) < LEAST:
             continue
         sides = [
@@ -220,7 +241,7 @@ def grid_for(boxes: Sequence[Extent], deciding: Sequence[Extent] | None = None) 
             )
             if size > 0
         ]
-        found.append(PlanGrid(columns, rows, min(sides, default=1.0)))
+        found.append(replace(grid, most=min(sides, default=1.0)))
     return max(found, key=lambda grid: grid.most)
 
 
@@ -229,7 +250,7 @@ def from_own_poles(
 ) -> tuple[Scales, list[Mark]]:
     """The plans in a grid, each from its own pole with the letters of its points."""
     boxes = [box_of_plan(each.plans[kind]) for each in some]
-    grid = grid_for(boxes, usual(boxes))
+    grid = grid_for(field_on(found), boxes, usual(boxes))
     scales = fitted(found, kind, kL, grid.most)
     numbers = dict(zip((e.name for e in found.every), numbers_of(found), strict=True))
     marks: list[Mark] = [*lines(grid, len(some))]
@@ -305,17 +326,18 @@ def from_one_pole(
     curves = hodographs(found, kind)
     boxes = usual([box_of_plan(each.plans[kind]) for each in some])
     box = extent_of([corner for each in boxes for corner in corners(each)])
-    wide, high = FIELD[2] - FIELD[0] - 4 * SIDE, FIELD[3] - FIELD[1] - 2 * ABOVE
+    left, top, right, low = rect = field_on(found)
+    wide, high = right - left - 4 * SIDE, low - top - 2 * ABOVE
     scales = fitted(found, kind, kL, min(wide / (box.width or 1), high / (box.height or 1)))
-    field = Field(FIELD, rates(scales, kind), box.middle, centre(FIELD))
-    board = FieldContent(FIELD)
+    field = Field(rect, rates(scales, kind), box.middle, centre(rect))
+    board = FieldContent(rect)
     for name, curve in curves.items():
         on_page = [field(place) for place in curve]
-        board.marks += clipped_path(on_page, FIELD, "trajectory", f"hodograph {name}")
+        board.marks += clipped_path(on_page, rect, "trajectory", f"hodograph {name}")
     pole = field(0j)
     for each in (each for each in some if each.name != strong.name):
         for name, tip in points[each.name].items():
-            if part := clipped(pole, field(tip), above_foot(FIELD)):
+            if part := clipped(pole, field(tip), above_foot(rect)):
                 own = f"{kind} {BRIEF}", at_position(name, each.name)
                 board.marks.append(LineMark(*part[0], *part[1], *own))
     whole = bare_plan(replace(strong.plans[kind], scales=scales), field)
@@ -394,7 +416,7 @@ def hodograph_page(found: PositionSet, kind: str, kL: float, number: str) -> Pag
         tips[point] = [(each, tip) for each, tip in tips[point] if abs(tip) <= most]
         curves[point] = tuple(tip for tip in curve if abs(tip) <= most)
     boxes = [extent_of([0j, *curves[point], *(z for _, z in tips[point])]) for point in curves]
-    grid = grid_for(boxes)
+    grid = grid_for(field_on(found), boxes)
     scales = fitted(found, kind, kL, grid.most)
     drawing = replace(some[0].plans[kind], scales=scales)
     words = drawing.words
@@ -406,22 +428,22 @@ def hodograph_page(found: PositionSet, kind: str, kL: float, number: str) -> Pag
         marks += hodograph(drawing, field, point, curve, tips[point])
     name = words("sheet.hodographs")
     whole: list[Mark] = [
-        *framed(drawing, number, words("sheet.hodographs"), caption_scale(drawing)),
         *heading(found, drawing, name),
-        *hodograph_caption(drawing),
+        *hodograph_caption(found, drawing),
         *marks,
-        LineMark(FIELD[0], FIELD[3], FIELD[2], FIELD[3], "panel"),
+        *foot_line(found),
         *places_table(found, found.numbered, []),
         *proof(found),
     ]
-    return Page(420, 297, tuple(whole), f"{name} – {title_of(drawing)}", words.language)
+    title = f"{name} – {title_of(drawing)}"
+    return framed(drawing, number, name, caption_scale(drawing), whole, title)
 
 
-def hodograph_caption(drawing: Drawing) -> Iterator[Mark]:
+def hodograph_caption(found: PositionSet, drawing: Drawing) -> Iterator[Mark]:
     """The caption of the field: the scale of the vectors."""
     k = figure(drawing, scale_of(drawing, drawing.plane) / 1000)
     said = drawing.words(HODOGRAPHS[drawing.kind], k=k)
-    yield Text(FIELD[0] + 3, FIELD[1] - 2.2, said, "caption", 2.5, name="heading")
+    yield from headline(found, said)
 
 
 def hodograph(

@@ -35,10 +35,10 @@ from graphkin.documents.positions import (
     is_whole,
     numbers_of,
 )
-from graphkin.documents.sheet import in_lines, in_table, title_block, title_line, title_of
+from graphkin.documents.sheet import caption as heading_of_field
+from graphkin.documents.sheet import in_lines, in_table, page_in, title_block, title_line, title_of
 from graphkin.drawing.clearance import pieces_of
-from graphkin.drawing.field import A3_TITLE_BLOCK, AREA, XY, Field, Rect
-from graphkin.drawing.frame import sheet_frame
+from graphkin.drawing.field import XY, Field, Rect
 from graphkin.drawing.labels import FieldContent, Label
 from graphkin.drawing.marks import (
     Arc,
@@ -49,6 +49,7 @@ from graphkin.drawing.marks import (
     Text,
     box,
     polygon,
+    reach,
     style_class,
 )
 from graphkin.drawing.richtext import flowed
@@ -60,8 +61,6 @@ from graphkin.motion.follower_limits import Follower
 from graphkin.scene.model import FRAME
 from graphkin.text.errors import PageError
 
-FIELD: Rect = (AREA[0], AREA[1], AREA[2], A3_TITLE_BLOCK[1] - 2)
-"""The field of the mechanism in all positions, in mm."""
 AROUND, OVER = 22.0, 17.0
 """Room at the sides of the drawing, and above and below it, for numbers and the stroke, in mm."""
 DOT, FINE_DOT = 0.7, 0.5
@@ -95,26 +94,39 @@ def positions_page(found: PositionSet, number: str) -> Page:
     letters = [*placed(board, [], board.labels)]
     numerals = [*placed(board, letters, numbers)]
     marks: list[Mark] = [
-        *framed(
-            drawing, number, document(drawing, "mechanism"), words.decimal(drawing.scales.words)
-        ),
         *heading(found, drawing, words("sheet.positions")),
         *caption(found, drawing),
         *board.marks,
         *letters,
         *numerals,
-        LineMark(FIELD[0], FIELD[3], FIELD[2], FIELD[3], "panel"),
+        *foot_line(found),
         *places_table(found, found.every, legend(found, whole=is_whole_set(numbers, numerals))),
         *proof(found),
     ]
     title = f"{title_of(drawing)} – {words('sheet.positions')}"
-    return Page(420, 297, tuple(marks), title, words.language)
+    kind, scale = document(drawing, "mechanism"), words.decimal(drawing.scales.words)
+    return framed(drawing, number, kind, scale, marks, title)
 
 
-def framed(drawing: Drawing, number: str, document: str, scale: str) -> Sequence[Mark]:
-    """The frame of a sheet, with the type of document and the scale in its title block."""
+def framed(
+    drawing: Drawing, number: str, document: str, scale: str, marks: Sequence[Mark], title: str
+) -> Page:
+    """A sheet with one field, with the type of document and the scale in its title block."""
     block = title_block(drawing, "positions", number)
-    return sheet_frame(replace(block, document_type=document, scale=scale))
+    block = replace(block, document_type=document, scale=scale)
+    paper = drawing.paper.leaf
+    return page_in(paper, drawing, block, marks, title, paper.single)
+
+
+def field_on(found: PositionSet) -> Rect:
+    """The field of a sheet of a whole motion, in mm."""
+    return found.shown.alone.paper.leaf.single
+
+
+def foot_line(found: PositionSet) -> Iterator[Mark]:
+    """The line below the field."""
+    left, _, right, low = field_on(found)
+    yield LineMark(left, low, right, low, "panel")
 
 
 def document(drawing: Drawing, kind: str) -> str:
@@ -126,9 +138,12 @@ def heading(found: PositionSet, drawing: Drawing, name: str) -> list[Mark]:
     """The title of a sheet and the data of the mechanism, as far as they have room."""
     own = replace(drawing, scene=found.cycle.scene)
     marks, x, y = title_line(own, named=name)
+    paper = drawing.paper
+    if paper.is_parted:
+        marks = [mark for mark in marks if reach(mark)[2] < paper.across]
     given = data(own, solved=False, laws=True)
     try:
-        return [*marks, *(in_table(given, x, y) or in_lines(own, given, x, y, float))]
+        return [*marks, *(in_table(paper, given, x, y) or in_lines(own, given, x, y, float))]
     except PageError:
         return marks
 
@@ -137,7 +152,8 @@ def proof(found: PositionSet) -> Iterator[Mark]:
     """The sentence of the residual check at the foot of a sheet."""
     words = found.shown.alone.words
     text = words("page.verified", difference=words.significant(found.difference, 2))
-    yield Text(AREA[0] + 2, A3_TITLE_BLOCK[3] - 1.2, text, "caption", 1.8, name="witness")
+    left, _, _, low = found.shown.alone.paper.leaf.notes
+    yield Text(left - 2, low - 1.2, text, "caption", 1.8, name="witness")
 
 
 # --- scale and field ------------------------------------------------------------------------------
@@ -153,7 +169,8 @@ def box_of(found: PositionSet) -> Extent:
 def at_scale(found: PositionSet) -> Position:
     """The strong position at the largest preferred scale at which all positions fit."""
     whole = box_of(found)
-    wide, high = FIELD[2] - FIELD[0] - 2 * AROUND, FIELD[3] - FIELD[1] - 2 * OVER
+    left, top, right, low = field_on(found)
+    wide, high = right - left - 2 * AROUND, low - top - 2 * OVER
     least = 1000 * max(whole.width / wide, whole.height / high)
     kL = next(preferred_scales(least))
     stated = found.cycle.scene.sheet.scale
@@ -164,7 +181,8 @@ def at_scale(found: PositionSet) -> Position:
 
 def field_of(found: PositionSet, drawing: Drawing) -> Field:
     """The field of the mechanism, with all positions in its middle."""
-    return Field(FIELD, 1000 / drawing.scales.kL, box_of(found).middle, centre(FIELD))
+    rect = field_on(found)
+    return Field(rect, 1000 / drawing.scales.kL, box_of(found).middle, centre(rect))
 
 
 def caption(found: PositionSet, drawing: Drawing) -> Iterator[Mark]:
@@ -175,7 +193,12 @@ def caption(found: PositionSet, drawing: Drawing) -> Iterator[Mark]:
     said = words("page.mechanism_heading", scale=scale, kL=kL)
     more = words("positions.strong", number=found.shown.name, count=count)
     text = f"{said};  {more}"
-    yield Text(FIELD[0] + 3, FIELD[1] - 2.2, text, "caption", 2.5, name="heading")
+    yield from headline(found, text)
+
+
+def headline(found: PositionSet, said: str) -> list[Mark]:
+    """The caption of the field of a sheet of a whole motion."""
+    return heading_of_field(said, field_on(found), 2.5)
 
 
 # --- the mechanism in all positions ---------------------------------------------------------------
@@ -502,10 +525,8 @@ def dimension(
 # --- the places of the driver in a table ----------------------------------------------------------
 
 
-ROW, FIRST, LEFT = 4.6, 26.0, AREA[0] + 4
-"""Height of a row, width of its head, and the left end of the table, in mm."""
-RIGHT, TOP = A3_TITLE_BLOCK[0] - 4, A3_TITLE_BLOCK[1] + 4
-"""The right end of the table and its upper end, in mm."""
+ROW, FIRST = 4.6, 26.0
+"""Height of a row and width of its head, in mm."""
 IN_ROW = 16
 """The most positions in one row of the table."""
 
@@ -515,6 +536,8 @@ def places_table(
 ) -> Iterator[Mark]:
     """The numbers of some positions above the places of the driver there, and sentences below."""
     words, sweep = found.shown.alone.words, found.cycle.sweep
+    left, top, right, _ = found.shown.alone.paper.leaf.notes
+    top += 4
     unit = "°" if sweep.what == "turn" else sweep.original.units["length"]
     if sweep.driver is None:
         head_of = "*t* (s)"
@@ -524,27 +547,27 @@ def places_table(
     names, values = [each.name for each in some], numbers_of(found)
     count = -(-len(names) // IN_ROW)
     per = -(-len(names) // count)
-    width = (RIGHT - LEFT - FIRST) / per
+    width = (right - left - FIRST) / per
     for k in range(count):
         row = slice(k * per, (k + 1) * per)
-        top = TOP + k * (2 * ROW + 1.5)
+        begin = top + k * (2 * ROW + 1.5)
         rows = ((words("positions.number"), names[row]), (head_of, values[row]))
-        right = LEFT + FIRST + width * len(names[row])
-        yield box(LEFT, top, right - LEFT, ROW, "shade")
+        end = left + FIRST + width * len(names[row])
+        yield box(left, begin, end - left, ROW, "shade")
         for i, (first, texts) in enumerate(rows):
-            base = top + i * ROW + ROW - 1.3
-            yield Text(LEFT + 1.5, base, first, "table", 2.5, name="positions")
+            base = begin + i * ROW + ROW - 1.3
+            yield Text(left + 1.5, base, first, "table", 2.5, name="positions")
             for j, text in enumerate(texts):
-                x = LEFT + FIRST + width * (j + 0.5)
+                x = left + FIRST + width * (j + 0.5)
                 height = 2.5 if width > 11 else 1.8
                 yield Text(x, base, text, "table", height, "middle", "positions")
         for i in range(3):
-            yield LineMark(LEFT, top + i * ROW, right, top + i * ROW, "panel")
-        for x in (LEFT, *(LEFT + FIRST + width * j for j in range(len(names[row]) + 1))):
-            yield LineMark(x, top, x, top + 2 * ROW, "panel")
-    low = TOP + count * (2 * ROW + 1.5) + 3.5
-    for i, line in enumerate(flowed(said, "; ", RIGHT - LEFT, 2.5)):
-        yield Text(LEFT, low + 4.2 * i, line, "caption", 2.5, name="legend")
+            yield LineMark(left, begin + i * ROW, end, begin + i * ROW, "panel")
+        for x in (left, *(left + FIRST + width * j for j in range(len(names[row]) + 1))):
+            yield LineMark(x, begin, x, begin + 2 * ROW, "panel")
+    low = top + count * (2 * ROW + 1.5) + 3.5
+    for i, line in enumerate(flowed(said, "; ", right - left, 2.5)):
+        yield Text(left, low + 4.2 * i, line, "caption", 2.5, name="legend")
 
 
 def mark_on_cam(found: PositionSet) -> Iterator[bool]:

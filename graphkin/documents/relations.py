@@ -18,10 +18,10 @@ from graphkin.construction.core.drawn_scene import NOISE, Drawing
 from graphkin.construction.core.given_data import given
 from graphkin.construction.core.kind import GivenVector, construction
 from graphkin.construction.core.link_poses import Disc
-from graphkin.construction.core.naming import drawn_in, scale_of
+from graphkin.construction.core.naming import drawn_in, scale_of, sense
 from graphkin.construction.core.plan_vector import plan_vector, sign_of
 from graphkin.construction.core.program import Part, Step
-from graphkin.construction.core.quantities import BY_TARGET, FORCE, Whose
+from graphkin.construction.core.quantities import BY_TARGET, FORCE, Whose, names_asked
 from graphkin.construction.core.relation import (
     Relation,
     answer,
@@ -29,6 +29,7 @@ from graphkin.construction.core.relation import (
     length_laid_off,
     length_of,
     put_in,
+    value_of,
 )
 from graphkin.construction.core.segments import segment_of
 from graphkin.construction.drivers.driven_slide import DrivenSlide
@@ -38,11 +39,13 @@ from graphkin.construction.higher_class.two_trials import of_trials
 from graphkin.construction.links.plate_points import of_rolled_turns
 from graphkin.construction.rate_relations import by_radius, of_slides, of_sum, of_turning
 from graphkin.construction.registry import ALSO_READ, COMPONENTS
+from graphkin.construction.result_tables import slide_sense, slides_asked
 from graphkin.construction.vector_equations import is_laid_off, of_equations
 from graphkin.construction.velocity.turned_velocity import TurnedVelocity
 from graphkin.drawing.symbol_markup import bar, escape, symbol
 from graphkin.numbers.plane import Ratio, Vector
 from graphkin.scene.findings import natural
+from graphkin.scene.link_points import lettered
 from graphkin.scene.model import FRAME, Driver, Scene, lengths_of
 from graphkin.structure.decomposition import decompose
 from graphkin.structure.driver_count import count
@@ -170,8 +173,8 @@ def of_lengths(drawing: Drawing, bars: Sequence[Bar]) -> tuple[Section, Section]
     drawing the mechanism, are known already.
     """
     radii, measured = [], []
-    told = (*told_bars(drawing.scene.bare), *laid_bars(drawing))
-    known = {ends_on(drawing, *ends) for ends in told}
+    given = (*dimensioned_bars(drawing.scene.bare), *laid_bars(drawing))
+    known = {ends_on(drawing, *ends) for ends in given}
     alike: dict[frozenset[complex], list[Bar]] = {}
     for ends in bars:
         alike.setdefault(ends_on(drawing, *ends), []).append(ends)
@@ -204,7 +207,7 @@ def wheel_about(drawing: Drawing, places: frozenset[complex]) -> tuple[Disc, int
     return None
 
 
-def told_bars(scene: Scene) -> Iterator[Bar]:
+def dimensioned_bars(scene: Scene) -> Iterator[Bar]:
     """The ends of the bars whose lengths the data give, driven cylinders included."""
     for link in scene.every_link:
         for placing in link.placings:
@@ -322,7 +325,7 @@ def laid_off_length(drawing: Drawing, step: Step, value: Vector) -> Relation:
     return Relation(
         segment_of(drawing, step),
         drawing.in_signs(f"{drawing.symbol(vector.symbol)}/*k*_{drawing.vector.letter}"),
-        "/".join(put_in(drawing, drawn, truediv, size, scale, told=length_laid_off)),
+        "/".join(put_in(drawing, drawn, truediv, size, scale, shown_as=length_laid_off)),
         drawn,
         "mm",
         drawing.words("calculation.drawn"),
@@ -388,6 +391,29 @@ def of_centres(drawing: Drawing, whose: Whose = "links") -> Iterator[Relation]:
             kind = construction(step)
             yield from kind.equations(drawing, step.role) if kind is not None else ()
             yield replace(of_place(drawing, drawing.symbol(step.name), point), blank=blank)
+
+
+def answers(drawing: Drawing) -> Iterator[Relation]:
+    """What [ask] asks of the motion on a sheet, without how it follows."""
+    words, vector = drawing.words, drawing.vector
+    for point in names_asked(drawing.scene.ask, vector):
+        value = drawing.trace.value(vector.target, point)
+        if value is not None:
+            size = drawing.settled(abs(value))
+            shown = value_of(words, size, drawn_in(drawing, drawing.plane, size))
+            name = drawing.symbol(f"{vector.letter}_{lettered(point)}")
+            yield Relation(name, result=shown, unit=vector.caret_unit)
+    for link in names_asked(drawing.scene.ask, drawing.rate):
+        if (rate := drawing.turning(link)) is not None:
+            name = drawing.symbol(drawing.turning_name(link))
+            way, unit = sense(words, rate) if rate else "", drawing.rate.caret_unit
+            yield Relation(name, result=words.significant(abs(rate)), unit=unit, remark=way)
+    for block, slid, value in slides_asked(drawing):
+        size = drawing.settled(abs(value))
+        way = slide_sense(drawing, block, value) if size else ""
+        yield Relation(slid, result=words.significant(size), unit=vector.caret_unit, remark=way)
+    for whose in ("links", "points"):
+        yield from (place for place in of_centres(drawing, whose) if place.blank)
 
 
 def owners_of(drawing: Drawing) -> dict[int, Whose]:

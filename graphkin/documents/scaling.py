@@ -14,6 +14,7 @@ from graphkin.construction.core.program import PLACES, SPEEDS, Target
 from graphkin.construction.core.quantities import OMEGA, SHEETS, is_found_on
 from graphkin.construction.core.solution import UNPROVED, Curve, Solution, Verdict, gathered
 from graphkin.documents.composing import Needs, Search, Stated, searched_scales
+from graphkin.drawing.field import paper_of
 from graphkin.drawing.scale import Extent, Scales, digits, extent_of, preferred
 from graphkin.mechanism import Mechanism
 from graphkin.numbers.arithmetic import np
@@ -108,9 +109,11 @@ def stated_of(sheet: Sheet, values: Mapping[str, Any], count: int, *kind: Any) -
 
     once = [[1.0 if sheet.rule == "lab" else 0.0] * count]
     times = [numbers(each) for each in sheet.enlarge] or once
+    paper = paper_of(sheet.paper, sheet.frame)
     columns = zip(numbers(sheet.scale), numbers(sheet.ka), times[0], times[-1], strict=True)
     return [
-        Stated(kL, {SHEETS[0]: m, SHEETS[1]: n}, 1000 * ka, sheet.steps) for kL, ka, m, n in columns
+        Stated(kL, {SHEETS[0]: m, SHEETS[1]: n}, 1000 * ka, sheet.steps, paper)
+        for kL, ka, m, n in columns
     ]
 
 

@@ -25,7 +25,7 @@ from graphkin.construction.links.mechanism_symbols import (
     draw_pins,
     draw_plates,
 )
-from graphkin.drawing.field import SCHEME, XY, Field
+from graphkin.drawing.field import XY, Field
 from graphkin.drawing.labels import FieldContent, Label, segment_of
 from graphkin.drawing.marks import Mark, Text, reach, scaled
 from graphkin.numbers.arithmetic import FLOAT
@@ -55,7 +55,7 @@ COMMON = 0.25
 def scheme(drawing: Drawing) -> list[Mark]:
     """The scheme with its title; without link numbers, or empty, where letters find no room."""
     moved = elsewhere(drawing)
-    left, top = SCHEME[:2]
+    left, top = drawing.paper.scheme[:2]
     title = Text(left, top - 2.0, drawing.words("task.scheme"), "caption", 2.5, name="scheme")
     for numbered in (True, False):
         board = drawn(moved, numbered=numbered)
@@ -72,8 +72,10 @@ def scheme(drawing: Drawing) -> list[Mark]:
 def drawn(drawing: Drawing, *, numbered: bool) -> FieldContent:
     """The mechanism with its symbols in the middle of the scheme's field."""
     box = drawing.mechanism_extent()
-    sides = [room / side for room, side in zip(SIZE, (box.width, box.height), strict=True) if side]
-    field = Field(SCHEME, min(sides, default=1.0), box.middle, centre(SCHEME))
+    own = drawing.paper.scheme
+    size = own[2] - own[0] - 16.0, own[3] - own[1] - 21.0
+    sides = [room / side for room, side in zip(size, (box.width, box.height), strict=True) if side]
+    field = Field(own, min(sides, default=1.0), box.middle, centre(own))
     solid = [reach(m) for m in symbols(drawing, field).marks if m.cls != "centre-line"]
     lefts, tops, rights, lows = zip(*solid, strict=True)
     shift = [
@@ -83,7 +85,7 @@ def drawn(drawing: Drawing, *, numbered: bool) -> FieldContent:
         )
     ]
     board = symbols(drawing, replace(field, at=(field.at[0] + shift[0], field.at[1] + shift[1])))
-    board.marks = [*within(board.marks, SCHEME)]
+    board.marks = [*within(board.marks, own)]
     if not numbered:
         board.labels = [label for label in board.labels if not label.ring]
     return board

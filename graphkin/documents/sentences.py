@@ -38,14 +38,16 @@ class IndexNote(NamedTuple):
 
 def with_indices(drawing: Drawing, found: Sequence[Sentence]) -> list[Sentence]:
     """The sentences; the first with an index of some kind explains it in brackets."""
-    told, kinds, every = list(found), set[str](), list(explained(drawing))
+    explained_once, kinds, every = list(found), set[str](), list(explained(drawing))
     for place, sentence in enumerate(found):
         for each in every:
             if each.kind not in kinds and each.names & names_in(sentence.markup):
                 kinds.add(each.kind)
                 note = drawing.words(f"step.index-{each.kind}", **each.fields)
-                told[place] = replace(told[place], markup=told[place].markup + f" ({note})")
-    return told
+                explained_once[place] = replace(
+                    explained_once[place], markup=explained_once[place].markup + f" ({note})"
+                )
+    return explained_once
 
 
 def explained(drawing: Drawing) -> Iterator[IndexNote]:

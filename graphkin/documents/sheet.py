@@ -1,4 +1,4 @@
-"""An A3 sheet: mechanism and plan side by side, data above, construction and tables below."""
+"""A sheet: mechanism and plan side by side, data above, construction and tables below."""
 
 from __future__ import annotations
 
@@ -39,7 +39,7 @@ from graphkin.documents.listing import first_part, listed
 from graphkin.documents.scheme import scheme
 from graphkin.documents.sentences import sentences
 from graphkin.documents.signs import mechanism_signs, plan_signs
-from graphkin.drawing.field import A3_AREA, A3_TITLE_BLOCK, AREA, BELOW, SCHEME, TABLES, Rect
+from graphkin.drawing.field import Rect, SheetPaper
 from graphkin.drawing.frame import (
     CELLS,
     STUDENT,
@@ -50,7 +50,17 @@ from graphkin.drawing.frame import (
     wrapped,
 )
 from graphkin.drawing.labels import FieldContent, FootNote, Label, at_bare_stretches, segment_of
-from graphkin.drawing.marks import LineMark, Mark, Page, Picture, Text, box, reach, style_class
+from graphkin.drawing.marks import (
+    LineMark,
+    Mark,
+    Page,
+    Picture,
+    Text,
+    box,
+    moved,
+    reach,
+    style_class,
+)
 from graphkin.drawing.richtext import are_clear, extent, flowed, words_of
 from graphkin.drawing.style import VECTORS
 from graphkin.drawing.symbol_markup import bar, escape, symbol
@@ -183,8 +193,8 @@ AIR = 1.0
 SHORTER = (0.0, *range(4, 49, 4))
 """Reductions of line width tried in mm, until no characters touch."""
 
-LOWEST = AREA[1] - 7.2
-"""The baseline of the lowest line in mm; below it are the captions, in two lines if necessary."""
+UNDER = 7.2
+"""Distance of the lowest line from the fields in mm: captions, in two lines if necessary."""
 
 
 def data_heading(
@@ -201,10 +211,10 @@ def data_heading(
         found = force_data(drawing, solved=view != "task")
     else:
         found = data(drawing, solved=view != "task", laws=True)
-    return in_table(found, x, y) or in_lines(drawing, found, x, y, spare)
+    return in_table(drawing.paper, found, x, y) or in_lines(drawing, found, x, y, spare)
 
 
-def in_table(found: Sequence[Datum], x: float, y: float) -> list[Mark]:
+def in_table(paper: SheetPaper, found: Sequence[Datum], x: float, y: float) -> list[Mark]:
     """A table of the values with the other data next to it; empty where there is no room."""
     valued = [datum for datum in found if datum.value]
     said = [datum.remark for datum in found if datum.remark]
@@ -215,10 +225,10 @@ def in_table(found: Sequence[Datum], x: float, y: float) -> list[Mark]:
     rows = [
         row_for([getattr(datum, part) for datum in valued]) for part in ("name", "value") if valued
     ]
-    if y - ABOVE + sum(height for height, _ in rows) > LOWEST:
+    if y - ABOVE + sum(height for height, _ in rows) > lowest(paper):
         return []
     left = x + sum(widths) + GAP
-    room = AREA[2] - 3 - left
+    room = paper.left[2] - 3 - left
     if not valued or room < max((extent(piece, LETTERS)[0] for piece in said), default=0.0):
         return []
     lines = flowed(said, "; ", room, LETTERS)
@@ -249,14 +259,14 @@ def ruled(
     top: float,
 ) -> Iterator[Mark]:
     """The table: names above values, in rows of a height with their baselines."""
-    (upper, named), (lower, told) = rows
+    (upper, named), (lower, below) = rows
     middle, low, right = top + upper, top + upper + lower, x + sum(widths)
     yield box(x, top, right - x, upper, "shade")
     for y in (top, middle, low):
         yield LineMark(x, y, right, y, "panel")
     yield LineMark(x, top, x, low, "panel")
     for datum, width in zip(valued, widths, strict=True):
-        for y, markup in ((top + named, datum.name), (middle + told, datum.value)):
+        for y, markup in ((top + named, datum.name), (middle + below, datum.value)):
             yield Text(x + width / 2, y, markup, "table", LETTERS, "middle", NAME)
         x += width
         yield LineMark(x, top, x, low, "panel")
@@ -273,11 +283,12 @@ def in_lines(
     """
     first, *pieces = (datum.said for datum in found)
     pieces = [f"{drawing.words('page.data')}: {first}", *pieces]
-    width = AREA[2] - x - 3
+    paper = drawing.paper
+    width = paper.left[2] - x - 3
     parted = words_of("; ".join(pieces))
-    for i, (height, leading, room) in enumerate(looks(y, spare)):
-        for told, mark in ((pieces, "; "), (parted, " "))[: 1 + (i > 1)]:
-            lines = spread(told, mark, width, height, leading)
+    for i, (height, leading, room) in enumerate(looks(lowest(paper) - y, spare)):
+        for parts, mark in ((pieces, "; "), (parted, " "))[: 1 + (i > 1)]:
+            lines = spread(parts, mark, width, height, leading)
             if len(lines) <= room and all(extent(line, height)[0] <= width for line in lines):
                 return [
                     Text(x, y + row * leading, line, "caption", height, name=NAME)
@@ -294,31 +305,37 @@ def in_lines(
 
 
 def spread(
-    told: Sequence[str], mark: str, width: float, height: float, leading: float
+    parts: Sequence[str], mark: str, width: float, height: float, leading: float
 ) -> list[str]:
     """Pieces in lines of at most a width, chosen so that their characters are clear if possible."""
-    every = (flowed(told, mark, width - less, height) for less in SHORTER)
+    every = (flowed(parts, mark, width - less, height) for less in SHORTER)
     first = next(every)
     return next((lines for lines in (first, *every) if are_clear(lines, height, leading)), first)
 
 
-def looks(y: float, spare: Callable[[], float]) -> Iterator[tuple[float, float, int]]:
-    """The possible forms of lines from a baseline on: letters, distance in mm, number of lines.
+def lowest(paper: SheetPaper) -> float:
+    """The baseline of the lowest line of data in mm."""
+    return paper.fields[1] - UNDER
+
+
+def looks(room: float, spare: Callable[[], float]) -> Iterator[tuple[float, float, int]]:
+    """The possible forms of lines in a room above the captions: letters, distance in mm, number.
 
     First the preferred form, then lines down to the drawings, then small lettering.
     """
     yield LETTERS, SPACED, 2
-    yield LETTERS, CLOSE, rows(LOWEST - y, CLOSE)
+    yield LETTERS, CLOSE, rows(room, CLOSE)
     free = spare() - AIR
-    yield LETTERS, CLOSE, rows(LOWEST + free - y, CLOSE)
-    yield from ((SMALL, leading, rows(LOWEST - y, leading)) for leading in NEAR)
-    yield SMALL, NEAR[1], rows(LOWEST + free - y, NEAR[1])
+    yield LETTERS, CLOSE, rows(room + free, CLOSE)
+    yield from ((SMALL, leading, rows(room, leading)) for leading in NEAR)
+    yield SMALL, NEAR[1], rows(room + free, NEAR[1])
 
 
-def height_beyond(marks: Sequence[Mark]) -> float:
+def height_beyond(paper: SheetPaper, marks: Sequence[Mark]) -> float:
     """The extra height of data beyond the room above the fields, in mm."""
     low = max((mark.y for mark in marks if isinstance(mark, Text)), default=0.0)
-    return low - LOWEST + AIR if low > LOWEST else 0.0
+    beyond = low - lowest(paper)
+    return beyond + AIR if beyond > 0 else 0.0
 
 
 def rows(height: float, leading: float) -> int:
@@ -332,11 +349,11 @@ def rows(height: float, leading: float) -> int:
 def members(drawing: Drawing) -> str:
     """The links by their numbers and the points that they join, as in a task."""
     words, scene = drawing.words, drawing.scene.bare
-    told = [f"{escape(name)} = {of_link(words, link)}" for name, link in scene.links.items()]
+    links = [f"{escape(name)} = {of_link(words, link)}" for name, link in scene.links.items()]
     for centre, follower in scene.cam_centres.items():
         cam = escape(scene.cams[follower].on)
-        told.append(words("page.member_centre", point=drawing.symbol(centre), g=cam))
-    return words("page.members", list=words("list_mark").join(told))
+        links.append(words("page.member_centre", point=drawing.symbol(centre), g=cam))
+    return words("page.members", list=words("list_mark").join(links))
 
 
 def of_link(words: Words, link: Link) -> str:
@@ -386,11 +403,9 @@ def segment(drawing: Drawing, pin: str) -> str:
     raise KeyError(pin)
 
 
-# --- an A3 sheet: mechanism and plan side by side, data above, construction and tables below ------
+# --- a sheet: mechanism and plan side by side, data above, construction and tables below ----------
 
 
-TITLE = 182.0
-"""Largest width of a title that stays clear of the centring mark, in mm."""
 LEADING = 4.6
 """Distance of lines of text in mm."""
 CROWD = 3
@@ -434,8 +449,8 @@ def sheet(
     number: str,
     layout: Layout | None = None,
     written: Writing | None = None,
-) -> Page:
-    """One A3 page of a sheet: the complete key, or the task without any result."""
+) -> tuple[Page, ...]:
+    """The pages of a sheet: the complete key, or the task without any result."""
     written = written or writing(drawing, view)
     layout = lowered(layout or lay_out(drawing), written.more)
     (left, detail, _), (right, other, _) = parted(*boards(drawing, layout, view))
@@ -445,19 +460,74 @@ def sheet(
         other += plan_signs(drawing, layout.plan, [*right, *other])
     block = title_block(drawing, view, number)
     marks: list[Mark] = [
-        *sheet_frame(block),
         *written.head,
         *(*left, *detail, *right, *other),
-        *panels(layout),
+        *panels(drawing.paper, layout),
         *written.foot,
     ]
-    return a3_page(drawing, block, marks)
+    return pages_of(drawing, block, marks)
 
 
-def a3_page(drawing: Drawing, block: TitleBlock, marks: Iterable[Mark]) -> Page:
-    """An A3 page of a sheet, with the logo of the school in its title block."""
-    title, shown = page_title(drawing), pictures(drawing, block)
-    return Page(420, 297, tuple(marks), title, drawing.words.language, shown, weight_of(drawing))
+def pages_of(
+    drawing: Drawing, block: TitleBlock, marks: Iterable[Mark], title: str = ""
+) -> tuple[Page, ...]:
+    """The pages of a sheet in their frames, with the logo of the school in the title block.
+
+    A sheet on two leaves has two pages, the second one only if it has more than its title.
+    """
+    paper = drawing.paper
+    parts = [*parts_of(paper, marks)]
+    if paper.is_parted and all(reach(mark)[3] < lowest(paper) for mark in parts[-1]):
+        del parts[-1]
+    return tuple(
+        page_in(paper.leaf, drawing, of_leaf(block, i, len(parts)), part, title)
+        for i, part in enumerate(parts)
+    )
+
+
+def page_in(
+    paper: SheetPaper,
+    drawing: Drawing,
+    block: TitleBlock,
+    marks: Iterable[Mark],
+    title: str = "",
+    drawn: Rect | None = None,
+) -> Page:
+    """One page of a paper: marks in its frame, with the logo of the school in the title block."""
+    return Page(
+        paper.width,
+        paper.height,
+        (*sheet_frame(block, paper), *marks),
+        title or page_title(drawing),
+        drawing.words.language,
+        pictures(drawing, block),
+        weight_of(drawing),
+        drawn or paper.fields,
+    )
+
+
+def parts_of(paper: SheetPaper, marks: Iterable[Mark]) -> Iterator[tuple[Mark, ...]]:
+    """The marks on each leaf, moved to its own page."""
+    if not paper.is_parted:
+        yield tuple(marks)
+        return
+    every = [(int(sum(reach(mark)[::2]) / 2 / paper.across), mark) for mark in marks]
+    for i in range(paper.leaves):
+        yield tuple(
+            moved(mark, -i * paper.across, 0) if i else mark for at, mark in every if at == i
+        )
+
+
+LEAVES = "AB"
+"""The letters of the leaves of a sheet, in the title block after its number."""
+
+
+def of_leaf(block: TitleBlock, leaf: int, count: int) -> TitleBlock:
+    """The title block of a leaf; that of a single page is unchanged."""
+    if count == 1:
+        return block
+    number, _, total = block.sheet.partition("/")
+    return replace(block, sheet=f"{number}{LEAVES[leaf]}/{total}")
 
 
 def weight_of(drawing: Drawing) -> float:
@@ -469,12 +539,15 @@ def page_title(drawing: Drawing) -> str:
     return f"{title_of(drawing)} – {drawing.words('sheet.' + name_of_sheet(drawing))}"
 
 
-def panels(layout: Layout) -> list[Mark]:
+def panels(paper: SheetPaper, layout: Layout) -> list[Mark]:
     """The lines between the mechanism, the plan and the part below them."""
-    x, top = layout.plan.rect[:2]
+    (x, top), low = layout.plan.rect[:2], paper.foot
+    if paper.is_parted:
+        both = paper.left, paper.right
+        return [LineMark(left, low, right, low, "panel") for left, _, right, _ in both]
     return [
-        LineMark(x, top - 6, x, AREA[3] - 2, "panel"),
-        LineMark(AREA[0], AREA[3], AREA[2], AREA[3], "panel"),
+        LineMark(x, top - 6, x, low - 2, "panel"),
+        LineMark(paper.fields[0], low, paper.fields[2], low, "panel"),
     ]
 
 
@@ -487,7 +560,8 @@ def title_block(drawing: Drawing, view: str, number: str) -> TitleBlock:
     """The fields of the title block."""
     words, sheet = drawing.words, drawing.scene.sheet
     house = drawing.scene.house
-    labels = {name: house.labels.get(name) or words(f"block.{name}") for name, _, _ in CELLS}
+    names = (*(name for name, _, _ in CELLS), "size")
+    labels = {name: house.labels.get(name) or words(f"block.{name}") for name in names}
     if view == "task" or sheet.student:
         labels[STUDENT] = words("task.person")
     return TitleBlock(
@@ -506,6 +580,8 @@ def title_block(drawing: Drawing, view: str, number: str) -> TitleBlock:
         scale=words.decimal(drawing.scales.words),
         labels=labels,
         logo=house.logo.aspect if house.logo else 0.0,
+        frame=drawing.paper.frame,
+        size=drawing.paper.name.removeprefix("ANSI "),
     )
 
 
@@ -515,7 +591,7 @@ def pictures(drawing: Drawing, block: TitleBlock) -> tuple[Picture, ...]:
     if logo is None:
         return ()
     left, top, right, bottom = logo_box(block)
-    x, y = A3_TITLE_BLOCK[:2]
+    x, y = drawing.paper.leaf.title_block[:2]
     return (Picture(x + left, y + top, right - left, bottom - top, logo.data, logo.kind),)
 
 
@@ -527,7 +603,7 @@ def sheet_heading(drawing: Drawing, view: str = "key") -> tuple[list[Mark], set[
         return data_heading(drawing, view, x, y, lambda: spare_above(drawing))
 
     data, moved = with_room(drawing, Moved.DATA, made, x, y)
-    return [*marks, *data], moved, height_beyond(data)
+    return [*marks, *data], moved, height_beyond(drawing.paper, data)
 
 
 def spare_above(drawing: Drawing) -> float:
@@ -535,11 +611,12 @@ def spare_above(drawing: Drawing) -> float:
 
     Guides and lines without end, which extend to the edges, are not counted.
     """
-    layout = lay_out(drawing)
+    layout, paper = lay_out(drawing), drawing.paper
     both = left_board(drawing, layout, "key"), right_board(drawing, layout, "key")
     tops = (reach(mark)[1] for board in both for mark in board.marks if mark.name != HEADING)
-    drawn = (top for top in tops if top > AREA[1] + CUT + 0.5)
-    return max(min(spare_height(drawing), min(drawn, default=AREA[3]) - CUT - AREA[1]), 0.0)
+    drawn = (top for top in tops if top > paper.fields[1] + CUT + 0.5)
+    above = min(drawn, default=paper.foot) - CUT - paper.fields[1]
+    return max(min(spare_height(drawing), above), 0.0)
 
 
 def title_line(
@@ -552,17 +629,17 @@ def title_line(
     sheet, with a ``remark``, has room for two lines of larger lettering. A sheet may be ``named``
     otherwise than after its plan.
     """
-    words = drawing.words
-    left, top = AREA[0] + 2, A3_AREA[1]
+    words, paper = drawing.words, drawing.paper
+    left, top, most_wide = paper.fields[0] + 2, paper.area[1] + paper.lowered, paper.title
     kinds = dict.fromkeys((name_of_sheet(drawing), "velocity", "acceleration"))
     called = [named] if named else [words(f"sheet.{kind}") for kind in kinds]
     name, *others = (f"{each} – {title_of(drawing)}{remark}" for each in called)
     lines, height, rows = [escape(name)], 5.0, 1
     longest = max((name, *others), key=lambda each: extent(escape(each), height)[0])
-    if extent(escape(longest), height)[0] > TITLE:
+    if extent(escape(longest), height)[0] > most_wide:
         most = ((3.5, 2 if remark else 1), (2.5, 2))
-        height = next((h for h, few in most if len(wrapped(longest, TITLE, h)) <= few), 1.8)
-        lines, rows = wrapped(name, TITLE, height), len(wrapped(longest, TITLE, height))
+        height = next((h for h, few in most if len(wrapped(longest, most_wide, h)) <= few), 1.8)
+        lines, rows = wrapped(name, most_wide, height), len(wrapped(longest, most_wide, height))
     low, data = top + 7.6, top + 12.4
     if rows > 1:
         low, data = (top + 12.5, top + 18.0) if remark else (top + 8.6, top + 13.4)
@@ -570,9 +647,11 @@ def title_line(
         Text(left, low - 1.4 * height * (len(lines) - 1 - i), line, "title", height, name="title")
         for i, line in enumerate(lines)
     ]
-    marks += check_bar(AREA[2] - 106, top + 5.5)
-    bar = words("page.check_bar")
-    marks.append(Text(AREA[2] - 109, top + 5.5, bar, "check-bar", 1.8, "end"))
+    end, y = paper.left[2], paper.area[1] + (9.5 if paper.lowered else 5.5)
+    marks += check_bar(end - 106, y)
+    marks.append(Text(end - 109, y, words("page.check_bar"), "check-bar", 1.8, "end"))
+    if paper.is_parted:
+        marks += [moved(mark, paper.across, 0) for mark in marks]
     return marks, left, data
 
 
@@ -640,8 +719,8 @@ def boards(
     settle_in_plates(both[0])
     letters = [x for x in both[0].labels if x.cls == "construction" and not segment_of(x)]
     if letters:
-        told = {name for each in said or sentences(drawing) for name in names_in(each.markup)}
-        both[0].dispensable = [label for label in letters if label.name not in told]
+        mentioned = {name for each in said or sentences(drawing) for name in names_in(each.markup)}
+        both[0].dispensable = [label for label in letters if label.name not in mentioned]
         both[0].labels = [x for x in both[0].labels if x not in both[0].dispensable]
     if view == "key" and not said and has_many_auxiliary(drawing):
         both[1].labels = [*without_auxiliary(drawing, both[1].labels)]
@@ -714,30 +793,33 @@ def below(drawing: Drawing, view: str) -> tuple[list[Mark], set[Moved], int]:
     Also returns the parts that do not fit, and the number of sentences that fit where not all do.
     """
     moved, said = set[Moved](), 0
-    left, top = BELOW[0] + 2, BELOW[1]
+    paper = drawing.paper
+    left, top, _, low = paper.below
+    left += 2
     if view == "key":
-        place = drawing, left, top + 10.5, TABLES[0] - left - 5, BELOW[3] - 3.5
+        place = drawing, left, top + 10.5, paper.writing - left - 2, low - 3.5
         try:
-            told = listed(*place)
+            listing = listed(*place)
         except PageError:
-            told, said = first_part(*place)
+            listing, said = first_part(*place)
             moved.add(Moved.CONSTRUCTION)
-        marks = [construction_head(drawing, left, top + 4.5), *told]
+        marks = [construction_head(drawing, left, top + 4.5), *listing]
     else:
         marks, moved = wanted(drawing, left, top)
+    own = paper.empty_tables if view == "task" else paper.tables
     found, more = with_room(
         drawing,
         Moved.TABLES,
-        lambda: tables(drawing, TABLES, empty=view == "task"),
-        TABLES[0],
-        TABLES[1] + 4.5,
+        lambda: tables(drawing, own, empty=view == "task"),
+        paper.tables[0],
+        paper.tables[1] + 4.5,
     )
     marks += found
     moved |= more
     if view == "task":
         return marks, moved, said
     text = checked_line(drawing)
-    marks.append(Text(left, BELOW[3] + 0.8, text, "caption", 1.8, name="witness"))
+    marks.append(Text(left, low + 0.8, text, "caption", 1.8, name="witness"))
     return [*marks, *flattest_line(drawing, left + extent(text, 1.8)[0])], moved, said
 
 
@@ -761,13 +843,14 @@ def wanted(drawing: Drawing, x: float, y: float) -> tuple[list[Mark], set[Moved]
 
     Where lines do not fit, the links go to a continuation sheet, then the requests.
     """
-    words, room = drawing.words, int((BELOW[3] - y - 10.5) / LEADING) + 1
+    words, paper = drawing.words, drawing.paper
+    room = int((paper.below[3] - y - 10.5) / LEADING) + 1
     moved = set[Moved]()
-    lines = task_lines(drawing, moved, SCHEME[0] - x - 8)
+    lines = task_lines(drawing, moved, paper.scheme[0] - x - 8)
     for part in (Moved.MEMBERS, Moved.ASKED):
         if len(lines) > room:
             moved.add(part)
-            lines = task_lines(drawing, moved, SCHEME[0] - x - 8)
+            lines = task_lines(drawing, moved, paper.scheme[0] - x - 8)
     marks: list[Mark] = [Text(x, y + 4.5, words("page.asked"), "caption", 3.5)]
     marks += [
         Text(x + 5, y + 10.5 + i * LEADING, line, "caption", 2.5)
@@ -784,8 +867,8 @@ def task_lines(drawing: Drawing, moved: set[Moved], width: float) -> list[str]:
     links = members(drawing)
     if Moved.MEMBERS in moved:
         links = drawing.words("page.members", list=elsewhere)
-    for told in filter(None, (links, plan_at(drawing))):
-        lines += ["", *flowed(words_of(told), " ", width, 2.5)]
+    for line in filter(None, (links, plan_at(drawing))):
+        lines += ["", *flowed(words_of(line), " ", width, 2.5)]
     return lines
 
 
@@ -802,7 +885,7 @@ def asked_words(drawing: Drawing) -> Sequence[str]:
         names: tuple[str, ...] = getattr(ask, key)
         if names and any(each.kind in shown for each in some if each.words):
             what = f"slides_{drawing.kind}" if key == "slides" else key
-            told = (symbol(lettered(n)) if WHOSE[key] == "points" else escape(n) for n in names)
-            mentioned = words("list_mark").join(told)
+            symbols = (symbol(lettered(n)) if WHOSE[key] == "points" else escape(n) for n in names)
+            mentioned = words("list_mark").join(symbols)
             found.append(words(f"ask.{what}" + ("_many" if len(names) > 1 else ""), list=mentioned))
     return found or ([words("ask.for_accelerations")] if ask.anything else [])

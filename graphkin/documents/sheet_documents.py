@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
+from itertools import chain
 
 from msgspec import Struct
 from msgspec.structs import replace
@@ -18,9 +19,9 @@ from graphkin.construction.result_tables import unread
 from graphkin.diagnosis.assembly_failure import beside_dead_point
 from graphkin.documents.detail import with_detail
 from graphkin.documents.scaling import drawing, scales, sheet_motion, targets_of
-from graphkin.documents.sheet import boards, sheet_heading, title_of, weight_of
+from graphkin.documents.sheet import boards, parts_of, sheet_heading, title_of, weight_of
 from graphkin.documents.view_names import MOTION_VIEWS
-from graphkin.drawing.field import A3_AREA, Rect
+from graphkin.drawing.field import Rect
 from graphkin.drawing.frame import fitting
 from graphkin.drawing.marks import LineMark, Mark, Page, Text
 from graphkin.drawing.richtext import extent
@@ -71,8 +72,7 @@ def hand_out(
                 message("2, or left out"),
             )
         )
-    verdict = proved(mechanism, sheet_motion(mechanism))
-    drawings = with_forces(mechanism, drawings_of(mechanism, verdict, spoken))
+    drawings = drawn_of(mechanism, spoken)
     sheets = [
         replace(each, unread=tuple(unread(drawing)) if drawing.kind in SHEETS else ())
         for each, drawing in zip(drawn_sheets(drawings, view), drawings, strict=True)
@@ -80,6 +80,20 @@ def hand_out(
     if view not in CALCULATED:
         return sheets
     return [*sheets, SheetDocument("calculation", calculation(drawings, view))]
+
+
+def calculation_text(mechanism: Mechanism, view: str = "key", language: str | None = None) -> str:
+    """The calculation of a scene as a LaTeX document. Raises as ``hand_out`` does."""
+    from graphkin.documents.calculation_tex import calculation_tex
+
+    mechanism = mechanism.spoken(language).measured
+    return calculation_tex(drawn_of(mechanism, language_of(mechanism, language)), view)
+
+
+def drawn_of(mechanism: Mechanism, spoken: Words) -> list[Drawing]:
+    """The drawings of all sheets, proved by the independent route."""
+    verdict = proved(mechanism, sheet_motion(mechanism))
+    return with_forces(mechanism, drawings_of(mechanism, verdict, spoken))
 
 
 def with_forces(mechanism: Mechanism, drawings: list[Drawing]) -> list[Drawing]:
@@ -98,7 +112,7 @@ def drawn_sheets(drawings: Sequence[Drawing], view: str) -> list[SheetDocument]:
     Parts that do not fit on a key or a task go to continuation sheets.
     """
     if view in CALCULATED:
-        from graphkin.documents.continuation import as_page, rest
+        from graphkin.documents.continuation import as_pages, rest
         from graphkin.documents.sheet import sheet, writing
 
         every = [(drawing, writing(drawing, view)) for drawing in drawings]
@@ -107,10 +121,10 @@ def drawn_sheets(drawings: Sequence[Drawing], view: str) -> list[SheetDocument]:
         found, number = [], 0
         for (drawing, written), sheets in zip(every, more, strict=True):
             number += 1
-            pages = [sheet(drawing, view, f"{number}/{total}", written=written)]
+            pages = [*sheet(drawing, view, f"{number}/{total}", written=written)]
             for marks in sheets:
                 number += 1
-                pages.append(as_page(drawing, view, f"{number}/{total}", marks))
+                pages += as_pages(drawing, view, f"{number}/{total}", marks)
             found.append(SheetDocument(drawing.kind, tuple(pages)))
         return found
     total = len(drawings)
@@ -123,15 +137,15 @@ def drawn_sheets(drawings: Sequence[Drawing], view: str) -> list[SheetDocument]:
 def by_itself(drawing: Drawing, view: str, number: str) -> tuple[Page, ...]:
     """The pages of one drawing, step by step or as an overlay."""
     if view == "steps":
-        from graphkin.documents.continuation import as_page, rest
+        from graphkin.documents.continuation import as_pages, rest
         from graphkin.documents.sheet import sheet_heading
         from graphkin.documents.step_pages import growing
 
         moved = frozenset(sheet_heading(drawing)[1])
-        more = [as_page(drawing, view, number, marks) for marks in rest(drawing, view, moved)]
-        return (*growing(drawing, number), *more)
+        more = (as_pages(drawing, view, number, marks) for marks in rest(drawing, view, moved))
+        return (*growing(drawing, number), *chain.from_iterable(more))
 
-    return (overlay(drawing, number),)
+    return overlay(drawing, number)
 
 
 def language_of(mechanism: Mechanism, language: str | None) -> Words:
@@ -246,7 +260,7 @@ FOOT = 10.0
 """Distance of the title above the frame's lower edge, where the task sheet has no words."""
 
 
-def overlay(drawing: Drawing, number: str) -> Page:
+def overlay(drawing: Drawing, number: str) -> tuple[Page, ...]:
     """Mechanism and plan of the key at the places and scale of the task sheet.
 
     Labels that the task sheet has are left out, since their places may differ on the key. Crosses
@@ -254,25 +268,33 @@ def overlay(drawing: Drawing, number: str) -> Page:
     variant of the mechanism.
     """
     layout = lowered(lay_out(drawing), sheet_heading(drawing, "task")[2])
-    words = drawing.words
+    words, paper = drawing.words, drawing.paper
     tasks = boards(drawing, layout, "task")
     labels = (label for task in tasks for label in task.labels)
     known = {(label.name, cls) for label in labels for cls in (label.look, label.leader_look)}
     name = f"{title_of(drawing)} – {words('sheet.' + name_of_sheet(drawing))}"
     set_to = "".join(f", {each}" for each in variant(drawing.scene, words))
     rest = f"{set_to}, {words('sheet.overlay')} {number}, {words.decimal(drawing.scales.words)}"
-    room = A3_AREA[2] - A3_AREA[0] - 24 - extent(rest, 2.5)[0]
+    left, _, right, low = paper.areas[0]
+    room = right - left - 24 - extent(rest, 2.5)[0]
     (first,), height = fitting("title", name, room, 2.5, 2.5)
+    titles = [
+        Text(own[0] + 12, low - FOOT, first + rest, "caption", height, name="title")
+        for own in paper.areas
+    ]
     marks = (
         *(
             untinted(mark)
             for mark in with_detail(*boards(drawing, layout, "key"))
             if (mark.name, mark.cls) not in known
         ),
-        *crop_marks(A3_AREA),
-        Text(A3_AREA[0] + 12, A3_AREA[3] - FOOT, first + rest, "caption", height, name="title"),
+        *(mark for own in paper.areas for mark in crop_marks(own)),
+        *titles,
     )
-    return Page(420, 297, marks, name, words.language, weight=weight_of(drawing))
+    return tuple(
+        Page(paper.across, paper.height, part, name, words.language, weight=weight_of(drawing))
+        for part in parts_of(paper, marks)
+    )
 
 
 def untinted(mark: Mark) -> Mark:

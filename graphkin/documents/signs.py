@@ -69,7 +69,7 @@ def senses(drawing: Drawing, field: Field, space: Space) -> Iterator[Mark]:
     to a smaller arrow. A sense without any room is written at the foot of the field.
     """
     driven = {driver.link for driver in drawing.scene.drivers if driver.kind == "turn"}
-    shown = told_by_drivers(drawing)
+    shown = known_from_drivers(drawing)
     rates = {name: rate for name, rate in turning_links(drawing) if rate and name not in shown}
     bodies = {name: body_of(drawing, field, link) for name, link in drawing.scene.links.items()}
     left = []
@@ -101,7 +101,7 @@ def senses(drawing: Drawing, field: Field, space: Space) -> Iterator[Mark]:
     yield from at_foot(drawing, space, {name: rates[name] for name in lost})
 
 
-def told_by_drivers(drawing: Drawing) -> set[str]:
+def known_from_drivers(drawing: Drawing) -> set[str]:
     """The links whose rate the arrow of their driver shows.
 
     These are links on the velocity sheet that turn relative to the frame.
@@ -189,10 +189,10 @@ def at_foot(drawing: Drawing, space: Space, rates: Mapping[str, float]) -> Itera
     if not rates:
         return
     letter, words = drawing.rate.letter, drawing.words
-    told = "; ".join(
+    caption = "; ".join(
         f"{drawing.symbol(f'{letter}_{n}')}: {sense_word(words, r)}" for n, r in rates.items()
     )
-    width, top, bottom = extent(told, HEIGHT)
+    width, top, bottom = extent(caption, HEIGHT)
     half = width / 2, (bottom - top) / 2
     (left, high, right, low), air = space.rect, AIR + 0.1
     xs = arange(left + half[0] + air, right - half[0] - air, 5.0).tolist()
@@ -201,7 +201,7 @@ def at_foot(drawing: Drawing, space: Space, rates: Mapping[str, float]) -> Itera
     if at is not None:
         x, y = at[0] - half[0], at[1] - (top + bottom) / 2
         space.take((x, at[1] - half[1], x + width, at[1] + half[1]))
-        yield Text(x, y, told, "caption", HEIGHT, name="senses")
+        yield Text(x, y, caption, "caption", HEIGHT, name="senses")
 
 
 def places_beside(body: Body, off: float) -> Iterator[XY]:

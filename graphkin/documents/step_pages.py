@@ -6,6 +6,7 @@ from collections.abc import Callable, Iterator, Mapping, Sequence
 from math import degrees
 from typing import NamedTuple
 
+from msgspec import Struct
 from msgspec.structs import replace
 
 from graphkin.construction.centres.instant_centre import set_before
@@ -25,15 +26,13 @@ from graphkin.documents.sentences import SET_ON, sentences
 from graphkin.documents.sheet import (
     boards,
     page_title,
+    pages_of,
     panels,
-    pictures,
     sheet_heading,
     title_block,
-    weight_of,
 )
 from graphkin.documents.signs import mechanism_signs, plan_signs
-from graphkin.drawing.field import A3_TITLE_BLOCK, BELOW, MARKED, Field
-from graphkin.drawing.frame import sheet_frame
+from graphkin.drawing.field import Field, SheetPaper
 from graphkin.drawing.labels import BETWEEN, NOTE
 from graphkin.drawing.marks import CircleMark, LineMark, Mark, Page, Text, style_class
 from graphkin.drawing.richtext import extent, flowed, flowed_pieces, words_of
@@ -44,7 +43,7 @@ AT_LAST = ("detail", "note")
 """The names of marks that appear when everything is drawn."""
 PINS = ("pin", "hinge", "label", "leader")
 """The classes of a pin, and of its letter."""
-TOLD_BY = {"fixed-centrode": "moving-centrode"}
+DRAWN_WITH = {"fixed-centrode": "moving-centrode"}
 """Names of sentences for kinds of curves that have no sentence of their own."""
 BEFORE = -1
 """The stage of the marks before the first sentence."""
@@ -109,11 +108,11 @@ def stage_of(
         return staged.get(mark.step, BEFORE)
     if mark.name in AT_LAST:
         return len(said) - 1
-    told = stage_of_closing(drawing, mark, said)
-    if told is None:
-        told = stage_of_curve(drawing, mark, said)
-    if told is not None:
-        return told
+    found = stage_of_closing(drawing, mark, said)
+    if found is None:
+        found = stage_of_curve(drawing, mark, said)
+    if found is not None:
+        return found
     targets = drawing.trace.program.targets
     rests = ground[mark] if mark in ground else rests_on(drawing, mark)
     numbers = (targets[target] for target in rests if target in targets)
@@ -137,7 +136,7 @@ def stage_of_curve(drawing: Drawing, mark: Mark, said: Sequence[Sentence]) -> in
             if curve.kind == "locus":
                 return next(at for at, one in enumerate(said) if curve.of in traced(drawing, one))
             alike = [other.of for other in drawing.curves if other.kind == curve.kind]
-            name = TOLD_BY.get(curve.kind, curve.kind)
+            name = DRAWN_WITH.get(curve.kind, curve.kind)
             stages = [stage for stage, sentence in enumerate(said) if sentence.name == name]
             return stages[min(alike.index(curve.of), len(stages) - 1)]
     return None
@@ -181,7 +180,7 @@ def accompanied(marks: Sequence[Mark]) -> Iterator[tuple[Mark, Mark]]:
         yield mark, after if style_class(mark) == "number" and not mark.name else mark
 
 
-def when_told(drawing: Drawing, staged: Mapping[int, int]) -> dict[str, int]:
+def naming_stages(drawing: Drawing, staged: Mapping[int, int]) -> dict[str, int]:
     """The sentence that finds each letter of the plan, each centre and each vector.
 
     Vectors are given by their symbols.
@@ -242,11 +241,11 @@ def shared(mark: Text, stage: int, stages: Sequence[int], subject: float) -> Ite
 def noted(mark: Text, stage: int, telling: Mapping[str, int]) -> Iterator[Mark]:
     """The parts of a note line at the foot whose vectors and key numbers have appeared."""
     parts = mark.letters
-    stands = [telling.get(part.name, stage + 1) <= stage for part in parts]
+    is_written = [telling.get(part.name, stage + 1) <= stage for part in parts]
     for i, part in enumerate(parts):
-        if stands[i]:
+        if is_written[i]:
             before = extent("".join(each.joined for each in parts[: i + 1]), mark.height)[0]
-            ended = part.markup + BETWEEN.rstrip() if any(stands[i + 1 :]) else part.markup
+            ended = part.markup + BETWEEN.rstrip() if any(is_written[i + 1 :]) else part.markup
             aside = before - extent(part.markup, mark.height)[0]
             yield replace(mark, x=mark.x + aside, markup=ended)
 
@@ -259,12 +258,45 @@ LARGE, CLOSE, DONE = (3.5, 6.2), (2.5, 4.2), (2.5, 4.6)
 
 The small size is for sentences to do that have no room in the large one.
 """
-LEFT, TOP, RIGHT = BELOW[0] + 2, BELOW[1] + 4.5, BELOW[2] - 4
-"""Start and end of these lines, in mm."""
-FIRST, ABOVE = TOP + 8, A3_TITLE_BLOCK[1] - 4
-"""The baselines of the first line to do, and of the lowest above the title block, in mm."""
-BESIDE, CLEAR = A3_TITLE_BLOCK[0] - LEFT - 5, MARKED[0] - LEFT - 7
-"""The width of lines next to the title block, and of lines clear of the centring mark, in mm."""
+
+
+class StepLines(Struct, frozen=True):
+    """The place of these lines, in mm: their start, their end, and the first and last baselines.
+
+    ``first`` is the baseline of the first line to do, ``above`` that of the lowest one above the
+    title block. ``beside`` is the width of lines next to the title block, ``clear`` that of lines
+    clear of the centring mark, which ends at ``marked``.
+    """
+
+    left: float
+    top: float
+    right: float
+    first: float
+    above: float
+    beside: float
+    clear: float
+    marked: float
+    low: float
+
+
+def step_lines(paper: SheetPaper) -> StepLines:
+    """The place of the lines on a paper."""
+    left, top, right, low = paper.below
+    left, (end, marked), block = left + 2, paper.marked, paper.blocks[0]
+    beside = right if paper.is_leaf else block[0]
+    return StepLines(
+        left,
+        top + 4.5,
+        right - 4,
+        top + 12.5,
+        min(block[1] - 4, low),
+        beside - left - 5,
+        end - left - 7,
+        marked,
+        low,
+    )
+
+
 MOST = 150
 """Number of words that exceeds any line."""
 LEFT_OUT = "…"
@@ -283,7 +315,7 @@ def growing(drawing: Drawing, number: str) -> tuple[Page, ...]:
     said = sentences(drawing)
     staged = stages(drawing, said)
     (left, detail, _), (right, other, _) = parted(*boards(drawing, layout, "key", said))
-    telling = when_told(drawing, staged)
+    telling = naming_stages(drawing, staged)
     given = 0 if drawing.again else BEFORE
     field = layout.mechanism
     standing = appearing(drawing, field, left, staged, said)
@@ -294,9 +326,8 @@ def growing(drawing: Drawing, number: str) -> tuple[Page, ...]:
     last = [*detail, *other, *plan_signs(drawing, layout.plan, [*right, *other])]
     block, same = (
         title_block(drawing, "steps", number),
-        [*head, *panels(layout)],
+        [*head, *panels(drawing.paper, layout)],
     )
-    logo = pictures(drawing, block)
     lines = [
         (stage_of_crossing(drawing, each, staged), each)
         for each in crossings_on(drawing)
@@ -304,24 +335,26 @@ def growing(drawing: Drawing, number: str) -> tuple[Page, ...]:
     ]
     title = page_title(drawing)
     fields = [tuple(marks_at_stage(timed, stage, telling)) for stage in range(len(said))]
+    at = step_lines(drawing.paper)
+
+    def is_held(first: int, last: int) -> bool:
+        return to_do(said, first, last, at).is_held
+
     return tuple(
-        Page(
-            420,
-            297,
+        page
+        for first, stage in spans(fields, is_held)
+        for page in pages_of(
+            drawing,
+            replace(block, sheet=numbered(drawing, number, stage, len(said))),
             (
-                *sheet_frame(replace(block, sheet=numbered(drawing, number, stage, len(said)))),
                 *same,
                 *fields[stage],
                 *(last if stage == len(said) - 1 else ()),
-                *told(drawing, said, first, stage),
+                *text_block(drawing, said, first, stage, at),
                 *crossed(drawing, [line for at, line in lines if first <= at <= stage]),
             ),
             f"{title}, {stage + 1}/{len(said)}",
-            drawing.words.language,
-            logo,
-            weight_of(drawing),
         )
-        for first, stage in spans(fields, lambda first, last: to_do(said, first, last).is_held)
     )
 
 
@@ -357,7 +390,13 @@ def crossed(drawing: Drawing, found: Sequence[Crossing]) -> Iterator[Mark]:
         angle=words.fixed(degrees(worst.angle), 0),
         factor=words.significant(worst.factor, 2),
     )
-    yield Text(BELOW[2] - 4, BELOW[1] + 4.5, text, "caption", 2.5, "end", name="crossing")
+    yield Text(*ending(drawing.paper), text, "caption", 2.5, "end", name="crossing")
+
+
+def ending(paper: SheetPaper) -> tuple[float, float]:
+    """The end of the line beside the heading."""
+    _, top, right, _ = paper.below
+    return right - 4, top + 4.5
 
 
 def stage_of_crossing(drawing: Drawing, crossing: Crossing, staged: Mapping[int, int]) -> int:
@@ -375,17 +414,17 @@ class ToDo(NamedTuple):
     is_held: bool
 
 
-def to_do(said: Sequence[Sentence], first: int, last: int) -> ToDo:
+def to_do(said: Sequence[Sentence], first: int, last: int, at: StepLines) -> ToDo:
     """The sentences from ``first`` to ``last``: large above the title block, or else smaller."""
     markups = [
         f"{number}. {each.markup}" if first < last else each.markup
         for number, each in enumerate(said[first : last + 1], first + 1)
     ]
-    for (height, leading), lowest in ((LARGE, ABOVE), (CLOSE, BELOW[3])):
+    for (height, leading), lowest in ((LARGE, at.above), (CLOSE, at.low)):
         lines: list[tuple[float, str]] = []
-        y = FIRST
+        y = at.first
         for markup in markups:
-            for line in wrapped(markup, height, leading, y):
+            for line in wrapped(markup, height, leading, y, at):
                 lines.append((y, line))
                 y += leading
         if y - leading <= lowest:
@@ -393,39 +432,42 @@ def to_do(said: Sequence[Sentence], first: int, last: int) -> ToDo:
     return ToDo(lines, height, y, False)
 
 
-def wrapped(markup: str, height: float, leading: float, y: float) -> Iterator[str]:
+def wrapped(markup: str, height: float, leading: float, y: float, at: StepLines) -> Iterator[str]:
     """The lines of a sentence from a baseline on, narrower next to the title block."""
     words = words_of(markup)
     while words:
-        wide = RIGHT - LEFT if y <= ABOVE else BESIDE if y <= MARKED[1] else CLEAR
+        wide = at.beside if y <= at.marked else at.clear
+        wide = at.right - at.left if y <= at.above else wide
         line, held = flowed_pieces(words[:MOST], " ", wide, height)[0]
         yield line
         words, y = words[len(held) :], y + leading
 
 
-def told(drawing: Drawing, said: Sequence[Sentence], first: int, stage: int) -> Iterator[Mark]:
+def text_block(
+    drawing: Drawing, said: Sequence[Sentence], first: int, stage: int, at: StepLines
+) -> Iterator[Mark]:
     """The sentences to do in large lettering, and below them the last of those that are done."""
     words = drawing.words
     key, several = (
         ("page.steps_of", {"first": first + 1}) if first < stage else ("page.step_of", {})
     )
     caption = words(key, number=stage + 1, all=len(said), **several)
-    yield Text(LEFT, TOP, caption, "caption", 3.5, name="step")
-    lines, height, y, _ = to_do(said, first, stage)
+    yield Text(at.left, at.top, caption, "caption", 3.5, name="step")
+    lines, height, y, _ = to_do(said, first, stage, at)
     for foot, line in lines:
-        yield Text(LEFT, foot, line, "caption", height, name="sentence")
-    if y - 2.5 < MARKED[1]:
-        yield LineMark(LEFT, y - 2.5, A3_TITLE_BLOCK[0] - 5, y - 2.5, "panel")
+        yield Text(at.left, foot, line, "caption", height, name="sentence")
+    if y - 2.5 < at.marked:
+        yield LineMark(at.left, y - 2.5, at.left + at.beside, y - 2.5, "panel")
     done = [
         (f"{number}." if i == 0 else "", line)
         for number, sentence in enumerate(said[:first], 1)
-        for i, line in enumerate(flowed(words_of(sentence.markup), " ", CLEAR, DONE[0]))
+        for i, line in enumerate(flowed(words_of(sentence.markup), " ", at.clear, DONE[0]))
     ]
-    room = max(int((BELOW[3] - y - 3.5) // DONE[1]) + 1, 0)
+    room = max(int((at.low - y - 3.5) // DONE[1]) + 1, 0)
     shown = done
     if len(done) > room:  # a line shows that earlier sentences are left out
         shown = done[len(done) - room + 1 :]
         while shown and not shown[0][0]:
             shown = shown[1:]
         shown = [("", LEFT_OUT), *shown][:room]
-    yield from written(shown, LEFT, y + 2.5, *DONE)
+    yield from written(shown, at.left, y + 2.5, *DONE)

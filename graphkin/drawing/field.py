@@ -2,17 +2,18 @@
 
 from __future__ import annotations
 
+from functools import cached_property, lru_cache
 from typing import Any
 
 from msgspec import Struct
+from msgspec.structs import replace
 
+from graphkin.scene.house import PAPERS, USUAL_PAPER
+
+XY = tuple[float, float]
 Rect = tuple[float, float, float, float]
 """Left, top, right and bottom in mm."""
 
-A3_AREA: Rect = (20.0, 10.0, 410.0, 287.0)
-"""The area inside the frame of an A3 sheet (ISO 5457)."""
-TITLE_WIDTH, TITLE_HEIGHT = 180.0, 36.0
-A3_TITLE_BLOCK: Rect = (230.0, 251.0, 410.0, 287.0)
 A4_SIZE = (210.0, 297.0)
 A4_FRAME: Rect = (20.0, 10.0, 200.0, 287.0)
 A4_AREA: Rect = (20.0, 18.0, 200.0, 279.0)
@@ -24,29 +25,254 @@ ABOVE = 8.5
 """Space above and below a drawing, in mm."""
 LEAST_FIELD = 80.0
 """Least width of a field in mm, so that its caption fits above it in two lines."""
-HEADER = 28.0
-"""Height of the title, the data and the captions below the frame's upper edge, in mm."""
-FOOT = 201.0
-"""Where the tables below the drawings begin, in mm from the page's upper edge."""
+HEADER, LOWER = 28.0, 12.0
+"""Height of the title, the data and the captions below the frame's upper edge, and how much lower
+they are on a leaf, where the bar that checks the print is above the title; in mm."""
+SCHEME, CODE = 76.0, 30.0
+"""Width of the scheme of a task, and of the room for the square with the code on a leaf, in mm."""
+FILING = 20.0
+"""Width of the filing margin at the left of a sheet, in mm."""
 
-AREA: Rect = (A3_AREA[0] + 2, A3_AREA[1] + HEADER, A3_AREA[2] - 2, FOOT)
-"""The part of the sheet for the mechanism and its plan, next to each other below their captions."""
-WIDTH, HEIGHT = AREA[2] - AREA[0] - 4 * MARGIN, AREA[3] - AREA[1] - 2 * ABOVE
-"""The space for both drawings together, without their margins."""
-BELOW: Rect = (AREA[0], FOOT + 2, AREA[2], A3_AREA[3] - 2)
-"""The part of the sheet for steps, tables and the check bar."""
-SCHEME: Rect = (150.0, 210.0, 226.0, 281.0)
-"""The kinematic scheme of a task, right of the requested results and above the centring mark."""
-MARKED = (207.0, 276.0)
-"""Text left of this x, or above this y, is clear of the centring mark at the lower edge (mm)."""
-TABLES: Rect = (A3_TITLE_BLOCK[0], FOOT + 2, AREA[2], A3_TITLE_BLOCK[1] - 2)
-"""The table above the title block."""
+
+class Frame(Struct, frozen=True):
+    """A standard's frame: its name, the margins beside and above the area, the title block, in mm.
+
+    The left margin may be wider, for filing. ``writing`` is the height below the fields for tables
+    and text, and ``leaf`` that on an A4 leaf, where the title block is as wide as the frame.
+    ``tables`` is the width of the tables above the title block of a wide sheet.
+    """
+
+    name: str
+    beside: float
+    above: float
+    block: tuple[float, float]
+    writing: float
+    tables: float
+    leaf: float = 0.0
+    filing: float = FILING
+
+
+ISO = Frame("ISO", 10.0, 10.0, (180.0, 36.0), 86.0, 178.0, 100.0)
+"""ISO 5457:1999 with the title block of ISO 7200:2004."""
+GOST = Frame("GOST", 5.0, 5.0, (185.0, 55.0), 97.0, 208.0, 113.0)
+"""GOST 2.301-68 and GOST 2.104-2006, form 1."""
+ASME_BLOCK = (158.75, 50.8)
+"""The title block of ASME Y14.1 for sizes B and C: 6.25 × 2 in."""
+ASME = {
+    "ANSI B": Frame("ASME", 15.748, 9.652, ASME_BLOCK, 94.0, 208.0, filing=15.748),
+    "ANSI C": Frame("ASME", 12.7, 19.05, ASME_BLOCK, 94.0, 208.0, filing=12.7),
+}
+"""ASME Y14.1-2012: margins of 0.62 and 0.38 in for size B, of 0.5 and 0.75 in for size C."""
+
+
+class SheetPaper(Struct, frozen=True, dict=True):
+    """A sheet: its size, its frame, and the regions of its contents, all in mm.
+
+    A sheet of two ``leaves`` is printed on two A4 pages that lie side by side: the mechanism on the
+    left one, the plan on the right one. Its own size is that of both together.
+    """
+
+    name: str
+    width: float
+    height: float
+    frame: Frame
+    leaves: int = 1
+
+    @property
+    def half(self) -> float:
+        """Half the width."""
+        return self.width / 2
+
+    @property
+    def middle(self) -> XY:
+        """The middle of the sheet."""
+        return self.half, self.height / 2
+
+    @property
+    def whole(self) -> Rect:
+        """All of the sheet."""
+        return 0.0, 0.0, self.width, self.height
+
+    @property
+    def across(self) -> float:
+        """The width of a page."""
+        return self.width / self.leaves
+
+    @cached_property
+    def areas(self) -> tuple[Rect, ...]:
+        """The area inside the frame of each leaf."""
+        frame, low = self.frame, self.height - self.frame.above
+        return tuple(
+            (i * self.across + frame.filing, frame.above, (i + 1) * self.across - frame.beside, low)
+            for i in range(self.leaves)
+        )
+
+    @cached_property
+    def area(self) -> Rect:
+        """The area inside the frames of all leaves."""
+        return (*self.areas[0][:2], *self.areas[-1][2:])
+
+    @cached_property
+    def blocks(self) -> tuple[Rect, ...]:
+        """The title block of each leaf."""
+        wide, high = self.frame.block
+        return tuple((right - wide, low - high, right, low) for _, _, right, low in self.areas)
+
+    @property
+    def title_block(self) -> Rect:
+        """The title block of the sheet, or of its right leaf."""
+        return self.blocks[-1]
+
+    @property
+    def is_parted(self) -> bool:
+        """Whether mechanism and plan are on leaves of their own."""
+        return self.leaves > 1
+
+    @property
+    def is_leaf(self) -> bool:
+        """Whether the title block is as wide as the area, so that nothing is left of it."""
+        return self.areas[0][2] - self.areas[0][0] < self.frame.block[0] + 1
+
+    @property
+    def leaf(self) -> SheetPaper:
+        """A single page of this paper."""
+        return self if not self.is_parted else replace(self, width=self.across, leaves=1)
+
+    @cached_property
+    def foot(self) -> float:
+        """Where the tables below the drawings begin, from the page's upper edge."""
+        return self.area[3] - (self.frame.leaf if self.is_leaf else self.frame.writing)
+
+    @property
+    def lowered(self) -> float:
+        """How much lower the title and the fields are than on a wide sheet."""
+        return LOWER if self.is_leaf else 0.0
+
+    @cached_property
+    def fields(self) -> Rect:
+        """The part for the mechanism and its plan, next to each other below their captions."""
+        left, top, right, _ = self.area
+        return left + 2, top + HEADER + self.lowered, right - 2, self.foot
+
+    @cached_property
+    def left(self) -> Rect:
+        """The fields on the left leaf; all fields of a single sheet."""
+        return (*self.fields[:2], self.areas[0][2] - 2, self.fields[3])
+
+    @cached_property
+    def right(self) -> Rect:
+        """The fields on the right leaf; all fields of a single sheet."""
+        return (self.areas[-1][0] + 2, *self.fields[1:])
+
+    @cached_property
+    def room(self) -> float:
+        """The width for both drawings together, without their margins."""
+        left, right = self.left, self.right
+        wide = right[2] - right[0] + (left[2] - left[0] if self.is_parted else 0.0)
+        return wide - 4 * MARGIN
+
+    @cached_property
+    def upright(self) -> float:
+        """The height for a drawing, without its margins."""
+        return self.fields[3] - self.fields[1] - 2 * ABOVE
+
+    def room_beside(self, mechanism: Any) -> Any:
+        """The width for a plan beside a mechanism of some width, without margins.
+
+        Negative where the mechanism is too wide itself.
+        """
+        if not self.is_parted:
+            return self.room - mechanism
+        half = self.room / 2
+        return half if mechanism <= half * (1 + 1e-12) else half - mechanism
+
+    def beside(self, mechanism: Rect) -> Rect:
+        """The field of a plan beside the field of the mechanism."""
+        left = self.right[0] if self.is_parted else mechanism[2]
+        return (left, *self.fields[1:])
+
+    @cached_property
+    def below(self) -> Rect:
+        """The part of the sheet, or of its left leaf, for steps, tables and requests."""
+        low = self.blocks[0][1] if self.is_leaf else self.area[3]
+        return self.left[0], self.foot + 2, self.left[2], low - 2
+
+    @cached_property
+    def tables(self) -> Rect:
+        """The table above the title block."""
+        left = self.right[0] if self.is_leaf else self.fields[2] - self.frame.tables
+        return left, self.foot + 2, self.fields[2], self.title_block[1] - 2
+
+    @cached_property
+    def writing(self) -> float:
+        """The right end of sentences and requests below the drawings: beside the tables."""
+        return self.left[2] if self.is_leaf else self.tables[0] - 3
+
+    @property
+    def smallest(self) -> float:
+        """The least height of letters of sentences; only on A3 are they smaller than 2.5 mm."""
+        return 1.8 if self.name == USUAL_PAPER else 2.5
+
+    @cached_property
+    def marked(self) -> tuple[float, float]:
+        """Text left of this x, or above this y, is clear of the centring mark at the lower edge."""
+        if self.is_leaf:
+            return self.left[2], self.area[3]
+        return self.width / 2 - 3, self.area[3] - 11
+
+    @cached_property
+    def second(self) -> float:
+        """The left end of the right column of a continuation sheet."""
+        return self.right[0] if self.is_leaf else self.marked[0] + 6
+
+    @cached_property
+    def scheme(self) -> Rect:
+        """The kinematic scheme of a task, right of the requests and above the centring mark."""
+        right = self.left[2] - CODE if self.is_leaf else self.title_block[0] - 4
+        wide = SCHEME - (14 if self.is_leaf else 0)
+        return right - wide, self.foot + 9, right, self.below[3] - (1 if self.is_leaf else 4)
+
+    @cached_property
+    def empty_tables(self) -> Rect:
+        """The tables of a task; on a leaf they leave room for the square with the code."""
+        left, top, right, low = self.tables
+        return left, top, right - (CODE if self.is_leaf else 0), low
+
+    @cached_property
+    def title(self) -> float:
+        """Largest width of a title that stays clear of the centring mark."""
+        start = self.fields[0] + 2
+        return self.left[2] - start if self.is_leaf else self.width / 2 - 4 - start
+
+    @cached_property
+    def notes(self) -> Rect:
+        """The part for a table and sentences of a sheet with one field."""
+        low, block = self.area[3], self.leaf.title_block
+        if self.is_leaf:
+            return self.left[0] + 2, block[1] - 46, self.left[2] - 2, block[1] - 2
+        return self.fields[0] + 4, block[1], block[0] - 4, low
+
+    @cached_property
+    def single(self) -> Rect:
+        """The field of a sheet with one field."""
+        return (*self.left[:3], self.notes[1] - 2)
+
+
+@lru_cache
+def paper_of(name: str, frame: str) -> SheetPaper:
+    """The paper of a name with the frame of a standard; ANSI papers have that of ASME Y14.1."""
+    width, height = PAPERS[name]
+    own = ASME.get(name) or {each.name: each for each in (ISO, GOST)}[frame]
+    if width < height:
+        return SheetPaper(name, 2 * width, height, own, leaves=2)
+    return SheetPaper(name, width, height, own)
+
+
+A3 = paper_of(USUAL_PAPER, ISO.name)
+"""The usual paper."""
 
 
 # --- the mapping of a field: metres of the drawing to millimetres of paper ------------------------
-
-
-XY = tuple[float, float]
 
 
 class Carried(tuple[Any, Any]):

@@ -1,22 +1,22 @@
-"""The parts that all sheets share: ISO 5457 frame, ISO 7200 title block, check bar, A4 page."""
+"""The parts that all sheets share: a standard's frame and title block, check bar, A4 page."""
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from functools import lru_cache
 from itertools import pairwise
 from math import floor
 
 from msgspec import Struct, field
+from msgspec.structs import replace
 
-from graphkin.drawing.field import A4_AREA, A4_FRAME, TITLE_HEIGHT, TITLE_WIDTH, Rect
+from graphkin.drawing.field import A3, A4_AREA, A4_FRAME, GOST, ISO, Frame, Rect, SheetPaper
 from graphkin.drawing.marks import LineMark, Mark, Text, box
 from graphkin.drawing.richtext import extent, flowed, plain, words_of
 from graphkin.drawing.symbol_markup import escape
 from graphkin.text.errors import PageError, Problem, message
 
-A3 = (420.0, 297.0)
-FILING, EDGE, BAND, FIELD = 20.0, 10.0, 5.0, 50.0  # margins, grid border's width, field length
+BAND, FIELD = 5.0, 50.0  # grid border's width, field length
 LETTERS = "ABCDEFGHJKLM"  # without I and O
 LEADING, CLOSER = 1.7, 1.5  # line spacing in heights of capitals, and that of a header
 CLOSE = 3.0  # distance of two lines at the head of an A4 page, in mm
@@ -29,8 +29,8 @@ class TitleBlock(Struct, frozen=True):
 
     ``labels`` maps names of fields to labels; a field without a label shows only its value, and an
     empty value leaves its cell free for handwriting. A block with a label for ``student`` has that
-    cell where other blocks have the creator's. ``logo`` is the width over the height of a picture
-    in the legal owner's cell, 0 without one.
+    cell where other blocks have the creator's. ``size`` is the letter of an ANSI paper.
+    ``logo`` is the width over the height of a picture in the legal owner's cell, 0 without one.
     """
 
     legal_owner: str = ""
@@ -47,6 +47,8 @@ class TitleBlock(Struct, frozen=True):
     revision: str = ""
     labels: Mapping[str, str] = field(default_factory=dict)
     logo: float = 0.0
+    frame: Frame = ISO
+    size: str = ""
 
     @property
     def is_headed(self) -> bool:
@@ -98,6 +100,8 @@ CROWDED = {
 
 def cells_of(block: TitleBlock) -> tuple[tuple[str, Rect, float], ...]:
     """The cells of a block; a student's block has a creator's cell only if there is an author."""
+    if block.frame is not ISO:
+        return OTHERS[block.frame.name](block)
     found, across = CELLS, HEADED
     if STUDENT in block.labels:
         found = STUDENTS if block.creator else (CELLS[0], STUDENTS[1], *CELLS[2:])
@@ -110,18 +114,95 @@ def cells_of(block: TitleBlock) -> tuple[tuple[str, Rect, float], ...]:
     )
 
 
-def sheet_frame(title_block: TitleBlock) -> tuple[Mark, ...]:
-    """Draw the frame, centring marks, fields and title block of an A3 sheet."""
-    width, height = A3
-    frame = (FILING, EDGE, width - EDGE, height - EDGE)
-    right, bottom = frame[2:]
+def gost_cells(block: TitleBlock) -> tuple[tuple[str, Rect, float], ...]:
+    """The cells of GOST 2.104, form 1. The student, or else the author, has the first row."""
+    first = STUDENT if STUDENT in block.labels else "creator"
+    second = (("creator", (17.0, 30.0, 40.0, 35.0), 2.5),) if first == STUDENT else ()
     return (
-        *fields(width, height),
-        edged(frame, "frame"),
-        *centring_marks(width, height),
-        Text(right - 1, bottom + 4.2, "A3", "field", 3.5, "end", "size"),
-        *title_block_marks(title_block, right - TITLE_WIDTH, bottom - TITLE_HEIGHT),
+        ("identification", (65.0, 0.0, 185.0, 15.0), 7.0),
+        ("title", (65.0, 15.0, 135.0, 40.0), 5.0),
+        ("document_type", (65.0, 40.0, 135.0, 55.0), 3.5),
+        (OWNER, (135.0, 40.0, 185.0, 55.0), 3.5),
+        ("scale", (167.0, 20.0, 185.0, 35.0), 3.5),
+        ("sheet", (135.0, 35.0, 185.0, 40.0), 2.5),
+        (first, (17.0, 25.0, 40.0, 30.0), 2.5),
+        *second,
+        ("approved_by", (17.0, 50.0, 40.0, 55.0), 2.5),
+        ("date_of_issue", (40.0, 25.0, 65.0, 30.0), 2.5),
     )
+
+
+def asme_cells(block: TitleBlock) -> tuple[tuple[str, Rect, float], ...]:
+    """The cells of a title block of ASME Y14.1 for sizes B and C, in mm."""
+    first = STUDENT if STUDENT in block.labels else "creator"
+    second = block.creator and first == STUDENT
+    return (
+        (OWNER, (0.0, 0.0, 92.0, 14.0), 3.5),
+        (first, (92.0, 0.0, 158.75, 14.0), 3.5),
+        ("title", (0.0, 14.0, 92.0, 27.5), 5.0),
+        *((("creator", (92.0, 14.0, 125.0, 27.5), 3.5),) if second else ()),
+        ("approved_by", (125.0 if second else 92.0, 14.0, 158.75, 27.5), 3.5),
+        ("size", (0.0, 27.5, 15.0, 39.0), 5.0),
+        ("identification", (15.0, 27.5, 92.0, 39.0), 3.5),
+        ("revision", (92.0, 27.5, 104.0, 39.0), 3.5),
+        ("date_of_issue", (104.0, 27.5, 142.0, 39.0), 3.5),
+        ("language", (142.0, 27.5, 158.75, 39.0), 3.5),
+        ("scale", (0.0, 39.0, 42.0, 50.8), 3.5),
+        ("document_type", (42.0, 39.0, 112.0, 50.8), 3.5),
+        ("sheet", (112.0, 39.0, 158.75, 50.8), 3.5),
+    )
+
+
+OTHERS = {GOST.name: gost_cells, "ASME": asme_cells}
+"""The cells of the other standards' title blocks."""
+
+
+@lru_cache(maxsize=8)
+def border(paper: SheetPaper) -> tuple[Mark, ...]:
+    """Draw the frame of a page with its centring marks, fields and designation."""
+    (frame,), standard = paper.areas, paper.frame
+    right, bottom = frame[2:]
+    size, small = (
+        Text(right - 1, bottom + 4.2, paper.name, "field", 3.5, "end", "size"),
+        tuple[Mark, ...](),
+    )
+    if standard is ISO:
+        small = fields(paper)
+    elif standard is not GOST:
+        small = tuple(zones(paper))
+        size = replace(size, y=(bottom + paper.height) / 2 + 1.75)
+    return (*small, edged(frame, "frame"), *centring_marks(paper), size)
+
+
+def sheet_frame(title_block: TitleBlock, paper: SheetPaper = A3) -> tuple[Mark, ...]:
+    """Draw the frame, centring marks, fields and title block of a page."""
+    return (*border(paper), *title_block_marks(title_block, *paper.title_block[:2]))
+
+
+ZONES = {"ANSI B": (4, 2), "ANSI C": (4, 4)}
+"""The zones across and down of ASME Y14.1."""
+
+
+def zones(paper: SheetPaper) -> Iterator[Mark]:
+    """Draw the zones outside a frame of ASME Y14.1: from the right, and from below."""
+    left, top, right, bottom = paper.area
+    across, down = ZONES[paper.name]
+    for i in range(across):
+        x, width = i * paper.width / across, paper.width / across
+        middle = (max(x, left) + min(x + width, right)) / 2
+        for y, out in ((top, -BAND), (bottom, BAND)):
+            if i:
+                yield LineMark(x, y, x, y + out, "border")
+            base = y + out / 2 + 1.75 + out / 10
+            if middle < right - 20 or y == top or i < across - 1:
+                yield Text(middle, base, str(across - i), "field", 3.5, "middle")
+    for i in range(down):
+        y, height = i * paper.height / down, paper.height / down
+        middle = (max(y, top) + min(y + height, bottom)) / 2 + 1.75
+        for x, out in ((left, -BAND), (right, BAND)):
+            if i:
+                yield LineMark(x, y, x + out, y, "border")
+            yield Text(x + out * 0.6, middle, LETTERS[down - 1 - i], "field", 3.5, "middle")
 
 
 def edged(rect: Rect, cls: str) -> Mark:
@@ -130,10 +211,10 @@ def edged(rect: Rect, cls: str) -> Mark:
     return box(left, top, right - left, bottom - top, cls)
 
 
-def centring_marks(width: float, height: float) -> tuple[Mark, ...]:
+def centring_marks(paper: SheetPaper) -> tuple[Mark, ...]:
     """Draw four 10 mm marks across the frame in the middle of each side."""
-    x, y, reach = width / 2, height / 2, 2 * BAND
-    left, right, top, bottom = FILING - BAND, width - BAND, BAND, height - BAND
+    x, y, reach = paper.width / 2, paper.height / 2, 2 * BAND
+    left, top, right, bottom = outside(paper)
     ends = (
         (x, top, x, top + reach),
         (x, bottom, x, bottom - reach),
@@ -143,6 +224,12 @@ def centring_marks(width: float, height: float) -> tuple[Mark, ...]:
     return tuple(LineMark(*four, "frame", "centring-mark") for four in ends)
 
 
+def outside(paper: SheetPaper) -> Rect:
+    """The rectangle outside the frame in which the grid border lies."""
+    left, top, right, bottom = paper.area
+    return left - BAND, top - BAND, right + BAND, bottom + BAND
+
+
 def bounds(length: float, low: float, high: float) -> list[float]:
     """Return the bounds of the fields along one side, spaced by 50 mm from its middle."""
     half = floor(length / 2 / FIELD)
@@ -150,11 +237,10 @@ def bounds(length: float, low: float, high: float) -> list[float]:
     return [low, *(at for at in inner if low + FIELD / 4 < at < high - FIELD / 4), high]
 
 
-@lru_cache(maxsize=8)
-def fields(width: float, height: float) -> tuple[Mark, ...]:
+def fields(paper: SheetPaper) -> tuple[Mark, ...]:
     """Draw the grid border with its numbered and lettered fields."""
-    outer = (FILING - BAND, BAND, width - BAND, height - BAND)
-    left, top, right, bottom = outer
+    width, height = paper.width, paper.height
+    outer = left, top, right, bottom = outside(paper)
     across, down = bounds(width, left, right), bounds(height, top, bottom)
     marks: list[Mark] = [edged(outer, "border")]
     for x in across[1:-1]:
@@ -162,11 +248,11 @@ def fields(width: float, height: float) -> tuple[Mark, ...]:
     for y in down[1:-1]:
         marks += (LineMark(x, y, x + BAND, y, "border") for x in (left, right - BAND))
     for i, (a, b) in enumerate(pairwise(across)):
-        middle = (max(a, FILING) + min(b, right - BAND)) / 2
+        middle = (max(a, left + BAND) + min(b, right - BAND)) / 2
         for y in (top, bottom - BAND):
             marks.append(Text(middle, y + 4.25, str(i + 1), "field", 3.5, "middle"))
     for i, (a, b) in enumerate(pairwise(down)):
-        middle = (max(a, EDGE) + min(b, bottom - BAND)) / 2 + 1.75
+        middle = (max(a, top + BAND) + min(b, bottom - BAND)) / 2 + 1.75
         for x in (left, right - BAND):
             marks.append(Text(x + BAND / 2, middle, LETTERS[i], "field", 3.5, "middle"))
     return tuple(marks)
@@ -257,18 +343,79 @@ def header_marks(block: TitleBlock, rect: Rect, logo: Rect) -> list[Mark]:
 
 def title_block_marks(block: TitleBlock, x: float, y: float) -> tuple[Mark, ...]:
     """Draw the title block with its top-left corner at (x, y)."""
-    marks: list[Mark] = [box(x, y, TITLE_WIDTH, TITLE_HEIGHT, "frame title-block")]
+    if block.frame is GOST:
+        return tuple(form_one(block, x, y))
+    width, height = block.frame.block
+    marks: list[Mark] = [box(x, y, width, height, "frame title-block")]
     for name, (left, top, right, bottom), most in cells_of(block):
         rect = (x + left, y + top, x + right, y + bottom)
         if left:
             marks.append(LineMark(rect[0], rect[1], rect[0], rect[3], "border title-block"))
         elif top:
-            marks.append(LineMark(x, rect[1], x + TITLE_WIDTH, rect[1], "border title-block"))
+            marks.append(LineMark(x, rect[1], x + width, rect[1], "border title-block"))
         if name == OWNER and block.is_headed:
             marks += header_marks(block, rect, logo_box(block))
             continue
         marks += cell(name, rect, most, block.labels.get(name, ""), getattr(block, name))
     return tuple(marks)
+
+
+COLUMNS = (7.0, 17.0, 40.0, 55.0)
+"""The lines between the columns of changes and signatures in form 1, from its left edge, in mm."""
+LINES = (
+    *((x, 0.0, x, 25.0 if x == COLUMNS[0] else 55.0) for x in (*COLUMNS, 65.0)),
+    *((0.0, y, 65.0, y) for y in (20.0, 25.0)),
+    *((65.0, y, 185.0, y) for y in (15.0, 40.0)),
+    (135.0, 15.0, 135.0, 55.0),
+    *((135.0, y, 185.0, y) for y in (20.0, 35.0)),
+    *((x, 15.0, x, 35.0) for x in (150.0, 167.0)),
+    *((x, 20.0, x, 35.0) for x in (140.0, 145.0)),
+    (155.0, 35.0, 155.0, 40.0),
+)
+"""The strong lines of form 1."""
+ROWS = ("Разраб.", "Пров.", "Т. контр.", "", "Н. контр.", "Утв.")
+"""The first column of the signatures."""
+HEADS = (("Изм.", 3.5), ("Лист", 12.0), ("№ докум.", 28.5), ("Подп.", 47.5), ("Дата", 60.0))
+"""The heads of the columns, and their middles."""
+ASIDE = (("Лит.", 142.5), ("Масса", 158.5), ("Масштаб", 176.0))
+"""The heads above the stage, the mass and the scale, and their middles."""
+
+
+def form_one(block: TitleBlock, x: float, y: float) -> Iterator[Mark]:
+    """Draw the title block of GOST 2.104-2006, form 1, with its printed words."""
+    width, height = block.frame.block
+    yield box(x, y, width, height, "frame title-block")
+    for x1, y1, x2, y2 in LINES:
+        yield LineMark(x + x1, y + y1, x + x2, y + y2, "frame title-block")
+    for row in (*range(5, 20, 5), *range(30, 55, 5)):
+        yield LineMark(x, y + row, x + 65.0, y + row, "border title-block")
+    for word, middle in HEADS:
+        yield Text(x + middle, y + 23.4, word, "title", 1.8, "middle")
+    for word, middle in ASIDE:
+        yield Text(x + middle, y + 18.4, word, "title", 1.8, "middle")
+    for i, word in enumerate(filter(None, ROWS)):
+        row = i + (i >= ROWS.index(""))
+        yield Text(x + 1.0, y + 28.4 + 5 * row, word, "title", 1.8)
+    number, _, total = block.sheet.partition("/")
+    for word, left in ((f"Лист {number}", 136.5), (f"Листов {total}", 156.5)):
+        yield Text(x + left, y + 38.6, word, "title", 2.5, name="sheet")
+    for name, (left, top, right, bottom), most in gost_cells(block):
+        value = getattr(block, name)
+        rect = x + left, y + top, x + right, y + bottom
+        if name == OWNER and block.is_headed:
+            yield from header_marks(block, rect, logo_box(block))
+        elif name != "sheet" and value.strip():
+            yield from centred(name, rect, most, value)
+
+
+def centred(name: str, rect: Rect, most: float, value: str) -> Iterator[Mark]:
+    """The lines of a value in the middle of a cell without a label."""
+    left, top, right, bottom = rect
+    lines, height = fitting(name, value, right - left - 2, bottom - top - 2, most, CLOSER)
+    first = (top + bottom - (len(lines) - 1) * CLOSER * height + height) / 2
+    for i, line in enumerate(lines):
+        y = first + i * CLOSER * height
+        yield Text((left + right) / 2, y, line, "title", height, "middle", name)
 
 
 @lru_cache(maxsize=8)

@@ -556,8 +556,8 @@ def note_lines(notes: Sequence[FootNote], width: float) -> list[NoteLine]:
         owners, pieces = [*range(len(notes))], [note.markup for note in notes]
     else:
         ended = [f"{note.markup}{BETWEEN.rstrip()}" for note in notes[:-1]] + [notes[-1].markup]
-        told = [(i, word) for i, said in enumerate(ended) for word in words_of(said)]
-        owners, pieces = [i for i, _ in told], [word for _, word in told]
+        all_words = [(i, word) for i, said in enumerate(ended) for word in words_of(said)]
+        owners, pieces = [i for i, _ in all_words], [word for _, word in all_words]
         lines = flowed_pieces(pieces, " ", width, 2.5)
     return [NoteLine(line, tuple(parts(notes, owners, pieces, held))) for line, held in lines]
 

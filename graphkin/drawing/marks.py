@@ -318,6 +318,7 @@ class Page(Struct, frozen=True):
     """One page: its size in mm, its marks in painting order, its title and language code.
 
     ``pictures`` lie above its marks. ``weight`` is a factor on the widths of all lines.
+    ``drawn`` is the part with the drawings: left, top, right and bottom in mm, None without one.
     """
 
     width: float
@@ -327,6 +328,7 @@ class Page(Struct, frozen=True):
     lang: str = "en"
     pictures: tuple[Picture, ...] = ()
     weight: float = 1.0
+    drawn: tuple[float, float, float, float] | None = None
 
     def check(self) -> None:
         """Raise PageError, naming each mark that is not finite or leaves the page."""

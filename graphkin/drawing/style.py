@@ -171,6 +171,9 @@ STYLES: dict[str, Style] = {
     "reaction": Style(0.5, BROWN),
     "reaction-part": Style(0.35, BROWN, SHORT_CHAIN),
     "balance": Style(0.5, BROWN, DOTTED),
+    # drawings given back
+    "right": Style(0.5, GREEN, fill="ink"),
+    "wrong": Style(0.5, RED, fill="ink"),
     "trial": Style(0.13, GREY),
     "trial-line": Style(0.18, GREY, CHAIN),
     "arrowhead": Style(0, NEXT, fill="ink"),

@@ -1,4 +1,4 @@
-"""Which format a text has, told by how it begins, and the mechanism that it holds."""
+"""The format of a text, known from its first characters, and the mechanism that it holds."""
 
 from __future__ import annotations
 

@@ -248,7 +248,7 @@ def gathered(
 ) -> Imported:
     """The mechanism of joints and links; a prismatic joint is the guide of the link that has it."""
     few(len(bodies))
-    told = list(notes)
+    messages = list(notes)
     guides, inputs, held = [], [], {}
     for own, body in bodies.items():
         if not all(joint in found for joint in body.joints):
@@ -266,7 +266,7 @@ def gathered(
             else:
                 guides.append(DrawnGuide(own, start, angle=drawn.angle))
             if drawn.driven:
-                told.append(
+                messages.append(
                     message(
                         "the speed {speed} is taken as {unit} per second along the guide",
                         speed=f"{speed:g}",
@@ -291,7 +291,7 @@ def gathered(
         if own in used
     }
     return Imported(
-        PROGRAM, unit, 1 / THOUSANDTH, joints, held, tuple(guides), tuple(inputs), tuple(told)
+        PROGRAM, unit, 1 / THOUSANDTH, joints, held, tuple(guides), tuple(inputs), tuple(messages)
     )
 
 

@@ -217,12 +217,12 @@ class Net:
         before = self.pins_of(known.difference(chosen))
         new = [joint for joint in every if joint.pin not in before]
         beside = {link for joint in (*new, *ties) for link in joint.links} - known
-        stands = self.pins_of(known)
+        known_pins = self.pins_of(known)
         found: set[Set] = set()
         for link in beside & self.order.keys():
             found.add((1, (self.order[link],)))
             mine, tied_to = self.near((link,))
-            others = {each for joint in mine if joint.pin not in stands for each in joint.links}
+            others = {each for joint in mine if joint.pin not in known_pins for each in joint.links}
             others |= {each for tie in tied_to if link in tie.links[:2] for each in tie.links[:2]}
             pairs = ({link, each} for each in (others & self.order.keys()) - known - {link})
             found |= {(2, tuple(sorted(self.order[each] for each in pair))) for pair in pairs}

@@ -53,6 +53,7 @@ from graphkin.loops.rigid_bodies import (
     unit,
 )
 from graphkin.numbers.arithmetic import Point, Real
+from graphkin.numbers.dual_numbers import Dual, rate_of
 from graphkin.scene.model import FRAME, LEADING, Driver, Scene
 from graphkin.scene.wheels import angle_less_cycles as whole_turned
 from graphkin.text.errors import Problem, StructureError, message
@@ -88,6 +89,16 @@ class Lift(Struct, frozen=True, eq=False):
             place = np.exp(1j * place) * self.lean
         return self.law.at(place, self.numbers, self.start)
 
+    def third(self, unknowns: Reals) -> Reals:
+        """The third derivative of the law by the cam's angle or coordinate: (N,)."""
+        place = self.of(unknowns)
+        if self.law.cam.slides:
+            moved = Dual(place, np.ones_like(place))
+        else:
+            turn = np.exp(1j * place) * self.lean
+            moved = Dual(turn, 1j * turn)
+        return np.asarray(rate_of(self.law.at(moved, self.numbers, self.start).bend))
+
 
 class Drives(Struct, frozen=True, eq=False):
     """The given motions: row d of ``selects`` (D, K + m) selects the driven coordinate.
@@ -95,7 +106,7 @@ class Drives(Struct, frozen=True, eq=False):
     A turning driver compares the unit vector e^{i(selected angle)}·``lean`` with ``aim``; a sliding
     one compares its coordinate with ``aim``. All have shape (N, D). ``whole`` counts full turns,
     too, from the angle ``given`` (radians), because the position of a wheel depends on them.
-    ``leaning`` is then the angle of ``lean``, not reduced. Rates are in SI units. ``errors`` (3, N,
+    ``leaning`` is then the angle of ``lean``, not reduced. Rates are in SI units. ``errors`` (4, N,
     D) bound the rounding of a law of time, in the given value and in its rates.
     """
 
@@ -108,6 +119,7 @@ class Drives(Struct, frozen=True, eq=False):
     whole: bool
     speed: Reals
     acceleration: Reals
+    jerk: Reals
     errors: Reals
     lifts: tuple[Lift, ...] = ()
     bases: tuple[CountedApart, ...] = ()
@@ -155,6 +167,13 @@ class Drives(Struct, frozen=True, eq=False):
             found[:, lift.row] -= lift.at(unknowns).bend * lift.of(u) * lift.of(v)
         return found
 
+    def third(self, unknowns: Reals, u: Reals) -> Reals:
+        """Third derivative of the residual in one direction, nonzero only for laws: (N, D)."""
+        found = np.zeros((len(unknowns), len(self.turns)))
+        for lift in self.lifts:
+            found[:, lift.row] -= lift.third(unknowns) * lift.of(u) ** 3
+        return found
+
     @property
     def waits(self) -> Reals:
         """The unknowns known before an equation determines its coordinate: (D, K + m)."""
@@ -166,7 +185,14 @@ class Drives(Struct, frozen=True, eq=False):
     def none(self) -> Drives:
         """The same structure without drivers."""
         lean, leaning, aim = self.lean[:, :0], self.leaning[:, :0], self.aim[:, :0]
-        given, rates = self.given[:, :0], (self.speed[:, :0], self.acceleration[:, :0])
+        given, rates = (
+            self.given[:, :0],
+            (
+                self.speed[:, :0],
+                self.acceleration[:, :0],
+                self.jerk[:, :0],
+            ),
+        )
         left = lean, leaning, aim, given
         none = self.selects[:0], self.turns[:0], *left, self.whole, *rates
         return Drives(*none, self.errors[:, :, :0])
@@ -187,7 +213,7 @@ def drives_of(
     selects = np.zeros((count, turned.count + len(guides)))
     lean = np.ones((numbers.count, count), dtype=np.complex128)
     aim = np.zeros((numbers.count, count), dtype=np.complex128)
-    leaning, given, speed, acceleration, *errors = np.zeros((7, numbers.count, count))
+    leaning, given, speed, acceleration, jerk, *errors = np.zeros((9, numbers.count, count))
     for d, driver in enumerate(scene.drivers):
         if driver.kind == "turn":
             selects[d, turned.of[driver.link]] += 1
@@ -207,11 +233,12 @@ def drives_of(
         speed[:, d] = numbers.si(driver.speed)
         acceleration[:, d] = numbers.si(driver.acceleration)
         if not isinstance(driver.position, ByLaw):
-            laws = driver.position, driver.speed, driver.acceleration
+            jerk[:, d] = numbers.si(driver.jerk)
+            laws = driver.position, driver.speed, driver.acceleration, driver.jerk
             for bound, law in zip(errors, laws, strict=True):
                 bound[:, d] = numbers.error(law)
     turning = np.array([driver.kind == "turn" for driver in scene.drivers], dtype=np.bool_)
-    rates = speed, acceleration, np.array(errors)
+    rates = speed, acceleration, jerk, np.array(errors)
     lifts = lifts_of(scene, guides, turned, numbers)
     places = lean, leaning, aim, given
     bases = bases_of(scene, turned, own_turns, numbers, known)
@@ -350,6 +377,16 @@ class Chains(Struct, frozen=True, eq=False):
         centripetal = linear.turned @ (turn_u * turn_v)[:, 1:, None]
         mixed = slide_u * turn_v[:, self.carrier] + slide_v * turn_u[:, self.carrier]
         return (1j * (linear.along @ mixed[:, :, None]) - centripetal)[:, :, 0]
+
+    def third(self, linear: Linear, u: Reals) -> Complexes:
+        """Third derivative of every chain, three times in one direction of the unknowns: (N, R).
+
+        Vectors that turn contribute -iθ̇³ times themselves, slides -3ṡθ̇² along themselves.
+        """
+        turn, slide = self.split(u)
+        mixed = 3 * slide * turn[:, self.carrier] ** 2
+        swung = linear.turned @ turn[:, 1:, None] ** 3
+        return (-1j * swung - linear.along @ mixed[:, :, None])[:, :, 0]
 
 
 def packed(rows: Sequence[Chain], tree: Tree, numbers: Numbers) -> Chains:
@@ -606,6 +643,12 @@ class Equations(Struct, frozen=True, eq=False, dict=True):
         closed = self.closures(self.chains.second(linear, u, v))
         slips = np.zeros((len(closed), len(self.slips.links)))
         return np.concatenate([closed, slips, self.drives.second(linear.unknowns, u, v)], axis=1)
+
+    def third(self, linear: Linear, u: Reals) -> Reals:
+        """Third derivative of f in one direction; linear equations contribute nothing."""
+        closed = self.closures(self.chains.third(linear, u))
+        slips = np.zeros((len(closed), len(self.slips.links)))
+        return np.concatenate([closed, slips, self.drives.third(linear.unknowns, u)], axis=1)
 
     def guide_index(self, block: str) -> int | None:
         """The first slide or track of a link, or None."""

@@ -582,10 +582,10 @@ def own_turns_of(
     turning = turning_ends(scene, known)
     from_frame = turned_from_frame(scene, turned)
     driven = from_frame | {of[end] for end, _ in turning.values()}
-    told, left = set(driven), list(slips)
+    determined, left = set(driven), list(slips)
 
     def unknown(slip: NoSlip) -> list[str]:
-        return [link for link in slip.weights if of[link] not in told]
+        return [link for link in slip.weights if of[link] not in determined]
 
     def leads(slip: NoSlip) -> bool:
         return slip.track is None or slip.links[0] in unknown(slip) or not unknown(slip)
@@ -595,12 +595,12 @@ def own_turns_of(
         if (slip := next(ready, None)) is not None:
             left.remove(slip)
             led.update(unknown(slip))
-            told.update(of[link] for link in slip.weights)
+            determined.update(of[link] for link in slip.weights)
             continue
         wheels = {of[slip.links[0]] for slip in left}
         missing = [link for slip in left for link in unknown(slip)]
         doubtful |= len({of[link] for link in missing}) > 1
-        told.add(of[min(missing, key=lambda link: (known.get(link, 0), of[link] in wheels))])
+        determined.add(of[min(missing, key=lambda link: (known.get(link, 0), of[link] in wheels))])
     counted = driven | {of[link] for link in led}
     links = {each for slip in slips for each in slip.weights}
     links |= {base for _, base in turning.values()}
@@ -704,11 +704,13 @@ def turned_from(scene: Scene, turned: Turnings, known: Mapping[str, int]) -> dic
     """
     ends = turning_ends(scene, known)
     turning = [turned.of.get(link, -1) for link, _ in ends.values()]
-    told = turned_from_frame(scene, turned)
+    determined = turned_from_frame(scene, turned)
     return {
         d: base
         for n, ((d, (_, base)), k) in enumerate(zip(ends.items(), turning, strict=True))
-        if k not in told and (k < 0 or k not in turning[:n]) and turned.of.get(base) not in turning
+        if k not in determined
+        and (k < 0 or k not in turning[:n])
+        and turned.of.get(base) not in turning
     }
 
 

@@ -78,6 +78,15 @@ class Vectors(Struct, frozen=True, eq=False):
         """The loads of accelerations on the vectors: by the second derivatives and by the rates."""
         return np.asarray(second + self.twice * rate * rate[:, self.turned_by])
 
+    def carried_thrice(self, rate: Reals, second: Reals, third: Reals) -> Reals:
+        """The loads of jerks on the vectors: by the third derivatives, and by the lower ones.
+
+        3θ̇θ̈ + θ̇³ for what turns, 3(ṡθ̈ + s̈θ̇) + 3ṡθ̇² for slides.
+        """
+        turn, twist = rate[:, self.turned_by], second[:, self.turned_by]
+        mixed = 1.5 * self.twice * (rate * twist + second * turn)
+        return np.asarray(third + mixed + (2 * self.twice - 1) * rate * turn**2)
+
     def carried_more(self, rate: Reals, more: Reals) -> Reals:
         """The growth of the parts by the rates for an error ``more`` of the rates."""
         held, extra = rate[:, self.turned_by], more[:, self.turned_by]
@@ -196,17 +205,35 @@ def led(loops: Equations, inverse: Reals, missed: Reals, linear: Reals | None = 
     return np.asarray((inverse @ every[:, :, None])[:, :, 0])
 
 
-def rounding(
-    motion: Motion, unknowns: Reals, rates: Reals, seconds: Reals | None, jacobian: Reals
-) -> Rounding:
-    """The bounds of a motion, from the unknowns and their derivatives, (N, K + m) each.
+class RateBounds(Struct, frozen=True, eq=False):
+    """The bounds of a motion in the unknowns and in the ends of all chains.
 
-    ``jacobian`` is the one there, with each equation and unknown divided by its own size. Without
-    ``seconds``, the bounds of all accelerations are NaN.
+    ``off``, ``slower`` and ``later`` (N, 1 + K + m) bound the unknowns and their two derivatives,
+    ``place``, ``velocity`` and ``acceleration`` (N, R) the chains. ``moved`` are the vectors that
+    the error of the position adds, ``longer`` all of them.
     """
-    loops = motion.loops
-    links, points = len(loops.links), len(loops.links) + len(loops.closing)
-    with np.errstate(all="ignore"):
+
+    position: PositionBounds
+    moved: Vectors
+    longer: Vectors
+    off: Reals
+    slower: Reals
+    later: Reals
+    place: Reals
+    velocity: Reals
+    acceleration: Reals
+
+    @classmethod
+    def of(
+        cls,
+        motion: Motion,
+        unknowns: Reals,
+        rates: Reals,
+        seconds: Reals | None,
+        jacobian: Reals,
+    ) -> RateBounds:
+        """The bounds at a position, as ``rounding`` takes it."""
+        loops = motion.loops
         found = PositionBounds.about(motion, unknowns, jacobian)
         rows, places, inverse = found.rows, found.places, found.inverse
         off, speed = loads(found.off), loads(rates)
@@ -228,8 +255,25 @@ def rounding(
             linear[:, len(loops.slips.links) :] += loops.drives.errors[2]
             later = loads(led(loops, inverse, acceleration, linear))
             acceleration = acceleration + longer.sum(later)
+        return cls(found, moved, longer, off, slower, later, place, velocity, acceleration)
+
+
+def rounding(
+    motion: Motion, unknowns: Reals, rates: Reals, seconds: Reals | None, jacobian: Reals
+) -> Rounding:
+    """The bounds of a motion, from the unknowns and their derivatives, (N, K + m) each.
+
+    ``jacobian`` is the one there, with each equation and unknown divided by its own size. Without
+    ``seconds``, the bounds of all accelerations are NaN.
+    """
+    loops = motion.loops
+    links, points = len(loops.links), len(loops.links) + len(loops.closing)
+    with np.errstate(all="ignore"):
+        found = RateBounds.of(motion, unknowns, rates, seconds, jacobian)
+    rows, off, slower, later = found.position.rows, found.off, found.slower, found.later
+    places = found.position.places
     which, turnings = loops.turning_of_link, rows.count
-    every = PlaceBound(place, velocity, acceleration)
+    every = PlaceBound(found.place, found.velocity, found.acceleration)
     slid = off[:, turnings:] + 2 * places[:, rows.turned_by[turnings:]]
     return Rounding(
         motion=motion,
@@ -239,7 +283,7 @@ def rounding(
         epsilon=later[:, which],
         points=PlaceBound(*(row[:, points:] for row in every)),
         slides=np.stack([slid, slower[:, turnings:], later[:, turnings:]]),
-        regular=np.asarray(found.regular.all(axis=1)),
+        regular=np.asarray(found.position.regular.all(axis=1)),
     )
 
 

@@ -77,7 +77,7 @@ def moving_page(name: str) -> str:
     return f"{MOVING}/{name}.html"
 
 
-def moving_pages(told: Callable[[str], None]) -> Iterator[tuple[str, bytes]]:
+def moving_pages(announce: Callable[[str], None]) -> Iterator[tuple[str, bytes]]:
     """The page that draws and moves each shipped scene, in English; each name is reported."""
     from concurrent.futures import ProcessPoolExecutor
 
@@ -86,7 +86,7 @@ def moving_pages(told: Callable[[str], None]) -> Iterator[tuple[str, bytes]]:
     order = [*scene_texts()]
     with ProcessPoolExecutor(cores()) as pool:
         for name, html in zip(order, pool.map(drawn_and_moved, order), strict=True):
-            told(name)
+            announce(name)
             yield moving_page(name), html.encode()
 
 

@@ -259,6 +259,20 @@ class Course(Struct, frozen=True, dict=True):
                 found[number] = way.closed(self.group(k), stated, at, known)
         return found
 
+    def closed_at(self, at: float, program: Program) -> dict[int, tuple[Any, ...]]:
+        """The values that close the followed groups at one u, by the steps of another program.
+
+        That program places the same groups in the same order.
+        """
+        if not self.closures:
+            return {}
+        here = np.array([at])
+        found = self.closing(self.values(here), here).values()
+        steps = (n for n, step in enumerate(program.steps) if closer_of(step) is not None)
+        return {
+            n: tuple(part[0].item() for part in each) for n, each in zip(steps, found, strict=False)
+        }
+
     @cached_property
     def _readied(self) -> dict[Any, Ready]:
         """The prepared inputs of steps for arrays of some values."""

@@ -41,7 +41,7 @@ def equal_places(
     if start == "dead":
         first = dead_point(cycle, place)
     else:
-        first = cycle.sweep.stands if start == "scene" else float(start)
+        first = cycle.sweep.at_scene if start == "scene" else float(start)
     if whole:
         return np.asarray(first + step * np.arange(count), float)
     first = cycle.path.found_at(first, low, high)

@@ -67,9 +67,9 @@ def named(course: Course, event: Event, inside: float) -> Singular:
     kind: Literal["dead", "change"] = "dead" if event.kind == "dead" else "change"
     if not event.steps:
         return Singular(kind, event.at, *flattest(course, inside))
-    told = [words(course, number, inside) for number in event.steps]
-    pins = dict.fromkeys(pin for pin, _ in told)
-    lines = dict.fromkeys(line for _, line in told)
+    both = [words(course, number, inside) for number in event.steps]
+    pins = dict.fromkeys(pin for pin, _ in both)
+    lines = dict.fromkeys(line for _, line in both)
     return Singular(kind, event.at, ", ".join(pins), "; ".join(lines))
 
 
@@ -90,8 +90,8 @@ def words(course: Course, number: int, inside: float) -> tuple[str, str]:
     step = program.steps[number]
     loci = course.loci(number, inside)
     kind = step.of if isinstance(step.of, Determined) else None
-    if kind is not None and (told := kind.at_end(program.steps, loci)) is not None:
-        return told
+    if kind is not None and (found := kind.at_end(program.steps, loci)) is not None:
+        return found
     pin = step.name or of_later(program, number)
     match loci:
         case (Line(), Line()):

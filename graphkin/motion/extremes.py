@@ -17,8 +17,9 @@ from graphkin.construction.core.program import Target
 from graphkin.construction.core.quantities import (
     BY_TARGET,
     EPSILON,
-    KINDS,
+    JERK,
     OMEGA,
+    ORDERS,
     QUANTITIES,
     SHEETS,
     MotionQuantity,
@@ -154,10 +155,10 @@ def asked_measures(cycle: Cycle) -> Iterator[Measure]:
         pace = abs(float(driver.speed.si(cycle.scene.values)))
         pace = pace if driver.kind == "turn" else pace / reach
     for quantity in QUANTITIES:
-        if quantity.kind in SHEETS and not quantity.is_place:
+        if quantity.kind in (*SHEETS, JERK) and not quantity.is_place:
             for name in dict.fromkeys(names_asked(cycle.scene.ask, quantity)):
                 if (quantity.target, name) in known:
-                    usual = pace ** KINDS.index(quantity.kind)
+                    usual = pace ** ORDERS.index(quantity.kind)
                     usual *= 1.0 if quantity.whose == "links" else reach
                     yield measure_of(quantity, name, known, usual)
 

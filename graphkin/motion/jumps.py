@@ -104,11 +104,11 @@ class CycleTracker:
         speed = 1.0 if driver is None else float(driver.speed.si(values))
         push = 0.0 if driver is None else float(driver.acceleration.si(values))
         points = [cycle.solution.points.get(of) for _, of in self.names]
-        told: list[list[Any]] = [[getattr(each, kind, None) for kind in KINDS] for each in points]
-        if not speed or any(value is None for each in told for value in each):
+        kept: list[list[Any]] = [[getattr(each, kind, None) for kind in KINDS] for each in points]
+        if not speed or any(value is None for each in kept for value in each):
             return self.between(at)
         whole = cycle.at.shape
-        every = np.array([[np.broadcast_to(v, whole)[rows] for v in each] for each in told])
+        every = np.array([[np.broadcast_to(v, whole)[rows] for v in each] for each in kept])
         place, velocity, acceleration = np.moveaxis(every, 1, 0)
         rate = velocity / speed
         return PlacesAndRates(at, place, rate, (acceleration - rate * push) / speed**2, self.size)

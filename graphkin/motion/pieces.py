@@ -121,10 +121,10 @@ def range_about(sweep: Sweep) -> Path | None:
     The closures have no numbers along it. None where nothing closes in that position.
     """
     course = Course(sweep, sweep.original.branches)
-    start = beside_touch(course, sweep.stands)
+    start = beside_touch(course, sweep.at_scene)
     if start is None:
         return None
-    turns = turns_back(led(course, sweep.stands, sweep.start), sweep.start) if sweep.whole else 0
+    turns = turns_back(led(course, sweep.at_scene, sweep.start), sweep.start) if sweep.whole else 0
     return from_start(carried_about(course, start), start, turns)
 
 
@@ -137,9 +137,9 @@ def reachable_ranges(sweep: Sweep, branches: Branches | None = None) -> Path:
     """
     course = Course(sweep, sweep.original.branches if branches is None else branches)
     refuse_far(sweep)
-    near = led(course, sweep.stands, sweep.start)
+    near = led(course, sweep.at_scene, sweep.start)
     turns = turns_back(near, sweep.start) if sweep.whole else 0
-    if course.closers and (start := beside_touch(course, sweep.stands)) is not None:
+    if course.closers and (start := beside_touch(course, sweep.at_scene)) is not None:
         return shown(sweep, from_start(carried_about(course, start), start, turns))
     course = led_round(near, sweep.start, sweep.start + turns * TURN) if turns > 1 else near
     start = beside_touch(course, sweep.start)

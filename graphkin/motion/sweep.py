@@ -80,7 +80,7 @@ class Sweep(Struct, frozen=True, eq=False):
         return self.driver is not None and self.driver.speed.si(self.original.values) < 0
 
     @property
-    def stands(self) -> float:
+    def at_scene(self) -> float:
         """The u at which the scene is drawn: its start, or the time that it states."""
         time = self.original.time
         if self.what != "time" or time is None:
@@ -201,8 +201,8 @@ def named(scene: Scene, number: int | None) -> Scene:
         )
         drivers.append(replace(driver, position=position, speed=speed, acceleration=acceleration))
         place, rate, push = stated_motion(driver, scene)
-        stands = number is not None and n != number
-        motion = (place, 0.0, 0.0) if stands else (place, rate, push)
+        held = number is not None and n != number
+        motion = (place, 0.0, 0.0) if held else (place, rate, push)
         values |= dict(zip(names(n), motion, strict=True))
     near, angles = named_angles(scene)
     return replace(scene, drivers=tuple(drivers), near=near, values=values | angles)

@@ -118,6 +118,8 @@ def at(x: Real, y: Real) -> Point:
     """The point with two coordinates."""
     if isinstance(x, float) and isinstance(y, float):
         return complex(x, y)
+    if is_dual(x):
+        return x.joined(y)
     for part in (x, y):
         if is_ball(part):
             from flint import acb
@@ -146,6 +148,11 @@ def is_formal(value: Any) -> bool:
     return hasattr(value, "terms")
 
 
+def is_dual(value: Any) -> bool:
+    """Whether a number is moving: a number with its rate, real or complex."""
+    return hasattr(value, "joined")
+
+
 def sqrt(x: Real) -> Real:
     """Square root; a negative number raises ValueError, a negative element of a batch gives NaN.
 
@@ -157,7 +164,7 @@ def sqrt(x: Real) -> Real:
         if x < 0:
             raise ValueError("the square root of a negative number")
         return x.context.sqrt(x)
-    if is_ball(x) or is_formal(x) or is_disc(x):
+    if is_ball(x) or is_formal(x) or is_disc(x) or is_dual(x):
         return x.sqrt()
     return np.sqrt(x)
 
@@ -168,7 +175,7 @@ def phase(z: Point) -> Real:
         return cmath.phase(z)
     if is_decimal(z):
         return z.context.arg(z)
-    if is_ball(z) or is_formal(z) or is_disc(z):
+    if is_ball(z) or is_formal(z) or is_disc(z) or is_dual(z):
         return z.arg()
     return np.angle(z)
 
@@ -181,7 +188,7 @@ def turn_by(angle: Real) -> Point:
         return angle.context.expj(angle)
     if is_ball(angle):
         return at(angle.cos(), angle.sin())
-    if is_formal(angle) or is_disc(angle):
+    if is_formal(angle) or is_disc(angle) or is_dual(angle):
         return angle.turn()
     return np.cos(angle) + 1j * np.sin(angle)
 
@@ -190,6 +197,10 @@ def pick(condition: Any, yes: Any, no: Any) -> Any:
     """One of two values by a condition, element by element in a batch."""
     if isinstance(condition, bool):
         return yes if condition else no
+    if is_dual(yes):
+        return yes.both(no, lambda one, other: pick(condition, one, other))
+    if is_dual(no):
+        return no.both(yes, lambda other, one: pick(condition, one, other))
     if is_disc(yes):
         return yes.picked(condition, no)
     if is_disc(no):
@@ -199,6 +210,8 @@ def pick(condition: Any, yes: Any, no: Any) -> Any:
 
 def below(a: Real, b: Real) -> Any:
     """Whether a number is smaller than another. Raises ValueError where a ball leaves that open."""
+    if is_dual(a):
+        return a.below(b)
     if is_ball(a) and not (a < b or a >= b):
         raise ValueError("the ball does not tell which number is smaller")
     return a < b
@@ -213,6 +226,8 @@ def either(condition: Any, one: Point, other: Point) -> Point:
         return acb(x, y)
     if is_formal(one):
         return one.simpler(other)
+    if is_dual(one):
+        return one.both(other, lambda a, b: either(condition, a, b))
     if is_disc(one):
         return one.tighter(other)
     return pick(condition, one, other)

@@ -9,7 +9,8 @@ import cv2
 import numpy as np
 from msgspec import Struct
 
-from graphkin.classroom.printing.personal import QUIET, SIDE, corners_of_a3, modules
+from graphkin.classroom.printing.personal import QUIET, SIDE, corners_on, modules
+from graphkin.drawing.field import A3, SheetPaper
 
 AGREES, BEFORE = 0.85, 0.08
 """The least share of matching modules for a partly hidden code, and its least lead over the next.
@@ -49,7 +50,9 @@ def corners_of(position: Any) -> Any:
     return np.array([(corner.x, corner.y) for corner in order], dtype=float)
 
 
-def code_among(sheet: Any, density: float, codes: Sequence[str]) -> FoundCode | None:
+def code_among(
+    sheet: Any, density: float, codes: Sequence[str], paper: SheetPaper = A3
+) -> FoundCode | None:
     """The code, among the given ones, whose square is on a flattened sheet; None if none is sure.
 
     For a square that is only partly visible. All codes have one length; ``density`` is in pixels
@@ -62,7 +65,7 @@ def code_among(sheet: Any, density: float, codes: Sequence[str]) -> FoundCode | 
     smooth = cv2.blur(sheet, (spread, spread))
     centres = (np.arange(count) + 0.5) * size
     best, most = None, -1.0
-    for x, y in corners_of_a3(QUIET * size):
+    for x, y in corners_on(paper, QUIET * size):
         across, down = (np.rint((a + centres) * density - 0.5).astype(int) for a in (x, y))
         seen = smooth[np.ix_(down, across)].astype(float)
         dark = seen < (seen.min() + seen.max()) / 2

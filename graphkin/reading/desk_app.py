@@ -1,10 +1,12 @@
-"""The marking desk: a local page on which a person decides about the points of drawings.
+"""The marking desk: one local page on which a person decides what a class leaves open.
 
-The desk reads the records and pictures of one folder and writes one file of decisions into it.
+The desk reads a folder of readings, a report, or a report with its readings. It appends each
+decision to a file in the folder, so that several people can decide at once.
 """
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from pathlib import Path
 from threading import Lock
 from typing import Any
@@ -12,13 +14,17 @@ from typing import Any
 import msgspec
 from msgspec import Struct
 
-from graphkin.reading.kept_readings import PICTURE, records_in
+from graphkin.classroom.grading.kept_marks import KEPT_MARKS, read_kept_marks
+from graphkin.reading.desk_drawings import DrawingDesk
+from graphkin.reading.desk_marks import MarkDesk
+from graphkin.reading.desk_queue import KINDS
+from graphkin.reading.kept_readings import READING
 from graphkin.reading.point_reading import VERDICTS
-from graphkin.reading.read_sheet import SHOWN, SheetRecord
-from graphkin.reading.settled_points import LONGEST, PointDecision, SettledPoints, settled_points
+from graphkin.reading.read_sheet import SHOWN
 from graphkin.studio.local_pages import JSON, answer, answering, new_application
 from graphkin.studio.session import PageRequestError
 from graphkin.text import Words
+from graphkin.text.errors import PageError, Problem, message
 from graphkin.text.markup import as_text
 from graphkin.writers.templates import from_template
 
@@ -27,91 +33,127 @@ MOST_BYTES = 16 * 1024
 SAID = (
     "title", "open", "none_open", "point", "verdict", "off", "note", "right", "follows", "wrong",
     "missing", "unread", "next", "undo", "key", "flicker", "by_keys", "refused", "saved", "failed",
-    "sheets", "help",
+    "sheets", "help", "pin", "pins", "rivals", "reason", "points", "reading", "remark", "decided",
+    "disagree", "marks_by_keys", "pin_help", "to_decide", *(f"kind_{kind}" for kind in KINDS),
 )  # fmt: skip
 """The sentences of the page."""
 
 
 class DeskSession(Struct, dict=True):
-    """The readings of a folder and the decisions on them; one request at a time."""
+    """A folder at the desk: the drawings of its readings, and the marks of its report.
+
+    ``marker`` is who decides. Raises PageError for a folder with neither.
+    """
 
     folder: Path
     words: Words
+    marker: str = ""
+    anonymous: bool = False
 
     def __post_init__(self) -> None:
-        self.records = {each.name: each for each in records_in(self.folder)}
-        self.settled = SettledPoints(self.folder)
+        report = read_kept_marks(self.folder)
+        readings = self.folder
+        if report is not None and report.readings:
+            readings = self.folder / report.readings
+        how = self.words, self.marker, self.anonymous
+        drawn = readings.is_dir() and any(readings.glob(f"*{READING}"))
+        self.drawings = DrawingDesk(readings, *how) if drawn else None
+        self.marks = MarkDesk(self.folder, report, *how) if report is not None else None
+        if not drawn and report is None:
+            found = message("holds neither readings nor {file}", file=KEPT_MARKS)
+            hint = message("graphkin read CLASS PHOTOS -o DIR or graphkin grade makes it")
+            expected = message("a folder of graphkin read or graphkin grade")
+            raise PageError(Problem(str(self.folder), found, expected, hint))
         self.lock = Lock()
 
-    def sheets(self) -> list[dict[str, Any]]:
-        """All sheets with their current decisions; refused sheets come last."""
+    def everything(self) -> dict[str, Any]:
+        """All sheets and all else to decide, after the lines of others were read."""
         with self.lock:
-            standing = self.settled.standing
-            read = sorted(self.records.values(), key=lambda each: each.refused is not None)
-            return [self.told(each, standing) for each in read]
+            return self.told()
 
-    def told(self, record: SheetRecord, standing: Any) -> dict[str, Any]:
-        """A sheet in the form that the page expects."""
-        points = [
-            msgspec.to_builtins(each, enc_hook=as_text) for each in settled_points(record, standing)
-        ]
-        for point in points:
-            decision = standing.get((record.name, point["step"]))
-            point["note"] = decision.note if decision else ""
-            point["decided"] = decision is not None
+    def told(self) -> dict[str, Any]:
+        """All sheets, and a line for each other thing to decide."""
+        drawings, marks = self.drawings, self.marks
+        if drawings is not None:
+            drawings.settled.refresh()
+        if marks is not None:
+            marks.rulings.refresh()
         return {
-            "name": record.name,
-            "code": record.code,
-            "who": record.who,
-            "kind": self.words(f"sheet.{record.kind}") if record.kind else "",
-            "refused": record.refused,
-            "lines": record.key_lines,
-            "points": points,
+            "count": self.count(),
+            "sheets": [] if drawings is None else drawings.sheets(),
+            "items": [] if marks is None else marks.listed(),
         }
 
-    def decide(self, data: bytes) -> dict[str, Any]:
-        """Record a decision. Raises PageRequestError for an unknown point or invalid decision."""
+    def problems(self) -> tuple[Problem, ...]:
+        """What is wrong with rows of appeals."""
+        if self.marks is None:
+            return ()
+        self.marks.items()
+        return self.marks.problems
+
+    def count(self) -> list[int]:
+        """The number of lines in each file: it grows with each decision of anybody."""
+        parts = (
+            None if self.drawings is None else self.drawings.settled,
+            None if self.marks is None else self.marks.rulings,
+        )
+        return [0 if part is None else part.count for part in parts]
+
+    def news(self, data: bytes) -> dict[str, Any]:
+        """Everything again, if anybody decided since the page had ``data`` (a count); else {}."""
         try:
-            decision = msgspec.json.decode(data, type=PointDecision)
+            known = msgspec.json.decode(data, type=list[int])
         except msgspec.MsgspecError as error:
             raise PageRequestError(str(error)) from None
-        record = self.records.get(decision.sheet)
-        steps = {point.step for point in record.points} if record is not None else set()
-        on_paper = decision.at is None or (
-            0 <= decision.at[0] <= 420 and 0 <= decision.at[1] <= 297
-        )
-        drawn = (decision.at is None) == (decision.verdict in ("missing", "unread"))
-        known = decision.step in steps and len(decision.note) <= LONGEST
-        if record is None or decision.undo or not (known and on_paper and drawn):
-            raise PageRequestError("no such point, or a place that does not go with the verdict")
         with self.lock:
-            self.settled.add(decision)
-            return self.told(record, self.settled.standing)
+            found = self.told()
+            return {} if found["count"] == known else found
+
+    def item(self, name: str) -> dict[str, Any]:
+        """One thing to decide about marks."""
+        with self.lock:
+            return self.of_marks().shown(name)
+
+    def of_marks(self) -> MarkDesk:
+        """The part about marks. Raises PageRequestError where the folder has none."""
+        if self.marks is None:
+            raise PageRequestError(KEPT_MARKS)
+        return self.marks
+
+    def decide(self, data: bytes) -> dict[str, Any]:
+        """Record a decision about a point of a drawing."""
+        with self.lock:
+            if self.drawings is None:
+                raise PageRequestError(READING)
+            return self.drawings.decide(data)
+
+    def rule(self, data: bytes) -> dict[str, Any]:
+        """Record a decision about marks."""
+        with self.lock:
+            return self.of_marks().decide(data) | {"items": self.of_marks().listed()}
+
+    def remark(self, data: bytes) -> dict[str, Any]:
+        """Record a remark on a row."""
+        with self.lock:
+            return self.of_marks().remark(data)
 
     def undo(self) -> dict[str, Any]:
-        """Undo the last decision; returns the sheet that it was on, or {} where there is none."""
+        """Undo this marker's last decision: the sheet or the name of the item that it was about."""
         with self.lock:
-            if not self.settled.lines:
-                return {}
-            last = self.settled.lines[-1]
-            self.settled.add(PointDecision(undo=True))
-            record = self.records.get(last.sheet)
-            if record is None:
-                return {}
-            return {**self.told(record, self.settled.standing), "step": last.step}
-
-    def picture(self, name: str) -> bytes:
-        """The flattened picture of a sheet. Raises PageRequestError where there is none."""
-        if name not in self.records or self.records[name].refused is not None:
-            raise PageRequestError(name)
-        return (self.folder / f"{name}{PICTURE}").read_bytes()
+            drawings, marks = self.drawings, self.marks
+            drawn = None if drawings is None else drawings.settled.last_of(self.marker)
+            ruled = None if marks is None else marks.rulings.last_of(self.marker)
+            if marks is not None and ruled and (not drawn or ruled[1].when > drawn[1].when):
+                return {"item": marks.undo(), "items": marks.listed()}
+            return {} if drawings is None else drawings.undo()
 
 
 def desk_page(session: DeskSession) -> bytes:
     """The HTML page in the session's language."""
     words = session.words
     said = {key: words.open(f"desk.{key}") for key in SAID}
-    start = {"said": said, "verdicts": VERDICTS, "density": SHOWN}
+    said["student"] = words("studio.student")
+    start = {"said": said, "verdicts": VERDICTS, "density": SHOWN, "kinds": KINDS}
     text = msgspec.json.encode(start, enc_hook=as_text).decode()
     page = from_template("reading/web/desk.html", said=said, language=words.language, start=text)
     return f"{page}\n".encode()
@@ -122,15 +164,35 @@ def desk_application(session: DeskSession) -> Any:
 
     def picture(name: str) -> Any:
         try:
-            return answer(200, "image/jpeg", session.picture(name))
+            if session.drawings is not None:
+                return answer(200, "image/jpeg", session.drawings.picture(name))
         except (PageRequestError, OSError):
-            return answer(404, "text/plain", b"no such picture\n")
+            pass
+        return answer(404, "text/plain", b"no such picture\n")
+
+    def item(name: str) -> Any:
+        try:
+            return answer(200, JSON, encoded(session.item(name)))
+        except PageRequestError:
+            return answer(404, "text/plain", b"no such thing to decide\n")
 
     encoded = msgspec.json.Encoder(enc_hook=as_text).encode
     app = new_application(HERE)
     app.route("/", "GET", lambda: answer(200, "text/html", desk_page(session)))
-    app.route("/sheets", "GET", lambda: answer(200, JSON, encoded(session.sheets())))
+    app.route("/everything", "GET", lambda: answer(200, JSON, encoded(session.everything())))
     app.route("/picture/<name>.jpg", "GET", picture)
-    app.route("/decide", "POST", answering(lambda data: encoded(session.decide(data)), MOST_BYTES))
-    app.route("/undo", "POST", answering(lambda _: encoded(session.undo()), MOST_BYTES))
+    app.route("/item/<name>", "GET", item)
+    works: dict[str, Callable[[bytes], dict[str, Any]]] = {
+        "/news": session.news,
+        "/decide": session.decide,
+        "/rule": session.rule,
+        "/remark": session.remark,
+        "/undo": lambda _: session.undo(),
+    }
+
+    def handler(work: Callable[[bytes], dict[str, Any]]) -> Callable[[], Any]:
+        return answering(lambda data: encoded(work(data)), MOST_BYTES)
+
+    for path, work in works.items():
+        app.route(path, "POST", handler(work))
     return app

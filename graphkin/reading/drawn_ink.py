@@ -9,7 +9,7 @@ import cv2
 import numpy as np
 from msgspec import Struct
 
-from graphkin.drawing.field import AREA
+from graphkin.drawing.field import A3, Rect, SheetPaper
 from graphkin.drawing.marks import LineMark, Mark, Page, Polyline, Text, reach
 from graphkin.drawing.style import style_of
 from graphkin.reading.paper_map import PaperMap
@@ -36,7 +36,7 @@ ENDS = 1.6
 """Millimetres at both ends of a line that are ignored: arrowheads, circles, letters."""
 LEAST_ERROR = 0.1
 """Least standard deviation across a line, in mm: a hand-drawn line is not quite straight."""
-TOLD = 0.4
+SEEN = 0.4
 """The least share of a line clear of printed ink for it to count as evidence."""
 BOW = 5.0
 """Half the length of the examined part of a compass arc, in mm."""
@@ -105,11 +105,13 @@ class DrawnInk(Struct, frozen=True):
     known: Any
     sway: float = 0.0
     """The extra standard deviation of places, in mm, compared with flat paper."""
+    paper: SheetPaper = A3
 
     def at(self, places: Any) -> tuple[Any, Any]:
         """Darkness at some places (complex mm), and whether it is known there."""
-        x = ((places.real - AREA[0]) * DENSITY - 0.5).astype(np.float32)
-        y = ((places.imag - AREA[1]) * DENSITY - 0.5).astype(np.float32)
+        left, top, *_ = self.paper.fields
+        x = ((places.real - left) * DENSITY - 0.5).astype(np.float32)
+        y = ((places.imag - top) * DENSITY - 0.5).astype(np.float32)
         shape = x.shape
         x, y = x.reshape(-1, shape[-1]), y.reshape(-1, shape[-1])
         dark = cv2.remap(self.dark, x, y, cv2.INTER_LINEAR, borderValue=0)
@@ -189,7 +191,7 @@ class DrawnInk(Struct, frozen=True):
         dark, known = self.at(rings.reshape(len(places), -1))
         seen = (known > 0).reshape(rings.shape)
         drawn = (dark > COVERED).reshape(rings.shape) & seen
-        full = drawn.sum(axis=2) / np.maximum(seen.sum(axis=2), 1) * (seen.mean(axis=2) > TOLD)
+        full = drawn.sum(axis=2) / np.maximum(seen.sum(axis=2), 1) * (seen.mean(axis=2) > SEEN)
         round_it = (full[:, :-BEYOND] - full[:, BEYOND:]).max(axis=1)
         half = turns.size // 2
         arms = drawn[:, :BEYOND].mean(axis=1) - drawn[:, -2:].mean(axis=1)
@@ -272,7 +274,7 @@ class DrawnInk(Struct, frozen=True):
         rays = way * np.exp(1j * turns[abs(turns - np.pi) > np.radians(ASLANT)])
         radii = np.arange(ENDS, RUN + ENDS, 1.5 * PITCH)
         dark, known = self.at(places[:, None, None] + rays[:, None] * radii)
-        drawn = ((dark > COVERED) | (known == 0)).mean(axis=2) * (known.mean(axis=2) > TOLD)
+        drawn = ((dark > COVERED) | (known == 0)).mean(axis=2) * (known.mean(axis=2) > SEEN)
         return np.clip(drawn - RUNS, 0, None) / (1 - RUNS), rays
 
     def cover(
@@ -299,7 +301,7 @@ class DrawnInk(Struct, frozen=True):
         dark, known = self.at(start + way * (along[:, None] + 1j * across[None, :]))
         drawn = dark.max(axis=1) > COVERED
         whole = known[:, len(across) // 2] > 0
-        if whole.mean() < TOLD:
+        if whole.mean() < SEEN:
             return hidden
         found = float((drawn & whole).sum() / max(whole.sum(), 1))
         last = whole & (along > long - ENDS - RUN)
@@ -384,7 +386,8 @@ def line_through(along: Any, spots: Any, weights: Any) -> tuple[float, float]:
 
 def drawn_ink(grey: Any, over: PaperMap, page: Page) -> DrawnInk:
     """The drawn lines in the fields of a photographed sheet."""
-    flat = flattened(grey, over, AREA, DENSITY).astype(np.float32)
+    fields = over.paper.fields
+    flat = flattened(grey, over, fields, DENSITY).astype(np.float32)
     small = cv2.resize(flat, None, fx=1 / 3, fy=1 / 3, interpolation=cv2.INTER_AREA)
     side = 2 * round(OPEN * DENSITY / 3 / 2) + 1
     kernel = cv2.getStructuringElement(cv2.MORPH_ELLIPSE, (side, side))
@@ -393,19 +396,19 @@ def drawn_ink(grey: Any, over: PaperMap, page: Page) -> DrawnInk:
     dark = 1 - flat / np.maximum(paper, 8)
     lines = cv2.GaussianBlur(dark, (0, 0), FINE * DENSITY)
     lines -= cv2.GaussianBlur(dark, (0, 0), COARSE * DENSITY)
-    known = 1 - printed_mask(page, flat.shape)
+    known = 1 - printed_mask(page, flat.shape, fields)
     known[~seen_in(grey.shape, over)] = 0
     inner = lines[known > 0]
     usual = max(float(np.percentile(inner, LINES)), FAINT)
     told = 0.0 if over.ripple is None else over.ripple.deviation
     sway = float(np.sqrt(max(told**2 - PAPER**2, 0.0)))
     drawn = np.clip(lines / usual, 0, 1.5).astype(np.float32)
-    return DrawnInk(drawn, known.astype(np.float32), sway)
+    return DrawnInk(drawn, known.astype(np.float32), sway, over.paper)
 
 
 def seen_in(shape: tuple[int, ...], over: PaperMap) -> Any:
     """Which pixels of the flattened fields are within a picture."""
-    left, top, right, bottom = AREA
+    left, top, right, bottom = over.paper.fields
     inside = np.zeros(shape[:2], np.uint8)
     inside[1:-1, 1:-1] = 1
     edges = [
@@ -418,7 +421,7 @@ def seen_in(shape: tuple[int, ...], over: PaperMap) -> Any:
     if ((pixels > 1) & (pixels < np.array(shape[1::-1]) - 2)).all():
         size = round((bottom - top) * DENSITY), round((right - left) * DENSITY)
         return np.ones(size, bool)
-    return flattened(inside, over, AREA, DENSITY) > 0
+    return flattened(inside, over, over.paper.fields, DENSITY) > 0
 
 
 def flattened(picture: Any, over: PaperMap, rect: Any, density: float) -> Any:
@@ -435,12 +438,12 @@ def flattened(picture: Any, over: PaperMap, rect: Any, density: float) -> Any:
     return cv2.remap(picture, x, y, cv2.INTER_LINEAR, borderMode=cv2.BORDER_REPLICATE)
 
 
-def printed_mask(page: Page, shape: Any) -> Any:
+def printed_mask(page: Page, shape: Any, fields: Rect) -> Any:
     """A mask of the fields: 1 on a page's own ink and a margin around it."""
     mask = np.zeros(shape, np.uint8)
     for mark in page.marks:
-        for outline, width in outlines(mark):
-            points = (np.array(outline) - [AREA[0], AREA[1]]) * DENSITY - 0.5
+        for outline, width in outlines(mark, fields):
+            points = (np.array(outline) - fields[:2]) * DENSITY - 0.5
             fixed = np.round(points * 16).astype(np.int32)
             thick = max(1, round((width + 2 * MASK) * DENSITY))
             if isinstance(mark, Text):
@@ -450,10 +453,10 @@ def printed_mask(page: Page, shape: Any) -> Any:
     return mask
 
 
-def outlines(mark: Mark) -> Iterator[tuple[list[tuple[float, float]], float]]:
+def outlines(mark: Mark, fields: Rect) -> Iterator[tuple[list[tuple[float, float]], float]]:
     """The outline of a printed mark in the fields and its line width; a text gives its box."""
     left, top, right, bottom = reach(mark)
-    if right < AREA[0] or left > AREA[2] or bottom < AREA[1] or top > AREA[3]:
+    if right < fields[0] or left > fields[2] or bottom < fields[1] or top > fields[3]:
         return
     width = style_of(mark.cls, "black").width
     if isinstance(mark, Text):

@@ -1,4 +1,4 @@
-"""Two A4 scans of the halves of one A3 sheet, joined into one picture of the sheet.
+"""Two A4 scans of the halves of one A3 sheet, or two A4 leaves, joined into one picture.
 
 The frame is the same on all sheets. The search looks for the upper corner of each half, in all four
 rotations and at the density of a scanner, then follows the frame's lines from there. The code is
@@ -7,6 +7,7 @@ read from the joined picture.
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from itertools import product
 from typing import Any
 
@@ -14,6 +15,7 @@ import cv2
 import numpy as np
 from msgspec.structs import replace
 
+from graphkin.drawing.field import A3, SheetPaper
 from graphkin.drawing.marks import Page, style_class
 from graphkin.drawing.style import style_of
 from graphkin.reading.drawn_ink import flattened
@@ -21,7 +23,7 @@ from graphkin.reading.paper_map import PaperMap
 from graphkin.reading.pictures import Unreadable, darkest
 from graphkin.reading.registration import BENT_FROM, SHARED, SIDES, SheetSearch, segments
 
-CUT, HIGH = 210.0, 297.0
+CUT, HIGH = A3.half, A3.height
 """Where the sheet is divided, and its height, in mm."""
 DENSITY = 9.0
 """Pixels per mm of the joined sheet."""
@@ -32,7 +34,7 @@ COARSE, ROOM = 3.0, 30.0
 """
 SCANNERS = (100, 150, 200, 240, 300, 400, 600)
 """Scanner resolutions, in pixels per inch."""
-WHOLE = (0.0, 0.0, 420.0, 297.0)
+WHOLE = A3.whole
 
 
 def put_together(left: Any, right: Any, page: Page) -> Any:
@@ -51,6 +53,38 @@ def put_together(left: Any, right: Any, page: Page) -> Any:
         flattened(half, over, WHOLE, DENSITY) for half, over in ((left, first), (right, second))
     )
     return np.where(ours if left.ndim == 2 else ours[..., None], *parts)
+
+
+def laid_together(
+    pictures: Sequence[Any],
+    corners: Sequence[Any],
+    leaves: Sequence[Sequence[Page]],
+    paper: SheetPaper,
+) -> Any:
+    """The sheet of two A4 leaves joined from their pictures, each with the corners of its square.
+
+    ``leaves`` are the pages of each sheet of a student. Raises Unreadable where a leaf is not
+    found.
+    """
+    if pictures[0].ndim != pictures[1].ndim:
+        pictures = [darkest(each) for each in pictures]
+    parts = [
+        flattened(
+            picture, leaf_found(darkest(picture), corner, pages, paper), paper.leaf.whole, DENSITY
+        )
+        for picture, corner, pages in zip(pictures, corners, zip(*leaves, strict=True), strict=True)
+    ]
+    return np.hstack(parts)
+
+
+def leaf_found(grey: Any, corners: Any, pages: Sequence[Page], paper: SheetPaper) -> PaperMap:
+    """The map of one leaf in its picture: that of the page most of whose own lines are found."""
+    search = SheetSearch(grey, corners, paper=paper.leaf)
+    every = [found for page in pages if (found := search.registered(page)) is not None]
+    best = max(every, key=lambda found: (not found.refused, found.own), default=None)
+    if best is None or best.refused:
+        raise Unreadable(best.refused if best else "its sheet has no square to begin with")
+    return best.map
 
 
 def half_found(grey: Any, frame: Page, half: str) -> PaperMap:

@@ -15,20 +15,22 @@ from time import gmtime
 
 from msgspec import Struct
 
+from graphkin.classroom.grading.graded import DrawingRemark
 from graphkin.classroom.printing.edition import Edition
 from graphkin.classroom.printing.file_names import stems
 from graphkin.classroom.roster.taker import Taker
 from graphkin.construction.core.quantities import MOTION
+from graphkin.drawing.field import A3
 from graphkin.drawing.richtext import font_file
 from graphkin.reading.kept_readings import PICTURE, records_in
 from graphkin.reading.point_reading import PointReading
 from graphkin.reading.read_sheet import SheetRecord
-from graphkin.reading.settled_points import SettledPoints, Standing, latest_of, settled_points
+from graphkin.reading.settled_points import SettledPoints, latest_of, settled_points
 from graphkin.text import Words
 from graphkin.text.errors import Refusals
 from graphkin.writers.templates import from_template
 
-GREEN, RED, YELLOW = "#087a2c", "#c21807", "#c77800"
+GREEN, RED, YELLOW, BLUE = "#087a2c", "#c21807", "#c77800", "#0b5cad"
 COLOURS = {"right": GREEN, "follows": GREEN, "wrong": RED, "missing": YELLOW, "unread": YELLOW}
 DENSITY = 5.0
 """Pixels per mm of the picture in a PDF."""
@@ -45,22 +47,25 @@ class MarkedSheet(Struct, frozen=True):
     picture: bytes
     points: tuple[PointReading, ...]
     lines: tuple[tuple[str, str], ...]
-    """The remark on each point, and its colour."""
+    """The remarks on the whole plan, on each point, and on other places, with their colours."""
+    pins: tuple[DrawingRemark, ...] = ()
+    size: tuple[float, float] = (A3.width, A3.height)
+    """The width and height of the sheet in mm."""
 
 
 def drawings_of_class(
     opened: Edition, folder: Path, words: Words, kinds: Sequence[str], refusals: Refusals
 ) -> dict[str, bytes]:
     """The marked drawings of all students whose sheets were read, by file name."""
-    standing = SettledPoints(folder).standing
-    records = latest_of(records_in(folder), standing)
+    settled = SettledPoints(folder)
+    records = latest_of(records_in(folder), settled.standing)
     names = stems([t.student.id for t in opened.takers], [t.code for t in opened.takers])
     found: dict[str, bytes] = {}
     for taker, name in zip(opened.takers, names, strict=True):
         spoken = words.in_language(taker.spoken) if taker.spoken else words
         with refusals.alone(taker.student.called):
             own = [records[key] for kind in MOTION if (key := (taker.code, kind)) in records]
-            sheets = [marked_sheet(folder, each, taker, standing, spoken) for each in own]
+            sheets = [marked_sheet(folder, each, taker, settled, spoken) for each in own]
             if sheets and "html" in kinds:
                 found[f"{name}-drawing.html"] = as_page(sheets, spoken)
             if sheets and "pdf" in kinds:
@@ -69,16 +74,37 @@ def drawings_of_class(
 
 
 def marked_sheet(
-    folder: Path, record: SheetRecord, taker: Taker, standing: Standing, words: Words
+    folder: Path, record: SheetRecord, taker: Taker, settled: SettledPoints, words: Words
 ) -> MarkedSheet:
     """One drawing of a student with its remarks."""
+    standing = settled.standing
     points = settled_points(record, standing)
     here = [each for each in standing.values() if each.sheet == record.name]
-    notes = {each.step: each.note for each in here}
+    notes = {each.step: each.note for each in here if each.step is not None}
     who = taker.student.name or taker.student.id
     head = words("marked.head", sheet=words(f"sheet.{record.kind}"), who=who)
     picture = (folder / f"{record.name}{PICTURE}").read_bytes()
-    return MarkedSheet(head, picture, points, tuple(said_of(points, notes, words)))
+    pins = tuple(remarks_on(record, settled))
+    pinned = ((f"{each.number}. {each.text}", BLUE) for each in pins)
+    causes = () if record.cause is None else record.cause.sentences(words)
+    whole = ((cause, RED) for cause in causes)
+    lines = (*whole, *said_of(points, notes, words), *pinned)
+    return MarkedSheet(head, picture, points, lines, pins, record.size)
+
+
+def remarks_on(record: SheetRecord, settled: SettledPoints) -> Iterator[DrawingRemark]:
+    """The remarks pinned to a sheet, numbered in the order in which they were made."""
+    for number, each in enumerate(settled.pins(record.name), 1):
+        yield DrawingRemark(record.kind, number, each.at or (0.0, 0.0), each.note)
+
+
+def pinned_remarks(folder: Path) -> dict[str, tuple[DrawingRemark, ...]]:
+    """The remarks pinned to each student's drawings, by the code on the sheets."""
+    settled = SettledPoints(folder)
+    found: dict[str, tuple[DrawingRemark, ...]] = {}
+    for (code, _), record in latest_of(records_in(folder), settled.standing).items():
+        found[code] = (*found.get(code, ()), *remarks_on(record, settled))
+    return found
 
 
 def said_of(
@@ -130,8 +156,10 @@ def as_page(sheets: Sequence[MarkedSheet], words: Words) -> bytes:
     shown = [
         {
             "title": sheet.title,
+            "size": [f"{side:g}" for side in sheet.size],
             "picture": b64encode(sheet.picture).decode("ascii"),
             "points": [(point, colour_of(point)) for point in sheet.points],
+            "pins": sheet.pins,
             "lines": sheet.lines,
         }
         for sheet in sheets
@@ -140,6 +168,7 @@ def as_page(sheets: Sequence[MarkedSheet], words: Words) -> bytes:
         "reading/web/marked.html",
         language=words.language,
         title=words("marked.title"),
+        pinned=BLUE,
         legend=words("marked.legend"),
         sheets=shown,
     )
@@ -154,7 +183,7 @@ def as_pdf(sheets: Sequence[MarkedSheet], words: Words) -> bytes:
     pages = []
     for sheet in sheets:
         image = Image.open(io.BytesIO(sheet.picture)).convert("RGB")
-        width, height = round(420 * DENSITY), round(297 * DENSITY)
+        width, height = (round(side * DENSITY) for side in sheet.size)
         rows = [(sheet.title, "#000000"), *sheet.lines, (words("marked.legend"), "#000000")]
         page = Image.new("RGB", (width, height + 2 * MARGIN + LINE * len(rows)), "white")
         page.paste(image.resize((width, height)), (0, 0))
@@ -168,6 +197,10 @@ def as_pdf(sheets: Sequence[MarkedSheet], words: Words) -> bytes:
             if colour == RED:
                 own = tuple(part * DENSITY for part in point.own)
                 pen.line(((x, y), own), fill=colour, width=3)
+        for pin in sheet.pins:
+            x, y = (part * DENSITY for part in pin.at)
+            pen.ellipse((x - 17, y - 17, x + 17, y + 17), fill="white", outline=BLUE, width=3)
+            pen.text((x, y), str(pin.number), fill=BLUE, font=font, anchor="mm")
         for i, (text, colour) in enumerate(rows):
             pen.text((MARGIN, height + MARGIN + i * LINE), text, fill=colour, font=font)
         pages.append(page)

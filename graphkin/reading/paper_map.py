@@ -3,7 +3,7 @@
 The bending of the paper is a smooth shift of its places before the camera sees them. It is a sum of
 products of Legendre polynomials, with priors that keep higher degrees smaller. A sheet that was
 folded in four has creases across its middle, where the shift turns: each quarter has its own map,
-and the quarters meet at the creases.
+and the quarters meet at the creases. Half the width of the sheet is the unit of paper places.
 """
 
 from __future__ import annotations
@@ -15,12 +15,9 @@ from typing import Any
 import numpy as np
 from msgspec import Struct
 
+from graphkin.drawing.field import A3, SheetPaper
 from graphkin.reading.paper_ripple import Ripple
 
-MIDDLE, HALF = (210.0, 148.5), 210.0
-"""The middle of an A3 sheet and half its width, in mm; half the width is the unit of paper places.
-"""
-FLAT = 148.5 / 210.0
 RAISED = 8.0
 """Expected size of the shift at the edge of a folded sheet, in mm."""
 DEGREE = 5
@@ -43,6 +40,7 @@ class PaperMap(Struct, frozen=True, dict=True):
     height: int
     parameters: tuple[float, ...]
     ripple: Ripple | None = None
+    paper: SheetPaper = A3
 
     @cached_property
     def array(self) -> Any:
@@ -52,7 +50,7 @@ class PaperMap(Struct, frozen=True, dict=True):
         """The pixels of places in mm, coordinates in the last axis; (0, 0) is a pixel's centre."""
         if self.ripple is not None:
             places = places + self.ripple(places)
-        return pixels_of(self.array, places, self.width, self.height)
+        return pixels_of(self.array, places, self.width, self.height, self.paper)
 
     def scale(self, place: Any) -> float:
         """Pixels per mm near a place: the geometric mean of both directions."""
@@ -67,22 +65,27 @@ class PaperMap(Struct, frozen=True, dict=True):
         )
 
 
-def pixels_of(parameters: Any, places: Any, width: int, height: int) -> Any:
+def units(places: Any, paper: SheetPaper) -> tuple[Any, Any]:
+    """Places in units of half the width, from the middle of the sheet."""
+    x, y = paper.middle
+    return (places[..., 0] - x) / paper.half, (places[..., 1] - y) / paper.half
+
+
+def pixels_of(parameters: Any, places: Any, width: int, height: int, paper: SheetPaper = A3) -> Any:
     """The pixels of places, for given parameters."""
-    u = (places[..., 0] - MIDDLE[0]) / HALF
-    v = (places[..., 1] - MIDDLE[1]) / HALF
+    (u, v), flat = units(places, paper), paper.middle[1] / paper.half
     shift = np.zeros(2)
     if np.any(parameters[PLAIN:CREASED]):
-        shift = bendings(u, v) @ parameters[PLAIN:CREASED].reshape(len(BENDS), 2)
+        shift = bendings(u, v, flat) @ parameters[PLAIN:CREASED].reshape(len(BENDS), 2)
     if np.any(parameters[CREASED:]):
-        shift = shift + creasings(u, v) @ parameters[CREASED:].reshape(CREASES, 2)
+        shift = shift + creasings(u, v, flat) @ parameters[CREASED:].reshape(CREASES, 2)
     if shift.any():
         u, v = u + shift[..., 0], v + shift[..., 1]
     return seen_at(parameters, u, v, width, height)
 
 
 def seen_at(parameters: Any, u: Any, v: Any, width: int, height: int) -> Any:
-    """The pixels of places of the bent paper, in units of HALF: perspective and lens."""
+    """The pixels of places of the bent paper, in units of half the width: perspective and lens."""
     a, b, c, d, e, f, g, h = parameters[:8]
     depth = g * u + h * v + 1
     with np.errstate(all="ignore"):
@@ -93,15 +96,19 @@ def seen_at(parameters: Any, u: Any, v: Any, width: int, height: int) -> Any:
     return np.stack([x * bulge * half + middle[0], y * bulge * half + middle[1]], axis=-1)
 
 
-def bendings(u: Any, v: Any) -> Any:
+FLAT = A3.middle[1] / A3.half
+"""The height of an A3 sheet over its width."""
+
+
+def bendings(u: Any, v: Any, flat: float = FLAT) -> Any:
     """The value of each bending polynomial at some places."""
-    across, down = legendre(u), legendre(v / FLAT)
+    across, down = legendre(u), legendre(v / flat)
     return np.stack([across[i] * down[j] for i, j in BENDS], axis=-1)
 
 
-def creasings(u: Any, v: Any) -> Any:
+def creasings(u: Any, v: Any, flat: float = FLAT) -> Any:
     """The value of each function with a crease at some places: raised sides, and how they look."""
-    v = v / FLAT
+    v = v / flat
     across, down = abs(u), abs(v)
     every = (across, down, across * u, across * v, down * u, down * v, across * down)
     return np.stack(every, axis=-1)
@@ -116,12 +123,12 @@ def legendre(x: Any) -> list[Any]:
     return found
 
 
-def prior(bent: float) -> Any:
+def prior(bent: float, half: float = A3.half) -> Any:
     """The expected size of each parameter; ``bent`` is the size of the simplest bending, in mm."""
     found = np.full(COUNT, 10.0)
     found[TILTS] = 0.25
     found[LENS] = 0.1
-    falling = [bent / HALF * 0.4 ** (i + j - 2) for i, j in BENDS]
+    falling = [bent / half * 0.4 ** (i + j - 2) for i, j in BENDS]
     found[PLAIN:CREASED] = np.repeat(falling, 2)
-    found[CREASED:] = RAISED / HALF
+    found[CREASED:] = RAISED / half
     return found

@@ -7,12 +7,13 @@ eqs. 2.23, 2.24, 5.12). The field's standard deviation is that of the map.
 
 from __future__ import annotations
 
+from math import ceil
 from typing import Any
 
 import numpy as np
 from msgspec import Struct
 
-from graphkin.drawing.field import AREA
+from graphkin.drawing.field import A3, SheetPaper
 
 LENGTH = 17.0
 """Length scale of the ripples, in mm: their waves are 45 mm long and longer."""
@@ -24,9 +25,9 @@ LEAST = 0.01
 """Least height of a field of ripples, in mm."""
 STRAY, TRIED = 4.0, 3
 """A measurement this many deviations from its prediction is dropped; the most rounds of this."""
-PITCH, BEGIN, COUNT = 4.0, (0.0, 0.0), (106, 76)
-"""The grid of the field: spacing in mm, its corner on the sheet, counts across and down."""
-TOLD = 12.0
+PITCH = 4.0
+"""Spacing of the grid of the field in mm; the grid begins at the corner of the sheet."""
+SPACING = 12.0
 """Spacing in mm of the places in the fields at which the deviation is averaged."""
 
 
@@ -38,8 +39,8 @@ class Ripple(Struct, frozen=True):
 
     def __call__(self, places: Any) -> Any:
         """Offsets of some places (mm), interpolated between the four nearest grid places."""
-        steps = (places - np.array(BEGIN)) / PITCH
-        most = np.array(COUNT) - 1.001
+        steps = places / PITCH
+        most = np.array(self.field.shape[1::-1]) - 1.001
         steps = np.clip(steps, 0, most)
         low = steps.astype(int)
         (x, y), (i, j) = np.moveaxis(steps - low, -1, 0)[..., None], np.moveaxis(low, -1, 0)
@@ -60,7 +61,7 @@ class Offsets(Struct, frozen=True):
         return Offsets(self.places[which], self.ways[which], self.off[which], self.errors[which])
 
 
-def ripple_of(lines: Offsets, crosses: Offsets) -> Ripple:
+def ripple_of(lines: Offsets, crosses: Offsets, paper: SheetPaper = A3) -> Ripple:
     """The ripples measured by lines and crosses, without outliers."""
     lines = lines.some(slice(None, None, EVERY))
     parts = zip(*((o.places, o.ways, o.off, o.errors) for o in (lines, crosses)), strict=True)
@@ -75,13 +76,13 @@ def ripple_of(lines: Offsets, crosses: Offsets) -> Ripple:
         if not (left and stray.any()):
             break
         known, inverse = known.some(~stray), without(inverse, stray)
-    xs, ys = (BEGIN[k] + np.arange(COUNT[k]) * PITCH for k in range(2))
+    xs, ys = (np.arange(ceil(side / PITCH) + 1) * PITCH for side in (paper.width, paper.height))
     across = likeness(xs[:, None] - known.places[:, 0])
     down = likeness(ys[:, None] - known.places[:, 1])
     field = height**2 * np.stack(
         [(down * (weights * known.ways[:, k])) @ across.T for k in range(2)], axis=-1
     )
-    return Ripple(field, deviation(known, inverse, height))
+    return Ripple(field, deviation(known, inverse, height, paper))
 
 
 def without(inverse: Any, some: Any) -> Any:
@@ -112,10 +113,10 @@ def covariance(known: Offsets, height: float) -> Any:
     return height**2 * alike * (np.outer(u, u) + np.outer(v, v)) + np.diag(known.errors**2)
 
 
-def deviation(known: Offsets, inverse: Any, height: float) -> float:
+def deviation(known: Offsets, inverse: Any, height: float, paper: SheetPaper) -> float:
     """The field's remaining standard deviation along each axis, averaged over the fields."""
-    left, top, right, bottom = AREA
-    xs, ys = np.arange(left, right, TOLD), np.arange(top, bottom, TOLD)
+    left, top, right, bottom = paper.fields
+    xs, ys = np.arange(left, right, SPACING), np.arange(top, bottom, SPACING)
     places = np.stack(np.meshgrid(xs, ys), axis=-1).reshape(-1, 2)
     x, y = known.places.T
     alike = likeness(places[:, :1] - x) * likeness(places[:, 1:] - y) * height**2

@@ -9,6 +9,8 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from functools import cached_property
+from itertools import combinations
+from math import log
 from typing import Any
 
 import numpy as np
@@ -17,10 +19,12 @@ from msgspec.structs import replace
 from graphkin.accuracy.pencil.pencil import Pencil
 from graphkin.accuracy.pencil.redrawing import unmarked
 from graphkin.construction.core.program import Plane
-from graphkin.numbers.plane import Line
+from graphkin.numbers.plane import Line, Vector
 from graphkin.reading.drawn_ink import DrawnInk
 from graphkin.reading.lettered_points import SHORT, Arrow, Leading, LetteredSheet
-from graphkin.reading.point_reading import PointReading, ReadVerdict, pair
+from graphkin.reading.plan_causes import PlanCause, similarity_of
+from graphkin.reading.point_letters import ALPHABET, letters_near
+from graphkin.reading.point_reading import Doubt, PointReading, ReadVerdict, pair
 from graphkin.reading.point_search import (
     AGREED,
     AS_EXPECTED,
@@ -68,6 +72,8 @@ FULLY = 0.97
 """The drawn share of many lines that meet where a point was only vaguely expected."""
 WHOLE = 0.9
 """The drawn share of a point's lines that is needed for it to count without a question."""
+EXCHANGED, CLEARLY_EXCHANGED = 2.0, 4.0
+"""By how much likelier, as a logarithm, two letters are exchanged: asked, and proposed as wrong."""
 SHORTEST = 1e-3
 """Places closer than this, in mm, coincide."""
 FLAT = 0.2
@@ -88,6 +94,7 @@ class PointReader(PointSearch):
         self.strayed: set[int] = set()
         self.readings: dict[int, PointReading] = {}
         self.crossings: dict[int, LinesCrossing] = {}
+        self.cause: PlanCause | None = None
 
     def read(self) -> tuple[PointReading, ...]:
         """The readings of all points of the sheet."""
@@ -125,11 +132,79 @@ class PointReader(PointSearch):
                 found.update(self.lines_through(number, found))
         for number in self.sheet.found_by.values():
             if number in self.own and not self.is_joined(number):
-                self.readings[number] = replace(self.readings[number], ask=True)
+                self.readings[number] = self.readings[number].doubted("lines")
         self.next = self.ahead()
         for number in self.sheet.points:
             self.readings[number] = self.ended(number, self.readings[number])
+        self.compare_letters()
+        self.find_cause()
         return tuple(self.readings[number] for number in self.sheet.points)
+
+    def find_cause(self) -> None:
+        """Look for one cause of a plan with mistakes, and put its points where that puts them."""
+        steps, exact = self.sheet.exact.program.steps, self.sheet.exact.trace.values
+        plane = self.sheet.drawing.plane
+        plan = [n for n in self.sheet.points if steps[n].plane is plane]
+        poles = [n for n, v in exact.items() if steps[n].plane is plane and not steps[n].args]
+        poles = [n for n in poles if isinstance(exact[n], complex)]
+        if not poles or all(self.readings[n].verdict in ("right", "follows") for n in plan):
+            return
+        pole = complex(self.sheet.place(poles[0], exact[poles[0]]))
+        shafts = [
+            (self.exact_place(n, v.tail), self.exact_place(n, v.tip))
+            for n, v in exact.items()
+            if isinstance(v, Vector) and steps[n].arrow and steps[n].plane is plane
+        ]
+        read = [self.own[n] for n in plan if n in self.own]
+        rays = [pole + way * long for way, long in self.rays(pole)]
+        found = similarity_of(self.ink, shafts, pole, [*read, *rays])
+        if found is None:
+            return
+        self.cause = found.cause
+        first = True
+        for number in plan:
+            reading = self.readings[number]
+            place = found(complex(*reading.key))
+            if abs(place - complex(*reading.key)) < APART:
+                continue
+            if reading.at is None or abs(complex(*reading.at) - place) > BESIDE or first:
+                verdict: ReadVerdict = "wrong" if first else "follows"
+                off = round(abs(place - complex(*reading.own)), 3)
+                reading = replace(reading, at=pair(place), off=off, verdict=verdict)
+                self.readings[number] = reading.doubted("mistake" if first else "before")
+            first = False
+
+    def exact_place(self, number: int, value: complex) -> complex:
+        """Where a value of a step's plane is on paper."""
+        return complex(np.ravel(self.sheet.place(number, value))[0])
+
+    def compare_letters(self) -> None:
+        """Doubt points of the plan beside which the letters seem to be exchanged.
+
+        *Wrong* is proposed, each at the other's place, where both letters are clearly read.
+        """
+        steps = self.sheet.exact.program.steps
+        lettered = {
+            number: reading.name[0]
+            for number, reading in self.readings.items()
+            if reading.verdict in ("right", "follows")
+            and steps[number].plane is self.sheet.drawing.plane
+            and reading.name[0] in ALPHABET
+        }
+        letters = "".join(dict.fromkeys(lettered.values()))
+        likely = {n: letters_near(self.ink, self.own[n], letters) for n in lettered}
+        for one, other in combinations(likely, 2):
+            mine, others = self.readings[one], self.readings[other]
+            gain = log_ratio(likely[one], others, mine) + log_ratio(likely[other], mine, others)
+            if gain < EXCHANGED:
+                continue
+            for number, there in ((one, other), (other, one)):
+                reading = self.readings[number]
+                if gain > CLEARLY_EXCHANGED and reading.verdict != "wrong":
+                    place = pair(self.own[there])
+                    off = round(abs(self.own[there] - complex(*reading.own)), 3)
+                    reading = replace(reading, at=place, off=off, verdict="wrong")
+                self.readings[number] = reading.doubted("letter")
 
     def ended(self, number: int, reading: PointReading) -> PointReading:
         """A reading, asked where a vector or a bar does not surely end at its point.
@@ -147,10 +222,10 @@ class PointReader(PointSearch):
                 off = reading.off
                 if end.head is not None:
                     off = round(abs(end.head - complex(*reading.own)), 3)
-                return replace(reading, at=at, off=off, verdict="wrong", ask=True)
+                return replace(reading, at=at, off=off, verdict="wrong").doubted("end")
             if not end.is_there:
-                reading = replace(reading, ask=True)
-        return replace(reading, ask=True) if self.is_overdrawn(number) else reading
+                reading = reading.doubted("end")
+        return reading.doubted("end") if self.is_overdrawn(number) else reading
 
     @cached_property
     def drawn_arrows(self) -> tuple[tuple[Arrow, complex, complex], ...]:
@@ -415,8 +490,9 @@ class PointReader(PointSearch):
         self.noted -= behind
         place = None if best is None else best.place
         verdict: ReadVerdict
+        doubts: dict[Doubt, bool] = {"absent": best is None}
         if best is None:
-            verdict, ask = ("missing" if np.isfinite(own.middle) else "unread"), True
+            verdict = "missing" if np.isfinite(own.middle) else "unread"
         else:
             self.crossings[number] = best
             away = own.away(best.place, best.error)
@@ -430,44 +506,37 @@ class PointReader(PointSearch):
             close = abs(best.place - own.middle) <= CLOSE_BY
             met = ((best.count >= MEET and near) or close) and not self.bad
             there = self.is_there(number, best, key)
-            ended = close and own.radius <= VAGUE and self.is_end(number, best)
             stray = away <= FITS and not near and best.count < MEET
             # untried: depends on an auxiliary plan that was not read
             vague = not there and ((own.radius > VAGUE and not met) or untried)
             loose = (vague or stray) and (bool(self.bad) or not self.is_met(number, best))
             odd = any(e.far in self.bad - behind for e in self.sheet.leading[number] if not e.after)
-            ask = (
-                self.swayed(away, abs(best.place - own.middle)) > SURE
-                or (best.count < 2 and not ended)
-                or best.cover < WHOLE
-                or (
-                    self.agreement(number, best.place) < NEARLY
-                    and not self.stands(number, best, own)
-                )
-                or fresh
-                or doubtful
-                or (best.count == 2 and not self.is_reached(number, best.place))
-            )
-            ask = ask or loose or odd or bool(self.strayed & behind)
+            doubts |= {
+                "off": self.swayed(away, abs(best.place - own.middle)) > SURE,
+                "lines": self.lacks_lines(number, best, own),
+                "elsewhere": doubtful,
+                "vague": loose,
+                "before": fresh or odd or bool(self.strayed & behind),
+            }
             if away <= FITS and fresh and from_key > FITS:
                 verdict = "wrong"
             elif away <= FITS and not after:
                 verdict = "right"
                 far = abs(best.place - key.middle) > APART and not self.is_checked(behind)
-                doubted = apart > FITS and bool(self.doubted & behind)
-                ask = ask or from_key > OUTSIDE or far or doubted
+                doubts["far"] = from_key > OUTSIDE or far
+                doubts["before"] |= apart > FITS and bool(self.doubted & behind)
             elif away <= FITS:
                 verdict = "follows" if from_key > FITS or apart > FITS else "right"
-                ask = (
-                    ask
-                    or min(apart, from_key) < OFF
-                    or not self.bad & behind & self.readings.keys()
+                doubts["off"] |= min(apart, from_key) < OFF
+                # the mistake itself may be misread
+                doubts["before"] |= bool(self.vaguely & behind) or not (
+                    self.bad & behind & self.readings.keys()
                 )
-                ask = ask or bool(self.vaguely & behind)  # the mistake itself may be misread
                 if self.bad & self.doubted & behind:
-                    ask = ask or not self.is_crossed(number, best.place)
+                    doubts["before"] |= not self.is_crossed(number, best.place)
             else:
-                verdict, ask = "wrong", True
+                verdict = "wrong"
+                doubts["mistake"] = True
             self.strayed |= {number} if stray and loose else set()
         if doubtful:
             self.doubted.add(number)
@@ -480,13 +549,24 @@ class PointReader(PointSearch):
             number,
             None if place is None else pair(place),
             verdict,
-            ask,
+            any(doubts.values()),
             pair(key.middle),
             pair(own.middle),
             None if best is None else round(abs(best.place - own.middle), 3),
             round(own.radius, 3),
             *self.tail(number),
+            tuple(sorted(doubt for doubt, holds in doubts.items() if holds)),
         )
+
+    def lacks_lines(self, number: int, best: LinesCrossing, own: ExpectedPlace) -> bool:
+        """Whether too few of the lines to a point that was found are drawn, or do not reach it."""
+        if best.count < 2:
+            close = abs(best.place - own.middle) <= CLOSE_BY
+            if not (close and own.radius <= VAGUE and self.is_end(number, best)):
+                return True
+        agreed = self.agreement(number, best.place) >= NEARLY or self.stands(number, best, own)
+        unled = best.count == 2 and not self.is_reached(number, best.place)
+        return best.cover < WHOLE or not agreed or unled
 
     def swayed(self, away: float, off: float) -> float:
         """The squared distance of a place ``off`` mm away, enlarged by the paper's sway."""
@@ -551,6 +631,11 @@ class PointReader(PointSearch):
                     pending.append(arg)
         by_hand = {self.sheet.found_by[arg] for arg in found & self.sheet.found_by.keys()}
         return frozenset(found | by_hand - {number})
+
+
+def log_ratio(likely: Mapping[str, float], one: PointReading, other: PointReading) -> float:
+    """How much likelier the letter of one point is than that of another, as a logarithm."""
+    return log(likely[one.name[0]] / likely[other.name[0]])
 
 
 def forecast_points(sheet: LetteredSheet, pencil: Pencil) -> tuple[PointReading, ...]:

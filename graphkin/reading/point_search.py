@@ -17,10 +17,11 @@ from msgspec import Struct
 
 from graphkin.accuracy.pencil.pencil import Pencil
 from graphkin.accuracy.pencil.redrawing import step_drawn
-from graphkin.drawing.field import AREA
+from graphkin.drawing.field import Rect
 from graphkin.numbers.plane import Line
 from graphkin.reading.drawn_ink import COVERED, PAPER, PITCH, DrawnInk, InkLine
 from graphkin.reading.lettered_points import AHEAD, LONGEST, SHORT, Leading, LetteredSheet
+from graphkin.reading.vector_ends import RINGS, is_marked
 
 CROSSING = 0.12
 """Least sine of the angle between two lines whose crossing gives a point."""
@@ -220,6 +221,8 @@ SURELY, WAYS, ALONE = 0.9, 3, 0.75
 
 ALONE is the score of such a place.
 """
+RINGED = 0.4
+"""The bonus of a crossing at which a dot or a ring marks a point."""
 STOPS, OVER = 0.4, 6.0
 """The score where vectors end at a place, and how far beyond it that is examined, in mm."""
 KEPT, LEANS = 0.3, 0.02
@@ -457,6 +460,8 @@ class PointSearch:
                         continue
                     away = where.away(found.place, found.error)
                     score = found.cover * found.count - 0.03 * min(away, 40.0)
+                    if score > most - RINGED and is_marked(self.ink, found.place, RINGS):
+                        score += RINGED
                     if score > most:
                         best, most = found, score
         return best or self.end_near(number, lines, where)
@@ -587,7 +592,7 @@ class PointSearch:
         plausible = [
             place
             for place in places
-            if in_fields(place)
+            if in_fields(place, self.ink.paper.fields)
             and all(abs(place - other) > 2 * APART for other in taken)
             and sum(abs(place - end) > 2 * SHORT for end in ends) >= min(2, len(ends))
         ]
@@ -693,7 +698,7 @@ class PointSearch:
         ways = np.exp(1j * angles)
         places = start + ways[:, None] * radii[None, :]
         dark, known = self.ink.at(places)
-        drawn = ((dark > COVERED) | (known == 0)) & in_fields(places)
+        drawn = ((dark > COVERED) | (known == 0)) & in_fields(places, self.ink.paper.fields)
         share = np.cumsum(drawn, axis=1) / np.arange(1, len(radii) + 1)
         alive = (share > 0.85) & (recent(drawn) > RECENT / 2) & unbroken(drawn)
         lengths = np.where(alive.any(1), radii[alive.shape[1] - 1 - alive[:, ::-1].argmax(1)], 0.0)
@@ -843,7 +848,8 @@ def is_parted(far: complex, way: complex, long: float) -> bool:
     return not (same or (0 < ratio.real < long and abs(ratio.imag) < BROAD))
 
 
-def in_fields(places: Any) -> Any:
+def in_fields(places: Any, fields: Rect) -> Any:
     """Whether places are inside the drawing fields."""
     x, y = np.real(places), np.imag(places)
-    return (AREA[0] < x) & (x < AREA[2]) & (AREA[1] < y) & (y < AREA[3])
+    left, top, right, bottom = fields
+    return (left < x) & (x < right) & (top < y) & (y < bottom)

@@ -30,7 +30,7 @@ from graphkin.writers.commit import held, put_in_place, settle
 POINTS = ".points.json"
 FORMAT = 1
 """The format of points.json."""
-METHOD = 11
+METHOD = 12
 """Version of the method.
 
 Increase it when the same photograph would be read differently, so that older readings are redone.
@@ -155,6 +155,7 @@ def points_file(record: SheetRecord) -> bytes:
 def said(opened: Edition, outcome: ReadOutcome) -> Iterator[str]:
     """The lines that the terminal prints for a run: one per photograph, then the totals."""
     names = {each.code: each.student for each in opened.takers}
+    english = opened.words().in_language("en")
     yield from outcome.refusals.lines()
     for record in outcome.records:
         if record.refused is not None:
@@ -163,6 +164,8 @@ def said(opened: Edition, outcome: ReadOutcome) -> Iterator[str]:
         who, asked = names[record.code], sum(point.ask for point in record.points)
         found = f"{len(record.points)} points, {asked or 'none'} to be looked at"
         yield f"{record.name}: {safe(who.id)} {who.name}, {record.kind}: {found}"
+        if record.cause is not None:
+            yield from (f"{record.name}: {each}" for each in record.cause.sentences(english))
     read = [record for record in outcome.records if record.refused is None]
     shown = dict[tuple[str, str], list[str]]()
     for record in read:

@@ -15,16 +15,20 @@ from graphkin.classroom.lab.lab_model import Item
 from graphkin.classroom.printing.personal import without_crosses
 from graphkin.classroom.printing.print_work import PrintOrder, Sheets
 from graphkin.classroom.roster.taker import Taker
+from graphkin.drawing.field import A3, SheetPaper
 from graphkin.numbers.arithmetic import np
 from graphkin.reading.lettered_points import LetteredSheet
 from graphkin.reading.paper_map import PaperMap
 from graphkin.reading.pictures import Photograph, Unreadable, colours_of, darkest
+from graphkin.reading.plan_causes import PlanCause
 from graphkin.reading.point_reading import PointReading
 from graphkin.text import LANGUAGES
 from graphkin.text.errors import problems_of
 
-WHOLE = (0.0, 0.0, 420.0, 297.0)
-"""An A3 sheet, in mm."""
+ONE_LEAF = (
+    "shows one of two A4 pages: photograph both, and name the pictures NAME-left and NAME-right"
+)
+"""The reason for refusal of a single A4 page."""
 SHOWN, QUALITY = 6.0, 82
 """Pixels per mm and JPEG quality of the flattened picture that is kept."""
 SURE_OF_SHEET = 0.9
@@ -53,6 +57,9 @@ class SheetRecord(Struct, frozen=True):
     corners: dict[int, tuple[float, float]] = {}
     key_lines: tuple[tuple[float, float, float, float], ...] = ()
     residual: float = 0.0
+    cause: PlanCause | None = None
+    size: tuple[float, float] = (A3.width, A3.height)
+    """The width and height of the sheet in mm."""
 
 
 class ReadOrder(Struct, frozen=True):
@@ -101,11 +108,13 @@ def read_one(order: ReadOrder, photograph: Photograph, key: str) -> SheetRead:
             picture = of_halves(colours_of(photograph.left), picture, order)
         grey = darkest(picture)
         if photograph.left is not None:
-            code, corners = code_of_halves(grey, order.takers)
+            code, corners = code_of_halves(grey, order.takers, paper_for(order))
         else:
             code, corners = known_code(grey, order.takers)
+            if paper_for(order).is_parted:
+                raise Unreadable(ONE_LEAF)
         found = found_sheet(grey, order, code, corners)
-        points, corners_at = (
+        points, corners_at, cause = (
             points_to_click(found, order) if order.by_hand else read_points(grey, found)
         )
         read = replace(
@@ -118,6 +127,8 @@ def read_one(order: ReadOrder, photograph: Photograph, key: str) -> SheetRead:
             corners=corners_at,
             key_lines=found.sheet.key_lines,
             residual=round(found.residual, 3),
+            size=(found.map.paper.width, found.map.paper.height),
+            cause=cause,
         )
         return SheetRead(read, flat_picture(picture, found.map))
     except Exception as error:
@@ -152,7 +163,9 @@ def known_code(grey: Any, takers: Mapping[str, Taker]) -> tuple[str, Any]:
     return each.text, each.corners
 
 
-def code_of_halves(sheet: Any, takers: Mapping[str, Taker]) -> tuple[str, Any]:
+def code_of_halves(
+    sheet: Any, takers: Mapping[str, Taker], paper: SheetPaper = A3
+) -> tuple[str, Any]:
     """The code on a sheet joined from its halves, and its corners. Raises Unreadable.
 
     The code is where the halves meet, and scans may lack part of it.
@@ -160,10 +173,12 @@ def code_of_halves(sheet: Any, takers: Mapping[str, Taker]) -> tuple[str, Any]:
     from graphkin.reading.codes import code_among
     from graphkin.reading.halves import DENSITY
 
+    if paper.is_parted:  # both leaves have it
+        return known_code(sheet[:, : sheet.shape[1] // 2], takers)
     try:
         return known_code(sheet, takers)
     except Unreadable:
-        found = code_among(sheet, DENSITY, tuple(takers))
+        found = code_among(sheet, DENSITY, tuple(takers), paper)
         if found is None:
             raise
         return found.text, found.corners
@@ -177,7 +192,7 @@ def found_sheet(grey: Any, order: ReadOrder, code: str, corners: Any) -> FoundSh
     """
     from graphkin.reading.registration import SheetSearch
 
-    search = SheetSearch(grey, corners)
+    search = SheetSearch(grey, corners, paper=paper_for(order))
     best, most, held, refused = None, -1.0, 0.0, ""
     own = order.takers[code].spoken or order.order.language
     for language in dict.fromkeys((own, *LANGUAGES)):
@@ -204,11 +219,23 @@ def found_sheet(grey: Any, order: ReadOrder, code: str, corners: Any) -> FoundSh
 
 def of_halves(left: Any, right: Any, order: ReadOrder) -> Any:
     """The sheet joined from pictures of its halves. Raises Unreadable where a half is not found."""
-    from graphkin.reading.halves import put_together
+    from graphkin.reading.halves import laid_together, put_together
 
     taker = next(iter(order.takers.values()))
     sheets = sheets_of(order.order, taker, order.order.language)
-    return put_together(left, right, next(iter(sheets.task_pages.values())))
+    if not sheets.paper.is_parted:
+        return put_together(left, right, next(iter(sheets.task_pages.values())))
+    (code, first), (other, second) = (known_code(darkest(x), order.takers) for x in (left, right))
+    if code != other:
+        raise Unreadable(f"its halves are of two students: {code}, {other}")
+    sheets = sheets_of(order.order, order.takers[code], order.order.language)
+    return laid_together((left, right), (first, second), sheets.leaves, sheets.paper)
+
+
+def paper_for(order: ReadOrder) -> SheetPaper:
+    """The paper of the sheets of a class."""
+    taker = next(iter(order.takers.values()))
+    return sheets_of(order.order, taker, order.order.language).paper
 
 
 @lru_cache(maxsize=8)
@@ -227,8 +254,10 @@ def sheets_of(order: PrintOrder, taker: Taker, language: str) -> Sheets:
     return kept[""]
 
 
-Points = tuple[tuple[PointReading, ...], dict[int, tuple[float, float]]]
-"""The lettered points of a sheet, and the places of its corners without letters, by step."""
+Points = tuple[tuple[PointReading, ...], dict[int, tuple[float, float]], PlanCause | None]
+"""The lettered points of a sheet, the places of its corners without letters, by step, and the cause
+of all mistakes in its plan.
+"""
 
 
 def read_points(grey: Any, found: FoundSheet) -> Points:
@@ -240,7 +269,7 @@ def read_points(grey: Any, found: FoundSheet) -> Points:
     ink = drawn_ink(grey, found.map, found.sheet.page)
     reader = PointReader(found.sheet, ink, Pencil(rubric.point, rubric.line))
     points = reader.read()
-    return points, reader.corners()
+    return points, reader.corners(), reader.cause
 
 
 def points_to_click(found: FoundSheet, order: ReadOrder) -> Points:
@@ -254,8 +283,8 @@ def points_to_click(found: FoundSheet, order: ReadOrder) -> Points:
     points = forecast_points(found.sheet, Pencil(rubric.point, rubric.line))
     needed = {step for each in probes(found.sheets.mechanism, order.marked) for step in each.steps}
     if not needed:
-        return points, {}
-    return tuple(replace(point, ask=point.step in needed) for point in points), {}
+        return points, {}, None
+    return tuple(replace(point, ask=point.step in needed) for point in points), {}, None
 
 
 def mapped(over: PaperMap, grid: Grid) -> tuple[tuple[float, float], ...]:
@@ -272,7 +301,7 @@ def flat_picture(picture: Any, over: PaperMap) -> bytes:
 
     from graphkin.reading.drawn_ink import flattened
 
-    flat = flattened(picture, over, WHOLE, SHOWN)
+    flat = flattened(picture, over, over.paper.whole, SHOWN)
     if flat.ndim == 3:
         flat = cv2.cvtColor(flat, cv2.COLOR_RGB2BGR)
     return bytes(cv2.imencode(".jpg", flat, [cv2.IMWRITE_JPEG_QUALITY, QUALITY])[1])

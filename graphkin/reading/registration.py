@@ -17,20 +17,20 @@ from msgspec import Struct
 from msgspec.structs import replace
 
 from graphkin.classroom.printing.personal import crosses_of
+from graphkin.drawing.field import A3, SheetPaper
 from graphkin.drawing.marks import LineMark, Page, Polyline, style_class
 from graphkin.drawing.style import style_of
 from graphkin.reading.paper_map import (
     COUNT,
     CREASED,
-    HALF,
     LENS,
-    MIDDLE,
     PLAIN,
     PaperMap,
     bendings,
     creasings,
     prior,
     seen_at,
+    units,
 )
 from graphkin.reading.paper_ripple import ACROSS, Offsets, ripple_of
 from graphkin.reading.printed_crosses import LEAST_CROSSES, crosses_off
@@ -49,8 +49,8 @@ LENS_FROM, BENT_FROM = 80.0, 100.0
 """The rings from which lens and bending are fitted."""
 REACH, NEAR = 2.0, 1.1
 """How far to both sides a line is searched for while rings grow, and at the end, in mm."""
-EDGE = (24.0, 14.0, 406.0, 283.0)
-"""Outside this rectangle (mm) are frame and border, which are 5 mm apart and look alike."""
+INSIDE = 4.0
+"""Distance from the frame, in mm, outside which are frame and border, 5 mm apart and alike."""
 FAR, CLEARLY, LEAST_ALONG = 9.0, 1.05, 20
 """How far off a whole side is searched for, in mm, and how much better it must fit there.
 
@@ -87,6 +87,8 @@ LEAST_FOUND, WORST = 0.45, 0.5
 """The least share of lines within the picture that must be found, and their largest residual in mm.
 """
 SIDES = ("left", "right", "upper", "lower")
+UPPER, LOWER = 60.0, 67.0
+"""The heights in mm of the upper and lower sides of a sheet."""
 LEAST_SIDE, SEEN = 0.25, 0.5
 """The least share that must be found on each side of the sheet.
 
@@ -120,14 +122,15 @@ class PrintedLines(Struct, frozen=True):
     widths: Any
     shared: Any
     dark: Any
+    paper: SheetPaper = A3
 
     def some(self, which: Any) -> PrintedLines:
         own = (self.places, self.normals, self.widths, self.shared, self.dark)
-        return PrintedLines(*(each[which] for each in own))
+        return PrintedLines(*(each[which] for each in own), self.paper)
 
     def beside(self, others: PrintedLines) -> PrintedLines:
         """The lines without a nearby parallel line among others."""
-        ours, theirs = self.places - MIDDLE, others.places - MIDDLE
+        ours, theirs = self.places - self.paper.middle, others.places - self.paper.middle
         squares = (ours**2).sum(1)[:, None] + (theirs**2).sum(1) - 2 * ours @ theirs.T
         alike = abs(self.normals @ others.normals.T) > 0.5
         return self.some(~(alike & (squares < SPACING**2)).any(axis=1))
@@ -148,7 +151,7 @@ class Registration(Struct, frozen=True):
     crossed: bool = False
 
 
-def printed_lines(page: Page, *, faint: bool = False) -> PrintedLines:
+def printed_lines(page: Page, *, faint: bool = False, paper: SheetPaper = A3) -> PrintedLines:
     """The lines of a printed page that are followed in a picture of it.
 
     With ``faint``, narrow lines may be paler.
@@ -167,7 +170,7 @@ def printed_lines(page: Page, *, faint: bool = False) -> PrintedLines:
             rows.append((x, y, -way[1], way[0], width, cls.split()[0] in SHARED))
     table = np.array(rows)
     dark = DARK * np.minimum(table[:, 4] / FULL, 1.0) if faint else np.full(len(table), DARK)
-    return PrintedLines(table[:, :2], table[:, 2:4], table[:, 4], table[:, 5] > 0, dark)
+    return PrintedLines(table[:, :2], table[:, 2:4], table[:, 4], table[:, 5] > 0, dark, paper)
 
 
 def segments(page: Page) -> Iterator[tuple[float, float, float, float, str]]:
@@ -205,10 +208,15 @@ class SheetSearch:
     """
 
     def __init__(
-        self, grey: Any, corners: Any, square: Any = None, sides: tuple[str, ...] = SIDES
+        self,
+        grey: Any,
+        corners: Any,
+        square: Any = None,
+        sides: tuple[str, ...] = SIDES,
+        paper: SheetPaper = A3,
     ) -> None:
         self.smooth = cv2.GaussianBlur(grey, (0, 0), 0.7)
-        self.corners, self.square, self.sides = corners, square, sides
+        self.corners, self.square, self.sides, self.paper = corners, square, sides, paper
         self.frames: dict[tuple[bytes, float, bool, bool], PaperMap] = {}
 
     def registered(self, page: Page) -> Registration | None:
@@ -232,7 +240,7 @@ class SheetSearch:
     ) -> Registration | None:
         """The registration of a page by all its lines, starting from the map of its frame."""
         over = self.frame(page, bent, faint=faint, creased=creased)
-        lines = printed_lines(page, faint=faint)
+        lines = printed_lines(page, faint=faint, paper=self.paper)
         if over is None:
             return None
         crosses = np.array(crosses_of(page)).reshape(-1, 2) if creased else None
@@ -265,7 +273,7 @@ class SheetSearch:
             return None
         key = square.tobytes(), bent, faint, creased
         if key not in self.frames:
-            lines = printed_lines(page, faint=faint)
+            lines = printed_lines(page, faint=faint, paper=self.paper)
             lines = lines.some(lines.shared)
             crosses = np.array(crosses_of(page)).reshape(-1, 2) if creased else None
             over = followed(self.smooth, lines, square, self.corners, bent, crosses)
@@ -274,11 +282,11 @@ class SheetSearch:
 
     def likeness(self, page: Page, others: Iterable[Page]) -> float:
         """The share found of the lines that only this page has, less another page's largest."""
-        over, ours = self.frame(page, BENT_FROM), printed_lines(page)
+        over, ours = self.frame(page, BENT_FROM), printed_lines(page, paper=self.paper)
         if over is None:
             return -1.0
         own = self.share(over, ours.some(~ours.shared))
-        theirs = (printed_lines(other) for other in others)
+        theirs = (printed_lines(other, paper=self.paper) for other in others)
         foreign = (self.share(over, each.some(~each.shared).beside(ours)) for each in theirs)
         return own - max(foreign, default=0.0)
 
@@ -298,7 +306,7 @@ def followed(
     With ``crosses``, their places in mm, the sheet was folded in four, and they are followed too.
     """
     height, width = smooth.shape
-    first = start(width, height, square, np.asarray(corners, dtype=float))
+    first = start(width, height, square, np.asarray(corners, dtype=float), lines.paper)
     fit = MapFit(first, square, corners, crosses)
     far = np.hypot(*(lines.places - square.mean(axis=0)).T)
     for ring in RINGS:
@@ -436,7 +444,8 @@ def stretches(lines: PrintedLines) -> Iterator[Any]:
 
 def edges(lines: PrintedLines) -> list[tuple[Any, Any]]:
     """Which lines run along each side of the sheet, and which are its ticks, as in SIDES."""
-    (x, y), (left, top, right, bottom) = lines.places.T, EDGE
+    (x, y), (left, top, right, bottom) = lines.places.T, lines.paper.area
+    left, top, right, bottom = left + INSIDE, top + INSIDE, right - INSIDE, bottom - INSIDE
     level = abs(lines.normals[:, 1]) > abs(lines.normals[:, 0])
     return [
         (lines.shared & beyond & ~across, lines.shared & beyond & across)
@@ -490,12 +499,13 @@ class MapFit:
         self.most = CREASED if crosses is None else COUNT
         self.width, self.height, self.parameters = over.width, over.height, over.array.copy()
         self.square, self.corners = square, np.asarray(corners, dtype=float)
-        self.expected = prior(BENT if crosses is None else STIFF)
+        self.paper = over.paper
+        self.expected = prior(BENT if crosses is None else STIFF, self.paper.half)
         self.expected[:6] = np.inf
 
     @property
     def map(self) -> PaperMap:
-        return PaperMap(self.width, self.height, tuple(self.parameters.tolist()))
+        return PaperMap(self.width, self.height, tuple(self.parameters.tolist()), paper=self.paper)
 
     def refine(self, smooth: Any, lines: PrintedLines) -> None:
         """Fit the map to lines near where it puts them, in ever narrower searches."""
@@ -516,6 +526,7 @@ class MapFit:
             np.concatenate([lines.places, offs.places]),
             np.concatenate([lines.normals, offs.ways]),
             *(np.concatenate([own, more]) for own in (lines.widths, lines.shared, lines.dark)),
+            lines.paper,
         )
         off = np.concatenate([measured.off, offs.off])
         found, seen = (np.concatenate([own, more == 0]) for own in (measured.found, measured.seen))
@@ -532,10 +543,10 @@ class MapFit:
         scale = np.hypot(*way.T)
         normal = np.stack([-way[:, 1], way[:, 0]], axis=1) / scale[:, None]
         places = np.concatenate([lines.places, self.square])
-        u, v = ((places - MIDDLE) / HALF).T
-        bends = bendings(u, v)
+        (u, v), flat = units(places, self.paper), self.paper.middle[1] / self.paper.half
+        bends = bendings(u, v, flat)
         if self.most == COUNT:
-            bends = np.concatenate([bends, creasings(u, v)], axis=-1)
+            bends = np.concatenate([bends, creasings(u, v, flat)], axis=-1)
         kinds = bends.shape[-1]
         rows = np.concatenate([bends[: len(pixels)], np.repeat(bends[len(pixels) :], 2, axis=0)])
         size = self.map.scale(self.square.mean(axis=0))
@@ -579,16 +590,16 @@ class MapFit:
             self.parameters[:count] += np.linalg.solve(normal_matrix, pull)
 
 
-def start(width: int, height: int, square: Any, corners: Any) -> PaperMap:
+def start(width: int, height: int, square: Any, corners: Any, paper: SheetPaper) -> PaperMap:
     """The plain affine map that takes the square's corners to given pixels."""
     half = np.hypot(width, height) / 2
     goal = (corners - [(width - 1) / 2, (height - 1) / 2]) / half
-    places = (square - MIDDLE) / HALF
+    places = np.stack(units(square, paper), axis=-1)
     rows = np.concatenate([places, np.ones((4, 1))], axis=1)
     across, *_ = np.linalg.lstsq(rows, goal, rcond=None)
     found = np.zeros(COUNT)
     found[:3], found[3:6] = across[:, 0], across[:, 1]
-    return PaperMap(width, height, tuple(found.tolist()))
+    return PaperMap(width, height, tuple(found.tolist()), paper=paper)
 
 
 def rippled(found: Registration, last: MeasuredLines, smooth: Any, page: Page) -> Registration:
@@ -598,8 +609,8 @@ def rippled(found: Registration, last: MeasuredLines, smooth: Any, page: Page) -
     across = Offsets(lines.places, lines.normals, last.off[known], np.full(known.sum(), ACROSS))
     crosses, share = crosses_off(smooth, over, np.array(crosses_of(page)).reshape(-1, 2))
     there = share >= LEAST_CROSSES
-    ripple = ripple_of(across, crosses if there else crosses.some(slice(0)))
-    rippled_map = PaperMap(over.width, over.height, over.parameters, ripple)
+    ripple = ripple_of(across, crosses if there else crosses.some(slice(0)), over.paper)
+    rippled_map = PaperMap(over.width, over.height, over.parameters, ripple, over.paper)
     return replace(found, map=rippled_map, crossed=there)
 
 
@@ -637,8 +648,9 @@ def judged(
 
 def parts_of(lines: PrintedLines) -> dict[str, Any]:
     """Which lines are on each side of the sheet."""
-    x, y = lines.places.T
-    return dict(zip(SIDES, (x < 210, x >= 210, y < 60, y > 230), strict=True))
+    (x, y), paper = lines.places.T, lines.paper
+    half, low = paper.half, paper.height - LOWER
+    return dict(zip(SIDES, (x < half, x >= half, y < UPPER, y > low), strict=True))
 
 
 def side_cut_off(last: MeasuredLines, lines: PrintedLines) -> str:

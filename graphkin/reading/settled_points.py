@@ -1,108 +1,81 @@
-"""A person's decisions about points, kept as lines of a file: the last decision on a point counts.
-
-Each line is written at once and never overwritten, so that closing the page or a crash loses no
-decision.
-"""
+"""People's decisions about points of drawings, as lines of a file: the last on a point counts."""
 
 from __future__ import annotations
 
-import os
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from pathlib import Path
 
-import msgspec
-from msgspec import Struct
 from msgspec.structs import replace
 
 from graphkin.reading.point_reading import PointReading, ReadVerdict
 from graphkin.reading.read_sheet import SheetRecord
-from graphkin.text.errors import PageError, Problem, message
+from graphkin.writers.shared_lines import SharedLine, SharedLines
 
 SETTLED = "decisions.jsonl"
-MOST = 1 << 26
-"""The most bytes of the file: some half a million decisions."""
 LONGEST = 400
 """The most characters of a note."""
 
 
-class PointDecision(Struct, frozen=True):
+class PointDecision(SharedLine, frozen=True):
     """A person's decision about a point of a sheet: its place and its verdict.
 
-    ``undo`` takes back the last decision that still counts.
+    With ``step`` None it is a remark pinned to a place of the drawing; without a note, the pin is
+    taken away. ``rivals`` are the decisions of others who disagree; they are never written.
     """
 
     sheet: str = ""
-    step: int = 0
+    step: int | None = 0
     verdict: ReadVerdict = "unread"
     at: tuple[float, float] | None = None
     note: str = ""
-    undo: bool = False
+    rivals: tuple[PointDecision, ...] = ()
 
 
 Standing = Mapping[tuple[str, int], PointDecision]
 """The last decision on each point, by sheet and step."""
 
 
-class SettledPoints:
-    """The decisions of a folder of readings: read once, then appended line by line.
-
-    Raises PageError for a file of more than ``MOST`` bytes.
-    """
+class SettledPoints(SharedLines[PointDecision]):
+    """The decisions of a folder of readings."""
 
     def __init__(self, folder: Path) -> None:
-        self.path = folder / SETTLED
-        size = self.path.stat().st_size if self.path.exists() else 0
-        if size > MOST:
-            raise PageError(
-                Problem(
-                    str(self.path),
-                    message("{size} bytes", size=size),
-                    message("at most {most} bytes", most=MOST),
-                    message("move the file away; the decisions in it must then be made again"),
-                )
-            )
-        data = self.path.read_bytes() if size else b""
-        self.whole = data.rfind(b"\n") + 1
-        self.lines: list[PointDecision] = []
-        for line in data[: self.whole].splitlines():
-            try:
-                self.take(msgspec.json.decode(line, type=PointDecision))
-            except msgspec.MsgspecError:
-                continue
-
-    def take(self, decision: PointDecision) -> None:
-        """Apply a decision: record it, or undo the last recorded one."""
-        if not decision.undo:
-            self.lines.append(decision)
-        elif self.lines:
-            self.lines.pop()
-
-    def add(self, decision: PointDecision) -> None:
-        """Write a decision to the file, then apply it."""
-        with self.path.open("ab") as stream:
-            stream.truncate(self.whole)  # the incomplete line of a run that was killed
-            line = msgspec.json.encode(decision) + b"\n"
-            stream.write(line)
-            stream.flush()
-            os.fsync(stream.fileno())
-        self.whole += len(line)
-        self.take(decision)
+        super().__init__(folder / SETTLED, PointDecision, targets_of)
 
     @property
     def standing(self) -> Standing:
-        """The last decision on each point, by sheet and step."""
-        return {(each.sheet, each.step): each for each in self.lines}
+        """The last decision on each point, with those of others who disagree."""
+        found = {}
+        for (sheet, step, _), told in self.decided.items():
+            if step is not None:
+                *others, last = (each.line for each in told)
+                found[sheet, step] = replace(last, rivals=tuple(others))
+        return found
+
+    def pins(self, sheet: str) -> list[PointDecision]:
+        """The remarks pinned to a sheet, in the order in which they were made."""
+        told = [each[-1].line for each in self.decided.values()]
+        return [d for d in told if d.sheet == sheet and d.step is None and d.note]
+
+
+def targets_of(line: PointDecision) -> Iterator[tuple[object, object]]:
+    """What a decision is about, and what it says."""
+    pin = line.at if line.step is None else None
+    yield (line.sheet, line.step, pin), (line.verdict, line.at, line.note)
 
 
 def settled_points(record: SheetRecord, standing: Standing) -> tuple[PointReading, ...]:
-    """The points of a sheet with the decisions applied; a decided point has no question."""
+    """The points of a sheet with the decisions applied.
+
+    A decided point has no question, unless people disagree about it.
+    """
     found = []
     for point in record.points:
         decision = standing.get((record.name, point.step))
         if decision is None:
             found.append(point)
         else:
-            found.append(replace(point, at=decision.at, verdict=decision.verdict, ask=False))
+            ask = bool(decision.rivals)
+            found.append(replace(point, at=decision.at, verdict=decision.verdict, ask=ask))
     return tuple(found)
 
 

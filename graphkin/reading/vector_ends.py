@@ -30,12 +30,15 @@ HEADED, CLEARLY = 0.8, 0.25
 """The least share of an arrowhead that is drawn; how much clearer one head is than another."""
 OWN = 0.75
 """The least share of the head at a point that counts as the end of its vector without a doubt."""
-RINGS, PINS, ROUND = np.arange(0.7, 1.05, 0.1), np.arange(0.7, 1.45, 0.1), 0.9
+RINGS, PINS, ROUND = np.arange(0.6, 1.05, 0.1), np.arange(0.6, 1.45, 0.1), 0.86
 """Radii in mm of the rings of points and of pins; the least share of one that is drawn."""
 ASTRAY = 0.3
 """How far from its point, in mm, the middle of a ring may be."""
-TURNED, PLAIN = 0.65, 0.5
-"""The least share of a head at the tail of a turned vector; the most at the tail of any other."""
+TURNED, PLAIN, LIKELY = 0.65, 0.63, 0.6
+"""The least share of a head at the tail of a turned vector; the most at the tail of any other.
+
+LIKELY is the least share of a head at a marked point whose vector begins where other heads are.
+"""
 BESIDE = np.radians(20.0)
 """At a lesser angle, the head of another vector to the same point looks like a vector's own."""
 WHOLE = 0.9
@@ -186,7 +189,7 @@ def vector_end(
     at_tail = bool(likely) and not crowded
     head = complex(place) if elsewhere and (clearer or here < OWN) else None
     doubled = (at_tail and not turned) or ((along_line or shared) and elsewhere and head is None)
-    ended = bool(here >= OWN or (marked and plain))
+    ended = bool(here >= OWN or (marked and (plain or (crowded and here >= LIKELY))))
     if along_line:
         return VectorEnd(head, turned, doubled, open=not ended)
     beyond = drawn(ink, tip, way, BEYOND, pale)
@@ -195,18 +198,24 @@ def vector_end(
     if stops:
         head = None
     ended |= stops and plain
-    runs_on = not shared and beyond >= RUNS_ON
+    certain = marked and here >= OWN and there[along > long].max() < OWN
+    runs_on = not (shared or certain) and beyond >= RUNS_ON
     return VectorEnd(head, turned, doubled, runs_on, before < STOPS, not ended)
 
 
 def is_headed(ink: DrawnInk, tail: complex, tip: complex) -> bool:
     """Whether a vector is wholly drawn from a tail to a tip, and has its head there."""
     long = abs(tip - tail)
-    if not long >= SHORTEST or ink.cover(tail, tip, 0.4) < WHOLE:
-        return False
-    way = (tip - tail) / long
+    return (
+        long >= SHORTEST and ink.cover(tail, tip, 0.4) >= WHOLE and heads_at(ink, tail, tip) >= OWN
+    )
+
+
+def heads_at(ink: DrawnInk, tail: complex, tip: complex) -> float:
+    """The drawn share of the head of a vector at its tip."""
+    way = (tip - tail) / abs(tip - tail)
     near = np.arange(-NEAR, NEAR + PITCH / 2, PITCH)
-    return bool(heads(ink, tip + near * way, way).max() >= OWN)
+    return float(heads(ink, tip + near * way, way).max())
 
 
 def bar_runs_on(ink: DrawnInk, tail: complex, tip: complex, others: list[complex]) -> bool:

@@ -36,6 +36,18 @@ THICK, GROUPS = 0.5, (0.25, 0.35, 0.5, 0.7)
 """The usual width of thick lines in mm, and the line groups of ISO 128."""
 RESULTS = ("SI", "scene", "mm", "cm", "m", "in", "ft")
 """The units of results: metres, the unit of the scene, or a unit of length."""
+PAPERS: Mapping[str, tuple[float, float]] = {
+    "A4": (210.0, 297.0),
+    "A3": (420.0, 297.0),
+    "A2": (594.0, 420.0),
+    "A1": (841.0, 594.0),
+    "ANSI B": (431.8, 279.4),
+    "ANSI C": (558.8, 431.8),
+}
+"""The papers of sheets, with their widths and heights in mm (ISO 216, ASME Y14.1)."""
+USUAL_PAPER = "A3"
+FRAMES = ("ISO", "GOST")
+"""The frames of the papers of ISO 216; those of ANSI have the frame of ASME Y14.1."""
 CELLS = (
     *("title", "creator", "legal_owner", "document_type", "approved_by", "scale"),
     *("identification", "revision", "date_of_issue", "language", "sheet"),
@@ -65,6 +77,8 @@ class House(Struct, frozen=True):
     approved: str = ""
     labels: Mapping[str, str] = field(default_factory=dict)
     language: str = "en"
+    paper: str = USUAL_PAPER
+    frame: str = ""
     ink: Literal["colour", "black"] = "colour"
     signs: SchoolSigns = USUAL
     results: str = ""
@@ -133,6 +147,16 @@ def labels(table: Table, key: str, folder: str) -> dict[str, str]:
 def choice(*words: str) -> Callable[[Table, str, str], str]:
     """The reader of one of some words, the first by default."""
     return lambda table, key, folder: table.choice(key, words, words[0])
+
+
+def paper(table: Table, key: str, folder: str) -> str:
+    """The name of a paper."""
+    return table.choice(key, tuple(PAPERS), USUAL_PAPER)
+
+
+def frame(table: Table, key: str, folder: str) -> str:
+    """The name of a frame; empty where none is stated."""
+    return table.choice(key, FRAMES, FRAMES[0]) if key in table else ""
 
 
 def results(table: Table, key: str, folder: str) -> str:
@@ -274,6 +298,24 @@ HOUSE_KEYS = (
         f"the language of pages: {quoted(LANGUAGES)}",
         '"en"',
         "language",
+    ),
+    HouseKey(
+        "pages",
+        "paper",
+        paper,
+        f"the paper of sheets: {quoted(tuple(PAPERS))}. On A4, mechanism and plan are on two pages"
+        " that lie side by side",
+        '"ANSI B"',
+        "paper",
+    ),
+    HouseKey(
+        "pages",
+        "frame",
+        frame,
+        f"the frame and the title block of A1 to A4: {quoted(FRAMES)} (2.104, form 1). By default"
+        " GOST with the russian signs, else ISO; ANSI papers have those of ASME Y14.1",
+        '"GOST"',
+        "frame",
     ),
     HouseKey(
         "pages",

@@ -15,7 +15,7 @@ from msgspec.structs import astuple, replace
 
 from graphkin.numbers.arithmetic import FLOAT, Kind, Point
 from graphkin.scene.expression import TIME
-from graphkin.scene.house import PLAIN, House
+from graphkin.scene.house import FRAMES, PLAIN, USUAL_PAPER, House
 from graphkin.scene.quantity import LENGTHS, Quantity, in_unit
 from graphkin.text.errors import Message, message
 from graphkin.text.school_signs import USUAL, SchoolSigns
@@ -438,6 +438,11 @@ class Driver(Struct, frozen=True):
     acceleration: Quantity
     of: tuple[str, str] | None = None
 
+    @property
+    def jerk(self) -> Quantity:
+        """The derivative of the acceleration: of its law of time, else zero."""
+        return self.acceleration.derivative(TIME)
+
 
 class Side(Struct, frozen=True):
     """``B = "right of A-O2"``: +1 left, -1 right of the line from ``first`` to ``second``."""
@@ -486,6 +491,7 @@ class Ask(Struct, frozen=True):
 
     velocity: PointNames = ()
     acceleration: PointNames = ()
+    jerk: PointNames = ()
     omega: LinkNames = ()
     epsilon: LinkNames = ()
     poles: LinkNames = ()
@@ -520,6 +526,7 @@ class Sheet(Struct, frozen=True):
     vectors of the crank's pin as long as the crank. ``enlarge`` is the factor on that length, one
     number for each plan or one for both. ``student`` is the owner of the sheet, set by a class, not
     by a scene. ``steps`` are the first digits of a school's scales, () for the usual ones.
+    ``paper`` and ``frame`` are names of papers and frames.
     """
 
     owner: str = ""
@@ -538,6 +545,8 @@ class Sheet(Struct, frozen=True):
     plan: str = "images"
     signs: SchoolSigns = USUAL
     steps: tuple[float, ...] = ()
+    paper: str = USUAL_PAPER
+    frame: str = FRAMES[0]
 
 
 class StatedPositions(Struct, frozen=True):

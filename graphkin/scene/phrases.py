@@ -163,12 +163,12 @@ def phrase_hint(raw: object, begins: Collection[str]) -> Hint:
     for end in ends if len(words) == 3 and len(ends) == 2 else ():
         if re.fullmatch(r"0\w*", end) and is_name(f"O{end[1:]}"):
             meant = f"O{end[1:]}"
-            told = message(
+            advice = message(
                 "{end} begins with a zero: did you mean {meant}, with the letter?",
                 end=end,
                 meant=meant,
             )
-            return Mend(end, meant, told)
+            return Mend(end, meant, advice)
     return NO_WORDS if words[0] in begins else nearest(words[0], begins)
 
 

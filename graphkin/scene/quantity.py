@@ -52,10 +52,9 @@ def si_factors() -> dict[str, tuple[Fraction, bool]]:
     bases = {unit: (factor, False) for unit, factor in LENGTHS.items()} | TURNS
     for base, metres in LENGTHS.items():
         bases |= {f"{unit}{IN}{base}": (each / metres, False) for unit, each in LENGTHS.items()}
-    per_second = {f"{unit}/s": factor for unit, factor in bases.items()}
-    per_square = {f"{unit}/s²": factor for unit, factor in bases.items()}
+    rates = {f"{unit}/{s}": each for s in ("s", "s²", "s³") for unit, each in bases.items()}
     others = dict.fromkeys(("", "s", "kg", "kg·m²", "N", "N·m"), (Fraction(1), False))
-    return bases | per_second | per_square | others | {"rev/min": (Fraction(1, 30), True)}
+    return bases | rates | others | {"rev/min": (Fraction(1, 30), True)}
 
 
 SI = si_factors()
@@ -212,8 +211,9 @@ def reckoned(tree: Tree, values: Mapping[str, Any], kind: Kind) -> Any:
 
 
 def per_second(unit: str) -> str:
-    """The unit of a time derivative: deg, deg/s, deg/s². Raises SceneError beyond."""
+    """The unit of a time derivative: deg, deg/s, deg/s², deg/s³. Raises SceneError beyond."""
     rate = f"{unit}²" if unit.endswith("/s") else f"{unit}/s"
+    rate = f"{unit[:-1]}³" if unit.endswith("/s²") else rate
     if rate not in SI:
         raise SceneError(
             Problem(

@@ -10,7 +10,7 @@ from typing import Literal
 
 from graphkin.scene.expression import TIME
 from graphkin.scene.findings import Findings, Table, nearest, numbered, plain_text, shown
-from graphkin.scene.house import House, read_signs
+from graphkin.scene.house import FRAMES, PAPERS, House, read_signs
 from graphkin.scene.known_names import THE_MECHANISM, known_link, known_point
 from graphkin.scene.link_points import ends_of
 from graphkin.scene.measures import Measures
@@ -38,8 +38,10 @@ from graphkin.scene.phrases import (
 from graphkin.scene.quantity import Quantity, exact
 from graphkin.text import LANGUAGES
 from graphkin.text.errors import Hint, Message, Written, either, joined, message
+from graphkin.text.school_signs import SCHOOLS
 
-PATHS_ASKED = "curves"
+OF_LINKS = ("curves", "jerk")
+"""The keys of [ask] that list points of links, not points such as A@3."""
 CENTRES_ASKED, PAIRS = "centres", "pairs"
 """The key that may also hold pairs of links, and where the scene keeps these."""
 ALL = "all"
@@ -106,8 +108,8 @@ def sides(name: str, links: Mapping[str, Link], branch: object = "") -> tuple[Me
             "P and Q are the outer pins of the two links that {name} joins", name=name
         )
     ways = [str(branch)] if branch else WAYS
-    told = either(f'{block} = "{way}"' for block in blocks for way in ways)
-    return told, message("a block's branch is written under the link's name")
+    expected = either(f'{block} = "{way}"' for block in blocks for way in ways)
+    return expected, message("a block's branch is written under the link's name")
 
 
 def read_ask(table: Table, findings: Findings, scene: Scene) -> Ask:
@@ -137,9 +139,13 @@ def name_asked(place: str, key: str, raw: object, findings: Findings, scene: Sce
                 message("a link with slides"),
             )
         return name if link is not None else None
-    name = (point_name if key == PATHS_ASKED else asked_point)(place, raw, findings)
+    name = (point_name if key in OF_LINKS else asked_point)(place, raw, findings)
     point, of = ends_of(name or "")
     if name is None or not known_point(point, scene.points, THE_MECHANISM, place, findings):
+        return None
+    if key == "jerk" and point in scene.cam_centres:
+        found = message("{point} is the centre of curvature of a cam", point=point)
+        findings.add(place, found, message("a point of a link"))
         return None
     return None if of and known_link(scene, of, place, findings) is None else name
 
@@ -215,6 +221,8 @@ def read_sheet(table: Table, measures: Measures, house: House) -> Sheet:
     if sheets is not None and (isinstance(sheets, bool) or sheets not in (1, 2)):
         table.findings.add(table.at("sheets"), shown(sheets), message("1 or 2"))
         sheets = None
+    signs = read_signs(table, "signs", house.signs)
+    usual = house.frame or ("GOST" if signs == SCHOOLS["russian"].signs else FRAMES[0])
     sheet = Sheet(
         owner=table.text("owner", "\n".join(house.header)),
         author=table.text("author", house.author),
@@ -229,8 +237,10 @@ def read_sheet(table: Table, measures: Measures, house: House) -> Sheet:
         ka=None if ka is None else measures.number(table.at("ka"), ka, positive=True),
         method=table.choice("method", METHODS, METHODS[0]),
         plan=table.choice("plan", PLANS, PLANS[0]),
-        signs=read_signs(table, "signs", house.signs),
+        signs=signs,
         steps=house.steps,
+        paper=table.choice("paper", tuple(PAPERS), house.paper),
+        frame=table.choice("frame", FRAMES, usual),
     )
     table.finish()
     return sheet

@@ -321,10 +321,10 @@ def too_few_hint(scene: Scene) -> tuple[Message, tuple[Change, ...]]:
     loose, alike = [each.words for each in lone_points(scene)], alike_points(scene)
     changes: tuple[Change, ...] = () if alike is None else (alike,)
     if loose or changes:
-        told = [message("only one link has the points {names}", names=joined(", ", loose))]
-        told = told if loose else []
+        reasons = [message("only one link has the points {names}", names=joined(", ", loose))]
+        reasons = reasons if loose else []
         if alike is not None:
-            told.append(
+            reasons.append(
                 message(
                     "did you mean {new} where link {link} has {old}?",
                     new=alike.new,
@@ -332,7 +332,9 @@ def too_few_hint(scene: Scene) -> tuple[Message, tuple[Change, ...]]:
                     old=alike.old,
                 )
             )
-        said = message("add a driver, or a pin is missing: {told}", told=joined("; ", told))
+        said = message(
+            "add a driver, or a pin is missing: {reasons}", reasons=joined("; ", reasons)
+        )
         return said, changes
     free = drivable(scene)
     if not free:

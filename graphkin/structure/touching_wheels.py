@@ -10,7 +10,7 @@ from graphkin.numbers.plane import Line, cross
 from graphkin.scene.known_names import next_name, quoted
 from graphkin.scene.model import FRAME, Belt, Rolling, Scene, Wheel, link_words, of_one_size
 from graphkin.structure.link_axes import body, metres, through, unit
-from graphkin.structure.turning import LEVEL, stands
+from graphkin.structure.turning import LEVEL, stands_along
 from graphkin.text.errors import NO_WORDS, Message, Problem, StructureError, WrittenInto, message
 
 TOUCH = 1e-9
@@ -164,7 +164,7 @@ def kept_heights(
     an earlier track parallel to this one (roller between plates).
     """
     line = track_line(scene, rolling)
-    standing = stands(scene, rolling.on, line.along)
+    standing = stands_along(scene, rolling.on, line.along)
     zero = cross(line.along, line.point)
     link = scene.link(name)
     for arm in (FRAME, *scene.links):

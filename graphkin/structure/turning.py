@@ -95,7 +95,7 @@ def guide_on(scene: Scene, link: str, block: str, slide: Slide) -> complex:
     return complex(guide_line(scene, slide).along) if slide.on == link else 1 + 0j
 
 
-def stands(scene: Scene, base: str, way: complex) -> Mapping[str, Stand]:
+def stands_along(scene: Scene, base: str, way: complex) -> Mapping[str, Stand]:
     """The links that move relative to ``base`` only along ``way``, a unit vector in its axes.
 
     Slides in that direction join them, so that each link keeps its angle and its height. A block's

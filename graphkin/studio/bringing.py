@@ -57,7 +57,7 @@ def asks_more(order: Brought) -> bool:
     """Whether a text is a drawing, which does not say what is fixed."""
     try:
         return is_drawing(order.text())
-    except Exception:  # the error of the import itself is told
+    except Exception:  # the error of the import itself is reported
         return False
 
 

@@ -274,14 +274,17 @@ def raw(value: object) -> object:
 # --- actions of building by hand in the field -----------------------------------------------------
 
 
-TURN = 0.5
-"""The step of drawn angles, in degrees."""
+TURN, GUIDE_TURN = 0.5, 5.0
+"""The steps of drawn angles, and of those of guides, in degrees."""
+FINE = 1e-4
+"""The step of typed lengths and angles, in the unit of the scene and in degrees."""
 
 
 class Act(Struct, frozen=True):
     """An action of the user: its kind, its objects, and its place.
 
     ``of`` names points and links; ``words`` is a chosen closure, ``speed`` the speed of a driver.
+    With ``exact``, lengths and angles are typed: they are not rounded to the grid.
     """
 
     kind: str
@@ -290,6 +293,7 @@ class Act(Struct, frozen=True):
     places: Places
     words: str = ""
     speed: float = 0.0
+    exact: bool = False
 
 
 class Built(Struct, frozen=True):
@@ -309,7 +313,8 @@ def built(text: str, act: Act) -> Built:
             Problem("text", message("is no TOML"), NO_WORDS, message("mend its mistakes first"))
         ) from None
     refuse_shapes(tables)
-    work = Builder(document, {**act.places, **frame_places(tables)}, unit_of(tables))
+    places = {**act.places, **frame_places(tables)}
+    work = Builder(document, places, unit_of(tables), exact=act.exact)
     KINDS[act.kind](work, act)
     after = tomlkit.dumps(work.document)
     if act.kind != "close":
@@ -355,10 +360,14 @@ def refuse_shapes(tables: Mapping[str, Any]) -> None:
 class Builder:
     """Edits a text, and keeps the places of its points."""
 
-    def __init__(self, document: tomlkit.TOMLDocument, places: Places, unit: str) -> None:
+    def __init__(
+        self, document: tomlkit.TOMLDocument, places: Places, unit: str, *, exact: bool = False
+    ) -> None:
         self.document = document
         self.places = dict(places)
-        self.grid = GRIDS[unit]
+        self.grid = FINE if exact else GRIDS[unit]
+        self.turn = FINE if exact else TURN
+        self.guide_turn = FINE if exact else GUIDE_TURN
 
     @property
     def links(self) -> dict[str, list[str]]:
@@ -440,7 +449,7 @@ def bar(work: Builder, act: Act) -> None:
     else:
         way, end = act.at - work.place(start), work.point_name()
         length = work.length(abs(way))
-        work.places[end] = work.place(start) + rect(length, radians(turned(way)))
+        work.places[end] = work.place(start) + rect(length, radians(turned(way, work.turn)))
     _, table = work.new_link()
     table[f"{start}-{end}"] = length
 
@@ -489,7 +498,7 @@ def spoke(work: Builder, table: Any, centre: str, at: complex) -> None:
     way, name = at - work.place(centre), work.point_name()
     table.pop(centre)
     length = table[f"{centre}-{name}"] = work.length(abs(way))
-    work.places[name] = work.place(centre) + rect(length, radians(turned(way)))
+    work.places[name] = work.place(centre) + rect(length, radians(turned(way, work.turn)))
     turned_driver(work, next(link for link, held in work.links.items() if name in held), name)
 
 
@@ -515,7 +524,7 @@ def wheel(work: Builder, act: Act) -> None:
     else:
         radius = work.length(abs(act.at - at))
         table.update({"centre": centre, "radius": radius})
-        angle = turned((at - act.at) / 1j, 5.0)
+        angle = turned((at - act.at) / 1j, GUIDE_TURN)
         through = work.pair(at - rect(1.0, radians(angle)) * 1j * radius)
         rolls = {"on": 0, "through": through, "angle": number(angle)}
     _, link = work.new_link()
@@ -564,7 +573,11 @@ def block(work: Builder, act: Act) -> None:
             )
         at = work.place(point)
         slides.update(
-            {"on": 0, "through": work.pair(at), "angle": number(turned(act.at - at, 5.0))}
+            {
+                "on": 0,
+                "through": work.pair(at),
+                "angle": number(turned(act.at - at, work.guide_turn)),
+            }
         )
     tables = links_of(work.document)
     if any(

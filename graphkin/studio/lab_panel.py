@@ -118,7 +118,7 @@ def beside(work: Callable[[LabTexts], Any], texts: LabTexts, go_on: Callable[[],
     try:
         context = fresh_processes()
         receiving, sending = context.Pipe(duplex=False)
-        process = context.Process(target=told, args=(work, texts, sending), daemon=True)
+        process = context.Process(target=send_result, args=(work, texts, sending), daemon=True)
         process.start()
         sending.close()
         try:
@@ -133,7 +133,7 @@ def beside(work: Callable[[LabTexts], Any], texts: LabTexts, go_on: Callable[[],
         ONE_AT_A_TIME.release()
 
 
-def told(work: Callable[[LabTexts], Any], texts: LabTexts, sending: Any) -> None:
+def send_result(work: Callable[[LabTexts], Any], texts: LabTexts, sending: Any) -> None:
     """Run a piece of work and send its result to the studio."""
     from graphkin.classroom.printing.workers import begin
 

@@ -170,15 +170,15 @@ def mark_of(problem: Problem, text: str, span: Span | None) -> MarkedProblem:
     stop = text.find("\n", start)
     end = min(end, len(text) if stop < 0 else stop)
     line = text.count("\n", 0, start) + 1
-    told = line_of(problem)
-    column = told.column if told else 0
+    place = line_of(problem)
+    column = place.column if place else 0
     return MarkedProblem(problem, line, units(text[:start]), units(text[:end]), column, mends)
 
 
 def span_of(problem: Problem, text: str, found: Mapping[Path, Span]) -> Span | None:
     """The piece of the text that a problem is about, or the nearest heading."""
-    if told := line_of(problem):
-        return span_of_line(text, told)
+    if place := line_of(problem):
+        return span_of_line(text, place)
     if not problem.place:
         return found.get(VERSION, Span(0, 0))
     for path in paths(problem, found):
@@ -236,10 +236,10 @@ def holding(point: str, found: Mapping[Path, Span]) -> Iterator[Path]:
             yield path
 
 
-def span_of_line(text: str, told: InLine) -> Span:
+def span_of_line(text: str, place: InLine) -> Span:
     """A line without the blanks around it, from the character at which it fails to be TOML."""
     lines = text.split("\n")
-    number, column = min(told.line, len(lines)), told.column - 1
+    number, column = min(place.line, len(lines)), place.column - 1
     start = sum(len(line) + 1 for line in lines[: number - 1])
     line = lines[number - 1]
     first, last = len(line) - len(line.lstrip()), len(line.rstrip())
@@ -355,7 +355,7 @@ def look(sight: Sight, memory: Memory, go_on: Callable[[], None]) -> dict[str, A
         found |= drawn(mechanism, sight, memory, found["problems"], go_on)
     except GraphkinError as error:
         found["problems"] += error.problems
-    found["problems"] = told_in(found["problems"], sight.text, sight.language)
+    found["problems"] = problem_records(found["problems"], sight.text, sight.language)
     return found
 
 
@@ -414,12 +414,12 @@ def doubts(margin: float, verdict: Verdict) -> list[Problem]:
     ]
 
 
-def told_in(problems: Iterable[Problem], text: str, language: str) -> list[dict[str, Any]]:
+def problem_records(problems: Iterable[Problem], text: str, language: str) -> list[dict[str, Any]]:
     """Problems of a text as records, in the language of the page and the order of the text."""
-    return [told(mark, language) for mark in marked(problems, text)]
+    return [problem_record(mark, language) for mark in marked(problems, text)]
 
 
-def told(mark: MarkedProblem, language: str) -> dict[str, Any]:
+def problem_record(mark: MarkedProblem, language: str) -> dict[str, Any]:
     """A problem as a record: its words, its line, the piece to select, and its setting if any."""
     problem = mark.problem
     setting = next((each.name for each in problem.about if isinstance(each, Setting)), "")

@@ -57,7 +57,7 @@ from graphkin.studio.lab_panel import (
     proposal_of,
     trial_of,
 )
-from graphkin.studio.look import Sight, look, spoken_in, told_in
+from graphkin.studio.look import Sight, look, problem_records, spoken_in
 from graphkin.studio.mends import Edit, units
 from graphkin.studio.panels import Memory, StaleError
 from graphkin.studio.sketch import sketch
@@ -521,7 +521,9 @@ class Session:
             order.long_text("pasted"),
             tracing_of(words),
         )
-        found = told(lambda: brought(given, language), "", language, text="", name="", notes=[])
+        found = or_problems(
+            lambda: brought(given, language), "", language, text="", name="", notes=[]
+        )
         return found | {"drawing": bool(found["problems"]) and asks_more(given)}
 
     def explain(self, order: PageRequest) -> dict[str, Any]:
@@ -607,7 +609,7 @@ class Session:
         self,
         order: PageRequest,
         work: Callable[[LabTexts], Any],
-        told_of: Callable[[Any, LabTexts, Words], Struct],
+        made_record: Callable[[Any, LabTexts, Words], Struct],
     ) -> dict[str, Any]:
         """The result of work on a lab's texts in a separate process, as a record for the page."""
         tab, number = f"{order.text('tab')} lab", order.number("number")
@@ -619,9 +621,9 @@ class Session:
         except StaleError:
             return {"stale": True, "number": number}
         if isinstance(found, LabProblems):
-            wrong = told_in(found.rules, texts.rules, words.language)
+            wrong = problem_records(found.rules, texts.rules, words.language)
             return {"problems": wrong, "scene_wrong": bool(found.scene), "number": number}
-        known = to_builtins(told_of(found, texts, words), enc_hook=as_text)
+        known = to_builtins(made_record(found, texts, words), enc_hook=as_text)
         return {"problems": [], "scene_wrong": False, "number": number, **known}
 
     def student(self, order: PageRequest) -> dict[str, Any]:
@@ -635,7 +637,7 @@ class Session:
                 sheets = sheets_of(self.folder, wanted)
             return {"sheets": [data.decode("utf-8") for data in sheets.values()]}
 
-        return told(drawn, text, language, sheets=[])
+        return or_problems(drawn, text, language, sheets=[])
 
     def motion(self, order: PageRequest) -> dict[str, Any]:
         """The address of a moving page of a mechanism: with curves, or step by step."""
@@ -657,7 +659,7 @@ class Session:
                 self.moving.popitem(last=False)
             return {"page": f"moving/{key}", "drivers": drivers}
 
-        return told(made, text, language, page="", drivers=drivers)
+        return or_problems(made, text, language, page="", drivers=drivers)
 
     def begin(self, order: PageRequest) -> dict[str, Any]:
         """A first lab.toml for any scene, or why there can be none."""
@@ -666,7 +668,7 @@ class Session:
         def made() -> dict[str, Any]:
             return {"rules": rules_for(Mechanism(read_text(text, stem)))}
 
-        return told(made, text, language_in(order), rules="")
+        return or_problems(made, text, language_in(order), rules="")
 
     def write(self, order: PageRequest) -> dict[str, Any]:
         """The edits that put the values of the sliders into a text, or why there are none."""
@@ -675,7 +677,7 @@ class Session:
         def made() -> dict[str, Any]:
             return {"edits": to_builtins(edits(text, settings), enc_hook=as_text)}
 
-        return told(made, text, language_in(order), edits=[])
+        return or_problems(made, text, language_in(order), edits=[])
 
     def picture(self, order: PageRequest) -> dict[str, Any]:
         """The sketch of a scene in the gallery; none for an unreadable scene."""
@@ -698,6 +700,7 @@ class Session:
             places,
             order.text("words"),
             order.place("speed").real,
+            order.flag("exact"),
         )
         if act.kind != "pivot" and not of:
             raise PageRequestError("of")
@@ -709,7 +712,7 @@ class Session:
             stand = {name: [at.real, at.imag] for name, at in after.places.items()}
             return {"text": after.text, "places": stand}
 
-        return told(done, text, language_in(order), text=text)
+        return or_problems(done, text, language_in(order), text=text)
 
     def save(self, order: PageRequest) -> dict[str, Any]:
         """Save the text of a scene, whatever its mistakes."""
@@ -748,17 +751,17 @@ class Session:
 def saving(work: Callable[[], Saved], text: str, language: str) -> dict[str, Any]:
     """The written files, the existing files in the way, or why nothing was written."""
     nothing = to_builtins(Saved())
-    return told(lambda: to_builtins(work(), enc_hook=as_text), text, language, **nothing)
+    return or_problems(lambda: to_builtins(work(), enc_hook=as_text), text, language, **nothing)
 
 
-def told(
+def or_problems(
     work: Callable[[], dict[str, Any]], scene: str, language: str, /, **instead: Any
 ) -> dict[str, Any]:
     """The result of a piece of work without problems, or ``instead`` with the problems."""
     try:
         return {**work(), "problems": []}
     except GraphkinError as error:
-        return {**instead, "problems": told_in(error.problems, scene, language)}
+        return {**instead, "problems": problem_records(error.problems, scene, language)}
 
 
 def language_of(text: str) -> str:

@@ -1,4 +1,4 @@
-"""The signs of quantities by school, listed once: what each stands for, and who writes it how.
+"""The signs of quantities by school, listed once: what each means, and who writes it how.
 
 Names inside the program (of steps, fields and marks) keep the usual signs; only what is printed is
 written with those of a school.
@@ -125,7 +125,7 @@ MEANINGS: Mapping[str, str] = MappingProxyType(
         "acceleration_scale": "scale factor of accelerations",
     }
 )
-"""What each sign stands for."""
+"""What each sign means."""
 
 
 class School(Struct, frozen=True):

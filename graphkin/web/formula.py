@@ -35,7 +35,6 @@ from graphkin.text.errors import Message, Problem, SceneError, message
 from graphkin.web.page_driver import driven_by, time_of
 
 TIME_INPUT = "time"
-LETTERS = {"position": "", "velocity": "v", "acceleration": "a"}
 """The letter before x and y in the name of a part of a vector."""
 C_SIGNS = {
     **{op: sign for op, sign in SIGNS.items() if op != "over"},
@@ -246,7 +245,7 @@ def results_of(
         for quantity in OF_POINTS:
             value = motion_value(motion, quantity)
             if value is not None:
-                part, letter = entered(graph, value), LETTERS[quantity.target]
+                part, letter = entered(graph, value), quantity.letter
                 found[f"{letter}x_{points[point]}"] = part.node
                 found[f"{letter}y_{points[point]}"] = part.below()
     for link, turning in solution.links.items():

@@ -85,7 +85,7 @@ def motion(cycle: Cycle, words: Words, frames: int = FRAMES) -> FrameSequence:
     if leaps := jumps(cycle):
         raise SceneError(leap(leaps[0], cycle.sweep.unit))
     if reached[1] - reached[0] < LITTLE * (cycle.sweep.high - cycle.sweep.low):
-        raise SceneError(stands(cycle))
+        raise SceneError(at_rest(cycle))
     low, high = shown_range(cycle)
     places, order = (
         in_order(round_about(cycle, frames))
@@ -96,7 +96,7 @@ def motion(cycle: Cycle, words: Words, frames: int = FRAMES) -> FrameSequence:
     found = [moment_at(cycle, place, words) for place in places]
     kept = [i for i, moment in enumerate(found) if moment is not None]
     if len(kept) < LEAST:
-        raise SceneError(stands(cycle))
+        raise SceneError(at_rest(cycle))
     numbers = {old: new for new, old in enumerate(kept)}
     some = [moment for moment in found if moment is not None]
     shown = tuple(numbers[i] for i in order if i in numbers)
@@ -123,7 +123,7 @@ def leap(jump: Jump, unit: str) -> Problem:
     )
 
 
-def stands(cycle: Cycle) -> Problem:
+def at_rest(cycle: Cycle) -> Problem:
     """The problem of a driver that has no range to move in."""
     low, high = cycle.ranges[0]
     found = message(

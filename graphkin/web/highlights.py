@@ -24,20 +24,22 @@ HIDDEN = {*DRAWN, "detail", "note", "caption"}
 """The classes that the beginning does not show: the construction."""
 
 
-def rates(sheets: Sequence[ScreenSheet], told: PageProtocol) -> dict[int, list[dict[str, object]]]:
+def rates(
+    sheets: Sequence[ScreenSheet], protocol: PageProtocol
+) -> dict[int, list[dict[str, object]]]:
     """The rates that each sentence reads off, by the number of the sentence.
 
     Each rate has its row, its formula, and its sense as drawn. It has the ids of its link's marks
     and of the ring around the link's number, the ends of its bar, and its vector.
     """
     found: dict[int, list[dict[str, object]]] = {}
-    for at, said in enumerate(told.said, 1):
+    for at, said in enumerate(protocol.said, 1):
         drawing = sheets[said.sheet].drawing
         for link in said.rates:
-            body, number = marks_of_link(told, said.sheet, link)
+            body, number = marks_of_link(protocol, said.sheet, link)
             one: dict[str, object] = {
                 "row": f"{drawing.rate.letter}{link}",
-                "told": told_as(drawing, link),
+                "told": spoken_rate(drawing, link),
                 "sense": float(drawing.turning(link) or 0.0),
                 "body": body,
                 "number": number,
@@ -50,17 +52,17 @@ def rates(sheets: Sequence[ScreenSheet], told: PageProtocol) -> dict[int, list[d
     return found
 
 
-def told_as(drawing: Drawing, link: str) -> str:
+def spoken_rate(drawing: Drawing, link: str) -> str:
     """The formula for the rate of a link, in symbols, as HTML."""
     name = drawing.symbol(f"{drawing.rate.letter}_{link}")
     relation = next(each for each in of_turning(drawing) if each.left == name)
     return marked_up(f"{name} = {relation.symbols}" if relation.symbols else name)
 
 
-def marks_of_link(told: PageProtocol, sheet: int, link: str) -> tuple[list[str], str]:
+def marks_of_link(protocol: PageProtocol, sheet: int, link: str) -> tuple[list[str], str]:
     """The ids of the bars and plates of a link on a sheet, and of the ring around its number."""
     body, number = [], ""
-    for k, timed in enumerate(told.timed[sheet]):
+    for k, timed in enumerate(protocol.timed[sheet]):
         if timed.mark.name == link:
             look = style_class(timed.mark)
             if look in BODIES:
@@ -96,11 +98,11 @@ def triangles(sheets: Sequence[ScreenSheet]) -> dict[int, list[list[int]]]:
     return found
 
 
-def ghosts(sheet: ScreenSheet, told: PageProtocol) -> list[int]:
+def ghosts(sheet: ScreenSheet, protocol: PageProtocol) -> list[int]:
     """The numbers of the marks of the mechanism on the first sheet, without the construction."""
     curves = {curve.name for curve in sheet.drawing.curves}
     found = []
-    for k, timed in enumerate(told.timed[0][: len(sheet.left)]):
+    for k, timed in enumerate(protocol.timed[0][: len(sheet.left)]):
         if timed.mark.name in curves:
             continue
         looks = timed.mark.cls.split()
@@ -113,15 +115,15 @@ def ghosts(sheet: ScreenSheet, told: PageProtocol) -> list[int]:
     return found
 
 
-def rows_found(sheets: Sequence[ScreenSheet], told: PageProtocol) -> dict[str, int]:
+def rows_found(sheets: Sequence[ScreenSheet], protocol: PageProtocol) -> dict[str, int]:
     """The sentence that finds the quantity of each row of the tables of results."""
     found: dict[str, int] = {}
     for place, sheet in enumerate(sheets):
-        last = told.bounds(place)[1]
+        last = protocol.bounds(place)[1]
         for row, step in steps_of_rows(sheet.drawing):
             is_given = not sheet.drawing.trace.program.steps[step].args
-            found.setdefault(row, 0 if is_given else told.at.get(step, last))
-    for at, some in rates(sheets, told).items():
+            found.setdefault(row, 0 if is_given else protocol.at.get(step, last))
+    for at, some in rates(sheets, protocol).items():
         found |= {str(one["row"]): at for one in some}
     return found
 

@@ -147,7 +147,7 @@ def put_together(tracing: Tracing, sheets: Sequence[ScreenSheet]) -> Moving | No
         "led": led,
         "grips": [list(grips(s, sheet, here, driven)) for s, (sheet, here) in both],
         "figures": list(figures_of(tracing, sheets[0].drawing)),
-        "stands": stands(tracing),
+        "stands": driver_output(tracing),
         "derived": list(derived(tracing, sheets[0].drawing)),
         "rects": rects,
         "fields": fields,
@@ -251,11 +251,11 @@ def figures_of(tracing: Tracing, drawing: Drawing) -> Iterator[dict[str, Any]]:
     stand_by = frozenset[str]().union(*(driver.position.uses() for driver in scene.drivers))
     for figure in tracing.driven.figures:
         shows = tracing.known[figure.parameter or figure.name]
-        told = next((k for k, one in enumerate(given) if figure.parameter in one.parameters), -1)
+        datum = next((k for k, one in enumerate(given) if figure.parameter in one.parameters), -1)
         if figure.driver is not None:
             shows = tracing.driven.timed(figure.driver, tracing.x, tracing.known)[0]
             shows = shows / figure.metres
-            told = next(k for k, one in enumerate(given) if one.of is figure.driver.position)
+            datum = next(k for k, one in enumerate(given) if one.of is figure.driver.position)
         yield {
             "key": figure.key,
             "name": marked_up(figure.symbol),
@@ -266,7 +266,7 @@ def figures_of(tracing: Tracing, drawing: Drawing) -> Iterator[dict[str, Any]]:
             "step": figure.step,
             "unit": printed_unit(figure.unit, words),
             "shows": tape.number(shows),
-            "datum": told,
+            "datum": datum,
             "moves": -1 if figure.driver else int(figure.parameter in stand_by),
         }
 
@@ -281,7 +281,7 @@ def derived(tracing: Tracing, drawing: Drawing) -> Iterator[list[Any]]:
             yield [k, marked_up(one.name), number, printed_unit(one.of.unit, words)]
 
 
-def stands(tracing: Tracing) -> int:
+def driver_output(tracing: Tracing) -> int:
     """The output for the driver's position as a function of the parameters; -1 without one."""
     driven = tracing.driven
     if driven.driver is None or not driven.figures:

@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING, Any
 
 from msgspec.structs import replace
 
-from graphkin.construction.registry import PALETTE
+from graphkin.construction.registry import BOARD, PALETTE
 from graphkin.drawing.field import Rect
 from graphkin.drawing.marks import Mark, Text
 from graphkin.drawing.richtext import font_face
@@ -117,42 +117,72 @@ STEP_PAGE = (
     "turn_marks.js",
     "pointing.js",
     "typing.js",
+    "choosing.js",
     "checking.js",
     "answers.js",
     "hints.js",
     "levels.js",
+    "turn_events.js",
     "your_turn.js",
     "aiming.js",
     "keys.js",
 )
 """The script of a step page: while loading, a file uses only the files before it."""
+BOARD_PAGE = (
+    "board_page.js",
+    "numbers.js",
+    "sheets.js",
+    "bars.js",
+    "zoom.js",
+    "view.js",
+    "palette.js",
+    "board_state.js",
+    "history.js",
+    "pick_shapes.js",
+    "picking.js",
+    "turn_marks.js",
+    "pointing.js",
+    "typing.js",
+    "choosing.js",
+    "turn_events.js",
+    "board_moves.js",
+    "board_marks.js",
+    "board.js",
+)
+"""The script of the board on a task page."""
 PLAYER = ("numbers.js", "curves.js", "player.js")
 """The script of a cycle's page."""
 MOVING = ("closing.js", "moving.js")
 """The script that places the marks that follow the driver."""
 FORM = ("form.js",)
 """The script of a form for answers."""
-WRITTEN_IN = {
-    "$STROKES": json.dumps(",".join(f".{look}" for look in (*DRAWN, "link", "outline"))),
-    "$ACTIONS": json.dumps(
-        {
-            key: [each.shape, each.plane, each.lies_with]
-            for key, each in PALETTE.items()
-            if (each.shape, each.plane, each.lies_with) != ("point", None, 0)
-        },
-        separators=(",", ":"),
-    ),
-    "$TYPED": json.dumps(
-        {key: each.typed for key, each in PALETTE.items()},
-        ensure_ascii=False,
-        separators=(",", ":"),
-    ),
-    "...$DRAW,": "\n".join(
-        f"{key}: {''.join(map(str.strip, each.script.splitlines(keepends=False)))},"
-        for key, each in PALETTE.items()
-    ),
-}
-"""The placeholders in the scripts, with the classes of lines and the actions of the palette."""
+
+
+def written_in(names: tuple[str, ...]) -> dict[str, str]:
+    """The values of a script's placeholders: classes of lines, and actions of its palette."""
+    actions = BOARD if names == BOARD_PAGE else PALETTE
+    return {
+        "$STROKES": json.dumps(",".join(f".{look}" for look in (*DRAWN, "link", "outline"))),
+        "$ACTIONS": json.dumps(
+            {
+                key: [each.shape, each.plane, each.lies_with]
+                for key, each in actions.items()
+                if (each.shape, each.plane, each.lies_with) != ("point", None, 0)
+            },
+            separators=(",", ":"),
+        ),
+        "$TYPED": json.dumps(
+            {key: each.typed for key, each in actions.items()},
+            ensure_ascii=False,
+            separators=(",", ":"),
+        ),
+        "...$DRAW,": "\n".join(
+            f"{key}: {''.join(map(str.strip, each.script.splitlines(keepends=False)))},"
+            for key, each in actions.items()
+        ),
+    }
+
+
 REMARK = re.compile(r"(?<=[;,{}\])])\s+// [^\"'`]*$")
 """A comment at the end of a line, without any quotation mark."""
 TEXT = re.compile("[\"'`/\\\\]")
@@ -179,7 +209,7 @@ def joined(names: tuple[str, ...]) -> str:
     """Some files in sequence, without comments."""
     lines = (REMARK.sub("", line.strip()) for name in names for line in part(name).splitlines())
     script = "\n".join(line for line in lines if line and not line.startswith(REMARKS))
-    for place, what in WRITTEN_IN.items():
+    for place, what in written_in(names).items():
         script = script.replace(place, what)
     return script
 

@@ -223,11 +223,11 @@ def shortened(motion: FrameSequence, moved: Moving, words: Words) -> str:
     driven = moved.driven
     ends = dict(zip(("low", "high"), (motion.low, motion.high), strict=True))
     ends |= dict(zip(("first", "last"), motion.reached, strict=True))
-    told = {
+    fields = {
         name: words.significant(at / driven.metres, 4) + driven.unit_in(words)
         for name, at in ends.items()
     }
-    return words("animation.shortened", **told)
+    return words("animation.shortened", **fields)
 
 
 def row_words(row: str, drawing: Drawing) -> tuple[str, str]:
@@ -291,15 +291,15 @@ def notable(motion: FrameSequence, moved: Moving, words: Words) -> Iterator[tupl
 
     cycle, metres, shift = motion.cycle, moved.driven.metres, shift_of(motion, moved)
     low, high = (-inf, inf) if cycle.path.whole else (motion.low, motion.high)
-    told = [(each.at, words(f"animation.{each.kind}")) for each in cycle.singulars]
+    events = [(each.at, words(f"animation.{each.kind}")) for each in cycle.singulars]
     for each in followers(cycle):
         back = words("animation.turns_back", name=each.name)
-        told += [(limit.at, back) for limit in each.limits if low <= limit.at <= high]
+        events += [(limit.at, back) for limit in each.limits if low <= limit.at <= high]
     if cycle.path.whole and cycle.path.turns > 1:
         first, last = ((end - shift) * metres for end in (moved.reach.low, moved.reach.high))
-        every = [(cycle.path.found_at(at, first, last), said) for at, said in told]
-        told = [(at, said) for at, said in every if first <= at <= last]
-    for at, said in sorted(told):
+        every = [(cycle.path.found_at(at, first, last), said) for at, said in events]
+        events = [(at, said) for at, said in every if first <= at <= last]
+    for at, said in sorted(events):
         yield round(at / metres + shift, 6), said
 
 

@@ -33,7 +33,7 @@ from graphkin.documents.sentences import (
     unexplained,
     with_indices,
 )
-from graphkin.documents.step_pages import accompanied, stage_of, stages, when_told
+from graphkin.documents.step_pages import accompanied, naming_stages, stage_of, stages
 from graphkin.drawing.marks import CircleMark, Mark, Text, style_class
 from graphkin.drawing.style import DRAWN
 from graphkin.text.markup import AND, EQUALS, names_in
@@ -115,24 +115,24 @@ def parted_sentence(drawing: Drawing, said: Sentence) -> PartedSentence:
     plan = auxiliary_plan(drawing, said.step)
     divided = isinstance(construction(drawing.trace.program.steps[said.step]), DividedPoint)
     if plan is not None and not divided:
-        told = plan.told_in_parts(drawing, said.all_steps)
-        parts = tuple(SentencePart(s, p, text, said.name) for p, s, text in told)
+        found = plan.parts_of_sentence(drawing, said.all_steps)
+        parts = tuple(SentencePart(s, p, text, said.name) for p, s, text in found)
         return PartedSentence(said, parts, plan)
     parts = tuple(
         SentencePart(step, number, markup, said.name)
         for number in said.all_steps
-        for step, markup in told_in_parts(drawing, number)
+        for step, markup in parts_of_sentence(drawing, number)
     )
     whole = len(parts) < 2 or not all(part.markup for part in parts)
     return PartedSentence(said, (one,) if whole else parts)
 
 
-def told_in_parts(drawing: Drawing, number: int) -> Iterator[tuple[int, str]]:
+def parts_of_sentence(drawing: Drawing, number: int) -> Iterator[tuple[int, str]]:
     """The text of a step, part by part, each with the step that the part ends with."""
     program = drawing.trace.program
     component, kind = component_of(program, number), construction(program.steps[number])
     if component is not None:
-        yield from component.told_in_parts(drawing)
+        yield from component.parts_of_sentence(drawing)
     elif isinstance(kind, DividedPoint) and not kind.is_crossed(drawing.trace.values):
         yield number, divided_alone(drawing, kind)
     elif kind is not None:
@@ -150,8 +150,8 @@ def readings(drawing: Drawing) -> Iterator[SentencePart]:
     how: str = drawing.words(f"step.read-{rate.target}")
     for relation in of_turning(drawing):
         if (step := steps.get(relation.left)) is not None:
-            told = " ".join(relation.parts(solved=True))
-            markup = f"{how}: {told}" if how else told
+            solved = " ".join(relation.parts(solved=True))
+            markup = f"{how}: {solved}" if how else solved
             yield SentencePart(step, step, markup, TURNING, reason=relation.reason)
             how = ""
 
@@ -265,8 +265,8 @@ def telling(sheets: Sequence[ScreenSheet]) -> PageProtocol:
         seen = {one.step for one in marks if one.step is not None}
         said += spoken(place, sheet.drawing, own, staged, labels, seen)
         details = (scale_words(times) for times in sheet.enlarged)
-        told = AND.join(sheet.drawing.words("screen.detail", scale=each) for each in details)
-        said[-1] = replace(said[-1], aside=told)
+        in_details = AND.join(sheet.drawing.words("screen.detail", scale=each) for each in details)
+        said[-1] = replace(said[-1], aside=in_details)
     shown = sorted({mark.step for marks in timed for mark in marks if mark.step is not None})
     ran = {step for sheet in sheets for step in sheet.drawing.trace.values}
     program = sheets[0].drawing.trace.program
@@ -307,8 +307,8 @@ def in_parts(sheet: ScreenSheet) -> tuple[list[Sentence], dict[int, int], tuple[
     own = {step: places[stage] if stage >= 0 else stage for step, stage in staged.items()}
     timed = [replace(one, at=places[one.at - 1] + 1 if one.at else 0) for one in marks]
     said, own, timed = vectors_apart(drawing, said, own, timed)
-    telling = when_told(drawing, own)
-    lettered = (replace(one, letters=letters_told(one.mark, telling)) for one in timed)
+    telling = naming_stages(drawing, own)
+    lettered = (replace(one, letters=named_letters(one.mark, telling)) for one in timed)
     return with_indices(drawing, said), own, tuple(lettered)
 
 
@@ -357,7 +357,7 @@ def vectors_apart(
     return found, later_own, timed
 
 
-def letters_told(mark: Mark, telling: Mapping[str, int]) -> tuple[int, ...]:
+def named_letters(mark: Mark, telling: Mapping[str, int]) -> tuple[int, ...]:
     """The sentences (from 1, 0 if given) that find the letters of a shared label."""
     if not isinstance(mark, Text) or mark.step is None or mark.rotate:
         return ()
@@ -458,17 +458,17 @@ def shown_by(drawing: Drawing, number: int, fresh: Iterable[int], shown: Abstrac
 def rates_read(drawing: Drawing, sentence: Sentence) -> Iterator[str]:
     """The links whose rates a sentence reads off, without mere keepers of wheels on tracks."""
     if sentence.name == TURNING:
-        told = {relation.left for relation in of_turning(drawing)}
+        related = {relation.left for relation in of_turning(drawing)}
         for (what, link), number in drawing.trace.program.targets.items():
             is_read = what == drawing.rate.target and number in sentence.all_steps
-            if is_read and drawing.symbol(f"{drawing.rate.letter}_{link}") in told:
+            if is_read and drawing.symbol(f"{drawing.rate.letter}_{link}") in related:
                 yield link
 
 
 def vectors_found(drawing: Drawing, fresh: Iterable[int], markup: str) -> Iterator[str]:
     """The names of plan vectors that a sentence draws without mentioning them."""
     said = names_in(markup)
-    return (told for number in fresh if (told := vector_found(drawing, number, said)))
+    return (name for number in fresh if (name := vector_found(drawing, number, said)))
 
 
 def vector_found(drawing: Drawing, number: int, said: AbstractSet[str] = frozenset()) -> str:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from msgspec import Struct
+from msgspec.structs import replace
 
 from graphkin.construction.core.drawn_scene import Drawing
 from graphkin.construction.core.layout import Layout, lay_out
@@ -10,6 +11,7 @@ from graphkin.documents.detail import insets, parted
 from graphkin.documents.scaling import sheet_motion
 from graphkin.documents.sheet import left_board, right_board
 from graphkin.documents.sheet_documents import drawings_of, language_of, proved
+from graphkin.drawing.field import Field
 from graphkin.drawing.marks import Mark
 from graphkin.mechanism import Mechanism
 
@@ -52,6 +54,7 @@ def screen_sheets(
 
 def screen_sheet(drawing: Drawing, layout: Layout, view: str = "key") -> ScreenSheet:
     """The fields of one drawing."""
+    layout = on_grid(layout) if view == "task" else layout
     boards = left_board(drawing, layout, view), right_board(drawing, layout, view)
     (left, detail, times), (right, other, others) = parted(*boards)
     if view == "key":
@@ -59,3 +62,26 @@ def screen_sheet(drawing: Drawing, layout: Layout, view: str = "key") -> ScreenS
     enlarged = tuple(dict.fromkeys((*times[:1], *others[:1])))
     more = tuple(detail), tuple(other), enlarged
     return ScreenSheet(drawing, layout, tuple(left), tuple(right), *more)
+
+
+GRID = 10.0
+"""The grid of a task's fields, in mm."""
+
+
+def on_grid(layout: Layout) -> Layout:
+    """The fields of a task with edges and origins on a grid.
+
+    Their exact places would tell how far the drawing extends to each side.
+    """
+    edge = round(layout.mechanism.rect[2] / GRID) * GRID
+    return replace(
+        layout, mechanism=placed(layout.mechanism, 2, edge), plan=placed(layout.plan, 0, edge)
+    )
+
+
+def placed(field: Field, side: int, edge: float) -> Field:
+    """A field with one edge moved, and its origin on the grid."""
+    rect = list(field.rect)
+    rect[side] = edge
+    x, y = (round(place / GRID) * GRID for place in field(0j))
+    return replace(field, rect=(rect[0], rect[1], rect[2], rect[3]), middle=0j, at=(x, y))

@@ -19,7 +19,7 @@ from graphkin.construction.core.quantities import CENTRES
 from graphkin.construction.result_tables import unread
 from graphkin.documents.scheme import scheme
 from graphkin.documents.sheet import HEADING, apart, asked_words, title_of
-from graphkin.drawing.field import SCHEME, Rect
+from graphkin.drawing.field import Rect
 from graphkin.drawing.marks import Mark
 from graphkin.drawing.style import BY_SIGN, Ink
 from graphkin.drawing.symbol_markup import symbol
@@ -27,10 +27,13 @@ from graphkin.mechanism import Mechanism
 from graphkin.motion.driving import TURN
 from graphkin.text import Words
 from graphkin.web import facts
+from graphkin.web.board_page import board_record
+from graphkin.web.board_page import palette as board_palette
 from graphkin.web.highlights import ghosts, rates, rows_found, triangles
 from graphkin.web.moving import moving, still
 from graphkin.web.offline_page import (
     BAR,
+    BOARD_PAGE,
     STEP_PAGE,
     bar_rules,
     data_block,
@@ -183,11 +186,15 @@ RATE_NAMES = {
 
 
 class Form(Struct, frozen=True):
-    """A form for answers in a task page: its markup, its rules and its script."""
+    """A form for answers in a task page: its markup, its rules and its script.
+
+    ``says_right`` says that the lab lets the board tell when a point is right.
+    """
 
     body: Markup
     style: str
     script: str
+    says_right: bool = False
 
 
 Tell = Callable[[str], None]
@@ -231,19 +238,20 @@ def step_page(
     mechanism = mechanism.spoken(language).measured
     sheets = screen_sheets(mechanism, language)
     tell_unread(sheets, tell)
-    told = telling(sheets)
+    protocol = telling(sheets)
     moves = slider(mechanism, sheets)
-    turn = your_turn(sheets, told)
+    turn = your_turn(sheets, protocol)
     drawing = sheets[0].drawing
     given_data = data(drawing)
-    found = rows_found(sheets, told)
+    found = rows_found(sheets, protocol)
     body = from_template(
         "web/templates/step.html",
         **common(sheets),
         sheets=[
-            fields(sheet, place, *grown(sheet, told, place)) for place, sheet in enumerate(sheets)
+            fields(sheet, place, *grown(sheet, protocol, place))
+            for place, sheet in enumerate(sheets)
         ],
-        construction=list(construction(sheets, told)),
+        construction=list(construction(sheets, protocol)),
         no_step=NO_STEP,
         degrees=degrees,
         results=[
@@ -254,19 +262,21 @@ def step_page(
         data=[datum.said for datum in given_data],
         datum=place_of(moves.datum, given_data),
         meanings=list(meanings(drawing.words, sheets)),
-        steps=len(told.said),
+        steps=len(protocol.said),
         stops=[
             (
                 first,
                 last,
-                STOP_NAMES.get(stop, RATE_NAMES[sheets[told.said[first - 1].sheet].drawing.kind]),
+                STOP_NAMES.get(
+                    stop, RATE_NAMES[sheets[protocol.said[first - 1].sheet].drawing.kind]
+                ),
             )
-            for first, last, stop in told.stops()
+            for first, last, stop in protocol.stops()
         ],
         moves=moves,
         palette=palette(turn, sheets[0].drawing.words),
         turning=data_block("turning", turn_record(sheets, turn, owner)),
-        run=data_block("run", record(sheets, told)),
+        run=data_block("run", record(sheets, protocol)),
     )
     scripts = [together(STEP_PAGE)]
     if moves.source:
@@ -291,6 +301,7 @@ def task_page(
     sheets = screen_sheets(mechanism, language, "task")
     tell_unread(sheets, tell)
     shown = scheme(sheets[0].drawing)
+    drawn_here = board_record(sheets, says_right=form is not None and form.says_right)
     body = from_template(
         "web/templates/task.html",
         **common(sheets),
@@ -300,9 +311,15 @@ def task_page(
         ],
         data=given(sheets[0].drawing),
         scheme=scheme_figure(sheets[0].drawing, shown),
+        palette=board_palette(sheets[0].drawing.words),
+        board=data_block("board", drawn_here),
         form=form.body if form else "",
     )
-    styles, scripts = ([form.style], [form.script]) if form else ([], [])
+    styles = [*map(part, ("steps.css", "your_turn.css", "board.css"))]
+    scripts = [together(BOARD_PAGE)]
+    if form:
+        styles.append(form.style)
+        scripts.insert(0, form.script)
     return written(sheets, body, ink, styles, scripts, shown)
 
 
@@ -312,7 +329,9 @@ def scheme_figure(drawing: Drawing, marks: Sequence[Mark]) -> tuple[str, str]:
     if title is None:
         return "", ""
     timed = [("", Timed(mark, 0, None)) for mark in drawn]
-    return drawing.words("task.scheme"), field_picture(timed, SCHEME, "caption-scheme")
+    return drawing.words("task.scheme"), field_picture(
+        timed, drawing.paper.scheme, "caption-scheme"
+    )
 
 
 def tell_unread(sheets: Sequence[ScreenSheet], tell: Tell) -> None:
@@ -384,14 +403,14 @@ def sheet_name(sheet: ScreenSheet) -> str:
 
 
 def grown(
-    sheet: ScreenSheet, told: PageProtocol, place: int
+    sheet: ScreenSheet, protocol: PageProtocol, place: int
 ) -> tuple[Sequence[Timed], tuple[Sequence[Timed], Sequence[Timed]]]:
     """The marks of a sheet's fields in drawing order, and those that appear when all is drawn."""
-    last = told.bounds(place)[1]
+    last = protocol.bounds(place)[1]
     left, right = (
         [Timed(mark, last, None) for mark in marks] for marks in (sheet.more_left, sheet.more_right)
     )
-    return told.timed[place], (left, right)
+    return protocol.timed[place], (left, right)
 
 
 def untimed(sheet: ScreenSheet) -> Sequence[Timed]:
@@ -428,35 +447,35 @@ def place_of(symbol: str, given_data: Sequence[Datum]) -> int | None:
 
 
 def construction(
-    sheets: Sequence[ScreenSheet], told: PageProtocol
+    sheets: Sequence[ScreenSheet], protocol: PageProtocol
 ) -> Iterator[tuple[str, int, Sequence[ProtocolSentence]]]:
     """The kind of each sheet, the number of its first sentence, and its sentences."""
     for place, sheet in enumerate(sheets):
-        first, last = told.bounds(place)
-        yield sheet.drawing.kind, first, told.said[first - 1 : last]
+        first, last = protocol.bounds(place)
+        yield sheet.drawing.kind, first, protocol.said[first - 1 : last]
 
 
 # --- the data for the script ---------------------------------------------------------------------
 
 
-def record(sheets: Sequence[ScreenSheet], told: PageProtocol) -> dict[str, object]:
+def record(sheets: Sequence[ScreenSheet], protocol: PageProtocol) -> dict[str, object]:
     """The data for the script."""
     words = sheets[0].drawing.words
     return {
-        "bounds": [told.bounds(place) for place in range(len(sheets))],
-        "at": told.at,
-        "from": told.sources,
-        "sides": told.sides,
-        "letters": {step: marked_up(name) for step, name in told.letters.items()},
-        "tints": told.tints,
-        "hangs": told.hangs,
-        "aside": told.aside,
-        "squares": told.squares,
-        "rates": rates(sheets, told),
+        "bounds": [protocol.bounds(place) for place in range(len(sheets))],
+        "at": protocol.at,
+        "from": protocol.sources,
+        "sides": protocol.sides,
+        "letters": {step: marked_up(name) for step, name in protocol.letters.items()},
+        "tints": protocol.tints,
+        "hangs": protocol.hangs,
+        "aside": protocol.aside,
+        "squares": protocol.squares,
+        "rates": rates(sheets, protocol),
         "similar": triangles(sheets),
-        "ghosts": ghosts(sheets[0], told),
+        "ghosts": ghosts(sheets[0], protocol),
         "task": [words("screen.task"), words("screen.begin")],
-        "stops": [first for first, _, _ in told.stops()],
+        "stops": [first for first, _, _ in protocol.stops()],
         "count": words("page.step_of", number="{number}", all="{all}"),
         "mark": words("decimal_mark"),
         "sense": [words("page.anticlockwise"), words("page.clockwise")],

@@ -119,9 +119,9 @@ class YourTurn(Struct, frozen=True):
 class MoveFinder:
     """Finds the moves of the recorded program of some sheets, in its order."""
 
-    def __init__(self, sheets: Sequence[ScreenSheet], told: PageProtocol) -> None:
+    def __init__(self, sheets: Sequence[ScreenSheet], protocol: PageProtocol) -> None:
         self.drawings = [sheet.drawing for sheet in sheets]
-        self.told = told
+        self.protocol = protocol
         self.steps = self.drawings[0].trace.program.steps
         self.values: dict[int, Any] = {}
         for drawing in self.drawings:
@@ -136,7 +136,7 @@ class MoveFinder:
         self.arrows = {
             (step.args[0], step.args[1]): number
             for number, step in enumerate(self.steps)
-            if step.arrow and number in told.at and isinstance(self.values[number], Vector)
+            if step.arrow and number in protocol.at and isinstance(self.values[number], Vector)
             if step.plane in PLANES[1:3] and len(step.args) == 2
         }
 
@@ -146,7 +146,7 @@ class MoveFinder:
             self.move(number)
         self.more_picks()
         along = {
-            number: self.needs([number]) for number in self.told.at if number not in self.moves
+            number: self.needs([number]) for number in self.protocol.at if number not in self.moves
         }
         divided = [n for n, move in self.moves.items() if move.action == "divide"]
         shares = {share: self.needs([share]) for share in map(self.share, divided)}
@@ -320,11 +320,11 @@ class MoveFinder:
 
     def is_drawn(self, number: int) -> bool:
         """Whether a sentence draws a step, by itself or as the end of a vector."""
-        return bool(self.told.at.get(number) or [*self.drawn_around(number)])
+        return bool(self.protocol.at.get(number) or [*self.drawn_around(number)])
 
     def sentence(self, number: int) -> int:
         """The sentence that draws a step: its own, or the first that draws what goes with it."""
-        return self.told.at.get(number, 0) or min(self.drawn_around(number))
+        return self.protocol.at.get(number, 0) or min(self.drawn_around(number))
 
     def drawn_around(self, number: int) -> Iterator[int]:
         """The sentences that draw the triangle of a component, or a vector that is laid off."""
@@ -337,7 +337,7 @@ class MoveFinder:
         elif isinstance(kind, LaidOffByRate):
             users = drawing.children.get(number, ())
             around = [user for user in users if not self.steps[user].arrow]
-        yield from (at for step in around if (at := self.told.at.get(step, 0)))
+        yield from (at for step in around if (at := self.protocol.at.get(step, 0)))
 
     # --- picks -----------------------------------------------------------------------------------
 
@@ -350,7 +350,7 @@ class MoveFinder:
         step, value, by = self.steps[number], self.values.get(number), ""
         kind = construction(step)
         if isinstance(value, Line | Circle):
-            seen = number in self.told.at or step.plane in (Plane.MECHANISM, Plane.NUMBERS)
+            seen = number in self.protocol.at or step.plane in (Plane.MECHANISM, Plane.NUMBERS)
             name = name or self.name_of_line(number)
             what = self.kind_of_line(number)
             given = isinstance(value, Line) and what == "guide"
@@ -364,7 +364,7 @@ class MoveFinder:
                 by = self.point_or_line(step.args[0]) or ""
                 if not self.drawing(number).settled(abs(value - self.values[step.args[0]])):
                     return by
-            seen = number in self.told.at or bool(by) or number in self.moves
+            seen = number in self.protocol.at or bool(by) or number in self.moves
             seen = seen and self.place(number) is not None
             name = name or self.letter(number)
             what = "point" if step.plane is Plane.MECHANISM else "image"
@@ -500,7 +500,7 @@ class MoveFinder:
     def more_picks(self) -> None:
         """Add picks that no move starts from, to give the student a choice."""
         targets = self.drawings[0].trace.program.targets
-        for number in self.told.at:
+        for number in self.protocol.at:
             step = self.steps[number]
             drawn = step.plane in PLANES[:3] and step.part is not Part.NORMAL and not step.arrow
             if step.name and drawn and number not in self.same:
@@ -616,9 +616,9 @@ class MoveFinder:
         return vector or drawing.words("turn.this_line")
 
 
-def your_turn(sheets: Sequence[ScreenSheet], told: PageProtocol) -> YourTurn:
+def your_turn(sheets: Sequence[ScreenSheet], protocol: PageProtocol) -> YourTurn:
     """The moves of some sheets of one mechanism, in the order of its program."""
-    return MoveFinder(sheets, told).found()
+    return MoveFinder(sheets, protocol).found()
 
 
 # --- the data of a turn ---------------------------------------------------------------------------

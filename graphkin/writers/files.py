@@ -52,7 +52,7 @@ def rendered(
     *,
     steps: bool = False,
 ) -> dict[str, bytes]:
-    """The files of one sheet by name: an SVG and a DXF for each page, one PDF for all.
+    """The files of one sheet by name: an SVG, a DXF and a TikZ picture for each page, one PDF.
 
     The pages of a sheet with ``steps`` are numbered; otherwise the first page is the sheet itself.
     """
@@ -63,6 +63,12 @@ def rendered(
         for number, page in enumerate(pages, 1):
             tail = f"-{number}" if steps or number > 1 else ""
             files[f"{stem}{tail}.svg"] = write_svg(page, ink).encode("utf-8")
+    if "tikz" in formats and kind != PDF_ONLY:
+        from graphkin.writers.latex import write_tikz
+
+        for number, page in enumerate(pages, 1):
+            tail = f"-{number}" if steps or number > 1 else ""
+            files[f"{stem}{tail}.tex"] = write_tikz(page, ink).encode("utf-8")
     if "dxf" in formats and kind != PDF_ONLY:
         from graphkin.writers.dxf import write_dxf
 

@@ -43,12 +43,12 @@ def locked(folder: Path, patience: float = 0.0) -> Iterator[str]:
         lock.acquire()
     except Timeout:
         refuse_unwritable(folder)  # filelock also waits where no file can be made, as in /proc
-        raise InUseError(in_use(folder, told(note))) from None
+        raise InUseError(in_use(folder, note_of_holder(note))) from None
     except OSError as error:
         if error.errno not in LOCKLESS:
             raise
     try:
-        left = told(note)
+        left = note_of_holder(note)
         sign = {"pid": os.getpid(), "host": socket.gethostname(), "since": int(time())}
         note.write_text(json.dumps(sign), encoding="utf-8")
         yield holder(left) if left else ""
@@ -80,7 +80,7 @@ def alive(process: int) -> bool:
     return True
 
 
-def told(note: Path) -> dict[str, Any]:
+def note_of_holder(note: Path) -> dict[str, Any]:
     """The written data of the holder; empty where they are missing or unreadable."""
     try:
         found = json.loads(file_bytes(note, 1 << 12))

@@ -79,13 +79,27 @@ def new_figure(width: float, height: float) -> Figure:
     return figure
 
 
-def figure_file(figure: Figure, kind: str) -> bytes:
-    """The file of a figure, svg or png, without a date."""
+NO_DATE: dict[str, dict[str, Any]] = {
+    "svg": {"Date": None, "Creator": None},
+    "png": {"Software": None},
+}
+"""The metadata of each format, which would differ from run to run."""
+
+
+def figure_file(figure: Figure, kind: str, *, laid_out: bool = False) -> bytes:
+    """The file of a figure, svg or png, without a date.
+
+    A figure that is ``laid_out`` already is drawn once; otherwise it is drawn twice, as its first
+    drawing places its parts.
+    """
+    from matplotlib.backends.backend_agg import FigureCanvasAgg
+
     out = io.BytesIO()
-    metadata: dict[str, Any] = {"Date": None, "Creator": None} if kind == "svg" else {}
-    if kind == "png":
-        metadata = {"Software": None}
-    figure.savefig(out, format=kind, metadata=metadata)
+    if laid_out and kind == "png":
+        figure.dpi = DOTS
+        FigureCanvasAgg(figure).print_png(out, metadata=NO_DATE[kind])
+    else:
+        figure.savefig(out, format=kind, metadata=NO_DATE[kind])
     data = out.getvalue()
     return without_trailing_blanks(data) if kind == "svg" else data
 
@@ -114,8 +128,8 @@ def picture_files(
         for stem, drawn in figures:
             if (figure := drawn()) is None:
                 continue
-            for kind in formats:
-                files[f"{stem}.{kind}"] = figure_file(figure, kind)
+            for number, kind in enumerate(formats):
+                files[f"{stem}.{kind}"] = figure_file(figure, kind, laid_out=number > 0)
                 figure.set_layout_engine("none")  # |the next format has the places of the first
     return files
 

@@ -93,13 +93,13 @@ def text_element(text: Text) -> str:
 
 def parted_text(text: Text, parts: Sequence[tuple[str, str]]) -> str:
     """Write a horizontal text of consecutive parts, each with an attribute of its own."""
-    left, told, spans = text.x + text.left(), "", ""
+    left, written, spans = text.x + text.left(), "", ""
     for markup, attribute in parts:
-        start = left + extent(told, text.height)[0]
+        start = left + extent(written, text.height)[0]
         for x, y, look, words in text_runs(markup, text.height):
             place = f'x="{number(start + x)}" y="{number(text.y + y)}"'
             spans += f"<tspan {attribute} {place} {look}>{words}</tspan>"
-        told += markup
+        written += markup
     return f"<text {about(text)}>{spans}</text>"
 
 

@@ -168,7 +168,7 @@ def page() -> list[tuple[str, float, float]]:
 
 def pages_of(name: str, drawings: list[Drawing]) -> list[tuple[str, float, float]]:
     """Median and slowest of some pages, beside matplotlib's time for the one in the middle."""
-    made = sorted((sheet(drawing, "key", "1/2") for drawing in drawings), key=labels)
+    made = sorted((sheet(drawing, "key", "1/2")[0] for drawing in drawings), key=labels)
     middle = made[len(made) // 2]
     plain = in_turn([partial(both_files, middle)], enough=1, most=6)[0]
     svg = in_turn([partial(laid_out, drawing) for drawing in drawings])
@@ -190,7 +190,7 @@ def labels(made: Page) -> int:
 
 def laid_out(drawing: Drawing) -> str:
     """The layout of a page and its SVG file."""
-    return write_svg(sheet(drawing, "key", "1/2"))
+    return write_svg(sheet(drawing, "key", "1/2")[0])
 
 
 def drawings_for(mechanism: Mechanism) -> list[Drawing]:

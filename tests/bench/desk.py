@@ -47,7 +47,7 @@ PLACE = """([x, y]) => {
   return [spot.x, spot.y];
 }"""
 LIKELY = "() => document.querySelector('#choices [aria-pressed=true]')?.dataset.verdict ?? ''"
-CURRENT = """() => [document.getElementById("sheet").selectedIndex,
+CURRENT = """() => [document.getElementById("queue").selectedIndex,
   [...document.querySelectorAll("#points tr")].findIndex(row => row.ariaCurrent === "true")]"""
 WAITS = "before => document.getElementById('open').textContent !== before"
 
@@ -84,11 +84,11 @@ def desk_of(folder: Path) -> Iterator[tuple[str, DeskSession]]:
 
 def settle(page: Any, session: DeskSession, truths: dict[str, Taken]) -> DeskTime:
     """All that is asked is settled as a lecturer would."""
-    spent = DeskTime(sheets=sum(each.refused is None for each in session.records.values()))
+    spent = DeskTime(sheets=sum(each.refused is None for each in session.drawings.records.values()))
     page.wait_for_selector("body[data-ready=yes]")
     while (current := page.evaluate(CURRENT))[1] >= 0:
-        sheet = session.sheets()[current[0]]
-        record = session.records[sheet["name"]]
+        sheet = session.drawings.sheets()[current[0]]
+        record = session.drawings.records[sheet["name"]]
         read = record.points[current[1]]
         true = {each.step: each for each in truths[record.name].points}.get(read.step)
         at = None if true is None else true.at

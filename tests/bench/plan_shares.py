@@ -84,7 +84,7 @@ def shares(scene: str, name: str) -> Iterator[Share]:
     mechanism = load(scene)
     for drawing in drawings_of(mechanism, proved(mechanism, mechanism.solve()), words("en")):
         layout = lay_out(drawing)
-        marks = fields_of(drawing, sheet(drawing, "key", "1/2", layout))
+        marks = fields_of(drawing, sheet(drawing, "key", "1/2", layout)[0])
         plan = box(marks["plan"], PLAN)
         links = box((m for m in marks["mechanism"] if m.cls not in VECTORS), MECHANISM)
         yield Share(

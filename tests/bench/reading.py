@@ -1,6 +1,7 @@
-"""How well drawings are read: pictures of simulated students of four labs, against their truth.
+"""How well drawings are read: pictures of simulated students of some labs, against their truth.
 
-    python -m tests.bench.reading 120 [LAB | SCENE.toml …] [--seed 23] [-o FOLDER] [-j 2] [--ends]
+    python -m tests.bench.reading 120 [LAB | SCENE.toml …] [--seed 23] [-o FOLDER] [-j 2]
+        [--wrong KIND …]
 
 Without labs, of those below. A scene becomes a lab whose students have its first parameter.
 
@@ -8,8 +9,10 @@ A third of the sheets have a mistake, a twelfth lacks a point; every fourth pict
 eighth a flatbed scan. Prints how far the map is off, where points are placed, how much is decided,
 and how much of it wrongly, twice: by definition, where *right* is what lies within the student's
 pencil of the key, and with what comes after a mistake counted as wrong wherever it lies. With
-``--ends``, one vector of each sheet is too long, too short or has its head at its tail, and nothing
-else is wrong. A folder keeps the pictures with their truth: they are read again.
+``--wrong``, one thing alone is wrong on each sheet, in turn of the kinds: a vector that is too
+``long`` or ``short`` or has its head at its tail (``turned``), two letters ``exchanged``, the whole
+plan ``halved``, ``spun`` or ``mirrored``. A folder keeps the pictures with their truth: they are
+read again.
 """
 
 from __future__ import annotations
@@ -17,6 +20,7 @@ from __future__ import annotations
 import argparse
 import tomllib
 from collections import Counter
+from collections.abc import Sequence
 from concurrent.futures import ProcessPoolExecutor
 from functools import partial
 from pathlib import Path
@@ -42,7 +46,7 @@ from graphkin.reading.read_run import read_order
 from graphkin.reading.read_sheet import Grid, ReadOrder, SheetRecord, read_one
 from graphkin.reading.read_sheet import sheets_of as key_sheets
 from tests.reading.camera import Shot, photograph, scan
-from tests.reading.hand import Habits, TruePoint, drawn_sheet, sheets_of
+from tests.reading.hand import PLANS, Habits, TruePoint, drawn_sheet, sheets_of
 
 LABS = "pump", "slotted-lever", "offset-slider-crank", "tests/scenes/reading/class-three"
 """The labs, one with Coriolis and one of class III."""
@@ -101,16 +105,17 @@ def lab_of(scene: Path, where: Path) -> Path:
     return folder
 
 
-ENDS = "long", "short", "turned"
-"""How a vector ends on the sheets of a run with ``--ends``."""
+WRONG = "long", "short", "turned", "exchanged", *PLANS
+"""What alone may be wrong on the sheets of a run."""
 
 
-def habits_of(i: int, rng: Any, ends: bool) -> Habits:
-    """How the i-th student draws; with ``ends``, only one vector's end is wrong."""
+def habits_of(i: int, rng: Any, wrong: Sequence[str]) -> Habits:
+    """How the i-th student draws; only one thing is wrong if ``wrong`` lists such things."""
     drawn = usual_habits(i, rng)
-    if not ends:
+    if not wrong:
         return drawn
-    return replace(drawn, end=ENDS[i % len(ENDS)], mistake=False, missing=False, headless=0.0)
+    end = wrong[i % len(wrong)]
+    return replace(drawn, end=end, mistake=False, missing=False, headless=0.0)
 
 
 def usual_habits(i: int, rng: Any) -> Habits:
@@ -149,7 +154,7 @@ def shot_of(i: int, rng: Any) -> Shot:
     )
 
 
-def take(classes: dict[str, Path], where: Path, seed: int, ends: bool, i: int) -> None:
+def take(classes: dict[str, Path], where: Path, seed: int, wrong: Sequence[str], i: int) -> None:
     """Draw the i-th sheet and take its picture, unless it is there."""
     path, truth = where / f"p{i:03}.jpg", where / f"p{i:03}.truth.json"
     if truth.exists():
@@ -160,7 +165,7 @@ def take(classes: dict[str, Path], where: Path, seed: int, ends: bool, i: int) -
     code = variants[(i // len(classes)) % len(variants)]
     kinds = [each.kind for each in sheets_of(classes[lab], code).drawings]
     kind = kinds[int(rng.integers(len(kinds)))]
-    habits = habits_of(i, rng, ends)
+    habits = habits_of(i, rng, wrong)
     try:
         drawing = drawn_sheet(classes[lab], code, kind, habits, 1000 * seed + i)
     except AssertionError:
@@ -274,7 +279,10 @@ class Tally:
                 told = f"{where}: {point.verdict}, said {read.verdict}"
                 (self.after if is_right(point, read, within) else self.wrongly).append(told)
             elif clean and read.ask and point.at is not None and off < 1:
-                self.missed.append(f"{where}: asked, {read.verdict} at {read.off} of {read.error}")
+                why = ", ".join(read.doubts)
+                self.missed.append(
+                    f"{where}: asked ({why}), {read.verdict} at {read.off} of {read.error}"
+                )
 
     def report(self) -> None:
         """Print it."""
@@ -316,14 +324,16 @@ def is_right(true: TruePoint, read: PointReading, within: dict[int, float]) -> b
     return float(np.hypot(true.at[0] - read.key[0], true.at[1] - read.key[1])) <= within[true.step]
 
 
-def main(count: int, labs: list[str], seed: int, keep: Path | None, jobs: int, ends: bool) -> None:
+def main(
+    count: int, labs: list[str], seed: int, keep: Path | None, jobs: int, wrong: Sequence[str]
+) -> None:
     """Draw, photograph, read and compare so many sheets."""
     tally = Tally()
     with TemporaryDirectory() as folder, ProcessPoolExecutor(jobs) as executor:
         where = keep or Path(folder)
         where.mkdir(parents=True, exist_ok=True)
         classes = {lab: folder_of(lab, where, seed) for lab in labs}
-        list(executor.map(partial(take, classes, where, seed, ends), range(count)))
+        list(executor.map(partial(take, classes, where, seed, wrong), range(count)))
         for found in executor.map(partial(read_again, classes, where), range(count)):
             if found is not None:
                 tally.add(*found)
@@ -337,6 +347,6 @@ if __name__ == "__main__":
     parser.add_argument("--seed", type=int, default=23)
     parser.add_argument("-o", type=Path)
     parser.add_argument("-j", type=int, default=1)
-    parser.add_argument("--ends", action="store_true")
+    parser.add_argument("--wrong", nargs="+", choices=WRONG, default=[])
     said = parser.parse_args()
-    main(said.count, said.labs, said.seed, said.o, said.j, said.ends)
+    main(said.count, said.labs, said.seed, said.o, said.j, said.wrong)

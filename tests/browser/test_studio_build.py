@@ -252,3 +252,29 @@ def test_the_field_is_fitted_panned_and_zoomed_by_hand_and_by_keys(hand):
     hand.page.wait_for_function("innerWidth === 1100")
     hand.page.evaluate(PAINTED)
     assert share(hand) == pytest.approx(whole, rel=0.2)
+
+
+def typed_drag(hand, tool: str, start: complex, way: complex, keys: str) -> None:
+    """Drag with a tool, and type in the middle of it."""
+    hand.take(tool)
+    hand.page.mouse.move(*hand.pixel(start))
+    hand.page.mouse.down()
+    hand.page.mouse.move(*hand.pixel(start + way))
+    for key in keys:
+        hand.page.keyboard.press("Space" if key == " " else key)
+    hand.settled(hand.page.mouse.up)
+
+
+def test_lengths_and_angles_are_typed_on_the_field(hand):
+    """Not rounded to the grid: a bar by length and angle, one by its length, a wheel, a guide."""
+    hand.pivot(0j)
+    typed_drag(hand, "bar", 0j, complex(80, 20), "123.4 30")
+    assert "O1-A = 123.4" in hand.text
+    end = hand.place("A")
+    assert abs(end - 123.4 * complex(3**0.5 / 2, 0.5)) < 1e-3
+    typed_drag(hand, "bar", end, complex(100, 0), "77,25")
+    assert "A-B = 77.25" in hand.text
+    assert abs(abs(hand.place("B") - end) - 77.25) < 1e-3
+    typed_drag(hand, "block", hand.place("B"), complex(60, 4), " 12.5")
+    assert "angle = 12.5" in hand.text
+    assert hand.page.locator("#tools input[value='block']").is_checked()  # digits chose no tool

@@ -178,7 +178,7 @@ def test_the_velocity_plan_of_the_pump_by_right_choices(kept: Opened, pages: Pat
     assert page.evaluate(SEEN, "b") > 0
     assert ends.is_visible()
     assert page.locator(".sheet:not([hidden]) line.open").count() == 0
-    assert "meet in b" in page.locator("#turn-sentence").inner_text()
+    assert "meet at b" in page.locator("#turn-sentence").inner_text()
     by_lists(page, "perpendicular", "a", "AC")
     by_lists(page, "perpendicular", "b", "BC")
     assert by_lists(page, "cut", "⊥ AC (a)", "⊥ BC (b)") == "c: right."

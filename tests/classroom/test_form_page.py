@@ -43,11 +43,11 @@ class Form(HTMLParser):
         given = dict(attrs)
         if "id" in given:
             self.ids.append(given["id"])
-        if tag in ("input", "select") and "name" in given:
+        if tag in ("input", "select") and "name" in given and given.get("type") != "hidden":
             self.fields[given["name"]] = given
         if tag == "label":
             self.labelled.append(given["for"])
-        if tag == "form":
+        if tag == "form" and "data-form" in given:  # the board has forms of its own
             self.told = json.loads(given["data-form"])
         if tag == "option":
             self.options.setdefault(list(self.fields)[-1], []).append(given["value"])

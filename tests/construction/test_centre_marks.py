@@ -47,7 +47,7 @@ def drawn(name: str, ask: str) -> tuple[Drawing, ...]:
 
 def page_of(drawing: Drawing, view: str = "key") -> Page:
     """A sheet, which must fit."""
-    page = sheet(drawing, view, "1/1")
+    page = sheet(drawing, view, "1/1")[0]
     page.check()
     return page
 

@@ -81,7 +81,7 @@ FAILING = {
     "undetermined",
 }
 """Faces that only the words for what cannot be drawn look at: tests/diagnosis holds them."""
-DECLARED = {"imaged", "laid_at", "pencil", "titled", "told_after"}
+DECLARED = {"imaged", "laid_at", "pencil", "titled", "lines_before"}
 """Faces that a kind says by the roles that they have, without a method."""
 PLANNING = {"absence", "cause", "comes_along", "draw", "lines_at"}
 """Faces of classes: how a program is written, and why ``explain`` leaves an effect out."""
@@ -99,7 +99,7 @@ UNREACHED = {
     "RelativeCentre.needs_ray",
     "SpeedPole.pencil",
     "TurnedAcceleration.index_at",
-    "TurnedVelocity.told_after",
+    "TurnedVelocity.lines_before",
     "VelocityNormal.places",
 }
 """Faces that none of the scenes here needs where it stands; each wants a scene, or to go."""
@@ -243,7 +243,7 @@ def errors(name: str) -> object:
 
 def pages(name: str) -> object:
     """Its sheets, with every label in its place."""
-    return [sheet(drawing, "key", "1/2").marks for drawing in materials(name)]
+    return [sheet(drawing, "key", "1/2")[0].marks for drawing in materials(name)]
 
 
 def moves(name: str) -> object:

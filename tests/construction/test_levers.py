@@ -60,8 +60,8 @@ def test_a_second_slot_of_a_lever_stands_at_its_own_angle():
 @pytest.mark.parametrize(
     ("shape", "expected"),
     [
-        (BELL, "they meet in E, left of Q→B"),
-        ("Q-E = 0.06\nQ-B = 0.07\nB-Q-E = 90", "they meet in E, left of Q→B"),
+        (BELL, "they meet at E, left of Q→B"),
+        ("Q-E = 0.06\nQ-B = 0.07\nB-Q-E = 90", "they meet at E, left of Q→B"),
         ("Q-B = 0.07\nQ-E = 0.06\nE = 'beyond Q on B-Q'", "on QB produced beyond Q lay off QE: E"),
         ("Q-B = 0.07\nQ-E = 0.02\nE = 'on Q-B'", "on QB lay off QE: E"),
     ],

@@ -126,7 +126,7 @@ print(json.dumps({
     "meaning": fields_of(one)["T_2_x_mm"],
     "list": ask_words(one.scene.ask),
     "asked": [*asked_words(drawing)],
-    "marks": sorted({mark.name for mark in sheet(drawing, "key", "1/2").marks if mark.name}),
+    "marks": sorted({mark.name for mark in sheet(drawing, "key", "1/2")[0].marks if mark.name}),
     "panel": results([drawing], solution),
     "legend": [*meanings(words("en"), screen_sheets(one, "en"))],
     "cycle": cycle_table(cycle(one, steps=8)).partition("\\n")[0].split(","),

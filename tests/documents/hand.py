@@ -25,6 +25,14 @@ PLAN = re.compile(
 LAST = {"first": "I", "second": "II"}
 
 
+def by_angle(words: str) -> str:
+    """A line of the frame by its angle, where the words say that it is horizontal or vertical."""
+    for name, angle in (("horizontal", 0), ("vertical", 90)):
+        told = rf"the {name} line through (\([^)]*\) (?:mm|cm|m)|[^,; ]*)"
+        words = re.sub(told, rf"the line through \1 at {angle}° to the x axis", words)
+    return words
+
+
 def sliding(point: str, link: str) -> str:
     """The form of a sliding point's name: its own, or with the link where several share it."""
     own = rf"|{re.escape(point)}_\{{{re.escape(link)}\}}" if link else ""
@@ -252,7 +260,7 @@ class Hand:
             rf"the line (?:of link \w+ )?through (?:({NAME})|\(({NUMBER})[;,] ({NUMBER})\) "
             r"(mm|cm|m)) "
             rf"at ({NUMBER}°) to (?:the x axis(?: of link (\w+))?|({NAME})({NAME}))",
-            words,
+            by_angle(words),
         )
         if match is None:
             raise DefectError(f"no line is told: {words}")
@@ -350,7 +358,7 @@ class Hand:
             match = re.match(
                 rf"wheel {link} rolls in {NAME} on "
                 rf"(the line (?:of link \w+ )?through ({NAME})[ ,].*)",
-                item,
+                by_angle(item),
             )
             if match:
                 return self.told_line(match[1], match[2])

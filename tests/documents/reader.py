@@ -243,7 +243,7 @@ class Reader(Trials):
     def compass(self, p: str, q: str, drawn: str | None, c: str) -> None:
         self.loci.append(Circle(self.at(c), number(drawn) if drawn else self.length(p, q)))
 
-    @says("they meet in ⟨name⟩, (?P<side>left|right) of ⟨p⟩→⟨q⟩")
+    @says("they meet at ⟨name⟩, (?P<side>left|right) of ⟨p⟩→⟨q⟩")
     def arcs_meet(self, name: str, side: str, p: str, q: str) -> None:
         from_, to = self.at(p), self.at(q)
         wanted = 1 if side == "left" else -1
@@ -684,13 +684,13 @@ class Reader(Trials):
     def kennedy_line(self, m: str, n: str) -> None:
         self.loci.append(Line.of(self.at(m), self.at(n) - self.at(m)))
 
-    @says("they meet in ⟨name⟩, which is ⟨same⟩ again: a check")
+    @says("they meet at ⟨name⟩, which is ⟨same⟩ again: a check")
     def kennedy_check(self, name: str, same: str) -> None:
         self.put(name, self.at(same))
         self.meet(name, None)
 
     @says(
-        "they meet in ⟨name⟩(?:, the instantaneous centre of link ⟨k:number⟩"
+        "they meet at ⟨name⟩(?:, the instantaneous centre of link ⟨k:number⟩"
         "|, the centre of links [^;]*)?"
     )
     def meet(self, name: str, k: str | None) -> None:
@@ -974,7 +974,8 @@ class Reader(Trials):
 
     @says(
         r"Coriolis component ⟨a:vector⟩ by similar triangles: at ⟨p⟩ set ⟨v:set⟩ = ⟨xy:segment⟩"
-        r"(?: \(velocities are set ⟨m:number⟩ times \w+ than in the velocity plan\))?"
+        r"(?: \(velocities are set at (?:1/⟨m:number⟩ of|⟨n:number⟩ times)"
+        r" the velocity plan’s scale\))?"
         r", tip ⟨e⟩; at ⟨e2⟩ the perpendicular; it is cut in ⟨f⟩ by (?P<line>.*?); "
         r"⟨more:times⟩⟨e3⟩⟨f3⟩ = ⟨a2:vector⟩, as ⟨v2:vector⟩ turned by 90° in the sense of "
         "⟨w:turning⟩"

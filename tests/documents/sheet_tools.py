@@ -17,7 +17,7 @@ from graphkin.construction.core.layout import Layout, lay_out
 from graphkin.documents.calculation import calculation
 from graphkin.documents.sheet import sheet
 from graphkin.documents.sheet_documents import drawings_of, proved
-from graphkin.drawing.field import A3_AREA
+from graphkin.drawing.field import A3
 from graphkin.drawing.marks import Arc, CircleMark, LineMark, Mark, Page, Polyline, Text, reach
 from graphkin.drawing.style import style_of
 from graphkin.mechanism import Mechanism, load
@@ -136,7 +136,7 @@ def attempt(
     drawing = drawing_of(name, n, kind, language)
     layout = lay_out(drawing)
     try:
-        return layout, sheet(drawing, view, f"{KINDS.index(kind) + 1}/2", layout)
+        return layout, sheet(drawing, view, f"{KINDS.index(kind) + 1}/2", layout)[0]
     except PageError as error:
         return layout, error
 
@@ -325,7 +325,7 @@ def collisions(marks: Sequence[Mark]) -> list[str]:
 def outside(marks: Sequence[Mark]) -> list[str]:
     """Marks outside of the frame, but for the frame itself and what belongs to it."""
     free = ("frame", "border", "field")
-    return [told(m) for m in marks if kind_of(m) not in free and not within(m, A3_AREA)]
+    return [told(m) for m in marks if kind_of(m) not in free and not within(m, A3.area)]
 
 
 def off_fields(page: Drawn) -> list[str]:

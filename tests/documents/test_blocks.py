@@ -129,7 +129,7 @@ def test_a_point_of_a_block_is_laid_off_along_its_guide():
 def test_the_field_of_the_mechanism_holds_its_profiles(angle):
     """The slot's arc reaches far beyond all pins."""
     drawing = velocities(NEEDLE.replace("angle = 60", f"angle = {angle}"))
-    page = sheet(drawing, "key", "1/1")
+    page = sheet(drawing, "key", "1/1")[0]
     arcs = [mark for mark in page.marks if isinstance(mark, Arc) and mark.cls == "profile"]
     assert arcs
     box = drawing.mechanism_extent()
@@ -145,7 +145,7 @@ def test_a_sentence_tells_the_side_of_the_line_that_the_data_name():
     """The arcs are drawn about G first; the scene says on which side of A to G their pin lies."""
     drawing = velocities(CYLINDER)
     assert "H left of A→G" in map(plain, given(drawing))
-    assert any(one.endswith("they meet in H, left of A→G") for one in told(drawing))
+    assert any(one.endswith("they meet at H, left of A→G") for one in told(drawing))
 
 
 def test_a_point_on_a_bar_that_is_given_by_its_parts_is_told_so():

@@ -23,8 +23,9 @@ from graphkin.documents.calculation import (
 from graphkin.documents.relations import relations
 from graphkin.documents.sentences import sentences
 from graphkin.documents.sheet_documents import drawings_of
-from graphkin.drawing.marks import Page
+from graphkin.drawing.marks import Page, Polyline
 from graphkin.drawing.symbol_markup import symbol
+from graphkin.scene.link_points import lettered
 from graphkin.text import LANGUAGES, words
 from tests.chosen import CHOSEN, HALVES
 from tests.documents.full_scenes import NAMED, drawings_from
@@ -33,6 +34,7 @@ from tests.documents.sheet_tools import (
     VARIANTS,
     calculations,
     drawings,
+    mechanism_named,
     named,
     relation_lines,
     texts,
@@ -372,3 +374,32 @@ def test_what_is_read_off_a_plan_is_the_motion(name):
                 value, unit = last_digit(printed)
                 assert abs(value - size) < 0.51 * unit + 6e-5 * scale, of
     assert compared
+
+
+ASKED_NUMBERS = (
+    ("velocity", "v", "points"),
+    ("omega", "ω", "links"),
+    ("acceleration", "a", "points"),
+    ("epsilon", "ε", "links"),
+)
+
+
+@pytest.mark.parametrize("name", HALVES[0])
+def test_the_box_at_the_end_has_every_number_that_is_asked(name):
+    """To half of the last digit, in a frame of its own below the last relation."""
+    *_, last = calculations(name, None, "key", "en")
+    asked, motion = drawings(name)[0].scene.ask, mechanism_named(name).solve()
+    wanted = {
+        symbol(f"{letter}_{lettered(of)}"): abs(getattr(getattr(motion, whose)[of], key))
+        for key, letter, whose in ASKED_NUMBERS
+        for of in getattr(asked, key)
+    }
+    answers = [text for text in texts([last]) if text.cls == "caption answer"]
+    frames = [m for m in last.marks if isinstance(m, Polyline) and m.cls == "panel answer"]
+    top, _, bottom, _ = (y for _, y in frames[0].points) if frames else (0.0,) * 4
+    lines = [t.markup.rstrip(";") for t in answers if t.height < 3 and top < t.y < bottom]
+    assert len(answers) == len(lines) + bool(lines)
+    said = dict(re.findall(r"(?:^|; )(\S+) = ([−\d.,·⁻⁰¹²³⁴⁵⁶⁷⁸⁹]+)", "; ".join(lines)))
+    for left, size in wanted.items():
+        value, unit = last_digit(said[left])
+        assert abs(value - size) < 0.51 * unit + 1e-9 * size, left

@@ -6,7 +6,7 @@ import pytest
 
 from graphkin.construction.core.layout import lay_out, lowered
 from graphkin.documents.sheet import NAME, Moved, data, data_heading, title_line, writing
-from graphkin.drawing.field import A3_AREA, ABOVE, AREA
+from graphkin.drawing.field import A3, ABOVE
 from graphkin.drawing.marks import LineMark, Text, reach
 from tests.chosen import HALVES
 from tests.documents.full_scenes import NAMED, drawings_from
@@ -42,7 +42,7 @@ def test_below_a_title_of_two_lines_data_leave_room_for_captions_of_two(which):
         lowest = max(
             mark.y for mark in data_heading(drawing, "key", 24, 23.4) if isinstance(mark, Text)
         )
-        assert lowest <= AREA[1] - 2.2 - 3.5 - 1.4
+        assert lowest <= A3.fields[1] - 2.2 - 3.5 - 1.4
 
 
 @pytest.mark.parametrize("remark", ["", ", continued"])
@@ -53,7 +53,7 @@ def test_a_title_of_any_length_stands_clear_of_the_frame_and_of_the_data(count, 
     for drawing in drawings_from(named, title="Quick gearing " * count):
         marks, _, foot = title_line(drawing, remark)
         boxes = [reach(mark) for mark in marks if isinstance(mark, Text) and mark.name == "title"]
-        assert min(box[1] for box in boxes) >= A3_AREA[1] + 1.5
+        assert min(box[1] for box in boxes) >= A3.area[1] + 1.5
         assert max(box[3] for box in boxes) <= foot - 2.5 - 0.5
 
 
@@ -67,7 +67,7 @@ def test_long_data_stand_on_the_sheet_where_the_drawings_leave_room(view, langua
         said = " ".join(mark.markup for mark in lines)
         assert all(datum.said in said for datum in data(drawing, solved=view == "key"))
         assert all(mark.height >= 2.0 for mark in lines)
-        assert max(reach(mark)[2] for mark in lines) < AREA[2]
+        assert max(reach(mark)[2] for mark in lines) < A3.fields[2]
 
 
 @pytest.mark.parametrize("which", WHICH, ids=str)

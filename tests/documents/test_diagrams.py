@@ -10,14 +10,23 @@ import numpy as np
 import pytest
 from msgspec.structs import replace
 
-from graphkin.construction.diagram_steps import CHORD, differentiated, integrated, smooth
+from graphkin.construction.diagram_steps import (
+    CHORD,
+    by_tangents,
+    differentiated,
+    integrated,
+    smooth,
+)
 from graphkin.documents.diagram_numbers import FollowerMotion, motion_of
 from graphkin.documents.diagrams_sheet import (
+    CHORDS,
+    TANGENTS,
     Axes,
+    RateMethod,
     axes_for,
     cost_of_rate,
     cost_of_second,
-    derive,
+    derived_twice,
     mean_ordinates,
     values_at,
 )
@@ -76,6 +85,25 @@ def test_the_error_of_a_chord_is_a_twenty_fourth_of_the_third_derivative():
         assert height - 3 * x * x == pytest.approx(CHORD * h * h * 6)
 
 
+def test_tangents_of_a_parabola_have_its_slope_at_their_points():
+    points = [(0.5 * i, 2 + 3 * 0.5 * i - 0.5 * (0.5 * i) ** 2) for i in range(6)]
+    found = by_tangents(points, 7.0)
+    assert [step.found[0] for step in found] == [x for x, _ in points[1:-1]]
+    for step in found:
+        x, height = step.found
+        assert height == pytest.approx(7 * (3 - x))
+        (left, low), (right, high) = step.first, step.last
+        assert (high - low) / (right - left) == pytest.approx(height / 7)
+
+
+def test_tangents_of_a_whole_turn_close_on_themselves():
+    """Of sin x over steps h they are cos x · sin h/h, at the ends too."""
+    places = np.linspace(0, 2 * pi, 13)
+    found = by_tangents([(x, sin(x)) for x in places], 1.0, closed=True)
+    expected = [(x, cos(x) * sin(pi / 6) / (pi / 6)) for x in places]
+    assert [step.found for step in found] == [pytest.approx(pair) for pair in expected]
+
+
 def test_integration_takes_back_what_differentiation_gives():
     points = [(x, sin(x)) for x in np.linspace(0, 3, 8)]
     heights = [step.found[1] for step in differentiated(points, 12.0)]
@@ -101,13 +129,29 @@ def test_a_smooth_curve_runs_through_its_points():
 
 
 def test_every_ray_is_parallel_to_its_chord():
-    (page,) = sheets("crank-rocker")["differentiation"]
+    page, _ = sheets("crank-rocker")["differentiation"]
     for letter, count in (("ω", 12), ("ε", 12)):
         chords, rays = named(page, f"chord {letter}"), named(page, f"ray {letter}")
         assert len(rays) == count
         for i in range(count):
             chord, ray = chords[f"chord {letter}_{i}"], rays[f"ray {letter}_{i}"]
             assert slope(chord) == pytest.approx(slope(ray), abs=1e-9)
+
+
+def test_every_ray_is_parallel_to_its_tangent():
+    _, page = sheets("crank-rocker")["differentiation"]
+    for letter in ("ω", "ε"):
+        tangents, rays = named(page, f"tangent {letter}"), named(page, f"ray {letter}")
+        assert len(tangents) == 13
+        for name, ray in rays.items():
+            tangent = tangents[name.replace("ray", "tangent")]
+            assert slope(tangent) == pytest.approx(slope(ray), abs=1e-9)
+
+
+def test_the_exact_course_and_the_values_of_the_plans_have_room():
+    for page in sheets("crank-rocker")["differentiation"]:
+        crosses = [m for m in page.marks if isinstance(m, LineMark) and m.cls.startswith("centre ")]
+        assert len(crosses) == 2 * 2 * 13
 
 
 def test_every_string_is_parallel_to_its_ray():
@@ -122,7 +166,7 @@ def test_every_string_is_parallel_to_its_ray():
 def test_the_derived_scale_gives_the_mean_speed_of_each_interval():
     """Measured with the printed factors, a point is Δs·ω/Δφ by the closed form."""
     r, rod, e, pace = 2.0, 5.0, 1.0, 3.0
-    (page,) = sheets_of(slider_crank(r, rod, e, speed=pace))["differentiation"]
+    page, _ = sheets_of(slider_crank(r, rod, e, speed=pace))["differentiation"]
     text = next(m.markup for m in page.marks if isinstance(m, Text) and "(m/s)/mm" in m.markup)
     k = float(text.partition(" (m/s)/mm")[0].rpartition("= ")[2])
     points = {m.name: m for m in page.marks if isinstance(m, CircleMark) and "point" in m.cls}
@@ -141,7 +185,7 @@ def test_the_derived_scale_gives_the_mean_speed_of_each_interval():
 
 def test_a_driver_that_runs_backwards_has_its_pole_behind_the_diagram():
     """Chords and plans still agree in sign."""
-    (page,) = sheets_of(slider_crank(2, 5, 1, speed=-3))["differentiation"]
+    page, _ = sheets_of(slider_crank(2, 5, 1, speed=-3))["differentiation"]
     pole = next(m for m in page.marks if isinstance(m, CircleMark) and m.name == "P_v")
     ends = [m.x2 for m in named(page, "ray v").values()]
     assert all(pole.cx > x for x in ends)
@@ -162,24 +206,26 @@ def motion(mechanism: Mechanism, count: int) -> FollowerMotion:
     return found
 
 
-def costs(moved: FollowerMotion):
+def costs(moved: FollowerMotion, method: RateMethod = CHORDS):
     where = moved.place(moved.at)
     axes = axes_for(moved, 0.0, 60.0, where, np.inf)
     points = [axes.place(float(u), float(v)) for u, v in zip(moved.at, where, strict=True)]
-    rate = derive(moved, axes, points, 70.0, 130.0, "v", np.inf)
-    again = derive(moved, rate.axes, [p.found for p in rate.steps], 140.0, 200.0, "a", np.inf)
+    tops, exact = (0.0, 70.0, 140.0), values_at(moved, moved.fine)
+    rate, again = derived_twice(moved, method, axes, points, tops, exact)
     return cost_of_rate(moved, rate), cost_of_second(moved, rate, again)
 
 
+@pytest.mark.parametrize("method", [CHORDS, TANGENTS])
 @pytest.mark.parametrize("name", ["crank-rocker", "shaper"])
-def test_the_forecast_of_the_chords_is_their_error(name: str):
-    coarse, fine = (costs(motion(mechanism_named(name), count)) for count in (24, 48))
+def test_the_forecast_of_a_method_is_its_error(name: str, method: RateMethod):
+    coarse, fine = (costs(motion(mechanism_named(name), count), method) for count in (24, 48))
+    wide = 1 if method is CHORDS else 2  # the difference of two intervals, not of one
     for cost in fine:
-        assert cost.chord == pytest.approx(cost.forecast, rel=0.05)
+        assert cost.chord == pytest.approx(cost.forecast, rel=0.05 * wide)
     for one, other in zip(coarse, fine, strict=True):
-        assert one.chord == pytest.approx(one.forecast, rel=0.2)
+        assert one.chord == pytest.approx(one.forecast, rel=0.2 * wide)
         assert one.chord > 2.5 * other.chord
-        assert other.pencil > one.pencil
+        assert other.pencil > (one.pencil if method is CHORDS else 0)
 
 
 def test_derivatives_by_the_driver_are_those_of_the_closed_form():

@@ -58,7 +58,7 @@ def layouts(name: str, n: int | None) -> tuple[Layout, ...]:
 def test_in_every_language_nothing_stands_on_anything(which):
     name, n, language = which
     for drawing, layout in zip(drawings(name, n, language), layouts(name, n), strict=True):
-        page = sheet(drawing, "key", "1/2", layout)
+        page = sheet(drawing, "key", "1/2", layout)[0]
         found = Drawn(drawing, layout, page, fields_of(drawing, page))
         assert not faults(page), faults(page)
         assert not crossed(page), crossed(page)
@@ -97,7 +97,7 @@ def test_in_every_view_nothing_stands_on_anything(which):
         last = by_itself(drawing, "steps", "1/2")[-1]
         assert not faults(last), faults(last)
         assert not crossed(last), crossed(last)
-        for page in (overlay(drawing, "1/2"), sheet(drawing, "task", "1/2", layout)):
+        for page in (overlay(drawing, "1/2")[0], sheet(drawing, "task", "1/2", layout)[0]):
             on, off = collisions(page.marks), outside(page.marks)
             off = [mark for mark in off if " crop " not in mark and " corner " not in mark]
             assert not on and not off, on + off

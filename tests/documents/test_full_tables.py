@@ -10,7 +10,7 @@ from graphkin.construction.result_tables import slide_rows, tables, turning_rows
 from graphkin.documents.calculation import calculation
 from graphkin.documents.sheet import sheet
 from graphkin.drawing.columns import HEIGHT, SMALL, ColumnTable, Look, laid_out
-from graphkin.drawing.field import TABLES
+from graphkin.drawing.field import A3
 from graphkin.drawing.marks import LineMark, Mark, Text, reach
 from graphkin.drawing.symbol_markup import symbol
 from graphkin.text.errors import PageError
@@ -38,11 +38,11 @@ def cut(marks: list[Mark]) -> list[str]:
 )
 def test_long_tables_stand_above_the_title_block_with_every_row(name, language, empty):
     for drawing in drawings_from(FULL[name], language):
-        marks = tables(drawing, TABLES, empty=empty)
+        marks = tables(drawing, A3.tables, empty=empty)
         boxes = [reach(mark) for mark in marks]
-        assert min(box[0] for box in boxes) >= TABLES[0] - 0.2
-        assert max(box[2] for box in boxes) <= TABLES[2] + 0.2
-        assert max(box[3] for box in boxes) <= TABLES[3] + 0.2
+        assert min(box[0] for box in boxes) >= A3.tables[0] - 0.2
+        assert max(box[2] for box in boxes) <= A3.tables[2] + 0.2
+        assert max(box[3] for box in boxes) <= A3.tables[3] + 0.2
         assert not cut(marks)
         rows = [f(drawing, empty=empty) for f in (vector_rows, turning_rows, slide_rows)]
         shown = [mark.name for mark in marks if isinstance(mark, Text)]
@@ -52,7 +52,7 @@ def test_long_tables_stand_above_the_title_block_with_every_row(name, language, 
 def test_a_table_that_nothing_makes_fit_is_refused_in_one_line():
     rows = tuple(Row((f"*v*_{i}", "", "1,00", "2,000"), f"v_{i}") for i in range(100))
     with pytest.raises(PageError) as caught:
-        laid_out([ColumnTable((13, 13, 13, 13), Row(("a", "b", "mm", "m/s")), rows)], TABLES)
+        laid_out([ColumnTable((13, 13, 13, 13), Row(("a", "b", "mm", "m/s")), rows)], A3.tables)
     assert str(caught.value) == (
         "tables: does not fit: 100 rows are too many for the 178 mm above the title block; "
         "expected fewer rows; "
@@ -64,7 +64,7 @@ def test_a_name_too_long_for_every_table_is_told():
     name = "Q" * 120
     rows = (Row((f"*v*_{{{name}}}", "", "1,00", "2,000"), f"v_{name}"),)
     with pytest.raises(PageError, match=r"does not fit: v_Q+ is [0-9]+ mm long in the smallest"):
-        laid_out([ColumnTable((13, 13, 13, 13), Row(("a", "b", "mm", "m/s")), rows)], TABLES)
+        laid_out([ColumnTable((13, 13, 13, 13), Row(("a", "b", "mm", "m/s")), rows)], A3.tables)
 
 
 @pytest.mark.parametrize("spare", [0.0, 0.2, -0.2])
@@ -107,8 +107,8 @@ LONGER = NAMED.format(crank="Crank_pin_moving", rocker="Rocker_pin_moving")
 @pytest.mark.parametrize("text", [LONG, LONGER], ids=["long", "longer"])
 def test_long_names_cross_no_line_of_a_table(text, language):
     for drawing in drawings_from(text, language):
-        assert not cut(tables(drawing, TABLES, empty=False))
-        page = sheet(drawing, "key", "1/2")
+        assert not cut(tables(drawing, A3.tables, empty=False))
+        page = sheet(drawing, "key", "1/2")[0]
         page.check()
         assert not collisions(page.marks)
         assert not outside(page.marks)
@@ -124,7 +124,7 @@ def test_a_name_too_long_to_be_drawn_is_told_in_one_line():
 def test_the_letters_of_a_triangle_leave_the_index_of_a_point_to_their_own():
     """Beside Q with the index left stand Q″, Q‴ and the fourth with its numeral, as beside B2."""
     _, drawing = drawings_from(INDEXED)
-    page = sheet(drawing, "key", "1/2")
+    page = sheet(drawing, "key", "1/2")[0]
     labels = {m.markup for m in page.marks if isinstance(m, Text) and m.cls.startswith("label")}
     assert {symbol(f"Q{prime}_Q_left") for prime in "″‴⁗"} <= labels
     assert {symbol(f"Q{prime}_Q_leftB12") for prime in "″‴⁗"} <= labels

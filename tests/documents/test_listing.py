@@ -9,15 +9,15 @@ import pytest
 from graphkin.documents import listing
 from graphkin.documents.listing import listed
 from graphkin.documents.sheet import sheet_heading
-from graphkin.drawing.field import BELOW, TABLES
+from graphkin.drawing.field import A3
 from graphkin.drawing.richtext import are_clear, extent
 from tests.documents.sheet_tools import drawings
 
-LEFT, TOP, BOTTOM = BELOW[0] + 2, BELOW[1] + 10.5, BELOW[3] - 3.5
+LEFT, TOP, BOTTOM = A3.below[0] + 2, A3.below[1] + 10.5, A3.below[3] - 3.5
 
 
 def list_of(drawing):
-    return listed(drawing, LEFT, TOP, TABLES[0] - LEFT - 5, BOTTOM)
+    return listed(drawing, LEFT, TOP, A3.tables[0] - LEFT - 5, BOTTOM)
 
 
 @pytest.mark.parametrize(("kind", "least"), [(0, 5.6), (1, 4.5)])

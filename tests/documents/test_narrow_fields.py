@@ -9,7 +9,7 @@ from graphkin.construction.core.layout import lay_out, refuse_wide
 from graphkin.documents.sheet import HEADING, caption, headlines, sheet, sheet_heading, title_line
 from graphkin.documents.sheet import NAME as DATA
 from graphkin.documents.sheet_documents import overlay
-from graphkin.drawing.field import WIDTH
+from graphkin.drawing.field import A3
 from graphkin.drawing.marks import Text, reach
 from graphkin.drawing.richtext import are_clear
 from graphkin.text import LANGUAGES
@@ -28,7 +28,7 @@ def test_captions_and_notes_of_narrow_fields_stay_in_them(name, language, view):
         left, right = layout.mechanism.rect, layout.plan.rect
         for marks, rect in zip(headlines(drawing, layout, view), (left, right), strict=True):
             assert max(reach(mark)[2] for mark in marks) <= rect[2] - 1
-        page = sheet(drawing, view, "1/2", layout)
+        page = sheet(drawing, view, "1/2", layout)[0]
         page.check()
         assert not collisions(page.marks)
         assert not outside(page.marks)
@@ -73,7 +73,9 @@ def test_captions_stand_clear_of_data_of_many_lines():
     names = (("cam-plate-lever", "ro"), ("hoist-differential", "en"), ("gears-three-planets", "it"))
     for name, language in names:
         for drawing in drawings(name, None, language):
-            marks = [mark for mark in sheet(drawing, "key", "1/2").marks if isinstance(mark, Text)]
+            marks = [
+                mark for mark in sheet(drawing, "key", "1/2")[0].marks if isinstance(mark, Text)
+            ]
             said = {mark.y for mark in marks if mark.name == DATA and mark.cls == "caption"}
             captions = [mark for mark in marks if mark.name == HEADING]
             lines.add(len(said))
@@ -109,14 +111,14 @@ def test_data_of_three_lines_keep_the_height_of_letters_where_signs_would_touch(
 
 def test_drawings_wider_than_the_sheet_are_refused():
     with pytest.raises(PageError, match="does not fit"):
-        refuse_wide(WIDTH, 1.0)
+        refuse_wide(A3, A3.room, 1.0)
 
 
 @pytest.mark.parametrize("length", [240, 900])
 def test_a_long_title_of_an_overlay_is_smaller_or_refused_as_on_the_key(length):
     drawing, _ = drawings_from(FLAT, title="letters " * (length // 8))
     if length == 240:
-        overlay(drawing, "1/2").check()
+        overlay(drawing, "1/2")[0].check()
     else:
         with pytest.raises(PageError, match=r"title block, title: .* does not fit .* shorten"):
-            overlay(drawing, "1/2")
+            overlay(drawing, "1/2")[0]

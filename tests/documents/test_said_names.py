@@ -59,7 +59,7 @@ def test_no_sign_of_a_point_under_another_is_printed(scene):
     verdict = proved(mechanism, mechanism.solve())
     for drawing in drawings_of(mechanism, verdict, words("en")):
         printed = [
-            mark.markup for mark in sheet(drawing, "key", "1/2").marks if isinstance(mark, Text)
+            mark.markup for mark in sheet(drawing, "key", "1/2")[0].marks if isinstance(mark, Text)
         ]
         assert printed
         assert not [text for text in printed if "@" in text]

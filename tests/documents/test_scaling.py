@@ -7,7 +7,7 @@ from graphkin.construction.core.given_data import given
 from graphkin.construction.core.layout import lay_out
 from graphkin.documents.scaling import drafts_of, scales, sheet_targets
 from graphkin.documents.sheet_documents import drawings_of, hand_out, proved
-from graphkin.drawing.field import ABOVE, HEIGHT, MARGIN, WIDTH
+from graphkin.drawing.field import A3, ABOVE, MARGIN
 from graphkin.drawing.marks import Text
 from graphkin.drawing.richtext import plain
 from graphkin.drawing.scale import extent_of
@@ -68,15 +68,15 @@ def test_every_drawing_fits_and_the_next_larger_plan_would_not(name):
     mm, drafts = 1000 / found.kL, drafts_of(mechanism, sheet_targets(mechanism), (), found)
     boxes = [draft.mechanism_extent() for draft in drafts]
     width = max(box.right for box in boxes) - min(box.left for box in boxes)
-    room = WIDTH - width * mm
+    room = A3.room - width * mm
     for draft in drafts:
         plan, times = draft.plan_extent(), found.times(draft.kind)
         wide, high = plan.width * mm, plan.height * mm
-        assert wide <= room + 1e-6 and high <= HEIGHT + 1e-6
+        assert wide <= room + 1e-6 and high <= A3.upright + 1e-6
         if times < 5:
             larger = min(m for m in (1, 1.5, 2, 2.5, 3, 4, 5) if m > times) / times
             larger = larger if found.of_crank else 2.5
-            assert wide * larger > room or high * larger > HEIGHT
+            assert wide * larger > room or high * larger > A3.upright
 
 
 @pytest.mark.parametrize("name", ["slotted-lever", "cam-lever", "cam-rocker", "plank-axle"])
@@ -213,4 +213,4 @@ def test_a_straight_path_leaves_the_mechanism_as_large_as_its_ends_in_the_margin
     """Hart's R runs 370.1 mm up and down: 148.0 mm at 1:2.5, where letters would have 146 mm."""
     found = scales(mechanism_named("hart"))
     assert found.kL == 2.5
-    assert 370 / found.kL > HEIGHT
+    assert 370 / found.kL > A3.upright

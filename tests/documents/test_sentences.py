@@ -17,7 +17,7 @@ from graphkin.construction.core.program import Plane
 from graphkin.construction.core.segments import TINY
 from graphkin.construction.drivers.driver_relations import drawn_bars, laid_bars
 from graphkin.construction.result_tables import slide_rows, vectors
-from graphkin.documents.relations import ends_on, relations, told_bars
+from graphkin.documents.relations import dimensioned_bars, ends_on, relations
 from graphkin.documents.sentences import sentences
 from graphkin.documents.sheet import sheet
 from graphkin.documents.sheet_documents import drawings_of, proved
@@ -60,7 +60,7 @@ def all_said(found: tuple[Drawing, ...]) -> list[str]:
 def test_every_length_of_the_calculation_is_known_or_measured_before_and_once(both):
     """A bar from A to B is no longer than one from A1 to B2 that lies on it."""
     first = both[0]
-    told = (*told_bars(first.scene.bare), *laid_bars(first))
+    told = (*dimensioned_bars(first.scene.bare), *laid_bars(first))
     known = {ends_on(first, *ends) for ends in told}
     said = " ".join([*given(first), *(names for names, _ in drawn_bars(first))])
     drawn_before = False
@@ -160,10 +160,10 @@ def test_a_figure_and_its_sentence_have_the_same_factor_of_the_relative_velocity
     drawing = drawings(name)[1]
     said = next(s.markup for s in sentences(drawing) if "Coriolis" in s.markup)
     _, slid = re.search(r"set 2·(\*v\*_\{(\w+)\}) = ", said).groups()
-    page = sheet(drawing, "key", "2/2", lay_out(drawing))
+    page = sheet(drawing, "key", "2/2", lay_out(drawing))[0]
     labels = {mark.markup for mark in page.marks if isinstance(mark, Text)}
     assert any(f"2*v*_{{{slid}}}" in label for label in labels), labels
-    assert ("times shorter than in the velocity plan" in said) is (drawing.scales.larger > 1)
+    assert ("of the velocity plan’s scale" in said) is (drawing.scales.larger > 1)
 
 
 # --- guides --------------------------------------------------------------------------------------

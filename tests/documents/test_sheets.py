@@ -23,7 +23,7 @@ from graphkin.documents.sentences import sentences
 from graphkin.documents.sheet import HEADING, boards
 from graphkin.documents.sheet import NAME as DATA
 from graphkin.documents.signs import mechanism_signs, round_below, sign_of
-from graphkin.drawing.field import AREA
+from graphkin.drawing.field import A3
 from graphkin.drawing.free_space import Space
 from graphkin.drawing.labels import SMALL, FieldContent
 from graphkin.drawing.marks import Arc, CircleMark, LineMark, Mark, Polyline, Text, reach
@@ -532,7 +532,7 @@ def test_data_stay_clear_of_captions_and_of_the_frame(page):
     marks = [mark for mark in page.page.marks if isinstance(mark, Text)]
     told = [mark for mark in marks if mark.name == DATA]
     below = [sign for mark in marks if mark.name == HEADING for sign in inked(mark)]
-    assert max(reach(mark)[2] for mark in told) < AREA[2]
+    assert max(reach(mark)[2] for mark in told) < A3.fields[2]
     for left, _, right, foot in (sign for mark in told for sign in inked(mark)):
         for start, top, end, _ in below:
             assert right < start or end < left or foot + CLEAR < top

@@ -16,7 +16,7 @@ from graphkin.documents.relations import relations
 from graphkin.documents.scheme import elsewhere, full_size, scheme
 from graphkin.documents.sheet import asked_words, sheet
 from graphkin.documents.sheet_documents import drawings_of, proved
-from graphkin.drawing.field import SCHEME, TABLES
+from graphkin.drawing.field import A3
 from graphkin.drawing.marks import Arc, LineMark, Text, reach
 from graphkin.drawing.richtext import plain
 from graphkin.drawing.symbol_markup import symbol
@@ -31,7 +31,7 @@ SOME = (*((lab, 7) for lab in SHIPPED), *((scene, None) for scene in SCENES))
 
 
 def task(drawing):
-    return sheet(drawing, "task", "1/2", lay_out(drawing))
+    return sheet(drawing, "task", "1/2", lay_out(drawing))[0]
 
 
 def told(page):
@@ -96,8 +96,8 @@ def test_the_scheme_shows_every_point_in_its_place_and_in_another_position(name)
         assert {symbol(point) for point in drawing.positions} <= letters
         for mark in marks:
             left, top, right, low = reach(mark)
-            assert left >= SCHEME[0] - 0.1 and right <= SCHEME[2] + 0.1, mark
-            assert top >= SCHEME[1] - 6 and low <= SCHEME[3] + 0.1, mark
+            assert left >= A3.scheme[0] - 0.1 and right <= A3.scheme[2] + 0.1, mark
+            assert top >= A3.scheme[1] - 6 and low <= A3.scheme[3] + 0.1, mark
         assert not collisions([mark for mark in marks if mark.name != "scheme"])
         moved = elsewhere(drawing)
         far = max(abs(moved.positions[p] - at) for p, at in drawing.positions.items())
@@ -155,7 +155,7 @@ def test_rows_of_a_task_are_high_enough_for_a_hand():
         if (
             isinstance(mark, LineMark)
             and mark.cls == "panel"
-            and mark.y1 == mark.y2 > TABLES[1] - 1
+            and mark.y1 == mark.y2 > A3.tables[1] - 1
         ):
             ruled.setdefault(mark.x1, []).append(mark.y1)
     assert ruled
@@ -199,7 +199,7 @@ def authored(student=""):
 def test_the_box_of_the_student_is_the_students_whoever_made_the_lab(view, student):
     made = [*authored(student)]
     for drawing in made:
-        page = sheet(drawing, view, "1/2")
+        page = sheet(drawing, view, "1/2")[0]
         found = block_texts(page)
         assert found["creator"] == "J. Lecturer"
         assert found.get("student", "") == student
@@ -213,5 +213,5 @@ def test_the_box_of_the_student_is_the_students_whoever_made_the_lab(view, stude
 
 def test_the_key_that_is_nobodys_names_its_author_as_the_creator():
     for drawing in authored():
-        found = block_texts(sheet(drawing, "key", "1/2"))
+        found = block_texts(sheet(drawing, "key", "1/2")[0])
         assert found["creator"] == "J. Lecturer" and "student" not in found

@@ -18,7 +18,7 @@ from pypdfium2 import raw
 
 from graphkin.documents.calculation import calculation
 from graphkin.documents.sheet_documents import CALCULATED, drawn_sheets
-from graphkin.drawing.field import A3_AREA, A4_FRAME, A4_SIZE
+from graphkin.drawing.field import A3, A4_FRAME, A4_SIZE
 from graphkin.drawing.marks import LineMark, Mark, Page, Polyline, Text
 from graphkin.text import words
 from graphkin.writers.pdf import write_pdf
@@ -102,7 +102,7 @@ def faults(pages: Sequence[Page]) -> Iterator[str]:
     for page, printed in zip(pages, document, strict=True):
         boxes = np.array([*boxes_of(printed, page.height)])
         at = boxes + SLACK
-        left, top, right, low = A4_FRAME if page.width == A4_SIZE[0] else A3_AREA
+        left, top, right, low = A4_FRAME if page.width == A4_SIZE[0] else A3.area
         inside = (at[:, :2] >= (left, top)).all(1) & (at[:, 2:] <= (right, low)).all(1)
         if page.width > A4_SIZE[0]:  # the letters of a sheet's grid stand around its frame
             inner = (at[:, 2:] > (left, top)).all(1) & (at[:, :2] < (right, low)).all(1)

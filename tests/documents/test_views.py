@@ -15,8 +15,8 @@ from graphkin.construction.guides.slide_symbols import frame_guides
 from graphkin.construction.links.wheel_symbols import straight_tracks
 from graphkin.documents.sentences import sentences
 from graphkin.documents.sheet_documents import drawings_of, drawn_sheets, hand_out
-from graphkin.documents.step_pages import noted, spans, to_do, told
-from graphkin.drawing.field import A3_AREA, A3_TITLE_BLOCK, AREA, BELOW, MARKED
+from graphkin.documents.step_pages import noted, spans, step_lines, text_block, to_do
+from graphkin.drawing.field import A3
 from graphkin.drawing.marks import CircleMark, Mark, SharedLetter, Text, reach
 from graphkin.drawing.richtext import signs
 from graphkin.drawing.style import NOW, TINTS, style_of
@@ -63,7 +63,7 @@ def drawn(page):
 def in_fields(page):
     """All that stands in the two fields of a page."""
     boxes = [(mark, reach(mark)) for mark in page.marks]
-    left, top, right, bottom = AREA
+    left, top, right, bottom = A3.fields
     return Counter(
         without_now(mark)
         for mark, box in boxes
@@ -147,13 +147,17 @@ def test_however_long_a_sentence_is_nothing_that_is_done_stands_below_the_field(
     drawing, *_ = material("pump")
     done, lowest = Sentence(1, "", "join A with B"), 0.0
     for long in range(1, 2400, 50):
-        marks = [*told(drawing, [*[done] * 20, Sentence(2, "", "mm " * long)], 20, 20)]
+        marks = [
+            *text_block(
+                drawing, [*[done] * 20, Sentence(2, "", "mm " * long)], 20, 20, step_lines(A3)
+            )
+        ]
         words = [mark for mark in marks if isinstance(mark, Text)]
         below = [mark.y for mark in words if mark.name not in ("step", "sentence")]
-        assert max(below, default=0.0) <= BELOW[3]
+        assert max(below, default=0.0) <= A3.below[3]
         lowest = max(lowest, *(mark.y for mark in words if mark.name == "sentence"))
-        assert below or lowest > BELOW[3] - 10
-    assert lowest > BELOW[3]
+        assert below or lowest > A3.below[3] - 10
+    assert lowest > A3.below[3]
 
 
 def is_lettering(mark):
@@ -171,7 +175,7 @@ def test_the_overlay_is_the_key_at_the_places_of_the_task(name):
     """Without the letters that the task has itself, which may stand elsewhere on it."""
     for kind, (over,) in pages(name, "overlay").items():
         (key, *_), (task, *_) = (pages(name, view)[kind] for view in ("key", "task"))
-        fields = [mark for mark in task.marks if reach(mark)[3] <= AREA[3]]  # not the scheme
+        fields = [mark for mark in task.marks if reach(mark)[3] <= A3.fields[3]]  # not the scheme
         letters = {(mark.name, look_of(mark)) for mark in fields if is_lettering(mark)}
         assert letters
         kept = {m for m in drawn(key) if not is_lettering(m) or (m.name, look_of(m)) not in letters}
@@ -198,9 +202,9 @@ def test_where_sentences_that_are_done_are_left_out_a_page_says_so(name):
             numbers = [int(m.markup[:-1]) for m in told if m.anchor == "end"]
             assert numbers == [*range(done + 1 - len(numbers), done + 1)]
             first = min((m for m in told if m.anchor == "start"), key=lambda m: m.y, default=None)
-            is_full = max(to_do) + 7 > BELOW[3]
+            is_full = max(to_do) + 7 > A3.below[3]
             assert is_full or (len(numbers) < done) is bool(first and first.markup == "…")
-            assert all(m.y <= BELOW[3] for m in told)
+            assert all(m.y <= A3.below[3] for m in told)
 
 
 def asked_only(ask):
@@ -242,21 +246,23 @@ def test_sentences_that_draw_nothing_share_a_page_as_far_as_they_have_room():
     new, none = (CircleMark(0, 0, 1, f"point {NOW}"),), (CircleMark(0, 0, 1, "point"),)
     assert list(spans([none, none, new, none, new], lambda *_: True)) == [(0, 2), (3, 4)]
     said = [Sentence(n, "", "of what is computed alone " * 14) for n in range(30)]
-    found = list(spans([none] * 30, lambda first, last: to_do(said, first, last).is_held))
+    found = list(
+        spans([none] * 30, lambda first, last: to_do(said, first, last, step_lines(A3)).is_held)
+    )
     assert [n for first, last in found for n in range(first, last + 1)] == list(range(30))
     assert len(found) > 1
-    assert all(to_do(said, *each).is_held for each in found)
+    assert all(to_do(said, *each, step_lines(A3)).is_held for each in found)
 
 
 @pytest.mark.parametrize("many", range(1, 6))
 def test_sentences_to_do_stay_above_the_title_block_and_beside_it(many):
     """They are large as long as all are above it; none reaches over its frame or the mark."""
     said = [Sentence(n, "", "of what is computed alone " * 14) for n in range(many)]
-    marks = [*told(material("pump")[0], said, 0, many - 1)]
+    marks = [*text_block(material("pump")[0], said, 0, many - 1)]
     words = [mark for mark in marks if isinstance(mark, Text) and mark.name == "sentence"]
     assert {mark.height for mark in words} == {3.5 if many < 3 else 2.5}
-    left, top, *_ = A3_TITLE_BLOCK
+    left, top, *_ = A3.title_block
     for mark in words:
         box = reach(mark)
-        assert box[3] < top or box[2] < (left if box[3] < MARKED[1] + 1 else MARKED[0])
-        assert box[3] < A3_AREA[3] and box[2] < BELOW[2]
+        assert box[3] < top or box[2] < (left if box[3] < A3.marked[1] + 1 else A3.marked[0])
+        assert box[3] < A3.area[3] and box[2] < A3.below[2]

@@ -20,7 +20,7 @@ from graphkin.cli.main import app
 from graphkin.construction.core.drawn_scene import Drawing
 from graphkin.construction.core.given_data import variant
 from graphkin.construction.core.quantities import CENTRES, OnPaper, in_mm
-from graphkin.construction.registry import PALETTE
+from graphkin.construction.registry import BOARD, PALETTE
 from graphkin.construction.result_tables import WIDTHS
 from graphkin.documents.calculation import calculation
 from graphkin.documents.centre_tables import centre_words
@@ -151,8 +151,9 @@ def literals() -> set[str]:
 
 def palette_keys() -> set[str]:
     """The keys of the actions of the palette, of what they start from, and of what is wrong."""
-    slots = {f"turn.slot.{name}" for own in PALETTE.values() for name, _ in own.slots}
-    actions = {f"turn.{said}.{action}" for said in ("action", "ask") for action in PALETTE}
+    every = PALETTE | BOARD
+    slots = {f"turn.slot.{name}" for own in every.values() for name, _ in own.free or own.slots}
+    actions = {f"turn.action.{action}" for action in every} | {f"turn.ask.{key}" for key in PALETTE}
     return slots | actions | {key for each in PALETTE for key in reasons(each, words("en"))}
 
 
@@ -223,6 +224,9 @@ def test_no_sentence_is_left_in_english(language):
         "page.constant",
         "page.guide_of",
         "page.axis_guide",
+        "positions.number",
+        "studio.angle",
+        "sheet.positions_view",
         "calculation.structure",
         "feedback.earned",
         "form.points",
@@ -232,6 +236,7 @@ def test_no_sentence_is_left_in_english(language):
         "table.segment",
         "turn.action.perpendicular",
         "turn.palette",
+        "turn.slot.angle",
         "turn.slot.image",
         "turn.slot.point",
         "turn.slot.vector",

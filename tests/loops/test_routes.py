@@ -85,21 +85,21 @@ def test_every_quantity_has_its_route_and_every_question_its_quantities():
     assert ASKED.keys() == set(Ask.__struct_fields__)
 
 
-class Jerking(PointMotion, frozen=True):
+class Snapping(PointMotion, frozen=True):
     """A motion with a quantity that nothing witnesses."""
 
-    jerk: complex | None = None
+    snap: complex | None = None
 
 
 def test_a_quantity_without_a_route_is_refused(monkeypatch):
-    jerk = MotionQuantity(
-        "jerk", "points", "jerk", "acceleration", "vector", "j", "m/s³", "jerk", ()
+    snap = MotionQuantity(
+        "snap", "points", "snap", "acceleration", "vector", "s", "m/s⁴", "snap", ()
     )
     for module in (quantities, differences):
-        monkeypatch.setattr(module, "QUANTITIES", (*QUANTITIES, jerk))
+        monkeypatch.setattr(module, "QUANTITIES", (*QUANTITIES, snap))
     pump = shipped("pump")
     place = pump.solve().points["D"].position
-    silent = Solution({"D": Jerking(place)}, {})
+    silent = Solution({"D": Snapping(place)}, {})
     assert compare(pump.scene, silent).agrees
     with pytest.raises(WitnessError, match="no independent route gives this quantity"):
-        compare(pump.scene, Solution({"D": Jerking(place, jerk=1j)}, {}))
+        compare(pump.scene, Solution({"D": Snapping(place, snap=1j)}, {}))

@@ -136,7 +136,7 @@ def alike(both, alone, points: str, rows=slice(None)) -> None:
 def test_numbers_between_a_few_searches_are_those_of_a_search_at_every_place():
     mechanism = load("examples/scenes/plates-ring.toml")
     sweep = sweep_of(mechanism.scene)
-    course = carried_about(Course(sweep, sweep.original.branches), sweep.stands)
+    course = carried_about(Course(sweep, sweep.original.branches), sweep.at_scene)
     group, way = course.group(0), course.closures[0]
     grid = np.linspace(405, 490, 31)  # |it has a new number four times
     found = numbers_at(group, way, grid)

@@ -20,6 +20,8 @@ class Shot(Struct, frozen=True):
     """How a picture is taken: tilt (degrees), lens, bow and ripple of the paper (mm), light."""
 
     size: tuple[int, int] = (4000, 3000)
+    sheet: tuple[float, float] = (WIDE, HIGH)
+    """The width and height of the paper, in mm."""
     tilt: float = 0.0
     k1: float = 0.0
     bow: float = 0.0
@@ -51,6 +53,7 @@ class Picture(Struct, frozen=True):
 def forward(shot: Shot, rng: Any) -> Callable[[Any], Any]:
     """From places of the paper to pixels."""
     width, height = shot.size
+    wide, high = shot.sheet
     focal = 1.15 * width
     way = rng.uniform(0, 2 * np.pi)
     lean = radians(shot.tilt)
@@ -59,8 +62,8 @@ def forward(shot: Shot, rng: Any) -> Callable[[Any], Any]:
     spun, _ = cv2.Rodrigues(np.array([0.0, 0.0, radians(shot.turn)]))
     turned = tilted @ spun
     across = abs(np.cos(radians(shot.turn))) > 0.7
-    distance = focal * (WIDE if across else HIGH) / (width * shot.fill)
-    other = focal * (HIGH if across else WIDE) / (height * shot.fill)
+    distance = focal * (wide if across else high) / (width * shot.fill)
+    other = focal * (high if across else wide) / (height * shot.fill)
     distance = max(distance, other) * (1 + 0.6 * abs(np.sin(lean)))
     place = np.array([rng.uniform(-8, 8), rng.uniform(-8, 8), distance])
     bent = rng.uniform(0, 2 * np.pi)
@@ -68,7 +71,7 @@ def forward(shot: Shot, rng: Any) -> Callable[[Any], Any]:
     raised = np.radians(shot.fold) * rng.choice([-1.0, -0.6, 0.6, 1.0], 2)
 
     def where(points: Any) -> Any:
-        x, y = points[..., 0] - WIDE / 2, points[..., 1] - HIGH / 2
+        x, y = points[..., 0] - wide / 2, points[..., 1] - high / 2
         u = (x * np.cos(bent) + y * np.sin(bent)) / 210
         z = shot.bow * (1 - u**2)
         shorter = -2 * shot.bow**2 / (3 * 210) * u**3
@@ -86,12 +89,13 @@ def forward(shot: Shot, rng: Any) -> Callable[[Any], Any]:
     return where
 
 
-def backward(where: Callable[[Any], Any], size: tuple[int, int]) -> Any:
+def backward(where: Callable[[Any], Any], size: tuple[int, int], sheet: tuple[float, float]) -> Any:
     """The place of the paper behind each pixel, by Newton's method on every eighth."""
     width, height = size
     xs, ys = np.arange(0, width + 8, 8.0), np.arange(0, height + 8, 8.0)
     pixels = np.stack(np.meshgrid(xs, ys), axis=-1)
-    corners = np.array([[0, 0], [WIDE, 0], [WIDE, HIGH], [0, HIGH]])
+    wide, high = sheet
+    corners = np.array([[0, 0], [wide, 0], [wide, high], [0, high]])
     rough = cv2.getPerspectiveTransform(
         where(corners).astype(np.float32), corners.astype(np.float32)
     )
@@ -118,12 +122,13 @@ def photograph(image: Any, shot: Shot, seed: int) -> Picture:
     rng = np.random.default_rng([seed, 77])
     where = forward(shot, rng)
     width, height = shot.size
-    paper = backward(where, shot.size)
+    paper = backward(where, shot.size, shot.sheet)
+    wide, high = shot.sheet
     source = paper * np.float32(DENSITY) - np.float32(0.5)
     seen = cv2.remap(image, source[..., 0], source[..., 1], cv2.INTER_LINEAR, borderValue=0).astype(
         np.float32
     )
-    on = (paper[..., 0] > 0) & (paper[..., 0] < WIDE) & (paper[..., 1] > 0) & (paper[..., 1] < HIGH)
+    on = (paper[..., 0] > 0) & (paper[..., 0] < wide) & (paper[..., 1] > 0) & (paper[..., 1] < high)
     small = rng.normal(0, 1, (height // 16 + 1, width // 16 + 1)).astype(np.float32)
     grain = cv2.resize(cv2.GaussianBlur(small, (0, 0), 2), (width, height))
     table = np.clip(shot.table + 25 * grain, 5, 250)

@@ -8,7 +8,7 @@ comes after it is drawn rightly from there.
 from __future__ import annotations
 
 from functools import lru_cache
-from itertools import pairwise
+from itertools import combinations, pairwise
 from math import radians
 from pathlib import Path
 from typing import Any
@@ -19,20 +19,22 @@ from msgspec import Struct
 from msgspec.structs import replace
 
 from graphkin.classroom.printing.edition import read_edition
+from graphkin.classroom.printing.personal import joined
 from graphkin.classroom.printing.print_work import PrintOrder, Sheets
 from graphkin.construction.core.drawn_scene import Drawing
 from graphkin.construction.core.layout import Layout, lay_out, spans
 from graphkin.construction.core.program import Part, Plane
 from graphkin.construction.core.run import StepFailed, run
 from graphkin.construction.higher_class.trial_rates import trial_rates
-from graphkin.documents.sheet import Writing, sheet
+from graphkin.documents import sheet as documents
 from graphkin.drawing.field import Field
 from graphkin.drawing.marks import Arc, CircleMark, LineMark, Page, Polyline, Text
-from graphkin.drawing.symbols import arrow
+from graphkin.drawing.symbols import arrow, head
 from graphkin.numbers.arithmetic import FLOAT, turn_by
 from graphkin.numbers.plane import Circle, Line, Ratio
 from graphkin.text.errors import GraphkinError
 from graphkin.writers.pdf import write_pdf
+from tests.reading.hand_letters import Writing, writing_of, written
 
 DENSITY = 10.0
 """Pixels of a drawn sheet for each mm."""
@@ -43,6 +45,14 @@ CLEAR = 3.0
 """Millimetres by which a mistake moves its point at least."""
 LONG, OFF, NEAR = 12.0, 2.0, 0.05
 """The shortest vector that ends elsewhere, by how much at least, and the same place; mm."""
+
+
+PLANS: dict[str, tuple[complex, bool]] = {
+    "halved": (0.5 + 0j, False),
+    "spun": (complex(np.exp(1j * radians(30))), False),
+    "mirrored": (-1 + 0j, True),
+}
+"""How a whole plan may be drawn about its pole: size and turn, and whether it is mirrored first."""
 
 
 class TruePoint(Struct, frozen=True):
@@ -69,7 +79,10 @@ class Habits(Struct, frozen=True):
     erased: bool = False
     letters: bool = True
     end: str = ""
-    """How a vector of the plan ends: too ``long``, too ``short``, or with its head ``turned``."""
+    """What alone is wrong: a vector of the plan is too ``long``, too ``short``, or has its head
+    ``turned``; the letters of two points are ``exchanged``; or the whole plan is ``halved``,
+    ``spun`` or ``mirrored``.
+    """
 
 
 class DrawnSheet(Struct, frozen=True):
@@ -93,7 +106,8 @@ def sheets_of(folder: Path, code: str) -> Sheets:
 def printed(folder: Path, code: str, kind: str) -> Any:
     """A student's task sheet as it leaves the printer."""
     found = next(each for each in sheets_of(folder, code).of("task") if each.kind == kind)
-    return printed_page(found.pages[0])
+    leaves = sheets_of(folder, code).paper.leaves
+    return np.hstack([printed_page(page) for page in found.pages[:leaves]])
 
 
 def printed_page(sheet: Page) -> Any:
@@ -116,7 +130,11 @@ def drawn_sheet(folder: Path, code: str, kind: str, habits: Habits, seed: int) -
         try:
             own, points, hidden = drawn_points(sheets, drawing, habits, rng)
             page = own_page(drawing, own)
-            if habits.end:
+            if habits.end == "exchanged":
+                page, points = exchanged(page, drawing, points, rng)
+            elif habits.end in PLANS:
+                page, points = misplaced(page, drawing, points, habits.end)
+            elif habits.end:
                 page, points = misdrawn(page, drawing, points, habits.end, rng)
         except (GraphkinError, StepFailed, ZeroDivisionError):
             continue
@@ -313,6 +331,97 @@ def misdrawn(
     return replace(page, marks=type(page.marks)(marks)), told_points
 
 
+def misplaced(
+    page: Page, drawing: Drawing, points: tuple[TruePoint, ...], kind: str
+) -> tuple[Page, tuple[TruePoint, ...]]:
+    """A page whose whole plan is scaled, turned or mirrored about its pole."""
+    steps, layout = drawing.trace.program.steps, lay_out(drawing)
+    size, mirrored = PLANS[kind]
+    pole = next(
+        complex(mark.cx, mark.cy)
+        for mark in page.marks
+        if isinstance(mark, CircleMark) and mark.cls.startswith("pole")
+    )
+
+    def moved(x: float, y: float) -> tuple[float, float]:
+        way = complex(x, y) - pole
+        found = pole + size * (way.conjugate() if mirrored else way)
+        return found.real, found.imag
+
+    marks: list[Any] = []
+    for mark in page.marks:
+        if mark.step is None or steps[mark.step].plane is not drawing.plane:
+            marks.append(mark)
+        elif isinstance(mark, LineMark):
+            (x1, y1), (x2, y2) = moved(mark.x1, mark.y1), moved(mark.x2, mark.y2)
+            marks.append(replace(mark, x1=x1, y1=y1, x2=x2, y2=y2))
+        elif isinstance(mark, Polyline) and "arrowhead" in mark.cls:
+            tip = complex(*moved(*mark.points[0]))
+            back = complex(*moved(*mark.points[1])) + complex(*moved(*mark.points[2])) - 2 * tip
+            tail = tip + back
+            marks.append(head((tail.real, tail.imag), (tip.real, tip.imag), mark.cls))
+        elif isinstance(mark, Polyline):
+            marks.append(replace(mark, points=tuple(moved(*each) for each in mark.points)))
+        elif isinstance(mark, CircleMark):
+            cx, cy = moved(mark.cx, mark.cy)
+            marks.append(replace(mark, cx=cx, cy=cy))
+        elif isinstance(mark, Text):
+            x, y = moved(mark.x, mark.y)
+            marks.append(replace(mark, x=x, y=y))
+        else:
+            marks.append(mark)
+    found = []
+    first = True
+    for each in points:
+        if each.at is not None and steps[each.step].plane is drawing.plane:
+            at = moved(*each.at)
+            if not inside(at, layout.plan):
+                raise StepFailed(each.step, steps[each.step], ())
+            found.append(replace(each, at=at, verdict="wrong" if first else "follows"))
+            first = False
+        else:
+            found.append(each)
+    return replace(page, marks=type(page.marks)(marks)), tuple(found)
+
+
+def exchanged(
+    page: Page, drawing: Drawing, points: tuple[TruePoint, ...], rng: Any
+) -> tuple[Page, tuple[TruePoint, ...]]:
+    """A page on which the letters of two points of the plan are exchanged."""
+    steps = drawing.trace.program.steps
+    labels = {
+        each.step: (each, mark)
+        for each in points
+        if steps[each.step].plane is drawing.plane and each.at is not None
+        for mark in page.marks
+        if isinstance(mark, Text) and mark.step == point_mark(page, complex(*each.at))
+        if mark.markup[:1].isalpha() or mark.letters
+    }
+    pairs = [
+        pair
+        for pair in combinations(labels.values(), 2)
+        if pair[0][0].name[0] != pair[1][0].name[0] and pair[0][1] is not pair[1][1]
+        if all(len(one.letters) < 2 for _, one in pair)
+    ]
+    if not pairs:
+        raise StepFailed(0, steps[0], ())
+    (one, first), (other, second) = pairs[int(rng.integers(len(pairs)))]
+    marks: list[Any] = []
+    for mark in page.marks:
+        if mark is first:
+            marks.append(replace(first, markup=second.markup))
+        elif mark is second:
+            marks.append(replace(second, markup=first.markup))
+        else:
+            marks.append(mark)
+    told = {
+        one.step: replace(one, at=other.at, verdict="wrong"),
+        other.step: replace(other, at=one.at, verdict="wrong"),
+    }
+    told_points = tuple(told.get(each.step, each) for each in points)
+    return replace(page, marks=type(page.marks)(marks)), told_points
+
+
 def near(mark: Any, tip: complex) -> bool:
     """Whether a head's tip is at a place."""
     return abs(complex(*mark.points[0]) - tip) < NEAR
@@ -331,7 +440,8 @@ def own_page(drawing: Drawing, own: Any) -> Page:
     mine = replace(drawing, trace=own)
     layout = lay_out(drawing)
     places = Layout(layout.mechanism, layout.plan, spans(mine, layout))
-    return sheet(mine, "key", "1/1", places, Writing([], [], frozenset()))
+    said = documents.Writing([], [], frozenset())
+    return joined(documents.sheet(mine, "key", "1/1", places, said))
 
 
 # --- the pencil -----------------------------------------------------------------------------------
@@ -341,7 +451,7 @@ def pencilled(
     page: Page, drawing: Drawing, hidden: frozenset[int], habits: Habits, rng: Any, shape: Any
 ) -> Any:
     """How much of the light the pencil takes, from 0 to 1."""
-    ink = np.zeros(shape, np.float32)
+    ink, hand = np.zeros(shape, np.float32), writing_of(rng)
     by_hand = {"link", "plate", "pin", "slider", "outline"}
     for mark in page.marks:
         drawn = mark.step is not None or mark.cls.split()[0] in by_hand
@@ -351,7 +461,7 @@ def pencilled(
             continue
         if isinstance(mark, Text) and not habits.letters:
             continue
-        for path in strokes(mark, habits, rng):
+        for path in strokes(mark, habits, hand, rng):
             stroke(ink, path, habits, rng)
     for _ in range(habits.stray):
         left, top = rng.uniform([150, 50], [380, 180])
@@ -363,7 +473,7 @@ def pencilled(
     return cv2.GaussianBlur(ink, (0, 0), 0.8)
 
 
-def strokes(mark: Any, habits: Habits, rng: Any) -> list[Any]:
+def strokes(mark: Any, habits: Habits, hand: Writing, rng: Any) -> list[Any]:
     """The paths of a mark in mm, as a hand draws them."""
     if isinstance(mark, LineMark):
         return [wobbled((mark.x1, mark.y1), (mark.x2, mark.y2), habits, rng)]
@@ -377,7 +487,7 @@ def strokes(mark: Any, habits: Habits, rng: Any) -> list[Any]:
         turns = np.linspace(0, 2 * np.pi, 20)
         return [np.stack([mark.cx + mark.r * np.cos(turns), mark.cy + mark.r * np.sin(turns)], 1)]
     if isinstance(mark, Text):
-        return scribbled(mark, rng)
+        return written(mark, hand, rng)
     return []
 
 
@@ -393,13 +503,6 @@ def wobbled(start: Any, end: Any, habits: Habits, rng: Any) -> Any:
     normal = np.array([-(end - start)[1], (end - start)[0]]) / max(long, 1e-9)
     offset = aside * habits.wobble / 1.2
     return start + along[:, None] * (end - start) + offset[:, None] * normal
-
-
-def scribbled(mark: Text, rng: Any) -> list[Any]:
-    """A letter: a few short strokes as large as the letters are."""
-    corners = np.array(mark.corners())
-    low, high = corners.min(0), corners.max(0)
-    return [rng.uniform(low, high, (3, 2)) for _ in range(3)]
 
 
 def stroke(ink: Any, path: Any, habits: Habits, rng: Any, share: float = 1.0) -> None:

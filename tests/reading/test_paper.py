@@ -11,14 +11,13 @@ import pytest
 from msgspec.structs import replace
 
 from graphkin.classroom.printing.personal import PITCH, places, square
+from graphkin.drawing.field import A3
 from graphkin.drawing.marks import LineMark, Page
 from graphkin.reading.drawn_ink import InkLine
 from graphkin.reading.paper_map import (
     BENDS,
     COUNT,
-    HALF,
     LENS,
-    MIDDLE,
     PLAIN,
     PaperMap,
     bendings,
@@ -27,7 +26,6 @@ from graphkin.reading.paper_map import (
 )
 from graphkin.reading.paper_ripple import CROSSED, LEAST, Offsets, ripple_of, without
 from graphkin.reading.point_search import (
-    AREA,
     BREAK,
     along_way,
     are_crossing,
@@ -351,7 +349,7 @@ def test_a_cross_is_found_where_it_is_printed_unless_a_line_hides_it():
     dark = np.where(abs(x + y - 140.3) < 0.6, 0.7, dark)  # through the last of them
     picture = cv2.GaussianBlur(np.round(220 * (1 - dark)).astype(np.uint8), (0, 0), 1.2)
     scale = 10 * 210 / np.hypot(500, 500)
-    middle = (np.array(MIDDLE) * 10 - 499.5) / np.hypot(500, 500)
+    middle = (np.array(A3.middle) * 10 - 499.5) / np.hypot(500, 500)
     over = PaperMap(1000, 1000, (scale, 0, middle[0], 0, scale, middle[1], *[0.0] * (COUNT - 6)))
     assert over(at) == pytest.approx(10 * at)
     found, share = crosses_off(picture, over, at)
@@ -365,7 +363,7 @@ def from_above(*marks: LineMark) -> tuple[np.ndarray, PaperMap]:
     for each in marks:
         ends = np.rint(4 * np.array([[each.x1, each.y1], [each.x2, each.y2]]) - 0.5).astype(int)
         cv2.line(picture, *ends, color=40, thickness=2)
-    scale = 4 * HALF / (np.hypot(*picture.shape) / 2)
+    scale = 4 * A3.half / (np.hypot(*picture.shape) / 2)
     return picture, PaperMap(1680, 1188, (scale, 0, 0, 0, scale, 0, *[0.0] * (COUNT - 6)))
 
 
@@ -392,7 +390,7 @@ def test_a_profile_is_the_mean_over_a_mm_to_both_sides_of_its_place():
         along, aside = (y - 148.5, x - 210.0) if turned else (x - 210.0, y - 148.5)
         normal = (1.0, 0.0) if turned else (0.0, 1.0)
         one = PrintedLines(
-            np.array([MIDDLE]), np.array([normal]), np.ones(1), np.ones(1, bool), np.ones(1)
+            np.array([A3.middle]), np.array([normal]), np.ones(1), np.ones(1, bool), np.ones(1)
         )
         darkest = []
         for begins in (-2.0, 0.15, 1.3):
@@ -426,5 +424,7 @@ def test_a_ray_beside_another_one_is_its_stroke(turn):
     ):
         assert is_parted(far * way, way, 12.0) is parted
     assert is_parted(3 + 0.5j, 1 + 0j, 2.0) and not is_parted(3 + 0.5j, 1 + 0j, 4.0)
-    inside = in_fields(np.array([AREA[0] + AREA[1] * 1j, 200 + 150j, AREA[2] + 150j, 200 + 296j]))
+    left, top, right, _ = A3.fields
+    some = np.array([left + top * 1j, 200 + 150j, right + 150j, 200 + 296j])
+    inside = in_fields(some, A3.fields)
     assert list(inside) == [False, True, False, False]

@@ -29,10 +29,11 @@ from graphkin.classroom.printing.personal import modules
 from graphkin.classroom.roster.taker import Taker
 from graphkin.cli.main import app
 from graphkin.construction.core.program import Plane
-from graphkin.drawing.field import AREA
+from graphkin.drawing.field import A3
 from graphkin.reading import read_run, registration
 from graphkin.reading.codes import code_among, codes_in
 from graphkin.reading.desk_app import DeskSession, desk_application, desk_page
+from graphkin.reading.desk_drawings import DrawingDesk
 from graphkin.reading.drawn_answers import drawn_items, is_followed
 from graphkin.reading.drawn_ink import DENSITY as INK
 from graphkin.reading.drawn_ink import DrawnInk, fitted, offsets, refined
@@ -530,11 +531,11 @@ def test_halves_that_are_no_sheet_are_refused(a_class: Path, code: str, tmp_path
 
 def ink_of(*lines: tuple[complex, complex]) -> DrawnInk:
     """Lines between places of the paper, and nothing printed."""
-    width, height = (round((AREA[i + 2] - AREA[i]) * INK) for i in (0, 1))
+    width, height = (round((A3.fields[i + 2] - A3.fields[i]) * INK) for i in (0, 1))
     dark = np.zeros((height, width), np.float32)
     for start, end in lines:
         a, b = (
-            (round((p.real - AREA[0]) * INK * 16), round((p.imag - AREA[1]) * INK * 16))
+            (round((p.real - A3.fields[0]) * INK * 16), round((p.imag - A3.fields[1]) * INK * 16))
             for p in (start, end)
         )
         cv2.line(dark, a, b, 1.0, 2, cv2.LINE_8, 4)
@@ -1246,8 +1247,8 @@ def test_one_seed_is_one_picture(a_class: Path, code: str) -> None:
 # --- the desk and what goes back -------------------------------------------------------------
 
 
-def asking(taken: Path) -> DeskSession:
-    return DeskSession(taken / "read", words("en"))
+def asking(taken: Path) -> DrawingDesk:
+    return DrawingDesk(taken / "read", words("en"))
 
 
 def test_the_desk_writes_a_decision_at_once_and_takes_it_back(taken: Path) -> None:
@@ -1260,9 +1261,9 @@ def test_the_desk_writes_a_decision_at_once_and_takes_it_back(taken: Path) -> No
     assert (point["verdict"], point["ask"], point["decided"]) == ("wrong", False, True)
     again = asking(taken)  # the page was closed, or the desk was killed
     (sheet,) = [each for each in again.sheets() if each["name"] == "hard"]
-    assert {**told, "points": list(told["points"])} == {**sheet, "points": list(sheet["points"])}
+    assert told == sheet
     assert again.undo()["step"] == asked.step
-    points = again.told(record, again.settled.standing)["points"]
+    points = again.told(record)["points"]
     (point,) = [each for each in points if each["step"] == asked.step]
     assert point["ask"]
 
@@ -1288,7 +1289,7 @@ def test_the_desk_refuses_what_its_page_does_not_ask(taken: Path, said: bytes) -
 
 
 def test_only_the_page_with_its_token_gets_pictures(taken: Path) -> None:
-    session = asking(taken)
+    session = DeskSession(taken / "read", words("en"))
     guard = Guard(desk_application(session), "secret", ("127.0.0.1:1",), lambda: None)
     answers = []
 
@@ -1311,7 +1312,7 @@ def test_the_desk_speaks_each_language(taken: Path, language: str) -> None:
     session = DeskSession(taken / "read", words(language))
     page = desk_page(session).decode()
     assert words(language)("desk.title") in page
-    (sheet,) = [each for each in session.sheets() if each["name"] == "hard"]
+    (sheet,) = [each for each in session.everything()["sheets"] if each["name"] == "hard"]
     assert sheet["kind"] == words(language)("sheet.acceleration")
     assert sheet["who"].startswith("0042 ")
     assert "<built-in" not in page

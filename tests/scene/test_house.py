@@ -116,7 +116,7 @@ labels = { student = "Me" }
 [pages]
 language = "xx"
 ink = "blue"
-paper = 3
+papers = 3
 [scales]
 steps = [1, 10]
 [lines]
@@ -135,7 +135,7 @@ normal = "n_t_t"
             "pages.ink",
             "scales.steps",
             "lines.thick",
-            "pages.paper",
+            "pages.papers",
             "signs.set",
             "signs.normal",
             "hedder",

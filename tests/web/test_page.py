@@ -306,7 +306,8 @@ def test_each_field_has_its_bar(make, language):
     text = make(load("pump"), language)
     assert text.count('class="bar"') == text.count('<div class="view">') - (make is task_page) == 4
     assert words(language)("screen.on_paper") in text
-    for place, sheet in enumerate(screen_sheets(load("pump"), language)):
+    view = "task" if make is task_page else "key"
+    for place, sheet in enumerate(screen_sheets(load("pump"), language, view)):
         left, top, right, bottom = sheet.layout.plan.rect
         rule = f"#fields-{place}>:nth-child(2){{--bar:20;--wide:{number(right - left)};"
         assert rule + f"--high:{number(bottom - top)}}}" in text
@@ -381,7 +382,7 @@ def test_a_trial_plan_names_itself_in_each_of_its_steps_and_each_point_that_it_f
             continue
         assert re.match("(first|second) trial plan[:,]", plain(one.markup))
         clauses = [plain(why) for why in one.why]
-        found = re.findall(r"both lines meet in ([^; ]*)", plain(one.markup))
+        found = re.findall(r"both lines meet at ([^; ]*)", plain(one.markup))
         alone = [clause for clause in clauses if "each line alone" in clause]
         assert len(found) == len(alone) <= 1
         assert not alone or f"holds {found[0]}," in alone[0]

@@ -9,6 +9,7 @@ import pytest
 
 from graphkin.web import offline_page
 from graphkin.web.offline_page import (
+    BOARD_PAGE,
     FORM,
     MOVING,
     PLAYER,
@@ -20,7 +21,7 @@ from graphkin.web.offline_page import (
     together,
 )
 
-PAGES = (STEP_PAGE, PLAYER, FORM, MOVING)
+PAGES = (STEP_PAGE, BOARD_PAGE, PLAYER, FORM, MOVING)
 DECLARED = re.compile(
     r"^(?:async )?(?:function|const|let|class) +([\w$]+|\{[^}]*\}|\[[^\]]*\])", re.M
 )
@@ -61,7 +62,7 @@ def test_remarks_are_left_out_and_nothing_else(page):
     lines = [line.strip() for name in page for line in part(name).splitlines()]
     short_lines = [offline_page.REMARK.sub("", line) for line in lines]
     script = "\n".join(short_lines)
-    for place, what in offline_page.WRITTEN_IN.items():
+    for place, what in offline_page.written_in(page).items():
         script = script.replace(place, what)
     written = script.splitlines()
     assert [line for line in written if line in set(told)] == told

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import re
 import unicodedata
-from collections.abc import Collection
+from collections.abc import Collection, Mapping
 from math import pi
 
 from graphkin.classroom.grading.graded import BLANK, Answer
@@ -163,6 +163,25 @@ LARGEST_ANSWER = 1e12
 """The upper limit of an answer in any unit of a field; a larger one is a typing mistake."""
 LONGEST = 60
 """The most characters of an answer; longer text is not a number."""
+TURNS_A_MINUTE = [
+    "rev/min",
+    "r/min",
+    "rpm",
+    "1/min",
+    "min-1",
+    "rot/min",
+    "giri/min",
+    "tr/min",
+    "U/min",
+]
+"""How turns in a minute are written in English, Romanian, Italian, French and German."""
+RUSSIAN = {"мм": "mm", "см": "cm", "м": "m", "рад": "rad", "град": "deg"} | {
+    "с": "s",
+    "сек": "s",
+    "об": "rev",
+    "мин": "min",
+}
+"""The parts of units in Russian."""
 UNITS: dict[str, dict[str, float]] = {
     "mm": {"mm": 1, "cm": 10, "m": 1000, "in": 25.4},
     "m": {"m": 1, "cm": 0.01, "mm": 0.001, "in": 0.0254},
@@ -175,10 +194,7 @@ UNITS: dict[str, dict[str, float]] = {
         "rads-1": 1,
         "deg/s": pi / 180,
         "°/s": pi / 180,
-        "rev/min": pi / 30,
-        "rot/min": pi / 30,
-        "giri/min": pi / 30,
-        "rpm": pi / 30,
+        **dict.fromkeys(TURNS_A_MINUTE, pi / 30),
     },
     "N": {"N": 1, "kN": 1000},
     "N·m": {"N·m": 1, "Nm": 1, "kN·m": 1000, "kNm": 1000, "N·mm": 0.001, "Nmm": 0.001},
@@ -223,7 +239,7 @@ def sign_of_number(text: str) -> int | None:
     if found is None or not found["sign"] or not float(digits_of(found)):
         return None
     written = plain_unit(text[found.end() :])
-    if written and not any(written in known for known in UNITS.values()):
+    if written and all(factor_of(written, known) is None for known in UNITS.values()):
         return None
     return 1 if found["sign"] == "+" else -1
 
@@ -252,7 +268,7 @@ def read_number(text: str, stripped: str, item: Item) -> Answer:
     unit, rest = item.unit, stripped[found.end() :]
     written = plain_unit(rest)
     known = UNITS.get(unit, {unit: 1.0})
-    factor = item.one if not written else known.get(written)
+    factor = item.one if not written else factor_of(written, known)
     if factor is None:
         return Answer(text, problem="number" if MISTYPED.search(rest) else "unit")
     power = (found["power"] or found["raised"] or "0").translate(RAISED)
@@ -294,9 +310,18 @@ def significant(answer: Answer) -> tuple[int, int]:
 
 
 def plain_unit(text: str) -> str:
-    """A unit without spaces, brackets, power signs, and the stop or semicolon after it."""
-    plain = re.sub(r"[\s()\[\]^*·]", "", text).replace("²", "2").replace("⁻¹", "-1")
-    return re.sub(r"(?<=\w)[.;]$", "", plain.replace("−", "-").replace("sec", "s"))
+    """A unit without spaces, brackets and power signs, Russian ones in Latin letters.
+
+    The stop, comma or semicolon after it is left out.
+    """
+    bare = re.sub(r"[\s()\[\]^*·]", "", text).translate(RAISED)
+    plain = re.sub(r"[а-я]+\.?", lambda part: RUSSIAN.get(part[0].rstrip("."), part[0]), bare)
+    return re.sub(r"(?<=\w)[.,;]$|^;$", "", plain.replace("sec", "s"))
+
+
+def factor_of(written: str, known: Mapping[str, float]) -> float | None:
+    """The factor of a unit in capital letters or small ones; None where it is not known."""
+    return next((f for unit, f in known.items() if unit.casefold() == written.casefold()), None)
 
 
 def shown_cell(text: str) -> str:

@@ -267,6 +267,8 @@ Below it, a table may belong to another lab; the error then names up to ``SHOWN`
 HEADS = {"id": NAMES["id"], "email": EMAIL}
 BESIDE = {what: NAMES[what] for what in NAMES if what != "id"} | {"language": LANGUAGE}
 """Columns that a class list has too, and that are no fields of the form."""
+DRAWING = "drawing"
+"""The row or column with the moves that a student made on the board of the task page."""
 IDS = {folded(name) for name in ("id", *HEADS["id"])}
 OTHERS = {folded(n) for w, every in (BESIDE | {"email": EMAIL}).items() for n in (w, *every)}
 """The names of these columns, folded for comparison."""
@@ -315,6 +317,7 @@ class Claim(Struct, frozen=True):
     unread: Sequence[Unread] = ()
     sender: Sender | None = None
     is_sure: bool = False
+    drawing: str = ""
 
 
 class Answers(Struct):
@@ -323,6 +326,8 @@ class Answers(Struct):
     ``unread`` are cells that cannot be read, or that can be read in two ways. ``refused`` is what
     is not marked. ``withheld`` are the students who wait for that: each of their answers is
     unreadable.
+
+    ``drawings`` are the logs of drawings made on the page, by id.
 
     ``senders`` maps ids to senders on a learning platform. ``empty`` are senders without a table.
     ``unlisted`` are students known only by the id in their file, since the class list lacks the
@@ -335,6 +340,7 @@ class Answers(Struct):
     missing: list[str] = field(default_factory=list)
     refused: list[Refused] = field(default_factory=list)
     withheld: list[str] = field(default_factory=list)
+    drawings: dict[str, str] = field(default_factory=dict)
     senders: dict[str, Sender] = field(default_factory=dict)
     empty: Sequence[Sender] = ()
     unlisted: dict[str, Sender] = field(default_factory=dict)
@@ -482,6 +488,9 @@ class AnswerReading(Struct, dict=True):
             hint = message("are these the answers to another lab?")
             raise RosterError(Problem(sheet.name, found, expected, hint))
         column = where[meant[0]] if meant else None
+        drawn = next(
+            (i for i, cell in enumerate(sheet.head) if folded(cell) == folded(DRAWING)), None
+        )
         every = (*sheet.rows, *sheet.left_out)
         used = {visible(sheet.head[i]) for i in (*own, column) if i is not None}
         wrong = wrong_rows(told, used)
@@ -489,7 +498,7 @@ class AnswerReading(Struct, dict=True):
         if whole := [each for line, some in wrong.items() if line not in lines for each in some]:
             raise RosterError(whole)
         for i, cell in enumerate(sheet.head):
-            if i not in own and cell and folded(cell) not in IDS | OTHERS:
+            if i not in (*own, drawn) and cell and folded(cell) not in IDS | OTHERS:
                 self.stranger(sheet, cell)
         for row in every:
             head, sign = ("", "") if column is None else (sheet.head[column], cell_at(row, column))
@@ -501,7 +510,8 @@ class AnswerReading(Struct, dict=True):
             if who is not None:
                 unread: list[Unread] = []
                 cells = {n: self.cell(sheet, row, i, who, n, unread) for i, n in own.items()}
-                self.claim(who, sign, place, cells, unread, file)
+                drawing = "" if drawn is None else cell_at(row, drawn)
+                self.claim(who, sign, place, cells, unread, file, drawing)
 
     def form(self, sheet: Spreadsheet, file: HandedIn, told: TableProblems) -> None:
         """Read one student's answers, a field in each row.
@@ -523,7 +533,11 @@ class AnswerReading(Struct, dict=True):
         cells: dict[str, Answer] = {}
         unread: list[Unread] = []
         strangers: list[str] = []
+        drawing = ""
         for row in sheet.rows[:MOST_FIELDS]:
+            if folded(row.cells[0]) == folded(DRAWING):
+                drawing = row.cells[1]
+                continue
             name = self.fields.get(folded(row.cells[0]))
             if name is None:
                 if folded(row.cells[0]) not in IDS | OTHERS:
@@ -546,7 +560,7 @@ class AnswerReading(Struct, dict=True):
             for cell in strangers:
                 self.stranger(sheet, cell)
             unread = [replace(each, who=who) for each in unread]
-            self.claim(who, sign, place, cells, unread, file)
+            self.claim(who, sign, place, cells, unread, file, drawing)
 
     def by_stem(self, file: HandedIn) -> str:
         """The file name in place of a missing id; empty where the file has an owner."""
@@ -625,10 +639,11 @@ class AnswerReading(Struct, dict=True):
         cells: Mapping[str, Answer],
         unread: Sequence[Unread],
         file: HandedIn,
+        drawing: str,
     ) -> None:
         """Note the answers of a student at one place, with the sender of the file."""
         is_sure = file.sender is not None and who in self.owners(file)
-        found = Claim(who, sign or who, place, cells, unread, file.sender, is_sure)
+        found = Claim(who, sign or who, place, cells, unread, file.sender, is_sure, drawing.strip())
         self.claims.setdefault(who, []).append(found)
 
     def settled(self) -> Answers:
@@ -656,6 +671,8 @@ class AnswerReading(Struct, dict=True):
             if rivals:
                 continue
             answers.of[who] = dict(first.cells)
+            if first.drawing:
+                answers.drawings[who] = first.drawing
             answers.unread += first.unread
             self.seen |= first.cells.keys()
             if first.sender is not None and not first.is_sure:

@@ -47,6 +47,8 @@ FILLS = {
 WIDTH = 7.2
 BARS = 10
 """The number of classes of points, in percent."""
+FEW, EVERYBODY = 6, 0.8
+"""The fewest students of whom a cause may be everybody's, and the share that shares it."""
 MOST = 12
 """The most causes shown."""
 ACROSS = 92
@@ -234,6 +236,7 @@ def class_report(
         causes=[(cause_sentence(each, words), *counts) for each, *counts in cause_counts(own)],
         wrong_variants=list(wrong_variant_lines(result, words)),
         copies=[copies_words(each, names, words) for each in result.copies],
+        everybody=list(everybody_lines(result, words)),
         others=list(another_lines(result, words)),
         computed=list(computed_lines(result, words)),
         held=held_line(result, words),
@@ -301,6 +304,15 @@ def another_lines(result: Result, words: Words) -> Iterator[str]:
                 )
 
 
+def everybody_lines(result: Result, words: Words) -> Iterator[str]:
+    """A sentence for each cause that nearly the whole class shares: it may not be the students'."""
+    present = [each for each in result.graded if each.present]
+    counts = Counter(name for each in present for name in {c.name for c in each.causes})
+    for name, count in counts.items():
+        if len(present) >= FEW and count >= EVERYBODY * len(present):
+            yield words("class.everybody_row", cause=name, count=count, all=len(present))
+
+
 def computed_lines(result: Result, words: Words) -> Iterator[str]:
     """A sentence for each student whose lengths are exact: they were computed, not drawn."""
     for each in result.graded:
@@ -336,7 +348,7 @@ def decision_lines(result: Result, words: Words) -> Iterator[str]:
             key, amounts["after"] = "class.decided_row", points_words(each.points, words)
         field = each.field or words("class.whole")
         yield words(
-            key, who=graded.taker.student.called, field=field, reason=each.reason, **amounts
+            key, who=graded.taker.student.called, field=field, reason=each.reason or "–", **amounts
         )
 
 
@@ -344,16 +356,15 @@ def request_lines(result: Result, words: Words) -> Iterator[str]:
     """A sentence for each request that is not decided yet."""
     for graded, each in decisions_of(result, is_open=True):
         field = each.field or words("class.whole")
-        yield words(
-            "class.request_row", who=graded.taker.student.called, field=field, reason=each.reason
-        )
+        asked = each.reason if each.is_open else each.asked
+        yield words("class.request_row", who=graded.taker.student.called, field=field, reason=asked)
 
 
 def decisions_of(result: Result, *, is_open: bool) -> Iterator[tuple[Graded, Decision]]:
-    """The lecturer's decisions, or the open requests, each with its student."""
+    """The lecturer's decisions, or those with an open request, each with its student."""
     for graded in result.graded:
         for each in graded.decisions:
-            if each.is_open == is_open:
+            if (each.is_open or bool(each.asked)) if is_open else not each.is_open:
                 yield graded, each
 
 
@@ -454,6 +465,7 @@ def unsure_lines(result: Result, words: Words) -> Iterator[str]:
 def result_lines(result: Result, words: Words) -> Iterator[str]:
     """The lines for the terminal: how the class did, and the evidence."""
     yield summary(result.graded, words)
+    yield from everybody_lines(result, words)
     names = names_of(result)
     yield from wrong_variant_lines(result, words)
     for each in result.copies:

@@ -112,6 +112,8 @@ STRONG = 1000.0
 """The least odds at which a wrong variant is reported, after correction for all comparisons."""
 TRIED = 3
 """The number of variants compared closely: those nearest to the answers taken singly."""
+CLOSE = 64
+"""The number of variants of which the nearest are chosen, by the digits of the answers too."""
 
 
 Ways = Callable[[Graded], Sequence[CauseWay]]
@@ -196,7 +198,7 @@ def best_other(
         agree = abs(answers - keys.sizes[other]) <= 1.01 * digits
         both = keys.known(mine) & keys.known(other)
         read = ~np.isnan(answers) & both & (~explained | agree)
-        if read.sum() < FEW:
+        if read.sum() < FEW or not keys.tells(mine, other, read):
             continue
         given, rounded = answers[read], digits[read]
         theirs = fit(given, rounded, keys.key(other, read))
@@ -225,13 +227,17 @@ def as_drawn(way: OwnWay, keys: Keys, other: int, read: Any) -> Key:
 def nearest(answers: Any, digits: Any, keys: Keys, mine: int) -> Any:
     """At most ``TRIED`` variants that are nearer to the answers than the student's own.
 
-    Each answer counts by itself.
+    Each answer counts by itself. Rounding is looked at only in the ``CLOSE`` nearest of all.
     """
+    some = np.arange(len(keys.sizes))
+    if len(some) > CLOSE:
+        some = np.append(np.argpartition(keys.away(answers, FAR), CLOSE)[:CLOSE], mine)
     with np.errstate(invalid="ignore", divide="ignore"):
-        apart = (answers - keys.sizes) ** 2 / (keys.deviations**2 + digits**2 / 3)
+        apart = (answers - keys.sizes[some]) ** 2 / (keys.deviations[some] ** 2 + digits**2 / 3)
     far = np.nansum(np.minimum(apart, FAR**2), axis=1)
-    nearer = np.flatnonzero(far < far[mine])
-    return [int(i) for i in nearer[np.argsort(far[nearer], kind="stable")[:TRIED]]]
+    nearer = np.flatnonzero(far < far[some == mine][0])
+    order = nearer[np.lexsort((some[nearer], far[nearer]))[:TRIED]]
+    return [int(some[i]) for i in order]
 
 
 # --- two students with the same digits ------------------------------------------------------------

@@ -21,9 +21,10 @@ from graphkin.accuracy.pencil.pencil import STRAIGHT
 from graphkin.classroom.grading.answer_numbers import rounding
 from graphkin.classroom.grading.causes import Cause, Change, Variants
 from graphkin.classroom.grading.graded import Answer
-from graphkin.classroom.grading.likelihood import ASTRAY, HALF
+from graphkin.classroom.grading.keys import Keys
+from graphkin.classroom.grading.likelihood import ASTRAY, HALF, SURELY
 from graphkin.classroom.grading.readings import FormFields, View
-from graphkin.classroom.grading.standard import Standard, sense_is_open
+from graphkin.classroom.grading.standard import Standard, alike, sense_is_open
 from graphkin.numbers.arithmetic import np
 
 Array = Any
@@ -43,6 +44,8 @@ LIKELY = 5.0
 """The least odds, as a logarithm, at which a cause is named."""
 SENSES = -1.0
 """The same where nothing but senses is wrong, all of which the cause must reverse."""
+FEW = 2
+"""The fewest wrong senses that speak for a cause beside wrong numbers that it does not give."""
 SECOND = 2.0
 """The least odds, as a logarithm, by which two causes must be likelier than one."""
 EXPLAINS = 0.6
@@ -53,6 +56,10 @@ SPAN = (0.5, 4.0)
 """The least and largest factor by which an error scales with its value."""
 SPREAD = (0.5, 30.0)
 """The least and largest factor by which an error grows in another drawing."""
+APART = 6.0
+"""The least distance of an explanation from the key, in deviations of the student's drawing."""
+MIDDLE = 0.6745
+"""The median of normal errors, in deviations."""
 MOST = 1.0
 """The largest error of an answer that an explanation gives, in parts of the value."""
 BEST = 12
@@ -290,30 +297,36 @@ class AnswerSheets(Struct, frozen=True, dict=True):
         told = self.shown(hypothesis, closely=closely)
         if told is None:
             return np.full(len(self.rows), -inf)
-        best = np.full(len(self.rows), -inf)
-        for pencil in pencils:
-            each = self.by_field(told, told.written, PENCILS[pencil])
-            if told.other is not None:
-                also = self.by_field(told, told.other, PENCILS[pencil])
-                with np.errstate(invalid="ignore"):
-                    each = np.logaddexp(each, also) - HALF
-            whole = np.where(self.is_read, each, 0.0).sum(axis=1) + RARE_PENCILS[pencil]
-            best = np.maximum(best, whole)
-        return best + hypothesis.share
+        return self.likely(told, pencils) + hypothesis.share
 
-    def by_field(self, told: Predicted, predicted: Array, pencil: float) -> Array:
-        """The density of each answer where some values are aimed at, as a logarithm."""
+    def likely(self, told: Predicted, pencils: Iterable[int] = range(len(PENCILS))) -> Array:
+        """How likely each student's answers are with the likeliest pencil, as a logarithm."""
+        some = list(pencils)
+        each = self.by_field(told, told.written, np.array(PENCILS)[some])
+        if told.other is not None:
+            also = self.by_field(told, told.other, np.array(PENCILS)[some])
+            with np.errstate(invalid="ignore"):
+                each = np.logaddexp(each, also) - HALF
+        whole = np.where(self.is_read, each, 0.0).sum(axis=2)
+        return (whole + np.array(RARE_PENCILS)[some, None]).max(axis=0)
+
+    def by_field(self, told: Predicted, predicted: Array, pencils: Array) -> Array:
+        """The density of each answer where some values are aimed at, as a logarithm.
+
+        An array by pencil, student and field.
+        """
         form, answers = self.form, self.answers
         with np.errstate(all="ignore"):
             sizes = np.where(form.centres, predicted, abs(predicted))
             drawn, read = self.errors
             times = self.times(told, predicted)
-            spread = (pencil * drawn * times) ** 2 + (read * np.maximum(times, 1.0)) ** 2
-            spread = spread + (self.rounded * answers) ** 2 / 3 + (COMPUTED * sizes) ** 2
+            fixed = (read * np.maximum(times, 1.0)) ** 2
+            fixed = fixed + (self.rounded * answers) ** 2 / 3 + (COMPUTED * sizes) ** 2
+            spread = pencils[:, None, None] ** 2 * (drawn * times) ** 2 + fixed
             found = -0.5 * ((answers - sizes) ** 2 / spread + np.log(2 * pi * spread))
             if self.known is not None:
                 values, own = self.known
-                found[:, values] = self.by_length(sizes, found, values, own)
+                found[..., values] = self.by_length(sizes, found, values, own)
             found = np.logaddexp(log(1 - MISTAKES) + found, self.astray)
             found = np.where(np.isnan(found), self.astray, found)
             sense = np.where(answers == np.sign(predicted), log(1 - MISTAKES), log(MISTAKES))
@@ -328,8 +341,9 @@ class AnswerSheets(Struct, frozen=True, dict=True):
         apart = apart - np.log(sizes[:, values] / sizes[:, own])
         spread = COMPUTED + self.rounded[:, values] + self.rounded[:, own] / 2
         found = -0.5 * (apart / spread) ** 2 - np.log(spread * answers[:, values]) - log(2 * pi) / 2
-        whole = np.logaddexp(log(1 - DIRECT) + found, log(DIRECT) + direct[:, values])
-        return np.where(np.isnan(whole), direct[:, values], whole)
+        direct = direct[..., values]
+        whole = np.logaddexp(log(1 - DIRECT) + found, log(DIRECT) + direct)
+        return np.where(np.isnan(whole), direct, whole)
 
     def times(self, told: Predicted, predicted: Array) -> Array:
         """How many times as large an error is beside that of the key.
@@ -337,7 +351,8 @@ class AnswerSheets(Struct, frozen=True, dict=True):
         The errors of what is read grow as it is misread.
         """
         with np.errstate(all="ignore"):
-            misread = np.nan_to_num(abs(predicted / told.drawn), nan=1.0, posinf=1.0)
+            misread = abs(predicted / told.drawn)
+            misread = np.where(np.isfinite(misread), misread, 1.0)
         return np.where(self.form.centres | self.form.senses, 1.0, misread) * told.grown
 
     @cached_property
@@ -385,8 +400,13 @@ class AnswerSheets(Struct, frozen=True, dict=True):
                 ranked.table[place, own] = np.nan_to_num(again, nan=-inf)
         found = [self.chosen(i, ranked.of(i), honest[i]) for i in range(count)]
         more = [i for i, each in enumerate(found) if self.left(i, each) > (each is None)]
+        hopeful = (ranked.table > honest).any(axis=0)
         lost = {i for i in more if found[i] is None and self.is_lost(i)}
-        pairs = {i: ranked.wide_pairs(i) if i in lost else ranked.pairs(i) for i in more}
+        pairs = {
+            i: ranked.wide_pairs(i) if i in lost else ranked.pairs(i, found[i])
+            for i in more
+            if i in lost or hopeful[i]
+        }
         self.explain_more(pairs, honest, found)
         return found
 
@@ -431,8 +451,17 @@ class AnswerSheets(Struct, frozen=True, dict=True):
         for i, told in again.items():
             told.sort(key=lambda pair: -pair[1])
             each, single = self.chosen(i, told, honest[i]), found[i]
-            if each is not None and (single is None or each.odds > single.odds + SECOND):
+            if each is not None and (single is None or self.is_likelier(i, each, single)):
                 found[i] = replace(each, single=single)
+
+    def is_likelier(self, i: int, two: SheetCauses, one: SheetCauses) -> bool:
+        """Whether two causes explain a sheet clearly better than one.
+
+        Little is needed where only senses are left, and two causes leave none.
+        """
+        left, more = (self.is_read[i] & ~self.fits(i, each) for each in (one, two))
+        only_senses = left.any() and not (left & ~self.form.senses).any() and not more.any()
+        return two.odds > one.odds + (SENSES if only_senses else SECOND)
 
     def left(self, i: int, found: SheetCauses | None) -> int:
         """How many answers of a sheet are not explained; of wrong ones where there is none."""
@@ -470,24 +499,68 @@ class AnswerSheets(Struct, frozen=True, dict=True):
             return None
         numbers = self.missed[i] & ~self.form.senses
         for hypothesis, likely in tried:
-            if likely - honest < (LIKELY if numbers.any() else SENSES):
+            if likely - honest < SENSES:
                 break
             told = self.settled(i, hypothesis, likely - honest)
             found = None if told is None else self.judged_enough(i, told)
-            if found is not None:
+            if found is None:
+                continue
+            turned = not numbers.any() or self.turns_all(i, found)
+            if likely - honest >= (SENSES if turned else LIKELY):
                 return found
         return None
+
+    def turns_all(self, i: int, found: SheetCauses) -> bool:
+        """Whether an explanation gives several wrong senses, all there are, and no wrong number."""
+        agree = np.array([field in found.fits for field in self.variants.fields])
+        wrong, senses = self.missed[i] & self.is_read[i], self.form.senses
+        every = (wrong & senses).sum() >= FEW and not (self.is_read[i] & senses & ~agree).any()
+        told = np.array([found.values[field] for field in self.variants.fields])
+        same = np.isclose(abs(told), abs(self.key[i]), rtol=1e-9)
+        return bool(every and not (wrong & ~senses & ~same).any())
 
     def judged_enough(self, i: int, found: SheetCauses) -> SheetCauses | None:
         """An explanation with the answers that agree; None where these are too few."""
         fits, read = self.fits(i, found), self.is_read[i]
         missed = self.missed[i] & read
         spoilt = (read & ~fits & ~self.beside_wrong(i, found, fits)).sum() > SPOILS * read.sum()
-        enough = EXPLAINS if (missed & ~self.form.senses).any() else 1.0
-        if (missed & fits).sum() < enough * missed.sum() or spoilt:
-            return None
         told = [f for f, fit in zip(self.variants.fields, fits, strict=True) if fit]
-        return replace(found, fits=frozenset(told))
+        agreeing = replace(found, fits=frozenset(told))
+        enough = EXPLAINS if (missed & ~self.form.senses).any() else 1.0
+        few = (missed & fits).sum() < enough * missed.sum()
+        if spoilt or (few and not self.turns_all(i, agreeing)):
+            return None
+        if not self.is_apart(i, found):
+            return None
+        return agreeing
+
+    def is_apart(self, i: int, by: SheetCauses) -> bool:
+        """Whether an explanation differs from the key by more than the student's own pencil may.
+
+        The errors of one drawing go together: a crank set badly moves all answers.
+        """
+        form, fields, read = self.form, self.variants.fields, self.is_read[i]
+        values, right = np.array([by.values[field] for field in fields]), self.key[i]
+        turned = values * right < 0
+        beside = (form.sized >= 0) & turned[form.sized]
+        if (read & turned & form.senses & ~beside & ~self.open_senses[i]).any():
+            return True
+        keys = Keys.of([self.variants.standards[self.rows[i]].expectation])
+        places = np.array([fields.index(field) for field in keys.fields])
+        told = read[places] & keys.known(0) & np.isfinite(values[places])
+        own = places[told]
+        if not len(own):
+            return True
+        key, answers = keys.key(0, told), self.answers[i][own]
+        signed = np.where(form.centres, 1.0, np.sign(right))[own] * values[own]
+        off = abs(answers - np.where(form.centres[own], values[own], abs(values[own])))
+        wide = np.sqrt(np.maximum(np.diag(key.spread), SURELY))
+        pencil = max(1.0, float(np.median(off / wide)) / MIDDLE)
+        noise = key.computed**2 + (self.rounded[i][own] * answers) ** 2 / 3
+        spread = pencil**2 * key.spread / np.outer(wide, wide) + np.diag(noise / wide**2)
+        apart = (signed - key.sizes) / wide
+        spread.flat[:: len(own) + 1] += 1e-6
+        return bool(apart @ np.linalg.solve(spread, apart) > APART**2)
 
     def beside_wrong(self, i: int, by: SheetCauses, fits: Array) -> Array:
         """The answers that only follow from one that an explanation does not give.
@@ -526,7 +599,8 @@ class AnswerSheets(Struct, frozen=True, dict=True):
             return None
         written = told.written
         if told.other is not None:
-            one, two = (part.by_field(told, each, 1.4) for each in (written, told.other))
+            pencil = np.array([1.4])
+            one, two = (part.by_field(told, each, pencil)[0] for each in (written, told.other))
             written = np.where(two > one, told.other, written)
         times = part.times(told, written)
         fields = self.variants.fields
@@ -596,9 +670,18 @@ class Ranked:
                 best.setdefault(self.every[k].causes[0].name, k)
         return [self.every[k].causes[0] for k in sorted(best.values())]
 
-    def pairs(self, i: int) -> list[Hypothesis]:
-        """Pairs of the likeliest causes of a student."""
-        return list(pairs_of(self.names_of(i)))
+    def pairs(self, i: int, single: SheetCauses | None) -> list[Hypothesis]:
+        """Pairs of the likeliest causes of a student, and of the ``single`` one with all others."""
+        found = {pair_key(pair): pair for pair in pairs_of(self.names_of(i))}
+        for cause in single.causes if single is not None else ():
+            for each in self.names_of(i, None):
+                places = sorted((cause, each), key=self.place_of)
+                found |= {pair_key(pair): pair for pair in pairs_of(places)}
+        return list(found.values())
+
+    def place_of(self, cause: Cause) -> int:
+        """The place of a cause in the order in which causes were noted."""
+        return next(k for k, each in enumerate(self.every) if each.causes == (cause,))
 
     def wide_pairs(self, i: int) -> list[Hypothesis]:
         """Pairs of all causes of a student whose sheet no single cause comes near.
@@ -707,11 +790,8 @@ def explained_by(
     count = len(others)
     sheet = sheets_of([standard], [0], [given], [missed])
     every = sheet.some([0] * count)
-    likely = np.full(count, -inf)
     told = Predicted(others, others, None, growing(others, every.key))
-    for pencil, rare in zip(PENCILS, RARE_PENCILS, strict=True):
-        each = every.by_field(told, others, pencil)
-        likely = np.maximum(likely, np.where(every.is_read, each, 0.0).sum(axis=1) + rare)
+    likely = every.likely(told)
     best = int(likely.argmax())
     odds = float(likely[best] - sheet.judged(Hypothesis())[0] + SHARE - log(count))
     times = every.times(told, others)[best]
@@ -719,3 +799,41 @@ def explained_by(
     values, scaled = (dict(zip(fields, e.tolist(), strict=True)) for e in (others[best], times))
     found = sheet.judged_enough(0, SheetCauses((cause,), values, scaled, odds))
     return None if found is None or odds < LIKELY else (best, found)
+
+
+def explained_by_two(
+    standard: Standard,
+    given: Mapping[str, Answer],
+    missed: frozenset[str],
+    cause: Cause,
+    others: Sequence[Standard],
+    one: SheetCauses | None,
+) -> tuple[int, SheetCauses] | None:
+    """The one of some other standards that explains a sheet together with a second cause.
+
+    The result is its place and the explanation, ``cause`` first. None where none explains it
+    better than ``one``, the explanation by such data alone.
+    """
+    honest = float(sheets_of([standard], [0], [given], [missed]).judged(Hypothesis())[0])
+    found: list[tuple[float, int, AnswerSheets, int, Hypothesis]] = []
+    best: tuple[int, SheetCauses] | None = None
+    for group in alike(others):
+        rows = range(len(group))
+        sheet = sheets_of(
+            [others[i] for i in group], rows, [given] * len(group), [missed] * len(group)
+        )
+        for second in sheet.causes:
+            each = Hypothesis((second,))
+            likely = np.nan_to_num(sheet.judged(each, COARSE), nan=-inf)
+            row = int(likely.argmax())
+            found.append((float(likely[row]), group[row], sheet, row, each))
+    for _, place, sheet, row, each in sorted(found, key=lambda told: -told[0])[:CLOSE]:
+        likely = float(sheet.some([row]).judged(each, closely=True)[0])
+        odds = likely + SHARE - log(len(others)) - honest
+        told = sheet.settled(row, each, odds)
+        told = None if told is None or odds < LIKELY else sheet.judged_enough(row, told)
+        if told is None or (best is not None and told.odds <= best[1].odds):
+            continue
+        if one is None or sheet.is_likelier(row, told, one):
+            best = place, replace(told, causes=(cause, *told.causes), single=one)
+    return best

@@ -14,6 +14,7 @@ from graphkin.classroom.grading.graded import (
     THOUSANDS,
     WITHHELD,
     Decision,
+    DrawingRemark,
     EarnedCause,
     EarnedMark,
     Graded,
@@ -64,7 +65,7 @@ UNREAD = {
     WITHHELD: "unread.withheld",
 }
 """The sentence for each reason why a cell cannot be read."""
-UNTOLD = "…"
+WITHHELD = "…"
 """The text in place of an expected value that is kept back."""
 NEGLIGIBLE = 0.01
 """The part of the tolerance below which an answer's error is shown as zero."""
@@ -74,6 +75,17 @@ BARELY = 1.05
 """The most tolerances by which an answer is only just outside."""
 SCORE, MOST = 20, 1e99
 POWERS = {"²": "^2"}
+
+
+Block = tuple[float, list[Mark]]
+"""The height of a part that stays together, in mm, and its marks measured from its top."""
+
+
+class DrawingBack(Struct, frozen=True):
+    """A drawing made on the task page, in green and red: markup for a page, and parts for paper."""
+
+    markup: str
+    blocks: tuple[Block, ...]
 
 
 class FeedbackRow(Struct, frozen=True):
@@ -119,7 +131,7 @@ def row_of(graded: Graded, mark: EarnedMark, words: Words) -> FeedbackRow:
     cells = (
         quantity(mark, words),
         answer_words(mark, words),
-        UNTOLD if open_yet else value_words(mark, words, mark.expected),
+        WITHHELD if open_yet else value_words(mark, words, mark.expected),
         "" if open_yet else allowed_words(mark, words),
         "" if open_yet else off_words(mark, words),
         words(
@@ -129,8 +141,13 @@ def row_of(graded: Graded, mark: EarnedMark, words: Words) -> FeedbackRow:
         ),
     )
     told = why(graded, mark, words)
+    if mark.answer.written:
+        text = escape(safe(mark.answer.text)) or "–"
+        told = f"{words('feedback.read_as', text=text)}; {told}"
     if mark.decision is not None:
         told = f"{told}; {decision_words(mark.decision, words)}"
+    if mark.item.field in graded.remarks:
+        told = f"{told}; {remark_words(graded.remarks[mark.item.field], words)}"
     return FeedbackRow(cells, told, mark.status)
 
 
@@ -149,7 +166,7 @@ def answer_words(mark: EarnedMark, words: Words) -> str:
     """An answer as it was written; a sense in the words of the page."""
     if mark.item.what == "sense" and mark.answer.value:
         return value_words(mark, words, mark.answer.value)
-    return escape(safe(mark.answer.text))
+    return escape(safe(mark.answer.written or mark.answer.text))
 
 
 def safe(text: str) -> str:
@@ -254,12 +271,30 @@ def unread(problem: str, unit: str, words: Words, rest: str = "") -> str:
 
 
 def decision_words(decision: Decision, words: Words) -> str:
-    """The lecturer's decision and its reason, in one sentence."""
+    """The lecturer's decision and its reason, with the appeal that it answers or does not yet."""
+    reason = escape(printable(decision.reason))
     if decision.is_open:
-        key = "feedback.asked"
-    else:
-        key = "feedback.stands" if decision.points is None else "feedback.decided"
-    return words(key, reason=escape(printable(decision.reason)))
+        return words("feedback.asked", reason=reason)
+    keys = ("feedback.decided", "feedback.decided_so")
+    if decision.points is None:
+        keys = ("feedback.kept", "feedback.kept_so")
+    told: str = words(keys[0], reason=reason) if reason else words(keys[1])
+    if decision.answers:
+        told = f"{words('feedback.you_asked', text=escape(printable(decision.answers)))}; {told}"
+    if decision.asked:
+        told = f"{told}; {words('feedback.asked', reason=escape(printable(decision.asked)))}"
+    return told
+
+
+def remark_words(text: str, words: Words) -> str:
+    """The lecturer's remark."""
+    return words("feedback.remark", text=escape(printable(text)))
+
+
+def pin_words(pin: DrawingRemark, words: Words) -> str:
+    """A remark on a drawing, with the sheet and the number of its pin."""
+    text, sheet = escape(printable(pin.text)), words(f"sheet.{pin.kind}")
+    return words("feedback.pinned", sheet=sheet, number=pin.number, text=text)
 
 
 def far(mark: EarnedMark, words: Words) -> str:
@@ -311,11 +346,17 @@ INDENT = 4.0
 
 
 def feedback_html(
-    graded: Graded, title: str, rubric: Rubric, words: Words, scene: Scene | None = None
+    graded: Graded,
+    title: str,
+    rubric: Rubric,
+    words: Words,
+    scene: Scene | None = None,
+    drawing: DrawingBack | None = None,
 ) -> str:
     """The HTML page of one student; without answers, it gives no expected values.
 
-    ``scene`` says what the parameters mean; without it they appear by name.
+    ``scene`` says what the parameters mean; without it they appear by name. ``drawing`` is the
+    student's drawing in green and red.
     """
     page = from_template(
         "classroom/templates/feedback.html",
@@ -329,6 +370,7 @@ def feedback_html(
         rows=rows(graded, words),
         right=words("feedback.right"),
         how=how(rubric, words),
+        drawing=drawing.markup if drawing else "",
     )
     return f"{page}\n"
 
@@ -376,6 +418,8 @@ def notes(graded: Graded, words: Words) -> list[str]:
     """The notes on the whole form: its causes, a decision, held marks, points that wait."""
     told: list[str] = cause_words(graded, words)
     told += [decision_words(graded.decision, words)] if graded.decision is not None else []
+    told += [remark_words(graded.remarks[""], words)] if "" in graded.remarks else []
+    told += [pin_words(each, words) for each in graded.pins]
     if not graded.is_marked:
         return [words("feedback.absent"), *told]
     if graded.held:
@@ -425,13 +469,20 @@ SPACINGS = (Spacing(3.4, 2.6), Spacing(3.3, 1.9), Spacing(3.1, 1.7))
 
 
 def feedback_pages(
-    graded: Graded, title: str, rubric: Rubric, words: Words, scene: Scene | None = None
+    graded: Graded,
+    title: str,
+    rubric: Rubric,
+    words: Words,
+    scene: Scene | None = None,
+    drawing: DrawingBack | None = None,
 ) -> tuple[Page, ...]:
-    """The A4 pages of one student, one page where possible."""
+    """The A4 pages of one student, one page where possible, and then those of the drawing."""
     settings = settings_words(graded, words, scene)
     tried = (list(paged(blocks(graded, rubric, words, settings, by))) for by in SPACINGS)
     bodies = next((found for found in tried if len(found) == 1), None)
     bodies = bodies or list(paged(blocks(graded, rubric, words, settings, SPACINGS[0])))
+    if drawing and is_shown(graded):
+        bodies += paged(iter(drawing.blocks))
     name = name_of(graded)
     return tuple(
         Page(
@@ -459,10 +510,6 @@ def name_of(graded: Graded) -> str:
 def fitting(markup: str) -> str:
     """The markup of a head or foot, shortened where it is too long."""
     return markup if extent(markup, LETTER)[0] <= 105 else shortened(markup, 105, LETTER)
-
-
-Block = tuple[float, list[Mark]]
-"""The height of a part that stays together, in mm, and its marks measured from its top."""
 
 
 def blocks(

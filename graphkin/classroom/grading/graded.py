@@ -35,7 +35,8 @@ class Answer(Struct, frozen=True):
     large, turning, sliding, thousands or withheld.
 
     ``followed`` says that the answer was found on the drawing to follow from the student's own
-    earlier points. ``grouped`` is the number if its point or comma separates thousands.
+    earlier points. ``grouped`` is the number if its point or comma separates thousands. ``written``
+    is what the cell holds, where a person read it as ``text``.
     """
 
     text: str
@@ -44,6 +45,7 @@ class Answer(Struct, frozen=True):
     problem: str = ""
     followed: bool = False
     grouped: float | None = None
+    written: str = ""
 
     @property
     def is_blank(self) -> bool:
@@ -77,6 +79,9 @@ class Decision(Struct, frozen=True):
 
     ``points`` is what it earns, None where the mark stays. ``is_open`` marks a request that is not
     decided yet. ``before`` is what was earned without the decision, None where that mark waited.
+
+    ``at_desk`` says that it was made at the desk. ``answers`` is the appeal that it answers, and
+    ``asked`` an appeal since then, which is not decided yet.
     """
 
     who: str
@@ -85,6 +90,9 @@ class Decision(Struct, frozen=True):
     reason: str
     is_open: bool = False
     before: Fraction | None = None
+    at_desk: bool = False
+    answers: str = ""
+    asked: str = ""
 
 
 class EarnedMark(Struct, frozen=True):
@@ -155,12 +163,22 @@ class EarnedCause(Struct, frozen=True):
     said: Mapping[str, str] = {}
 
 
+class DrawingRemark(Struct, frozen=True):
+    """A remark pinned to a place of a drawing, in mm of paper, with its number on that sheet."""
+
+    kind: str
+    number: int
+    at: tuple[float, float]
+    text: str
+
+
 class Graded(Struct, frozen=True):
     """A student with the mark of each field, in the order of the form.
 
     ``held`` says that the marks are kept back until the lecturer has decided whose answers these
     are. ``decision`` is the lecturer's on the whole form. ``causes`` explain the sheet, and each is
-    paid once.
+    paid once. ``remarks`` are the lecturer's by field, on the whole form by no field; ``pins`` are
+    those on the drawings.
     """
 
     taker: Taker
@@ -169,6 +187,8 @@ class Graded(Struct, frozen=True):
     held: bool = False
     decision: Decision | None = None
     causes: tuple[EarnedCause, ...] = ()
+    remarks: Mapping[str, str] = {}
+    pins: tuple[DrawingRemark, ...] = ()
 
     @property
     def decisions(self) -> tuple[Decision, ...]:

@@ -14,7 +14,7 @@ from msgspec import Struct, field
 
 from graphkin.classroom.grading.answers import Sender, Unread, packed_feedback
 from graphkin.classroom.grading.class_report import class_report
-from graphkin.classroom.grading.feedback import feedback_html, feedback_pages
+from graphkin.classroom.grading.feedback import DrawingBack, feedback_html, feedback_pages
 from graphkin.classroom.grading.graded import Decision, EarnedCause, Graded, Result, Status
 from graphkin.classroom.grading.standard import Expectation
 from graphkin.classroom.lab.lab_model import Lab
@@ -105,10 +105,12 @@ def ruling(decision: Decision) -> str:
     """The lecturer's decision as text: ``decided, was 0: …``, ``stands: …`` or ``asked: …``."""
     if decision.is_open:
         return f"asked: {decision.reason}"
-    if decision.points is None:
-        return f"stands: {decision.reason}"
-    before = "open" if decision.before is None else number(decision.before)
-    return f"decided, was {before}: {decision.reason}"
+    told = "stands"
+    if decision.points is not None:
+        before = "open" if decision.before is None else number(decision.before)
+        told = f"decided, was {before}"
+    told = f"{told}: {decision.reason}" if decision.reason else told
+    return f"{told}; asked: {decision.asked}" if decision.asked else told
 
 
 def reason(graded: Graded, name: str) -> str:
@@ -220,7 +222,8 @@ class ReportSettings(Struct, frozen=True):
     ``words`` is the language of the report, and of students without a language of their own.
     ``titles`` are the lab's titles in other languages. ``scene`` says what the parameters mean.
     ``unread`` are cells that cannot be read, ``refused`` lines about what is not marked.
-    ``refusals`` collects pages that cannot be made.
+    ``refusals`` collects pages that cannot be made. ``drawings`` are those made on the task page,
+    in green and red, by id.
     """
 
     title: str
@@ -230,6 +233,7 @@ class ReportSettings(Struct, frozen=True):
     scene: Scene | None = None
     refused: Sequence[str] = ()
     refusals: Refusals = field(default_factory=Refusals)
+    drawings: Mapping[str, DrawingBack] = field(default_factory=dict)
 
     def words_for(self, graded: Graded) -> Words:
         """The words of a student's own language."""
@@ -268,11 +272,12 @@ def feedback_files(
         spoken = told.words_for(each)
         title = told.title_in(spoken.language)
         with told.refusals.alone(each.taker.student.called):
+            drawing = told.drawings.get(each.taker.student.id)
             if "html" in formats:
-                text = feedback_html(each, title, lab.rubric, spoken, told.scene)
+                text = feedback_html(each, title, lab.rubric, spoken, told.scene, drawing)
                 files[f"{FEEDBACK}/{name}.html"] = text.encode("utf-8")
             if "pdf" in formats:
-                pages = feedback_pages(each, title, lab.rubric, spoken, told.scene)
+                pages = feedback_pages(each, title, lab.rubric, spoken, told.scene, drawing)
                 files[f"{FEEDBACK}/{name}.pdf"] = write_pdf(pages, title=pages[0].title)
     return files
 

@@ -8,6 +8,7 @@ Errors in setting cranks are kept apart from the pencil's.
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
+from functools import cached_property
 from typing import Any
 
 from msgspec import Struct
@@ -24,8 +25,11 @@ from graphkin.numbers.arithmetic import np
 COMPUTED = 0.005
 """The relative error of a value computed from a length as it was read."""
 
+ALIKE = 0.1
+"""The largest difference of a value that no drawing tells, in deviations."""
 
-class Keys(Struct, frozen=True):
+
+class Keys(Struct, frozen=True, dict=True):
     """The keys of all variants, a row for each: sizes, deviations of a drawing, covariances.
 
     ``rulers`` are the deviations of a reading. ``beside`` is the index of each field's segment, or
@@ -88,6 +92,34 @@ class Keys(Struct, frozen=True):
         items = self.standards[variant].item
         lengths = [items[f].what in ("segment", "place") for f in self.fields]
         return self.rulers[variant] * STRAIGHT * np.where(lengths, 1.0, 2.0)
+
+    def tells(self, one: int, other: int, read: Any) -> bool:
+        """Whether a fine drawing tells two variants apart by some fields."""
+        apart = abs(self.sizes[one] - self.sizes[other])[read]
+        return bool((apart > ALIKE * self.deviations[one][read]).any())
+
+    def away(self, answers: Any, most: float) -> Any:
+        """How far each variant is from some answers: the sum of squares, in deviations.
+
+        No answer counts for more than ``most`` deviations.
+        """
+        found = np.zeros(len(self.sizes), dtype=np.float32)
+        for place in np.flatnonzero(~np.isnan(answers)).tolist():
+            sizes, weights = self.by_field[0][place], self.by_field[1][place]
+            apart = np.float32(answers[place]) - sizes
+            apart *= weights
+            apart *= apart
+            found += np.minimum(apart, np.float32(most**2), out=apart)
+        return found
+
+    @cached_property
+    def by_field(self) -> tuple[Any, Any]:
+        """The sizes and the inverse deviations, a row for each field; zero where unknown."""
+        with np.errstate(all="ignore"):
+            weights = np.nan_to_num(1 / self.deviations, posinf=0.0)
+        sizes = np.nan_to_num(self.sizes, posinf=0.0, neginf=0.0)
+        weights = np.where(np.isfinite(self.sizes), weights, 0.0)
+        return tuple(np.ascontiguousarray(each.T, dtype=np.float32) for each in (sizes, weights))
 
     def known(self, variant: int) -> Any:
         """The fields whose error in a drawing of a variant is known."""

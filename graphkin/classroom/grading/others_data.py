@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Collection, Iterable, Mapping, Sequence
 from contextlib import AbstractContextManager
 from fractions import Fraction
+from functools import cached_property
 from typing import Any, Protocol
 
 from msgspec import Struct
@@ -12,10 +13,15 @@ from msgspec.structs import astuple, replace
 
 from graphkin.accuracy.pencil.pencil import Paper
 from graphkin.classroom.grading.causes import Cause, plan_of
-from graphkin.classroom.grading.explanations import LIKELY, SheetCauses, explained_by
-from graphkin.classroom.grading.graded import Graded, Status
+from graphkin.classroom.grading.explanations import (
+    LIKELY,
+    SheetCauses,
+    explained_by,
+    explained_by_two,
+)
+from graphkin.classroom.grading.graded import Answer, Graded, Status
 from graphkin.classroom.grading.marking import Marker, unread_left_out
-from graphkin.classroom.grading.standard import Expectation, Standard, standard
+from graphkin.classroom.grading.standard import Errors, Expectation, Standard, standard
 from graphkin.classroom.lab.cause_names import ANOTHER
 from graphkin.classroom.lab.lab_model import Item, Lab, OwnCause
 from graphkin.classroom.lab.rules import exact_text, outside, settings
@@ -52,18 +58,49 @@ NEAREST = 24
 """The most other variants that are compared closely with one sheet."""
 AS_WELL = 1.0
 """The odds, as a logarithm, by which another cause may be likelier than the lab's own."""
+UNEXPLAINED = 0.2
+"""The share of unexplained answers from which a second cause beside other data is looked for."""
 AT_OWN, AT_THEIRS = "at own scales", "at their scales"
 
 
 class OtherData(Struct, frozen=True):
     """The right values by another student's data, and the scales of that student's sheets.
 
-    ``whose`` are the ids of the students with these data, or a number of the lab.
+    ``whose`` are the ids of the students with these data, or a number of the lab. ``taker`` is one
+    of them.
     """
 
     whose: tuple[str, ...]
     key: Mapping[str, float]
     paper: Paper
+    taker: Taker
+
+
+class Others(Struct, frozen=True, dict=True):
+    """All data that students may have drawn, by the fields of a form."""
+
+    every: Sequence[OtherData]
+    form: Sequence[Item]
+
+    @cached_property
+    def table(self) -> Any:
+        """The right values, a row for each."""
+        return np.array([[each.key[item.field] for item in self.form] for each in self.every])
+
+    def nearest(
+        self, standard: Standard, given: Mapping[str, Answer], most: int
+    ) -> list[OtherData]:
+        """At most so many data other than the own, the nearest by what no scale changes."""
+        own = np.array([standard.key[item.field] for item in self.form])
+        other = np.flatnonzero(~np.isclose(self.table, own, rtol=1e-12, equal_nan=True).all(axis=1))
+        sized = [item.what == "value" and bool(given[item.field].value) for item in self.form]
+        if len(other) > most and any(sized):
+            told = [abs(given[item.field].value or 0.0) for item in self.form]
+            with np.errstate(all="ignore"):
+                apart = abs(np.log(np.array(told)[sized] / abs(self.table[other][:, sized])))
+            far = np.nansum(np.minimum(apart, 0.5), axis=1)
+            other = other[np.argsort(far, kind="stable")]
+        return [self.every[i] for i in other[:most].tolist()]
 
 
 def with_others_data(
@@ -81,10 +118,10 @@ def with_others_data(
     open_yet = [i for i, each in enumerate(graded) if is_open(each, copied)]
     if not open_yet:
         return found
-    others = [*of_class(graded, expected), *of_numbers(book, graded)]
+    others = Others([*of_class(graded, expected), *of_numbers(book, graded)], book.form)
     for i in open_yet:
         with alone(graded[i].taker.student.id):
-            found[i] = by_others_data(book, graded[i], expected[i], others)
+            found[i] = by_others_data(book, graded[i], others)
     return found
 
 
@@ -136,7 +173,7 @@ def taken(book: Markers, taker: Taker, cause: OwnCause) -> OtherData | None:
         changed = {name: exact(each.number(values)) for name, each in cause.settings.items()}
         mechanism = Mechanism(replace(scene, values={**values, **changed}))
         found = standard(mechanism, book.form, book.lab.rubric, taker.compute)
-        return OtherData((), found.key, found.paper)
+        return OtherData((), found.key, found.paper, taker)
     except GraphkinError:
         return None
 
@@ -158,13 +195,13 @@ def is_open(graded: Graded, copied: Collection[str]) -> bool:
 def of_class(graded: Sequence[Graded], expected: Sequence[Expectation]) -> list[OtherData]:
     """The data of the class, each once with those who have them."""
     whose: dict[int, list[str]] = {}
-    known: dict[int, Expectation] = {}
+    known: dict[int, tuple[Expectation, Taker]] = {}
     for each, form in zip(graded, expected, strict=True):
         whose.setdefault(id(form), []).append(each.taker.student.id)
-        known[id(form)] = form
+        known[id(form)] = form, each.taker
     return [
-        OtherData(tuple(whose[i]), form.key, form.paper)
-        for i, form in known.items()
+        OtherData(tuple(whose[i]), form.key, form.paper, taker)
+        for i, (form, taker) in known.items()
         if form.paper is not None
     ]
 
@@ -190,37 +227,92 @@ def of_numbers(book: Markers, graded: Sequence[Graded]) -> list[OtherData]:
     book.prepare(found)
     standards = [book.marker_of(each).standard for each in found]
     return [
-        OtherData((f"number {each.student.number}",), s.key, s.paper)
+        OtherData((f"number {each.student.number}",), s.key, s.paper, each)
         for each, s in zip(found, standards, strict=True)
     ]
 
 
-def by_others_data(
-    book: Markers, graded: Graded, expected: Expectation, others: Sequence[OtherData]
-) -> Graded:
+def by_others_data(book: Markers, graded: Graded, others: Others) -> Graded:
     """The marks of a student by the data that explain the sheet best, if any others do."""
     marker = book.marker_of(graded.taker)
     own = marker.standard
     first = marker.first_look({mark.item.field: mark.answer for mark in graded.marks})
     given, missed = unread_left_out(first), frozenset(first.wrong)
-    other = [each for each in others if each.key != expected.key]
-    rows = [
-        (each, way, values_by(own, each, way))
-        for each in nearest(own, given, other)
-        for way in (AT_OWN, AT_THEIRS)
-    ]
-    if not rows or not missed:
+    near = others.nearest(own, given, NEAREST) if missed else []
+    if not near:
         return graded
-    table = np.array([values for _, _, values in rows])
-    best = explained_by(own, given, missed, Cause(ANOTHER), table)
+    table = np.array([values_by(own, e, way) for e in near for way in (AT_OWN, AT_THEIRS)])
+    one = explained_by(own, given, missed, Cause(ANOTHER), table)
+    best = None if one is None else (near[one[0] // 2], one[1])
+    left = given if best is None else {f: a for f, a in given.items() if f not in best[1].fits}
+    is_open = not graded.causes or unexplained(graded) > UNEXPLAINED
+    if is_open and is_lost(own, missed) and any(answer.is_read for answer in left.values()):
+        single = None if best is None else best[1]
+        near = others.nearest(own, given, NUMBERS)
+        best = with_second_cause(book, own, given, missed, near, single) or best
     if best is None:
         return graded
-    place, why = best
+    data, why = best
     if graded.causes and graded.causes[0].odds > why.odds - LIKELY:
         return graded
     again = marker.graded(graded.taker, first, why, graded.present)
-    whose = rows[place][0].whose
-    return replace(again, causes=tuple(replace(e, whose=whose) for e in again.causes))
+    causes = (
+        replace(each, whose=data.whose) if each.name == ANOTHER else each for each in again.causes
+    )
+    return replace(again, causes=tuple(causes))
+
+
+def unexplained(graded: Graded) -> float:
+    """The share of a student's answers that nothing explains."""
+    read = [mark for mark in graded.marks if mark.answer.is_read]
+    lost = [mark for mark in read if mark.status in (Status.WRONG, Status.FOLLOWS)]
+    return len(lost) / max(1, len(read))
+
+
+def is_lost(standard: Standard, missed: Collection[str]) -> bool:
+    """Whether most numbers of a sheet are wrong, so that two causes may run through all of it."""
+    return sum(field in missed for field in standard.tolerance) > len(standard.tolerance) / 2
+
+
+def with_second_cause(
+    book: Markers,
+    own: Standard,
+    given: Mapping[str, Answer],
+    missed: frozenset[str],
+    others: Sequence[OtherData],
+    one: SheetCauses | None,
+) -> tuple[OtherData, SheetCauses] | None:
+    """The other data that explain a sheet together with a second cause, at scales of either.
+
+    None where they do not explain it better than ``one``, the explanation by other data alone.
+    """
+    book.prepare(each.taker for each in others)
+    theirs = [book.marker_of(each.taker).standard for each in others]
+    every = [*theirs, *(at_scales_of(own, each) for each in theirs)]
+    found = explained_by_two(own, given, missed, Cause(ANOTHER), every, one)
+    return None if found is None else (others[found[0] % len(others)], found[1])
+
+
+def at_scales_of(own: Standard, other: Standard) -> Standard:
+    """Other data drawn at the scales of the student's own sheets."""
+    ratios = scale_ratios(own.paper, other.paper)
+    mm = [each.probe.item.unit == "mm" for each in other.readings]
+    plans = [
+        plan_of(other.layout, i)
+        for i, p in enumerate(other.layout.probes)
+        if p.item.what != "sense"
+    ]
+    factors = np.where(mm, 1.0, ratios[plans] ** -1.0)
+    errors = tuple((np.array(other.pencil.each) * factors).tolist())
+    spread = other.pencil.together * np.outer(factors, factors)
+    exact = replace(other.exact, paper=own.paper)
+    return replace(other, scales=own.scales, exact=exact, errors=Errors(errors, spread))
+
+
+def scale_ratios(own: Paper, other: Paper) -> Any:
+    """How many times as long lengths are at one's own scales, in the mechanism and each plan."""
+    pairs = zip(astuple(other), astuple(own), strict=True)
+    return np.array([theirs / mine if mine else 1.0 for theirs, mine in pairs])
 
 
 def values_by(standard: Standard, other: OtherData, way: str) -> Any:
@@ -228,25 +320,7 @@ def values_by(standard: Standard, other: OtherData, way: str) -> Any:
     values = np.array([other.key[item.field] for item in standard.items])
     if way == AT_THEIRS:
         return values
-    pairs = zip(astuple(other.paper), astuple(standard.paper), strict=True)
-    ratios = [theirs / own if own else 1.0 for theirs, own in pairs]
+    ratios = scale_ratios(standard.paper, other.paper)
     measured = [item.unit == "mm" for item in standard.items]
     plans = [plan_of(standard.layout, i) for i in range(len(measured))]
-    return values * np.where(measured, np.array(ratios)[plans], 1.0)
-
-
-def nearest(
-    standard: Standard, given: Mapping[str, Any], others: Sequence[OtherData]
-) -> list[OtherData]:
-    """At most ``NEAREST`` data, the nearest to the answers by what no scale changes."""
-    fields = [
-        item.field for item in standard.items if item.what == "value" and given[item.field].value
-    ]
-    if len(others) <= NEAREST or not fields:
-        return list(others[:NEAREST])
-    told = np.array([abs(given[field].value) for field in fields])
-    keys = np.array([[abs(each.key[field]) for field in fields] for each in others])
-    with np.errstate(all="ignore"):
-        apart = np.minimum(abs(np.log(told / keys)), 0.5)
-    order = np.argsort(np.nansum(apart, axis=1), kind="stable")[:NEAREST]
-    return [others[i] for i in order]
+    return values * np.where(measured, ratios[plans], 1.0)

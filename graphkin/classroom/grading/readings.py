@@ -565,7 +565,7 @@ def of_table(form: FormFields) -> Iterator[Cause]:
         ways = {"": shared} | {
             plan: [kind for kind in shared if kind[0] == plan] for plan, _, _ in shared
         }
-        ways |= {" ".join(kind[:2]): [kind] for kind in shared if kind[1] != "place"}
+        ways |= {" ".join(kind[:2]): [kind] for kind in shared if kind[1] not in ("place", "sense")}
         seen: list[list[tuple[int, int]]] = []
         for way, kinds in ways.items():
             pairs = [(owners[one][kind], owners[other][kind]) for kind in kinds]

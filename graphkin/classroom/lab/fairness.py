@@ -38,7 +38,7 @@ from graphkin.construction.core.solution import FAIR
 from graphkin.construction.forces.force_drawing import ForceExtents
 from graphkin.construction.registry import LIMITED
 from graphkin.documents.force_fields import cells_of, smallest
-from graphkin.drawing.field import AREA
+from graphkin.drawing.field import SheetPaper, paper_of
 from graphkin.drawing.scale import Extent, Scales
 from graphkin.mechanism import Mechanism
 from graphkin.numbers.arithmetic import batch_kind, larger, np
@@ -123,13 +123,13 @@ def ray_angles(sheet: VariantSheet, form: Sequence[Item]) -> Iterator[tuple[str,
 PARTS = {"velocity": Part.CENTRE, "acceleration": Part.POLE}
 
 
-def mechanism_fields(sheets: Sequence[VariantSheet], scales: Scales) -> Held:
+def mechanism_fields(sheets: Sequence[VariantSheet], scales: Scales, paper: SheetPaper) -> Held:
     """The mechanism's field on the sheets of many variants; scales are arrays."""
     mm = 1000 / scales.kL
     plans = (each.plan_box.width * mm * scales.times(each.kind) for each in sheets)
     box = reduce(Extent.joined, (each.mechanism_box for each in sheets))
     poles = (place for each in sheets for place in poles_of(each))
-    return held_beside(box, poles, mm, reduce(larger, plans))
+    return held_beside(paper, box, poles, mm, reduce(larger, plans))
 
 
 def held(
@@ -146,11 +146,13 @@ def held(
     }
     if not places:
         return
+    stated = sheet.mechanism.scene.sheet
+    paper = paper_of(stated.paper, stated.frame)
     mm = 1000 / scales.kL
-    field = mechanism_fields(sheets, scales)
+    field = mechanism_fields(sheets, scales, paper)
     left, bottom, right, top = field.box.sides
-    height, room = (top - bottom) * mm, AREA[3] - AREA[1]
-    lift = room_below(height) + height / 2 - room / 2
+    height, room = (top - bottom) * mm, paper.fields[3] - paper.fields[1]
+    lift = room_below(paper, height) + height / 2 - room / 2
     for name, value in places.items():
         point = placed(sheet, value)
         x = (point.real - (left + right) / 2) * mm
@@ -185,6 +187,7 @@ WORDS = {
     "triangle": f"has a {LIMITED} outside its limits",
     "pencil": "is drawn less exactly than the limit",
     "apart": "earns more with another's right values than the limit",
+    "room": "is not compared, since there was no room for hundreds in a row",
 }
 
 
@@ -392,8 +395,11 @@ def put_forces(
     with np.errstate(all="ignore"):
         trace = run_batch(program, program.behind(drawn), values, batch_kind(), drawn)
     extents = ForceExtents.of(trace, lambda points: boxes(points, len(which)))
-    wide = np.broadcast_to(AREA[2] - AREA[0] - mechanism_fields(sheets, scales).width, len(which))
-    kF = smallest(cells_of(extents), wide, AREA[3] - AREA[1])
+    stated = mechanism.scene.sheet
+    paper = paper_of(stated.paper, stated.frame)
+    ends = paper.fields[0] + mechanism_fields(sheets, scales, paper).width
+    left, top, right, low = paper.beside((0.0, 0.0, ends, 0.0))
+    kF = smallest(cells_of(extents), np.broadcast_to(right - left, len(which)), low - top)
     found.fits[which] &= np.isfinite(kF)
     lengths = {}
     for item in form:

@@ -127,7 +127,7 @@ class Rubric(Struct, frozen=True):
     ``rounded`` is the share for a value that is right but for its digits.
 
     ``hold`` keeps back the marks of students whose answers seem to be another's, until the lecturer
-    has decided.
+    has decided. ``says_right`` lets the task page say when a drawn point is right.
     """
 
     points: Mapping[str, Fraction] = field(default_factory=dict)
@@ -140,6 +140,7 @@ class Rubric(Struct, frozen=True):
     floor: float = 0.01
     cap: float = 0.25
     hold: bool = False
+    says_right: bool = False
     own: Mapping[str, OwnCause] = field(default_factory=dict)
     digits: tuple[int, int] | None = None
     rounded: float = 0.8

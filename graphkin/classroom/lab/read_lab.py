@@ -405,10 +405,17 @@ def read_rubric(marks: Table, marking: Table, mechanism: Mechanism) -> Rubric:
             message("{given:g} is above cap", given=given["floor"]),
             message("at most cap"),
         )
-    hold = marking.flag("hold")
+    hold, says_right = marking.flag("hold"), marking.flag("says_right")
     marking.finish()
     return Rubric(
-        points=points, causes=causes, grades=grades, own=own, hold=hold, digits=digits, **given
+        points=points,
+        causes=causes,
+        grades=grades,
+        own=own,
+        digits=digits,
+        hold=hold,
+        says_right=says_right,
+        **given,
     )
 
 

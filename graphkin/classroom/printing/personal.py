@@ -14,9 +14,9 @@ from graphkin.classroom.roster.student import Student
 from graphkin.classroom.roster.taker import Taker
 from graphkin.construction.core.drawn_scene import Drawing
 from graphkin.documents.sheet_documents import FOOT
-from graphkin.drawing.field import A3_AREA, A3_TITLE_BLOCK, A4_AREA, A4_SIZE, AREA, BELOW, Rect
-from graphkin.drawing.frame import STUDENT, STUDENTS, fitting, room_in
-from graphkin.drawing.marks import LineMark, Mark, Page, Point, Polyline, Text, box, reach
+from graphkin.drawing.field import A3, A4_AREA, Rect, SheetPaper
+from graphkin.drawing.frame import STUDENT, TitleBlock, cells_of, fitting, room_in
+from graphkin.drawing.marks import LineMark, Mark, Page, Point, Polyline, Text, box, moved, reach
 from graphkin.drawing.richtext import known, measures
 from graphkin.drawing.symbol_markup import escape
 from graphkin.numbers.arithmetic import np
@@ -73,12 +73,12 @@ def dark_runs(row: Sequence[bool]) -> Iterator[tuple[int, int]]:
             yield run[0], len(run)
 
 
-def stamped(page: Page, text: str) -> Page:
+def stamped(page: Page, text: str, paper: SheetPaper = A3) -> Page:
     """The page with the QR code of a text where there is room; the same page if there is none."""
     margin = SIDE / len(modules(text)) * QUIET
     full = [full_box for mark in page.marks for full_box in boxes(mark)]
-    a4 = (page.width, page.height) == A4_SIZE
-    for x, y in corners_of_a4(margin) if a4 else corners_of_a3(margin):
+    whole = (page.width, page.height) == (paper.width, paper.height)
+    for x, y in corners_on(paper, margin) if whole else corners_of_a4(margin):
         needed = (x - margin, y - margin, x + SIDE + margin, y + SIDE + margin)
         if not any(overlap(needed, other) for other in full):
             marks = square(text, x, y)
@@ -86,12 +86,14 @@ def stamped(page: Page, text: str) -> Page:
     return page
 
 
-def corners_of_a3(margin: float) -> Iterator[tuple[float, float]]:
-    """Places below the drawings of an A3 sheet, from the title block to the left and up."""
-    x, low = A3_TITLE_BLOCK[0] - SIDE - margin - 1, A3_TITLE_BLOCK[3] - SIDE - margin - 1
-    while x > BELOW[0] + margin:
+def corners_on(paper: SheetPaper, margin: float) -> Iterator[tuple[float, float]]:
+    """Places below the drawings of a sheet, from the title block to the left and up."""
+    left, top, right, bottom = paper.below
+    low = (bottom if paper.is_leaf else paper.area[3]) - SIDE - margin - 1
+    x = (right if paper.is_leaf else paper.title_block[0]) - SIDE - margin - 1
+    while x > left + margin:
         y = low
-        while y > BELOW[1] + margin:
+        while y > top + margin:
             yield x, y
             y -= STEP
         x -= STEP
@@ -127,8 +129,6 @@ def overlap(one: Rect, other: Rect) -> bool:
 
 UNKNOWN = "?"
 """The substitute for a sign that the sheet's font does not have."""
-OVERLAY_FOOT = (A3_AREA[0] + 12, A3_AREA[3] - FOOT + 4.6)
-"""The place of the owner's name on an overlay, in mm: below its caption."""
 
 
 class Owner(Struct, frozen=True):
@@ -142,9 +142,9 @@ class Owner(Struct, frozen=True):
         return f"{self.name}   {self.code}"
 
 
-def owner(taker: Taker) -> Owner:
+def owner(taker: Taker, paper: SheetPaper = A3) -> Owner:
     """The owner of a student's sheets."""
-    return Owner(shortened(printable_name(taker.student)), taker.code)
+    return Owner(shortened(printable_name(taker.student), paper), taker.code)
 
 
 def printable_name(student: Student) -> str:
@@ -178,19 +178,20 @@ def lost(text: str) -> tuple[str, ...]:
     return tuple(sign for sign in signs if sign != UNKNOWN and writable(sign) == UNKNOWN)
 
 
-def shortened(text: str) -> str:
+def shortened(text: str, paper: SheetPaper) -> str:
     """A text that fits the title block; the end is cut off if it does not fit."""
     kept = text
-    while kept and not fits(kept):
+    while kept and not fits(kept, paper):
         kept = kept.removesuffix("…")[:-1].rstrip()
         kept += "…" if kept else ""
     return kept
 
 
-def fits(text: str) -> bool:
+def fits(text: str, paper: SheetPaper) -> bool:
     """Whether a name fits the title block in the smallest lettering."""
     try:
-        _, rect, most = next(cell for cell in STUDENTS if cell[0] == STUDENT)
+        block = TitleBlock(labels={STUDENT: ""}, creator="-", frame=paper.frame)
+        _, rect, most = next(cell for cell in cells_of(block) if cell[0] == STUDENT)
         fitting(STUDENT, text, *room_in(rect), most)
     except PageError:
         return False
@@ -220,18 +221,20 @@ def with_sheet(drawing: Drawing, **said: str) -> Drawing:
     return replace(drawing, scene=replace(scene, sheet=replace(scene.sheet, **said)))
 
 
-def signed(pages: Sequence[Page], view: str, whose: Owner) -> Iterator[Page]:
+def signed(pages: Sequence[Page], view: str, whose: Owner, paper: SheetPaper) -> Iterator[Page]:
     """The pages with their owner: a QR code on a task, the name on an overlay.
 
     Overlays have no title block.
     """
     for page in pages:
         if view == "overlay":
-            x, y = OVERLAY_FOOT
-            foot = Text(x, y, escape(whose.line), "caption", 2.5, name="owner")
+            left, _, _, low = paper.area
+            foot = Text(
+                left + 12, low - FOOT + 4.6, escape(whose.line), "caption", 2.5, name="owner"
+            )
             yield replace(page, marks=(*page.marks, foot))
         elif view == "task":
-            yield stamped(page, whose.code)
+            yield stamped(page, whose.code, paper)
         else:
             yield page
 
@@ -243,20 +246,28 @@ REGISTER = "register"
 """The class of the lines of the crosses."""
 ARM, PITCH, CLEAR = 1.0, 20.0, 1.5
 """Half the size of a cross, their distance, and their clearance from printed marks, in mm."""
-MIDDLE = (210.0, 148.5)
-"""The middle of the sheet in mm, from which the crosses and the border are divided."""
 
 
-def crossed(page: Page) -> Page:
+def crossed(page: Page, paper: SheetPaper = A3) -> Page:
     """The page with crosses in its fields, below everything else, where nothing is printed."""
     left, top, right, bottom = np.array([each for mark in page.marks for each in boxes(mark)]).T
     marks = []
-    for x, y in places():
+    for x, y in places(paper):
         across = (x - ARM - CLEAR < right) & (left < x + ARM + CLEAR)
         if not (across & (y - ARM - CLEAR < bottom) & (top < y + ARM + CLEAR)).any():
             marks.append(LineMark(x - ARM, y, x + ARM, y, REGISTER))
             marks.append(LineMark(x, y - ARM, x, y + ARM, REGISTER))
     return replace(page, marks=(*marks, *page.marks))
+
+
+def joined(pages: Sequence[Page]) -> Page:
+    """Pages side by side as one, with the square of the first page alone."""
+    first, *others = pages
+    marks = [*first.marks]
+    for number, page in enumerate(others, 1):
+        aside = number * first.width
+        marks += (moved(mark, aside, 0) for mark in page.marks if mark.cls != "qr")
+    return replace(first, width=len(pages) * first.width, marks=tuple(marks)) if others else first
 
 
 def without_crosses(page: Page) -> Page:
@@ -270,11 +281,12 @@ def crosses_of(page: Page) -> list[Point]:
     return [((m.x1 + m.x2) / 2, m.y1) for m in level if m.y1 == m.y2]
 
 
-def places() -> Iterator[Point]:
+def places(paper: SheetPaper = A3) -> Iterator[Point]:
     """The possible places of crosses: on a square grid about the middle, inside the fields."""
-    left, top, right, bottom = AREA
-    low, high = (int((m - edge) / PITCH) for m, edge in zip(MIDDLE, (left, top), strict=True))
+    left, top, right, bottom = paper.fields
+    middle = paper.width / 2, paper.height / 2
+    low, high = (int((m - edge) / PITCH) for m, edge in zip(middle, (left, top), strict=True))
     for i, j in product(range(-low, low + 1), range(-high, high + 1)):
-        x, y = MIDDLE[0] + i * PITCH, MIDDLE[1] + j * PITCH
+        x, y = middle[0] + i * PITCH, middle[1] + j * PITCH
         if left + ARM < x < right - ARM and top + ARM < y < bottom - ARM:
             yield x, y

@@ -16,6 +16,7 @@ from graphkin.classroom.printing.answer_form import form, quantity_of, why
 from graphkin.classroom.printing.personal import (
     Owner,
     crossed,
+    joined,
     owned,
     owned_pages,
     owner,
@@ -37,6 +38,7 @@ from graphkin.documents.sheet_documents import (
     with_forces,
 )
 from graphkin.documents.view_names import MOTION_VIEWS
+from graphkin.drawing.field import paper_of
 from graphkin.drawing.marks import Page
 from graphkin.drawing.style import Ink
 from graphkin.drawing.symbol_markup import escape
@@ -110,7 +112,9 @@ class Sheets:
             order.scene, order.lab.name, settings=dict(taker.settings), house=order.lab.house
         )
         self.mechanism = Mechanism(scene).measured
-        self.whose: Owner = owner(taker)
+        stated = self.mechanism.scene.sheet
+        self.paper = paper_of(stated.paper, stated.frame)
+        self.whose: Owner = owner(taker, self.paper)
         self.words: Words = language_of(self.mechanism, taker.spoken or order.language)
         verdict = proved(self.mechanism, sheet_motion(self.mechanism))
         drawings = drawings_of(self.mechanism, verdict, self.words)
@@ -118,7 +122,7 @@ class Sheets:
         self.made: dict[str, list[SheetDocument]] = {}
 
     def of(self, view: str) -> list[SheetDocument]:
-        """The sheets of a view: A3 drawings, then A4 pages if the view has some."""
+        """The sheets of a view: drawings, then A4 pages if the view has some."""
         if view not in self.made:
             self.made[view] = list(self.draw(view))
         return self.made[view]
@@ -136,21 +140,30 @@ class Sheets:
         yield from self.drawn(view)
         if view in ("task", "key"):
             pages = calculation(owned_pages(self.drawings, self.whose), view, self.computed)
-            pages = tuple(signed(pages, view, self.whose))
+            pages = tuple(signed(pages, view, self.whose, self.paper.leaf))
             kind = FORM if view == "task" else "calculation"
             yield SheetDocument(kind, (*pages, *self.answers()) if view == "task" else pages)
 
     def drawn(self, view: str) -> Iterator[SheetDocument]:
-        """Draw only the A3 drawings of a view."""
+        """Draw only the drawings of a view."""
         own = [replace(owned(each, self.whose), computed=self.computed) for each in self.drawings]
         for sheet in drawn_sheets(own, view):
-            first, *more = signed(sheet.pages, view, self.whose)
-            yield SheetDocument(sheet.kind, (crossed(first) if view == "task" else first, *more))
+            pages = [*signed(sheet.pages, view, self.whose, self.paper.leaf)]
+            if view == "task":
+                count = self.paper.leaves
+                pages[:count] = (crossed(page, self.paper.leaf) for page in pages[:count])
+            yield SheetDocument(sheet.kind, tuple(pages))
+
+    @cached_property
+    def leaves(self) -> list[tuple[Page, ...]]:
+        """The pages of each sheet to draw on: one, or two leaves."""
+        return [sheet.pages[: self.paper.leaves] for sheet in self.drawn("task")]
 
     @cached_property
     def task_pages(self) -> dict[str, Page]:
-        """The pages to draw on, by kind."""
-        return {sheet.kind: sheet.pages[0] for sheet in self.drawn("task")}
+        """The pages to draw on, by kind; both leaves of a sheet as one page."""
+        kinds = (drawing.kind for drawing in self.drawings)
+        return {kind: joined(pages) for kind, pages in zip(kinds, self.leaves, strict=True)}
 
     def page(self, view: str, stem: str, ink: Ink) -> str:
         """The page for a browser: the task with the form to fill in, or the key step by step."""
@@ -166,7 +179,8 @@ class Sheets:
         whose = form_page.Identity(stem, f"{lab.name} {taker.code}", student.id, name)
         fields, points = self.asked()
         pivot = form_page.first_pivot(self.mechanism)
-        answers = form_page.form_fragment(fields, points, taker.compute, self.words, whose, pivot)
+        told = (fields, points, taker.compute, self.words, whose, pivot)
+        answers = form_page.form_fragment(*told, says_right=lab.rubric.says_right)
         return task_page(self.mechanism, language, ink, answers)
 
     def answers(self) -> tuple[Page, ...]:

@@ -132,17 +132,24 @@ def caused(marker: Marker, item: Item, ways: Sequence[CauseWay], words: Words) -
 # --- one question for each variant ----------------------------------------------------------------
 
 
+MOODLE_FILES, FILES = "@@PLUGINFILE@@", "@@FILES@@"
+"""What stands for the folder of a question's files: in Moodle, and until a package is written."""
 PRINTED = "task.pdf"
 """The name of the PDF with a variant's sheets within its question."""
 
 
 class Question(Struct, frozen=True):
-    """The question of a variant: its name, its text with the gaps, and the files shown."""
+    """The question of a variant: its name, its text with the gaps, and the files shown.
+
+    ``task`` is the text without the gaps, as XML; ``FILES`` stands for the folder of the files.
+    """
 
     name: str
     text: str
     remark: str
     files: tuple[tuple[str, bytes], ...]
+    task: str = ""
+    gaps: tuple[Gap, ...] = ()
 
 
 def variants_of(lab: Lab, count: int) -> tuple[list[Assigned], list[Assigned]]:
@@ -191,17 +198,20 @@ def question(order: PrintOrder, book: Book, each: Assigned, code: str) -> Questi
         (gap.item.symbol, said(gap.item.what, words), Markup(cloze(gap, weight)), gap.item.unit)
         for gap, weight in zip(found, heavy, strict=True)
     ]
-    text = from_template(
-        "classroom/templates/quiz.html",
-        title=harmless(scene.titles.get(words.language, scene.title)),
-        variant=harmless(told),
-        printed=PRINTED,
-        pictures=[name for name, _ in files if name != PRINTED],
-        advice=advice(items, words, first_pivot(sheets.mechanism)),
-        gaps=rows,
-        words=words,
-    )
-    return Question(told, str(text), plain(how(order.lab.rubric, words)), files)
+    shown = {
+        "title": harmless(scene.titles.get(words.language, scene.title)),
+        "variant": harmless(told),
+        "printed": PRINTED,
+        "pictures": [name for name, _ in files if name != PRINTED],
+        "advice": advice(items, words, first_pivot(sheets.mechanism)),
+        "words": words,
+    }
+    template = "classroom/templates/quiz.html"
+    fitted = Markup(' style="max-width:100%"')
+    text = from_template(template, base=MOODLE_FILES, fitted=fitted, gaps=rows, **shown)
+    task = from_template(template, base=FILES, fitted=Markup(" /"), gaps=(), **shown)
+    remark = plain(how(order.lab.rubric, words))
+    return Question(told, str(text), remark, files, str(task), found)
 
 
 def said(what: str, words: Words) -> str:

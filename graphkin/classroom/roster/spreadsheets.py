@@ -77,8 +77,8 @@ LARGEST = 16 * 1024 * 1024
 SEPARATORS = {",": message("commas"), ";": message("semicolons"), "\t": message("tabs")}
 VALUES = re.compile(r'"[^"]*"|\d+')
 """The parts of a message that differ from row to row although the cause is the same."""
-FEW, TOLD = 3, 4
-"""Fewer than ``FEW`` further rows of one cause are each reported; else ``TOLD`` rows are named."""
+FEW, NAMED_ROWS = 3, 4
+"""Fewer than ``FEW`` further rows of one cause are each reported; else ``NAMED_ROWS`` are named."""
 TITLES = 20
 """The number of rows that are not empty within which the reader looks for the head of a table."""
 ZIP, OLD_EXCEL = b"PK\x03\x04", b"\xd0\xcf\x11\xe0"
@@ -173,7 +173,7 @@ def together(alike: Iterable[Problem]) -> list[Problem]:
     rows = list(dict.fromkeys(row_of(problem) for problem in every))[1:]
     if len(rows) < FEW:
         return every
-    named, more = joined(", ", map(str, rows[:TOLD])), len(rows) - TOLD
+    named, more = joined(", ", map(str, rows[:NAMED_ROWS])), len(rows) - NAMED_ROWS
     if more > 0:
         named = message("{names} and {count} more", names=named, count=more)
     again = message("the same in rows {rows}", rows=named)

@@ -93,19 +93,24 @@ def spaced(lab: Lab, every: list[Assigned]) -> list[Assigned]:
     A pencil must draw everything as exactly as the limit demands. No student's correct values may
     earn too much on the sheet of an earlier student. Data from ranges that exceed these limits are
     drawn again until many draws find room for nobody. Data that still exceed a limit get that
-    fault.
+    fault, and the students after them are not compared.
     """
     kept: list[tuple[Assigned, Standard]] = []
     known: dict[object, Standard] = {}
     vain = 0
     found, waiting = [*every], [i for i, each in enumerate(every) if each.fair]
     while waiting:
-        tried = [found[i] for i in waiting]
-        names = [(*each.settings.items(), each.computed) for each in tried]
-        new = {name: each for name, each in zip(names, tried, strict=True) if name not in known}
-        known |= zip(new, held_against(lab, list(new.values())), strict=True)
-        held = [known[name] for name in names]
-        room = with_room(lab, kept, list(zip(tried, held, strict=True)))
+        room = list[Fault | None]()
+        for start in range(0, len(waiting), BLOCK):
+            block = [found[i] for i in waiting[start : start + BLOCK]]
+            names = [(*each.settings.items(), each.computed) for each in block]
+            new = {name: each for name, each in zip(names, block, strict=True) if name not in known}
+            known |= zip(new, held_against(lab, list(new.values())), strict=True)
+            held = [known[name] for name in names]
+            room += with_room(lab, kept, list(zip(block, held, strict=True)))
+            if lab.rule.draws and lab.fair.apart is not None and longest(room):
+                room += [Fault("room")] * (len(waiting) - len(room))
+                break
         near = {i: fault for i, fault in zip(waiting, room, strict=True) if fault is not None}
         again = [i for i in near if found[i].attempt + 1 < lab.rule.attempts]
         vain = vain + len(waiting) if len(near) == len(waiting) else longest(room)
@@ -138,20 +143,18 @@ def with_room(
     limit, found = lab.fair.apart, list[Fault | None]()
     data, places = without_doubles([standard for _, standard in (*kept, *tried)])
     values, taken = RightValues.of(data), places[: len(kept)]
-    for start in range(0, len(tried), BLOCK):
-        block = tried[start : start + BLOCK]
-        own = places[len(places) - len(tried) + start :][: len(block)]
-        near = Nearness(values, own, [*taken, *own]) if limit is not None else None
-        for place, each in zip(own, block, strict=True):
-            nearest, share = near.nearest(place, taken) if near is not None else (-1, 0.0)
-            if (coarse := pencil_fault(lab, each[1])) is not None:
-                found.append(coarse)
-            elif limit is not None and share > limit:
-                found.append(Fault("apart", kept[nearest][0].student.id, share, limit))
-            else:
-                taken.append(place)
-                kept.append(each)
-                found.append(None)
+    own = places[len(kept) :]
+    near = Nearness(values, own, [*taken, *own]) if limit is not None else None
+    for place, each in zip(own, tried, strict=True):
+        nearest, share = near.nearest(place, taken) if near is not None else (-1, 0.0)
+        if (coarse := pencil_fault(lab, each[1])) is not None:
+            found.append(coarse)
+        elif limit is not None and share > limit:
+            found.append(Fault("apart", kept[nearest][0].student.id, share, limit))
+        else:
+            taken.append(place)
+            kept.append(each)
+            found.append(None)
     return found
 
 
@@ -230,9 +233,12 @@ def fairest(lab: Lab, students: Sequence[Student], since: Sequence[int] = ()) ->
     waiting = list(range(len(students)))
     while waiting:
         many = [settings(lab, students[i], attempts[i]) for i in waiting]
-        fairness = judged(lab, many)
-        for place, i in enumerate(waiting):
-            drawn = one(students[i], many[place], attempts[i], fairness, place)
+        names = [tuple(each.items()) for each in many]
+        different = dict(zip(names, many, strict=True))
+        place = {name: index for index, name in enumerate(different)}
+        fairness = judged(lab, list(different.values()))
+        for given, name, i in zip(many, names, waiting, strict=True):
+            drawn = one(students[i], given, attempts[i], fairness, place[name])
             found[i] = min(found.get(i, drawn), drawn, key=unfairness)
             attempts[i] += 1
         waiting = [i for i in waiting if not found[i].fair and attempts[i] < lab.rule.attempts]

@@ -116,7 +116,7 @@ def table_rows(students: Sequence[Assigned], salt: str) -> Iterator[list[object]
 
 MOST = 40
 """The most rows of one list."""
-COMPARED = 1_000
+COMPARED = 400
 """The most students whose data are compared; of a larger class an even sample is taken."""
 WHO = ("row", "number", "id", "name")
 """The heads of the columns that identify a student in a list."""

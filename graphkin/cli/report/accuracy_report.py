@@ -142,8 +142,8 @@ def flat_lines(study: Study) -> Iterator[str]:
     for kind in found.errors:
         slopes = found.slopes(kind)
         if any(slope is not None for slope in slopes):
-            told = ", ".join("–" if slope is None else f"{slope:.2f}" for slope in slopes)
-            yield f"            {kind}: measured slopes {told}"
+            listed = ", ".join("–" if slope is None else f"{slope:.2f}" for slope in slopes)
+            yield f"            {kind}: measured slopes {listed}"
 
 
 def goal_words(found: Flattening, length: str) -> str:

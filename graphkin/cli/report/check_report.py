@@ -37,7 +37,7 @@ from graphkin.text.errors import ClosureError, GraphkinError, Problem, Structure
 from graphkin.text.tables import labelled, listed, table
 
 Places = Mapping[str, complex]
-TOLD = 10
+AT_MOST = 10
 """The most idle links and pairs that are listed; each takes a count of its own."""
 NUDGE = Fraction(1, 50)
 """The step of the drivers away from a singular position, in radians or longest bars."""
@@ -75,11 +75,11 @@ class Rank:
         """The constraints that remove a freedom already removed by others."""
         many = "one constraint is" if surplus == 1 else f"{surplus} constraints are"
         yield f"{surplus} more than the count: {many} idle, taking what others take already"
-        found = list(islice(self.idle(), TOLD + 1))
+        found = list(islice(self.idle(), AT_MOST + 1))
         if not found:
             return
-        first, *others = found[:TOLD]
-        if len(found) > TOLD:
+        first, *others = found[:AT_MOST]
+        if len(found) > AT_MOST:
             others.append("others")
         also = f" (or {listed(others)})" if others else ""
         right = ", and the count is right" if surplus == 1 else ""

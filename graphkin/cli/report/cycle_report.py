@@ -544,7 +544,7 @@ def extremes_rows(
     return rows
 
 
-PLAIN_UNITS = str.maketrans({"²": "^2", "°": "deg"})
+PLAIN_UNITS = str.maketrans({"²": "^2", "³": "^3", "°": "deg"})
 """How units are written in a table."""
 ENDS = {None: "inside", "dead": "dead point", "window": "edge"}
 """Where an extreme is in its range, in the table."""

@@ -13,10 +13,10 @@ from graphkin.text.tables import labelled
 
 def house_lines(house: House) -> Iterator[str]:
     """The conventions that differ from the usual ones, by their keys."""
-    told = list(stated(house))
-    for name, value in told:
+    settings = list(stated(house))
+    for name, value in settings:
         yield from labelled(name, [value], 9)
-    if not told:
+    if not settings:
         yield "all conventions are the usual ones"
 
 

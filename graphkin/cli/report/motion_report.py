@@ -11,6 +11,7 @@ from graphkin.construction.core.quantities import (
     CENTRES,
     OF_POINTS,
     OF_SLIDES,
+    PLURALS,
     RATES,
     MotionQuantity,
     motion_value,
@@ -207,9 +208,9 @@ def sure_lines(verdict: Verdict | None) -> list[str]:
     """The number of sure digits, and the quantities without a sure digit."""
     if verdict is None or not verdict.digits:
         return []
-    told = [] if verdict.differs else [f"sure: {digits_words(verdict)}"]
-    told += [unsure_words(verdict)] if verdict.unsure else []
-    return [f"{head:9}{words}" for head, words in zip(("digits", ""), told, strict=False)]
+    lines = [] if verdict.differs else [f"sure: {digits_words(verdict)}"]
+    lines += [unsure_words(verdict)] if verdict.unsure else []
+    return [f"{head:9}{words}" for head, words in zip(("digits", ""), lines, strict=False)]
 
 
 def is_flat(trace: Trace) -> bool:
@@ -232,13 +233,10 @@ def flat_words(scene: Scene, trace: Trace) -> str:
     )
 
 
-KINDS = {"position": "positions", "velocity": "velocities", "acceleration": "accelerations"}
-
-
 def digits_words(verdict: Verdict) -> str:
     """The numbers of sure digits of positions, velocities and accelerations."""
-    known = [(kind, verdict.digits[kind]) for kind in KINDS if kind in verdict.digits]
-    return ", ".join(f"{KINDS[kind]} {digits}" for kind, digits in known)
+    known = [(kind, verdict.digits[kind]) for kind in PLURALS if kind in verdict.digits]
+    return ", ".join(f"{PLURALS[kind]} {digits}" for kind, digits in known)
 
 
 def unsure_words(verdict: Verdict) -> str:

@@ -383,8 +383,8 @@ class CurvatureCentre(Determined, frozen=True, kw_only=True):
             units[1:] = (f"{mm}⁻¹", f"{mm}⁻²") if cam.lever else ("", f"{mm}⁻¹")
             numbers[1:] = numbers[1] / one, numbers[2] / one**2
         for prime, number, unit in zip(("", "′", "″"), numbers, units, strict=True):
-            told = words.significant(number, 5) if cam.slides else words.fixed(number, 3)
-            yield f"*{letter}*{prime}_{{{k}}}", told, unit
+            shown = words.significant(number, 5) if cam.slides else words.fixed(number, 3)
+            yield f"*{letter}*{prime}_{{{k}}}", shown, unit
 
 
 def law_steps(pen: Pen, cam: Cam) -> tuple[tuple[int, ...], tuple[float, ...]]:

@@ -71,9 +71,9 @@ def of_law(drawing: Drawing, centre: CurvatureCentre) -> Iterator[Relation]:
     words, slides = drawing.words, drawing.scene.cams[centre.follower].slides
     remark = words(f"calculation.law_{'plate' if slides else 'cam'}", g=escape(centre.link))
     piece = None if slides else piece_at(drawing, centre)
-    told = list(of_piece(drawing, piece)) if piece else []
-    yield from told[:-3]
-    formulas = told[-3:] or [Relation("")] * 3
+    found = list(of_piece(drawing, piece)) if piece else []
+    yield from found[:-3]
+    formulas = found[-3:] or [Relation("")] * 3
     for (name, number, unit), formula in zip(centre.law_values(drawing), formulas, strict=True):
         said = "" if formula.symbols else remark
         yield replace(formula, left=name, result=number, unit=unit, remark=said)
@@ -216,7 +216,7 @@ def how_found(drawing: Drawing, centre: CurvatureCentre) -> str:
 def of_distance(drawing: Drawing, centre: CurvatureCentre) -> Relation:
     """The distance from the pivot to the centre, as measured."""
     size = drawing.on_paper(length_of(drawing, centre.start, centre.name))
-    told = as_read(drawing, size, drawing.scales.kL / 1000)
+    reading = as_read(drawing, size, drawing.scales.kL / 1000)
     remark = drawing.words("calculation.measured")
     ends = centre.start, centre.name
-    return Relation(bar(*ends), "", *told, "m", remark, over=(ends,))
+    return Relation(bar(*ends), "", *reading, "m", remark, over=(ends,))

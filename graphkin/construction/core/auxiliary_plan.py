@@ -34,7 +34,7 @@ class AuxiliaryPlan(PlanAside):
         """Whether these are the points with which this plan begins."""
         return False
 
-    def told_in_parts(
+    def parts_of_sentence(
         self, drawing: Drawing, named: Sequence[int]
     ) -> Iterator[tuple[int, int, str]]:
         """The points of this plan by line: step of the point, last step of the part, sentence."""

@@ -102,9 +102,9 @@ def has_two_ways(dyad: Dyad) -> bool:
 
 
 def unused_branches(
-    scene: Scene, groups: tuple[Group, ...], told: Collection[str] = ()
+    scene: Scene, groups: tuple[Group, ...], known: Collection[str] = ()
 ) -> list[Problem]:
-    """A problem for each branch that no group can use, except those in ``told``."""
+    """A problem for each branch that no group can use, except those in ``known``."""
     allowed = choosing(groups)
     return [
         Problem(
@@ -117,7 +117,7 @@ def unused_branches(
             (TakenOut(),),
         )
         for name, branch in scene.branches.items()
-        if name not in allowed and name not in told
+        if name not in allowed and name not in known
         if not (isinstance(branch, Way) and name in pins_choosing(groups))
     ]
 

@@ -28,6 +28,7 @@ from graphkin.numbers.cam_motions import (
     swung_tip,
     upward,
 )
+from graphkin.numbers.dual_numbers import Dual, rate_of
 from graphkin.numbers.plane import Line
 from graphkin.scene.model import Cam, Scene
 from graphkin.scene.quantity import Quantity
@@ -87,6 +88,13 @@ class CamProfile(Struct, frozen=True, dict=True):
         if self.cam.slides:
             return self.cam.displacement(self.angles, self.scene.values)
         return self.cam.displacement(np.exp(1j * self.angles), self.scene.values)
+
+    @cached_property
+    def third(self) -> Any:
+        """The third derivative of the displacement by the cam's angle."""
+        place = self.angles if self.cam.slides else np.exp(1j * self.angles)
+        moved = Dual(place, np.ones_like(place) if self.cam.slides else 1j * place)
+        return rate_of(self.cam.displacement(moved, self.scene.values).bend)
 
     @cached_property
     def guide(self) -> tuple[complex, float]:

@@ -140,7 +140,7 @@ class Component(Construction, frozen=True, kw_only=True):
     def sentence(self, drawing: Drawing, *, first: bool) -> Wording:
         """The instruction to draw the component; in full if it is the ``first`` of its kind."""
 
-    def told_in_parts(self, drawing: Drawing) -> Iterator[tuple[int, str]]:
+    def parts_of_sentence(self, drawing: Drawing) -> Iterator[tuple[int, str]]:
         """The instruction for the component alone, in parts, each with the step that ends it."""
         assert self.vector is not None
         if self.is_left_out(drawing):

@@ -24,6 +24,7 @@ from graphkin.construction.core.quantities import (
 from graphkin.construction.core.run import Trace
 from graphkin.construction.core.solution import Curve, Verdict
 from graphkin.construction.core.vocabulary import join
+from graphkin.drawing.field import Field, SheetPaper, paper_of
 from graphkin.drawing.scale import Extent, Scales, extent_of
 from graphkin.drawing.symbol_markup import symbol
 from graphkin.numbers.plane import Circle, Line, Ratio, Vector, cross
@@ -70,6 +71,11 @@ class Drawing(Struct, frozen=True, dict=True):
     driven: Mapping[str, Any] = field(default_factory=dict)
     chosen: Drawing | None = None
     fields: Any = None
+
+    @property
+    def paper(self) -> SheetPaper:
+        """The paper of this sheet."""
+        return paper_of(self.scene.sheet.paper, self.scene.sheet.frame)
 
     @property
     def choosing(self) -> Drawing:

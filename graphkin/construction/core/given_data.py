@@ -78,10 +78,12 @@ def variant(scene: Scene, words: Words) -> list[str]:
     put = put_in(scene)
     letters = {lone(scene, each.speed): speed_symbol(each) for each in scene.drivers}
     letters |= {lone(scene, each.position): angle_symbol(scene, each) for each in scene.drivers}
-    told = ((name, *as_set(scene, words, name)) for name in scene.values if name in ranged | put)
+    text_of_value = (
+        (name, *as_set(scene, words, name)) for name in scene.values if name in ranged | put
+    )
     return [
         f"{letter if name in put else letters.get(name, letter)} = {value}"
-        for name, letter, value in told
+        for name, letter, value in text_of_value
     ]
 
 
@@ -126,8 +128,8 @@ def after_parameter(scene: Scene, words: Words, quantity: Quantity, letter: str 
     ``letter`` is the symbol already printed in front.
     """
     name, text = lone(scene, quantity), quantity_text(scene, words, quantity).rstrip()
-    told = name in put_in(scene) and name != letter
-    return f"{parameter_symbol(name)} = {text}" if told else text
+    text_of_value = name in put_in(scene) and name != letter
+    return f"{parameter_symbol(name)} = {text}" if text_of_value else text
 
 
 def lone(scene: Scene, quantity: Quantity) -> str:
@@ -452,12 +454,12 @@ def start_on_track(drawing: Drawing, link: Link, rolling: Rolling) -> str:
     named, words = rolling.through, drawing.words
     through = symbol(named) if isinstance(named, str) else words("page.that_point")
     turned = drawing.scene.link(rolling.on) if link.name == FRAME else link
-    angles = stands(drawing, turned, rolling)
+    angles = start_angle(drawing, turned, rolling)
     if FRAME not in (link.name, rolling.on):
         to = axis_of(drawing, drawing.scene.link(rolling.on))
-        angles = words("page.stands_to", stands=angles, axis=to)
+        angles = words("page.start_angle_to", angle=angles, axis=to)
         if rolling.on in rolling.start:
-            own = stands(drawing, drawing.scene.link(rolling.on), rolling)
+            own = start_angle(drawing, drawing.scene.link(rolling.on), rolling)
             angles = words("list_mark").join((angles, own))
     return words("page.start", through=through, angles=angles)
 
@@ -470,15 +472,15 @@ def start_on_wheel(drawing: Drawing, link: Link, rolling: Rolling) -> str:
     for each in scene.links.values():
         arm = len(centres & set(each.points)) > 1
         if each.name in (link.name, on.name) or arm:
-            found.append(stands(drawing, each, rolling))
+            found.append(start_angle(drawing, each, rolling))
     return drawing.words("page.counted", angles=drawing.words("list_mark").join(found))
 
 
-def stands(drawing: Drawing, link: Link, rolling: Rolling) -> str:
+def start_angle(drawing: Drawing, link: Link, rolling: Rolling) -> str:
     """The words for the angle of a link where a rolling starts; 0° where none is written."""
     angle = rolling.start.get(link.name)
     turn = quantity_text(drawing.scene, drawing.words, angle) if angle else "0°"
-    return drawing.words("page.stands", axis=axis_of(drawing, link), angle=turn)
+    return drawing.words("page.start_angle", axis=axis_of(drawing, link), angle=turn)
 
 
 def positive_track(drawing: Drawing, link: Link, rolling: Rolling) -> str:
@@ -521,8 +523,8 @@ class Datum(Struct, frozen=True):
         """The datum as a piece of a sentence."""
         if not self.value:
             return self.remark
-        told = " = ".join(filter(None, (self.value, self.constant)))
-        return self.name + self.sign + told + (f", {self.sense}" if self.sense else "")
+        text_of_value = " = ".join(filter(None, (self.value, self.constant)))
+        return self.name + self.sign + text_of_value + (f", {self.sense}" if self.sense else "")
 
     @property
     def remark(self) -> str:
@@ -686,14 +688,14 @@ def of_driver(
         if not solved and is_derived(quantity):
             continue  # its law gives its sense, too
         size, sense = with_sense(scene, words, driver, quantity)
-        told = size if solved or not has_own_relation(scene, quantity) else ""
-        if laws and not told:
-            told = law(scene, words, quantity)
-        if told or constant or sense:
+        text_of_value = size if solved or not has_own_relation(scene, quantity) else ""
+        if laws and not text_of_value:
+            text_of_value = law(scene, words, quantity)
+        if text_of_value or constant or sense:
             by = tuple(filter(None, [lone(scene, quantity)]))
             yield Datum(
                 name=name,
-                value=told,
+                value=text_of_value,
                 constant=constant,
                 sense=sense,
                 of=quantity,
@@ -763,9 +765,11 @@ def plates(drawing: Drawing) -> Iterator[Datum]:
                 if placing.clockwise:  # written from the point that it places
                     arms, angle = arms[::-1], angle.negative()
                 name = f"∠{arms[0]}{symbol(placing.vertex)}{arms[1]}"
-                told = quantity_text(scene, words, angle)
+                text_of_value = quantity_text(scene, words, angle)
                 within = abs(float(angle.si(scene.values))) < math.pi  # the side gives its sense
-                yield Datum(name=name, value=told.removeprefix("−") if within else told)
+                yield Datum(
+                    name=name, value=text_of_value.removeprefix("−") if within else text_of_value
+                )
 
 
 def place_of(scene: Scene, words: Words, placing: At) -> str:

@@ -75,8 +75,8 @@ class Construction(Roles, frozen=True):
     For reports: ``titled`` says what is found, and ``lines`` names the line of a role. ``guided``
     is the role of the block or wheel along whose guide its line lies.
 
-    For sheets: ``reasons`` holds the key of the reason for a role's step. ``told_after`` lists the
-    roles of the lines that a sentence names before its step. ``between`` lists the roles of the
+    For sheets: ``reasons`` holds the key of the reason for a role's step. ``lines_before`` lists
+    the roles of the lines that a sentence names before its step. ``between`` lists the roles of the
     names of the points that it joins. ``imaged`` lists the roles of points marked with their
     letters in a plan. ``laid_at`` is the role of the step that lays off the distance of the first
     and the last of the joined points.
@@ -89,7 +89,7 @@ class Construction(Roles, frozen=True):
     lines: ClassVar[Mapping[str, str]] = {}
     pencil: ClassVar[Mapping[str, ByHand]] = {}
     slips: ClassVar[Mapping[str, Slip]] = {}
-    told_after: ClassVar[tuple[str, ...]] = ()
+    lines_before: ClassVar[tuple[str, ...]] = ()
     between: ClassVar[tuple[str, ...]] = ()
     laid_at: ClassVar[str] = ""
     guided: ClassVar[str] = ""
@@ -135,7 +135,7 @@ class Construction(Roles, frozen=True):
 
     def said_before(self, drawing: Drawing, role: str) -> tuple[int, ...]:
         """The steps of the lines that the text names before the step of a role."""
-        return tuple(getattr(self, each) for each in self.told_after)
+        return tuple(getattr(self, each) for each in self.lines_before)
 
     def clause(self, drawing: Drawing, role: str) -> str:
         """The clause for a role's line within the sentence of the point that it helps to find."""

@@ -1,4 +1,4 @@
-"""The place of the drawings on an A3 sheet, and the drawn length of construction lines and arcs."""
+"""The place of the drawings on a sheet, and the drawn length of construction lines and arcs."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ from msgspec.structs import replace
 from graphkin.construction.core.drawn_scene import Drawing
 from graphkin.construction.core.kind import JoinsPoints, construction
 from graphkin.construction.core.program import Part, Plane
-from graphkin.drawing.field import ABOVE, AREA, HEIGHT, LEAST_FIELD, MARGIN, WIDTH, Field, Rect
+from graphkin.drawing.field import ABOVE, LEAST_FIELD, MARGIN, Field, Rect, SheetPaper
 from graphkin.drawing.scale import Extent
 from graphkin.numbers.arithmetic import Point, Real, larger, pick, smaller
 from graphkin.numbers.plane import Circle, Line, Ratio
@@ -50,7 +50,7 @@ def lay_out(drawing: Drawing) -> Layout:
         own: Layout = drawing.fields
         return own
     mechanism = drawing.stand or mechanism_field([drawing])
-    rect = (mechanism.rect[2], AREA[1], AREA[2], AREA[3])
+    rect = drawing.paper.beside(mechanism.rect)
     metres, plan = drawing.scales.metres(drawing.kind), drawing.plan_extent()
     mm = mechanism.mm * metres
     fields = Layout(mechanism, Field(rect, mm, plan.middle / metres, centre(rect)), {})
@@ -66,10 +66,13 @@ def mechanism_field(drawings: Sequence[Drawing]) -> Field:
     mm = 1000 / drawings[0].scales.kL
     box = reduce(Extent.joined, (each.mechanism_extent() for each in drawings))
     plan = max(each.plan_extent().width for each in drawings) * mm
-    refuse_wide(box.width * mm, plan)
-    held = held_beside(box, (place for each in drawings for place in poles_of(each)), mm, plan)
-    rect = (AREA[0], AREA[1], AREA[0] + held.width, AREA[3])
-    return Field(rect, mm, held.box.middle, raised(rect, held.box.height * mm))
+    paper = drawings[0].paper
+    refuse_wide(paper, box.width * mm, plan)
+    poles = (place for each in drawings for place in poles_of(each))
+    held = held_beside(paper, box, poles, mm, plan)
+    left, top, _, low = paper.fields
+    rect = (left, top, left + held.width, low)
+    return Field(rect, mm, held.box.middle, raised(paper, rect, held.box.height * mm))
 
 
 class Held(NamedTuple):
@@ -79,22 +82,29 @@ class Held(NamedTuple):
     width: Real
 
 
-def held_beside(box: Extent, poles: Iterable[Point], mm: Real, plan: Real) -> Held:
+def held_beside(
+    paper: SheetPaper, box: Extent, poles: Iterable[Point], mm: Real, plan: Real
+) -> Held:
     """The contents of a mechanism's field next to a plan of width ``plan`` (mm).
 
     The numbers may be arrays with one entry for each sheet.
     """
-    whole = AREA[2] - AREA[0]
+    if paper.is_parted:
+        own = paper.left[2] - paper.left[0]
+        return Held(with_poles(paper, box, poles, mm, own), own)
+    whole = paper.fields[2] - paper.fields[0]
     most = larger(whole - larger(plan + 2 * MARGIN, LEAST_FIELD), LEAST_FIELD)
-    wider = with_poles(box, poles, mm, most)
+    wider = with_poles(paper, box, poles, mm, most)
     needed = larger(box.width * mm + 2 * MARGIN, wider.width * mm + POLES)
     width = smaller(larger(needed, LEAST_FIELD), most)
     return Held(wider, width + larger(most - width - SPARE, 0.0) / 2)
 
 
-def with_poles(box: Extent, poles: Iterable[Point], mm: Real, width: Real) -> Extent:
+def with_poles(
+    paper: SheetPaper, box: Extent, poles: Iterable[Point], mm: Real, width: Real
+) -> Extent:
     """The box of the mechanism, grown by each centre and pole for which the field has room."""
-    across, upright = width - POLES, AREA[3] - AREA[1] - POLES
+    across, upright = width - POLES, paper.upright + 2 * ABOVE - POLES
     for pole in poles:
         grown = box.about(pole)
         fits = (grown.width * mm <= across) & (grown.height * mm <= upright)
@@ -103,9 +113,9 @@ def with_poles(box: Extent, poles: Iterable[Point], mm: Real, width: Real) -> Ex
     return box
 
 
-def refuse_wide(mechanism: float, plan: float) -> None:
+def refuse_wide(paper: SheetPaper, mechanism: float, plan: float) -> None:
     """Raise PageError where a sheet is too narrow for both drawings; widths in mm."""
-    spare = WIDTH - mechanism - plan
+    spare = paper.room_beside(mechanism) - plan
     if spare < -1e-6:
         raise PageError(
             Problem(
@@ -124,18 +134,18 @@ def centre(rect: Rect) -> tuple[float, float]:
     return (rect[0] + rect[2]) / 2, (rect[1] + rect[3]) / 2
 
 
-def raised(rect: Rect, height: float) -> tuple[float, float]:
+def raised(paper: SheetPaper, rect: Rect, height: float) -> tuple[float, float]:
     """The middle of a drawing in a field, with the room below that its foot needs."""
-    return centre(rect)[0], rect[3] - room_below(height) - height / 2
+    return centre(rect)[0], rect[3] - room_below(paper, height) - height / 2
 
 
-def room_below(height: Real) -> Real:
+def room_below(paper: SheetPaper, height: Real) -> Real:
     """The room between a drawing and the foot of its field, in mm: half of the spare height.
 
     Fixed pivots need this room for their ground, and notes need it too, so the foot gets room
     first.
     """
-    spare = larger(HEIGHT - height, 0.0)
+    spare = larger(paper.upright - height, 0.0)
     return ABOVE + larger(spare / 2, smaller(spare, GROUND - ABOVE))
 
 
@@ -149,7 +159,7 @@ def spare_height(drawing: Drawing) -> float:
     tops = [field(complex(0.0, drawing.mechanism_extent().top))[1]]
     tops += [field(pole)[1] for pole in poles_of(drawing) if field.holds(pole)]
     tops += [layout.plan(complex(0.0, drawing.plan_extent().top / metres))[1]]
-    return max(min(tops) - ABOVE - AREA[1], 0.0)
+    return max(min(tops) - ABOVE - drawing.paper.fields[1], 0.0)
 
 
 def lowered(layout: Layout, more: float) -> Layout:

@@ -178,6 +178,10 @@ FINE = 4
 """Decimals of computed angles and coordinates."""
 
 
+LEVEL_OR_UPRIGHT = {(0, "deg"): "_horizontal", (90, "deg"): "_vertical"}
+"""Lines of the frame that have a name, by their angle: how the keys of their sentences end."""
+
+
 def straight(drawing: Drawing, path: GuideOrTrack, *, on_paper: bool = False) -> str:
     """A line through a point at an angle to the axis of the frame or of a link that turns.
 
@@ -188,7 +192,9 @@ def straight(drawing: Drawing, path: GuideOrTrack, *, on_paper: bool = False) ->
     through = place(drawing, path.on, path.through, on_paper=on_paper)
     fields = {"k": escape(path.on), "through": through}
     if path.on == FRAME:
-        return words("page.line", angle=quantity_text(drawing.scene, words, path.angle), **fields)
+        own = path.angle.number(drawing.scene.values), path.angle.unit
+        angle, way = quantity_text(drawing.scene, words, path.angle), LEVEL_OR_UPRIGHT.get(own, "")
+        return words(f"page.line{way}", angle=angle, **fields)
     lean = leaning(drawing, link)
     if lean is not None:
         turn = lean * complex(path.angle.direction(drawing.scene.values))

@@ -2,10 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
-from typing import Literal, Protocol
+from cmath import rect
+from collections.abc import Callable, Sequence
+from math import isnan, radians, sqrt
+from typing import Any, Literal, Protocol
 
 from msgspec import Struct
+
+from graphkin.numbers.plane import Circle, Line, cross, dot, line_meets_line
 
 Slots = tuple[tuple[str, tuple[str, ...]], ...]
 """What an action is drawn from: the word for each thing and the kinds of picks that it may be."""
@@ -15,6 +19,11 @@ MECHANISM, NUMBERS = 0, 3
 """The drawings of a page that an action may name; 1 and 2 are the plans."""
 CURVE = ("locus", "guide", "circle")
 FOUND = ("image", "centre")
+POINTS = ("point", "image")
+WAYS = ("bar", "guide", "locus", "arrow")
+"""On a board: the points of every drawing, and all that has a direction."""
+SAME = 1e-7
+"""The parts of a drawing within which the script takes two values for equal."""
 
 
 class PaletteAction(Struct, frozen=True):
@@ -25,6 +34,10 @@ class PaletteAction(Struct, frozen=True):
     the drawing of the input number ``lies_with``. ``named`` says that the script makes the name of
     the result from the names of the inputs. ``said_as`` is the action whose error messages this one
     shares. ``typed`` are the signs and ASCII words by which it is written on the keyboard.
+
+    On the board of a task page the same action is drawn from the ``free`` kinds of things, by
+    default those of ``slots``. ``draw`` computes there what ``script`` does; an action without it
+    is not on the board.
     """
 
     key: str
@@ -36,6 +49,80 @@ class PaletteAction(Struct, frozen=True):
     named: bool = False
     said_as: str = ""
     typed: tuple[str, ...] = ()
+    free: Slots = ()
+    draw: Callable[..., Sequence[Any]] | None = None
+
+
+class DrawnThings(Protocol):
+    """What is drawn on a board, by the keys of its picks; the numbers of ``script`` in Python."""
+
+    def value_of(self, key: str) -> Any:
+        """A point, line, circle, vector, length, angle in degrees or rate."""
+
+    def way(self, key: str) -> complex:
+        """The direction of a bar, a vector or a line."""
+
+    def arm(self, point: str, bar: str) -> complex | None:
+        """The vector along a bar from its other end to a point at one end; None elsewhere."""
+
+    def reach(self, length: str, at: str) -> float:
+        """A length in the drawing of another pick; typed lengths are millimetres of paper."""
+
+    def places_of(self, image: str) -> Sequence[complex]:
+        """The points of the mechanism whose image a pick is."""
+
+    def ends_of(self, bar: str) -> tuple[complex, complex]:
+        """The two ends of a bar."""
+
+
+def curves_meet(m: Line | Circle, n: Line | Circle) -> list[complex]:
+    """The crossings of two lines or circles, in the order of the page's script."""
+    if isinstance(m, Line):
+        if isinstance(n, Line):
+            return [line_meets_line(m, n)] if cross(m.along, n.along) else []
+        unit = m.along / abs(m.along)
+        gap = (n.centre - m.point) * unit.conjugate()
+        square = (n.radius - gap.imag) * (n.radius + gap.imag)
+        half = sqrt(square) if square >= 0 else float("nan")
+        start, ends = m.point, [(gap.real + step) * unit for step in (half, -half)]
+    elif isinstance(n, Line):
+        return curves_meet(n, m)
+    else:
+        axis = n.centre - m.centre
+        size = abs(axis)
+        if not size:
+            return []
+        along = ((m.radius - n.radius) * (m.radius + n.radius) / size + size) / 2
+        square = (m.radius - along) * (m.radius + along)
+        half = sqrt(square) if square >= 0 else float("nan")
+        start, ends = m.centre, [complex(along, side) * (axis / size) for side in (half, -half)]
+    return [] if isnan(half) else [start + end for end in ends]
+
+
+def similar_images(things: DrawnThings, i: str, j: str, point: str) -> list[complex]:
+    """The third corner of the figures on two images that are similar to those of the mechanism."""
+    base = things.value_of(j) - things.value_of(i)
+    return [
+        things.value_of(i) + base * (things.value_of(point) - p) / (q - p)
+        for p in things.places_of(i)
+        for q in things.places_of(j)
+        if q != p
+    ]
+
+
+def pole_on(things: DrawnThings, bar: str, i: str, j: str) -> list[complex]:
+    """The points of rest of a link whose bar has two images, the ends taken either way."""
+    p, q = things.ends_of(bar)
+    image, other = things.value_of(i), things.value_of(j)
+    return [one + (two - one) * -image / (other - image) for one, two in ((p, q), (q, p))]
+
+
+def normal_towards(things: DrawnThings, point: str, bar: str, velocity: str) -> list[complex]:
+    """v²/l of a point at the end of a bar, towards its other end; v is perpendicular to the bar."""
+    reach, speed = things.arm(point, bar), things.value_of(velocity)
+    if not reach or abs(dot(reach, speed)) > SAME * abs(reach) * abs(speed):
+        return []
+    return [reach * (-dot(speed, speed) / dot(reach, reach))]
 
 
 class Picks(Protocol):
@@ -106,6 +193,8 @@ PERPENDICULAR = PaletteAction(
     "line",
     named=True,
     typed=("⊥", "perp", "_"),
+    free=(("through", POINTS), ("square", WAYS)),
+    draw=lambda things, p, to: [Line(things.value_of(p), 1j * things.way(to))],
 )
 PARALLEL = PaletteAction(
     "parallel",
@@ -114,26 +203,60 @@ PARALLEL = PaletteAction(
     "line",
     named=True,
     typed=("∥", "par", "//"),
+    free=(("through", POINTS), ("along", WAYS)),
+    draw=lambda things, p, to: [Line(things.value_of(p), things.way(to))],
+)
+RAY = PaletteAction(
+    "ray",
+    (("through", POINTS), ("angle", ("angle",))),
+    """(p, angle) => {
+      const turned = value_of(angle) * Math.PI / 180;
+      return [[value_of(p), [Math.cos(turned), Math.sin(turned)]]];
+    }""",
+    "line",
+    named=True,
+    typed=("∠", "ray"),
+    draw=lambda things, p, angle: [
+        Line(things.value_of(p), rect(1, radians(things.value_of(angle))))
+    ],
 )
 CUT = PaletteAction(
     "cut",
     (("line", CURVE), ("and", CURVE)),
     "(m, n) => m === n ? [] : cuts(value_of(m), value_of(n))",
     typed=("×", "cut", "x"),
+    draw=lambda things, m, n: [] if m == n else curves_meet(things.value_of(m), things.value_of(n)),
+)
+SET_OFF = PaletteAction(
+    "set_off",
+    (("from", POINTS), ("on", ("locus", "guide")), ("length", ("length",))),
+    """(p, on, length) => [1, -1].map(side =>
+      plus(value_of(p), scaled(way(on), side * reach(length, p) / long(way(on)))))""",
+    typed=("↦", "off"),
+    draw=lambda things, p, on, length: [
+        things.value_of(p) + things.way(on) * side * things.reach(length, p) / abs(things.way(on))
+        for side in (1, -1)
+    ],
 )
 LAY_OFF = PaletteAction(
     "lay_off",
     (("from", ("image",)), ("vector", ("vector",))),
     "(p, v) => [plus(value_of(p), value_of(v)), minus(value_of(p), value_of(v))]",
     typed=("→", "lay", "+"),
+    draw=lambda things, p, v: [
+        things.value_of(p) + things.value_of(v),
+        things.value_of(p) - things.value_of(v),
+    ],
 )
 COMPASS = PaletteAction(
     "compass",
     (("about", ("point",)), ("opening", ("length",))),
-    "(p, opening) => [{ c: value_of(p), r: value_of(opening) }]",
+    "(p, opening) => [{ c: value_of(p), r: reach(opening, p) }]",
     "circle",
     named=True,
     typed=("arc",),
+    free=(("about", POINTS), ("opening", ("length",))),
+    draw=lambda things, p, opening: [Circle(things.value_of(p), things.reach(opening, p))],
 )
 MARK_OFF = PaletteAction(
     "mark_off",
@@ -151,6 +274,7 @@ SIMILAR = PaletteAction(
       places_of(j).filter(q => long(minus(q, p))).map(q => plus(value_of(i), times(
         minus(value_of(j), value_of(i)), over(minus(value_of(point), p), minus(q, p))))))""",
     typed=("∼", "sim", "~"),
+    draw=similar_images,
 )
 COINCIDE = PaletteAction(
     "coincide",
@@ -166,6 +290,10 @@ JOIN = PaletteAction(
     "line",
     named=True,
     typed=("join",),
+    free=(("point", POINTS), ("and", POINTS)),
+    draw=lambda things, p, q: (
+        [] if p == q else [Line(things.value_of(p), things.value_of(q) - things.value_of(p))]
+    ),
 )
 DIVIDE = PaletteAction(
     "divide",
@@ -183,6 +311,7 @@ POLE = PaletteAction(
     })""",
     plane=MECHANISM,
     typed=("pole",),
+    draw=pole_on,
 )
 TRANSFER = PaletteAction(
     "transfer",

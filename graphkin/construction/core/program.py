@@ -24,6 +24,7 @@ Effect = Literal[
     "normal components",
     "tangential components",
     "Coriolis",
+    "jerk",
     "instantaneous centres",
     "centrodes",
     "acceleration poles",

@@ -26,7 +26,19 @@ SHEETS = KINDS[1:]
 """The derivatives that have a plan, and a sheet that shows it."""
 FORCE = "force"
 """The kind of the sheet of forces, which no quantity of a motion belongs to."""
-PLANES = dict(zip(KINDS, (Plane.MECHANISM, Plane.VELOCITIES, Plane.ACCELERATIONS), strict=True))
+JERK = "jerk"
+"""The third derivative, which has no plan."""
+ORDERS = (*KINDS, JERK)
+"""The derivatives whose certain digits are reported."""
+PLURALS = dict(zip(ORDERS, ("positions", "velocities", "accelerations", "jerks"), strict=True))
+"""The derivatives of several points in words."""
+PLANES = dict(
+    zip(
+        ORDERS,
+        (Plane.MECHANISM, Plane.VELOCITIES, Plane.ACCELERATIONS, Plane.NUMBERS),
+        strict=True,
+    )
+)
 PLANES[FORCE] = Plane.FORCES
 
 
@@ -112,7 +124,7 @@ class MotionQuantity(Struct, frozen=True):
     @property
     def caret_unit(self) -> str:
         """The unit in column heads and marked-up text: m/s^2."""
-        return self.unit.replace("²", "^2")
+        return self.unit.replace("²", "^2").replace("³", "^3")
 
 
 def of_point(kind: str, sort: Sort, letter: str, unit: str, key: str) -> MotionQuantity:
@@ -145,6 +157,7 @@ def of_slide(target: str, attribute: str, kind: str, letter: str, unit: str) -> 
 QUANTITIES = (
     of_point("velocity", "vector", "v", "m/s", "velocity"),
     of_point("acceleration", "vector", "a", "m/s²", "acceleration"),
+    of_point(JERK, "vector", "j", "m/s³", JERK),
     rate("omega", "velocity", "ω", "rad/s", "angular velocity"),
     rate("epsilon", "acceleration", "ε", "rad/s²", "angular acceleration"),
     centre(
@@ -208,11 +221,11 @@ WHOSE: dict[str, Whose] = {key: found[0].whose for key, found in ASKED.items()}
 def those(*of: Whose | Sort) -> tuple[MotionQuantity, ...]:
     """The reported quantities of some owners and sorts, in the order of their derivatives."""
     found = [e for e in QUANTITIES if e.words and e.whose in of and e.sort in of]
-    return tuple(sorted(found, key=lambda q: KINDS.index(q.kind)))
+    return tuple(sorted(found, key=lambda q: ORDERS.index(q.kind)))
 
 
 OF_POINTS = those("points", "place", "vector")
-VECTORS = those("points", "vector")
+VECTORS = tuple(each for each in those("points", "vector") if each.kind in SHEETS)
 RATES = those("links", "number")
 CENTRES = those("links", "points", "centre")
 CIRCLES = {each.target: each.circle for each in CENTRES if each.circle}
@@ -230,7 +243,7 @@ SLIDING = {each.kind: each for each in OF_SLIDES if each.sort == "number"}
 
 
 class PointMotion(Struct, frozen=True):
-    """Position (m), velocity (m/s) and acceleration (m/s²) of a point; None where not asked.
+    """Position (m), velocity, acceleration and jerk of a point in SI; None where not asked.
 
     ``curvature_centre`` is the centre of curvature of its path, at infinity where that is straight.
     """
@@ -238,6 +251,7 @@ class PointMotion(Struct, frozen=True):
     position: Point | None = None
     velocity: Point | None = None
     acceleration: Point | None = None
+    jerk: Point | None = None
     curvature_centre: Ratio | None = None
 
 

@@ -131,15 +131,15 @@ def put_in(
     result: str,
     worth: Callable[..., float],
     *values: float,
-    told: Callable[[Drawing, float], str] = answer,
+    shown_as: Callable[[Drawing, float], str] = answer,
 ) -> tuple[str, ...]:
     """Numbers as inserted in a relation, with enough digits that the result follows from them.
 
-    ``worth`` computes the result as a pocket calculator does, ``told`` prints it.
+    ``worth`` computes the result as a pocket calculator does, ``shown_as`` prints it.
     """
     for digits in range(DIGITS, DIGITS + MORE):
         rounded_off = (float(f"{value:.{digits - 1}e}") for value in values)
-        if told(drawing, worth(*rounded_off)) == result:
+        if shown_as(drawing, worth(*rounded_off)) == result:
             break
     return tuple(figure(drawing, value, digits) for value in values)
 

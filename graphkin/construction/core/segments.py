@@ -36,7 +36,7 @@ def laid_off_words(drawing: Drawing, key: str, size: float, **fields: str) -> st
 def segment_of(drawing: Drawing, step: Step) -> str:
     """The segment of a plan under an arrow, by its letters; empty where an end has no letter."""
     vector = plan_vector(step)
-    ends = [told(drawing, end, step) for end in vector.ends if end] if vector else []
+    ends = [letter_at_end(drawing, end, step) for end in vector.ends if end] if vector else []
     if step.action is join:
         ends = [letter_at(drawing, number) for number in step.args]
         if vector and vector.foot:
@@ -60,7 +60,7 @@ def letter_at(drawing: Drawing, number: int) -> str:
     return letter_at(drawing, steps[arrow].args[1 if vector.back else 0])
 
 
-def told(drawing: Drawing, letter: str, own: Step) -> str:
+def letter_at_end(drawing: Drawing, letter: str, own: Step) -> str:
     """The letter at an end of a segment; for a foot not drawn, the letter of the other end."""
     for number, step, _ in drawing.steps(drawing.plane):
         vector = plan_vector(step)

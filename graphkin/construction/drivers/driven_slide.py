@@ -51,7 +51,7 @@ class DrivenSlide(AlongGuide, LaidOffByRate, frozen=True, kw_only=True):
     gives: ClassVar[tuple[str, ...]] = ("image",)
     reasons: ClassVar[Mapping[str, str]] = {"image": "why.driven"}
     pencil: ClassVar[Mapping[str, ByHand]] = {"image": ByHand.LAID_OFF}
-    told_after: ClassVar[tuple[str, ...]] = ("start",)
+    lines_before: ClassVar[tuple[str, ...]] = ("start",)
     imaged: ClassVar[frozenset[str]] = frozenset({"image"})
 
     point: str

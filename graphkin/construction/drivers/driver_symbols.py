@@ -157,8 +157,8 @@ def draw_sense(
     sign = pick(omega > 0, 1, -1)
     (near, far), turns = SENSE, dict(cuts(drawing, field, driver, end, sign))
     chosen = drawing.choosing
-    stands = stands_beyond(chosen, field, same(driver, drawing, chosen))
-    start, long = turns[stands] + near if stands else near, far - near
+    place = end_beyond(chosen, field, same(driver, drawing, chosen))
+    start, long = turns[place] + near if place else near, far - near
     tip = end + sign * (start + long)
     way, half = (field.way(turn_by(at / DEGREE)) for at in (tip, tip - sign * long / 2))
     shows, end_of_arc = Shown("rate", driver.link), (tip, -sign * long)
@@ -176,7 +176,7 @@ def speed_of(drawing: Drawing, driver: Driver) -> Real:
     return float(driver.speed.si(drawing.scene.values))
 
 
-def stands_beyond(drawing: Drawing, field: Field, driver: Driver) -> str:
+def end_beyond(drawing: Drawing, field: Field, driver: Driver) -> str:
     """The name of the line beyond which a turning arrow is clear; empty beyond the crank itself."""
     (near, far), end = SENSE, crank_end(drawing, driver)
     sign = 1 if speed_of(drawing, driver) > 0 else -1

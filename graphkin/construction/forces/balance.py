@@ -61,11 +61,11 @@ class BalancingMoment(Construction, frozen=True, kw_only=True):
         symbols = self.moments.symbols(drawing, turned=size > 0)
         put = self.moments.figures(drawing, turned=size > 0)
         k = figure(drawing, drawing.scales.kL / 1000)
-        told = f"({symbols})·*k*_L = ({put})·{k}" if scaled else f"{symbols} = {put}"
+        equation = f"({symbols})·*k*_L = ({put})·{k}" if scaled else f"{symbols} = {put}"
         yield Relation(
             symbol(self.name),
             f"−Σ*M*({symbol(self.moments.letter)})",
-            told,
+            equation,
             answer(drawing, abs(size)),
             "N·m",
             sense(drawing.words, size),

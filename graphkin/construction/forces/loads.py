@@ -266,10 +266,10 @@ class InertiaMoment(Construction, frozen=True, kw_only=True):
 def of_moment(drawing: Drawing, link: str, inertia: int, epsilon: int) -> Relation:
     """The relation of an inertia moment."""
     j, spun = (abs(float(drawing.trace.values[n])) for n in (inertia, epsilon))
-    told = answer(drawing, j * spun)
-    figures = put_in(drawing, told, lambda j, e: j * e, j, spun)
+    result = answer(drawing, j * spun)
+    figures = put_in(drawing, result, lambda j, e: j * e, j, spun)
     symbols = f"{symbol(f'J_{link}')}·{symbol(f'ε_{link}')}"
-    return Relation(symbol("M_" + sub("i", link)), symbols, "·".join(figures), told, "N·m")
+    return Relation(symbol("M_" + sub("i", link)), symbols, "·".join(figures), result, "N·m")
 
 
 def of_shift(drawing: Drawing, force: InertiaForce, moment: float, size: float) -> Relation:
@@ -283,7 +283,7 @@ def of_shift(drawing: Drawing, force: InertiaForce, moment: float, size: float) 
         moment,
         size,
         scale,
-        told=lambda drawing, value: drawing.words.fixed(value, 2),
+        shown_as=lambda drawing, value: drawing.words.fixed(value, 2),
     )
     turning = symbol("M_" + sub("i", force.link))
     symbols = f"{turning}/({symbol(force.name)}·*k*_L)"
@@ -317,14 +317,14 @@ class Weight(Construction, frozen=True, kw_only=True):
             return ""
         values = drawing.trace.values
         falls = values[self.gravity]
-        told = (
+        names = (
             saying(f"{symbol(e.name)} = {newtons(drawing, abs(values[e.force]))}", symbol(e.name))
             for e in every
         )
         one, many = "step.force-weight", "step.force-weights"
         if falls.real or falls.imag > 0:
             one, many = "step.force-weight-along", "step.force-weights-along"
-        return drawing.words(many if len(every) > 1 else one, list=COMMA.join(told))
+        return drawing.words(many if len(every) > 1 else one, list=COMMA.join(names))
 
     def equations(self, drawing: Drawing, role: str) -> Iterator[Relation]:
         """m·g."""

@@ -378,8 +378,8 @@ def of_moments(
     in symbols, whose signs are part of the answer, comes with the figures.
     """
     left, result, unit = found
-    (told, put), (under, divisor) = sums, below
-    figures = f"({told})/{under} = ({put})/{divisor}"
+    (signed, put), (under, divisor) = sums, below
+    figures = f"({signed})/{under} = ({put})/{divisor}"
     return Relation(left, f"Σ*M*({about})/{by}", figures, result, unit)
 
 

@@ -109,11 +109,11 @@ class SlidePressure(Construction, frozen=True, kw_only=True):
         """The sums of both links one after the other, in symbols or in figures."""
         both = [each for each in (self.own, self.others) if each.shown(drawing)]
         total = sum(m for each in both for _, m, _, _ in each.values(drawing))
-        told = [
+        terms = [
             (each.figures if figures else each.symbols)(drawing, turned=total < 0) for each in both
         ]
-        said = told[0] if told else "0"
-        for more in told[1:]:
+        said = terms[0] if terms else "0"
+        for more in terms[1:]:
             said += f" − {more[1:]}" if more.startswith("−") else f" + {more}"
         return said
 

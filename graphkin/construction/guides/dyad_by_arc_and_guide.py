@@ -45,7 +45,7 @@ class DyadByArcAndGuide(Determined, frozen=True, kw_only=True):
     loci: ClassVar[Message] = message("the arc and the guide")
     apart: ClassVar[Message] = message("the arc misses the guide")
     has_mirror: ClassVar[bool] = True
-    told_after: ClassVar[tuple[str, ...]] = ("path", "arc")
+    lines_before: ClassVar[tuple[str, ...]] = ("path", "arc")
     between: ClassVar[tuple[str, ...]] = ("centre", "name")
 
     name: str

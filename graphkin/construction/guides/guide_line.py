@@ -198,7 +198,7 @@ class ShiftedGuide(Construction, frozen=True, kw_only=True):
     """The parallel ``line`` to the line ``guide`` of a ``block``, on which a point moves."""
 
     gives: ClassVar[tuple[str, ...]] = ("line",)
-    told_after: ClassVar[tuple[str, ...]] = ("guide",)
+    lines_before: ClassVar[tuple[str, ...]] = ("guide",)
     guided: ClassVar[str] = "block"
 
     block: str
@@ -224,7 +224,7 @@ class GuidesMeet(Construction, frozen=True, kw_only=True):
 
     gives: ClassVar[tuple[str, ...]] = ("point",)
     reasons: ClassVar[Mapping[str, str]] = {"point": "why.guides"}
-    told_after: ClassVar[tuple[str, ...]] = ("one", "other")
+    lines_before: ClassVar[tuple[str, ...]] = ("one", "other")
 
     name: str
     one: int

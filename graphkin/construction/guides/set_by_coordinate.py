@@ -37,7 +37,7 @@ class SetByCoordinate(Construction, frozen=True, kw_only=True):
 
     gives: ClassVar[tuple[str, ...]] = ("point",)
     reasons: ClassVar[Mapping[str, str]] = {"point": "why.set_at"}
-    told_after: ClassVar[tuple[str, ...]] = ("path",)
+    lines_before: ClassVar[tuple[str, ...]] = ("path",)
 
     link: str
     on: str
@@ -80,7 +80,7 @@ class SetByCoordinate(Construction, frozen=True, kw_only=True):
 class CarrierSetByCoordinate(SetByCoordinate, frozen=True, kw_only=True):
     """A ``point`` of the ``link`` that carries a guide, from the position of the block on it."""
 
-    told_after: ClassVar[tuple[str, ...]] = ()
+    lines_before: ClassVar[tuple[str, ...]] = ()
 
     def point_sentence(self, drawing: Drawing, role: str) -> str:
         """The sentence for the point by the coordinate of the block."""

@@ -324,8 +324,8 @@ def lay_guide(pen: Pen, group: Dyad, height: int | None, own: Mapping[str, Any])
 def breadth_about(pen: Pen, pivot: int) -> float:
     """The largest distance of a placed point from a pivot; zero if none is known."""
     start = pen.peek(pivot)
-    stands = [number for (what, _), number in pen.targets.items() if what == "position"]
-    places = [pen.peek(number) for number in stands]
+    positions = [number for (what, _), number in pen.targets.items() if what == "position"]
+    places = [pen.peek(number) for number in positions]
     if start is None:
         return 0.0
     return max((abs(place - start) for place in places if place is not None), default=0.0)

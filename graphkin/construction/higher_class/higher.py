@@ -239,12 +239,12 @@ def traced_points(pen: Pen, group: Higher) -> list[str]:
     match group.last:
         case Tie(_, Pin(point=p), Pin(point=q)):
             return [point for point in (p, q) if not pen.has("position", point)]
-        case Tie(link, Pin(point=p), Sliding() as pair) if stands(pen, partner(pair, link)):
+        case Tie(link, Pin(point=p), Sliding() as pair) if is_placed(pen, partner(pair, link)):
             return [p]
     return []
 
 
-def stands(pen: Pen, link: str) -> bool:
+def is_placed(pen: Pen, link: str) -> bool:
     """Whether a link is already placed."""
     return link == FRAME or pen.has("axis", link)
 

@@ -138,13 +138,15 @@ class TrialPlan(Struct, AuxiliaryPlan, frozen=True, eq=False):
         """
         step = drawing.trace.program.steps[number]
         if isinstance(step.of, DividedPoint):
-            yield Sentence(number, step.name, point_told(drawing, number))
+            yield Sentence(number, step.name, point_words(drawing, number))
             return
         for named in self.runs(drawing):
             if number == named[-1]:
                 full = self.first is None
-                told = (self.told_in_full if full else self.told_again)(drawing, named)
-                markup = self.introduced(drawing, AND.join(told), first=self.begins(drawing, named))
+                clauses = (self.in_full if full else self.shortened)(drawing, named)
+                markup = self.introduced(
+                    drawing, AND.join(clauses), first=self.begins(drawing, named)
+                )
                 yield Sentence(number, f"trial{self.tag}", markup, tuple(named))
 
     def runs(self, drawing: Drawing) -> list[list[int]]:
@@ -157,7 +159,7 @@ class TrialPlan(Struct, AuxiliaryPlan, frozen=True, eq=False):
         """Whether some points include the first of the plan."""
         return self.points(drawing)[0] in named
 
-    def told_in_parts(
+    def parts_of_sentence(
         self, drawing: Drawing, named: Sequence[int]
     ) -> Iterator[tuple[int, int, str]]:
         """The points line by line: the point's step, the step that ends a part, and the words."""
@@ -182,15 +184,15 @@ class TrialPlan(Struct, AuxiliaryPlan, frozen=True, eq=False):
             key += "-near"
         return drawing.words(key, what=what, amount=size, how=how, **fields)
 
-    def told_in_full(self, drawing: Drawing, named: Sequence[int]) -> Iterator[str]:
+    def in_full(self, drawing: Drawing, named: Sequence[int]) -> Iterator[str]:
         """Its points one by one; coincident points together."""
         for under, run in groupby(named, lambda number: self.falls_on(drawing, number)):
             if under:
                 yield falling(drawing, [*run], under)
             else:
-                yield from (point_told(drawing, number) for number in run)
+                yield from (point_words(drawing, number) for number in run)
 
-    def told_again(self, drawing: Drawing, named: Sequence[int]) -> Iterator[str]:
+    def shortened(self, drawing: Drawing, named: Sequence[int]) -> Iterator[str]:
         """Its points briefly; in full where lengths or lines differ from the first plan's."""
         assert self.first is not None
         steps = drawing.trace.program.steps
@@ -203,10 +205,10 @@ class TrialPlan(Struct, AuxiliaryPlan, frozen=True, eq=False):
 
         for new, run in groupby(named, is_new):
             if new and self.whole is not None:
-                yield from self.told_in_full(drawing, [*run])
+                yield from self.in_full(drawing, [*run])
             elif new:
                 for number in run:
-                    yield turned_again(drawing, number) or point_told(drawing, number)
+                    yield turned_again(drawing, number) or point_words(drawing, number)
             else:
                 yield of_many(drawing, "normals-again", list(run))
 
@@ -262,7 +264,7 @@ def trial_lengths(drawing: Drawing) -> Iterator[Relation]:
 
     A driver's vector along a guide is the same in both trials, and is given for the first alone.
     """
-    told: set[int] = set()
+    laid_off: set[int] = set()
     for number, step, _ in drawing.steps(drawing.plane):
         plan, kind, rate = auxiliary_plan(drawing, number), construction(step), begun_by(step)
         if not isinstance(plan, TrialPlan) or rate is None or has_no_length(drawing, number):
@@ -271,9 +273,9 @@ def trial_lengths(drawing: Drawing) -> Iterator[Relation]:
         if isinstance(kind, DrivenSlide) and driver_of_rate(drawing, rate) is None:
             yield plan.slid(drawing, kind, size)
         elif isinstance(kind, DrivenSlide):
-            if rate not in told:
+            if rate not in laid_off:
                 yield kind.laid_by_driver(drawing, size)
-            told.add(rate)
+            laid_off.add(rate)
         elif isinstance(kind, LaidOffAboutPivot):
             link = turning_with(drawing, plan.turned_by(rate) or kind.link)
             yield plan.turned(drawing, kind, link, size)
@@ -307,7 +309,7 @@ def turned_again(drawing: Drawing, number: int) -> str:
     return drawing.words("step.driven-again", normal=normal["vector"], **fields)
 
 
-def point_told(drawing: Drawing, number: int) -> str:
+def point_words(drawing: Drawing, number: int) -> str:
     """How a point of a trial plan is found."""
     return point_sentence(drawing, drawing.trace.program.steps[number])
 

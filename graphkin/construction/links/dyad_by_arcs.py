@@ -109,7 +109,7 @@ class DyadByArcs(Determined, frozen=True, kw_only=True):
     loci: ClassVar[Message] = message("the arcs")
     apart: ClassVar[Message] = message("the arcs miss each other")
     has_mirror: ClassVar[bool] = True
-    told_after: ClassVar[tuple[str, ...]] = ("near", "far")
+    lines_before: ClassVar[tuple[str, ...]] = ("near", "far")
     between: ClassVar[tuple[str, ...]] = ("left", "right", "name")
 
     name: str

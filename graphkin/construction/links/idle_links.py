@@ -27,7 +27,7 @@ def idle_sentences(drawing: Drawing) -> Iterator[Sentence]:
     A bar at which a group is closed is not idle: it is tried until it fits. Links that represent a
     cam have their own sentences.
     """
-    told = [
+    point_sets = [
         points_of(step)
         for _, step, _ in drawing.steps(Plane.MECHANISM, Plane.NUMBERS)
         if step.part is Part.POSITION
@@ -38,7 +38,7 @@ def idle_sentences(drawing: Drawing) -> Iterator[Sentence]:
         points = set(link.points)
         if words := face_words(drawing, link):
             yield Sentence(-1, IDLE, words, link=link.name)
-        laid = link.name in closing or any(len(points & names) > 1 for names in told)
+        laid = link.name in closing or any(len(points & names) > 1 for names in point_sets)
         if len(points) > 1 and not laid and not link.slides and not link.wheels:
             names = {"bar": bar(*link.points[:2]), "k": escape(link.name)}
             key = "step.cam-link" if link.name in drawing.scene.cam_links else "step.idle"

@@ -92,11 +92,11 @@ class PlacedPoint(Construction, frozen=True, kw_only=True):
 
 def of_rolled_turns(drawing: Drawing) -> Iterator[Relation]:
     """The relations for the wheel rotations that sentences give, and for those behind them."""
-    told: dict[str, float] = {}
+    stated: dict[str, float] = {}
     for each in constructions(drawing.trace.program, PlacedPoint):
         kind = rolled_turn(drawing, each.link) if each.is_turned(drawing) else None
-        if kind is not None and kind.link not in told:
-            yield from kind.relations(drawing, told)
+        if kind is not None and kind.link not in stated:
+            yield from kind.relations(drawing, stated)
 
 
 def with_starts_together(drawing: Drawing, found: list[Sentence]) -> list[Sentence]:

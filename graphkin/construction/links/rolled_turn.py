@@ -44,13 +44,13 @@ class RolledTurn(Construction, frozen=True, kw_only=True):
         """The rotation, in degrees, of a link that it depends on; zero for the frame."""
         return degrees(float(drawing.trace.values[self.leads[link]]))
 
-    def relations(self, drawing: Drawing, told: dict[str, float]) -> list[Relation]:
+    def relations(self, drawing: Drawing, stated: dict[str, float]) -> list[Relation]:
         """Its relation, after the relations for the links that it depends on.
 
-        Links in ``told`` have had theirs already. Empty where one of those was from another start.
+        Links in ``stated`` have theirs already. Empty where one of those was from another start.
         """
         found: list[Relation] = []
-        known = dict(told)
+        known = dict(stated)
         for link in self.leads:
             if link == FRAME:
                 continue
@@ -62,7 +62,7 @@ class RolledTurn(Construction, frozen=True, kw_only=True):
             before = known.get(link)
             if before is None or abs(before - self.lead(drawing, link)) > SAME:
                 return []
-        told |= known | {self.link: self.since(drawing)}
+        stated |= known | {self.link: self.since(drawing)}
         return [*found, *self.own(drawing)]
 
     def own(self, drawing: Drawing) -> Iterator[Relation]:
@@ -107,7 +107,7 @@ class TurnOnTrack(RolledTurn, frozen=True, kw_only=True):
             return lead + sense * along / across * 180 / pi
 
         values = self.lead(drawing, self.on), way, abs(radius)
-        lead, along, across = put_in(drawing, turned, worth, *values, told=in_tenths)
+        lead, along, across = put_in(drawing, turned, worth, *values, shown_as=in_tenths)
         symbols, figures = f"{s}/{r}·180/π", f"{bracketed(along)}/{across}·180/π"
         if self.on == FRAME:
             before = sign.strip("+")
@@ -146,7 +146,7 @@ class TurnOnWheel(RolledTurn, frozen=True, kw_only=True):
         def worth(arm: float, track: float, large: float, small: float) -> float:
             return arm + sense * (track - arm) * large / small
 
-        put = put_in(drawing, turned, worth, carried, rolled, *sizes, told=in_tenths)
+        put = put_in(drawing, turned, worth, carried, rolled, *sizes, shown_as=in_tenths)
         names = [of_wheel(letter, sign) for sign in self.signs]
         fixed = self.arm == FRAME
         symbols = willis(

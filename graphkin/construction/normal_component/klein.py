@@ -187,10 +187,10 @@ class KleinComponent(NormalComponent, frozen=True, kw_only=True):
         markup = AND.join(markup for _, markup in self.in_parts(drawing))
         return Wording("ν by chord", markup)
 
-    def told_in_parts(self, drawing: Drawing) -> Iterator[tuple[int, str]]:
+    def parts_of_sentence(self, drawing: Drawing) -> Iterator[tuple[int, str]]:
         """The instruction in parts: the turned velocities, both circles, their common chord."""
         drawn = self.corner is not None and self.is_drawn(drawing)
-        yield from self.in_parts(drawing) if drawn else super().told_in_parts(drawing)
+        yield from self.in_parts(drawing) if drawn else super().parts_of_sentence(drawing)
 
     def in_parts(self, drawing: Drawing) -> Iterator[tuple[int, str]]:
         """The instruction in parts, where the construction is drawn."""

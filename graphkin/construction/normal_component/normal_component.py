@@ -22,7 +22,7 @@ from graphkin.construction.core.component import (
 from graphkin.construction.core.drawn_scene import Drawing
 from graphkin.construction.core.kind import ByHand, Sentence, Slip, Wording, in_one, together
 from graphkin.construction.core.naming import plan_amount
-from graphkin.construction.core.palette import NUMBERS, PaletteAction, Picks
+from graphkin.construction.core.palette import NUMBERS, PaletteAction, Picks, normal_towards
 from graphkin.construction.core.pen import Pen, about, against, letter
 from graphkin.construction.core.program import Effect, Part, Plane
 from graphkin.construction.core.relation import (
@@ -117,7 +117,7 @@ class NormalComponent(TriangleComponent, frozen=True, kw_only=True):
     forgotten: ClassVar[str] = "turn.wrong.normal_forgotten"
     turned: ClassVar[str] = "turn.wrong.normal_turned"
     palette: ClassVar[PaletteAction] = PaletteAction(
-        "triangle", PICKED, SCRIPT, plane=NUMBERS, typed=("△", "tri")
+        "triangle", PICKED, SCRIPT, plane=NUMBERS, typed=("△", "tri"), draw=normal_towards
     )
     titled: ClassVar[str] = "the right triangle of {q} about {p}"
 
@@ -231,10 +231,10 @@ class NormalComponent(TriangleComponent, frozen=True, kw_only=True):
         }
         return drawing.words("step.normal-cut", **fields), drawing.words(over, **fields)
 
-    def told_in_parts(self, drawing: Drawing) -> Iterator[tuple[int, str]]:
+    def parts_of_sentence(self, drawing: Drawing) -> Iterator[tuple[int, str]]:
         """The instruction in two parts: the velocity and the cut, then the half turn."""
         if self.cut is None or self.vector is None or not self.is_drawn(drawing):
-            yield from super().told_in_parts(drawing)
+            yield from super().parts_of_sentence(drawing)
             return
         cut, over = self.in_full(drawing, "step.normal-over-apart")
         yield self.cut, cut
@@ -384,10 +384,10 @@ def with_normals_together(drawing: Drawing, found: list[Sentence]) -> list[Sente
     because the plan is drawn without them there.
     """
     short = [sentence for sentence in found if sentence.name == "short"]
-    told = drawing.words("step.too-short", list=COMMA.join(s.markup for s in short))
+    too_short = drawing.words("step.too-short", list=COMMA.join(s.markup for s in short))
     first = next((said for said in found if said.name in ("ν", "ν1", "short")), None)
     if first in short:
-        found, short = together(found, short, told), []
+        found, short = together(found, short, too_short), []
     found = [sentence for sentence in found if sentence not in short]
     rest = [sentence for sentence in found if sentence.name == "ν"]
     kept = [sentence for sentence in found if sentence.name != "ν"]
@@ -398,5 +398,5 @@ def with_normals_together(drawing: Drawing, found: list[Sentence]) -> list[Sente
         found = [*kept[:place], in_one(rest, "ν", tail), *kept[place:]]
     if short and place is not None:
         said = found[place]
-        found[place] = in_one([said, *short], said.name, AND.join((said.markup, told)))
+        found[place] = in_one([said, *short], said.name, AND.join((said.markup, too_short)))
     return found

@@ -192,7 +192,7 @@ class CentrePath(Construction, frozen=True, kw_only=True):
 
     gives: ClassVar[tuple[str, ...]] = ("line",)
     lines: ClassVar[Mapping[str, str]] = {"line": "the path of the centre of {wheel}"}
-    told_after: ClassVar[tuple[str, ...]] = ("track",)
+    lines_before: ClassVar[tuple[str, ...]] = ("track",)
     guided: ClassVar[str] = "wheel"
 
     wheel: str
@@ -245,8 +245,8 @@ class ContactOnTrack(PointOfContact, frozen=True, kw_only=True):
         """The track of a moving link, unless the path of the wheel's centre includes it."""
         track, _ = self.found_from
         steps, users = drawing.trace.program.steps, drawing.children.get(track, ())
-        told = any(isinstance(construction(steps[user]), CentrePath) for user in users)
-        return () if told or self.on == FRAME else (track,)
+        is_named = any(isinstance(construction(steps[user]), CentrePath) for user in users)
+        return () if is_named or self.on == FRAME else (track,)
 
     def point_sentence(self, drawing: Drawing, role: str) -> str:
         """The sentence for the foot of the perpendicular."""
@@ -342,7 +342,7 @@ class RollerCentre(Construction, frozen=True, kw_only=True):
 
     gives: ClassVar[tuple[str, ...]] = ("where", "centre")
     reasons: ClassVar[Mapping[str, str]] = {"centre": "why.roller"}
-    told_after: ClassVar[tuple[str, ...]] = ("path",)
+    lines_before: ClassVar[tuple[str, ...]] = ("path",)
 
     path: int
     lean: int

@@ -331,8 +331,8 @@ def with_ladder_together(drawing: Drawing, found: list[Sentence]) -> list[Senten
             if isinstance(construction(steps[said.step]), kind)
         ]
         if len(own) > 1:
-            told = AND.join(short(drawing, said.step) for said in own)
-            found = together(found, own, drawing.words(f"step.ladder-{role}s", list=told))
+            listed = AND.join(short(drawing, said.step) for said in own)
+            found = together(found, own, drawing.words(f"step.ladder-{role}s", list=listed))
     return found
 
 
@@ -350,7 +350,7 @@ def short(drawing: Drawing, number: int) -> str:
             return f"{escape(kind.link)}: {ends}"
         case SpeedRead():
             return f"{escape(kind.link)}: {name}"
-    raise TypeError(f"{kind} is told alone")
+    raise TypeError(f"{kind} is listed alone")
 
 
 # --- drawing: the wheels in the plan, and their positions on its axis -----------------------------

@@ -451,7 +451,7 @@ def angle_of(pen: Pen, link: str) -> int:
         if (driver := driven_from(pen, link)) is not None:
             return pen.want("turned", link, driven_turn(pen, driver, link))
         known = turned_with(pen, link)
-        if known is not None and stands(pen, known):
+        if known is not None and is_placed(pen, known):
             axes = axis(pen, link), axis(pen, known)
             found = pen.draw(counted_near, *axes, angle_of(pen, known))
             return pen.want("turned", link, found)
@@ -463,7 +463,7 @@ def angle_of(pen: Pen, link: str) -> int:
         return pen.want("turned", link, found)
 
 
-def stands(pen: Pen, link: str) -> bool:
+def is_placed(pen: Pen, link: str) -> bool:
     """Whether a link is placed: a link against which a driver turns another may come later."""
     return link == FRAME or link in pen.bases
 

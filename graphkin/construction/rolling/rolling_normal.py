@@ -106,13 +106,13 @@ class RollingNormal(Component, frozen=True, kw_only=True):
         """How it is laid off; the first time, also why it is the whole acceleration."""
         first = next(self.alike(drawing))
         key = "step.lay-off-rolling-bar" if self.on_bar else "step.lay-off-rolling"
-        return self.told(drawing, key if self is first else "step.lay-off-named")
+        return self.laid_off(drawing, key if self is first else "step.lay-off-named")
 
     def alike(self, drawing: Drawing) -> Iterator[RollingNormal]:
         """The components of its kind on a sheet, in order."""
         return (each for each in components_on(drawing) if type(each) is type(self))
 
-    def told(self, drawing: Drawing, key: str, **fields: str) -> str:
+    def laid_off(self, drawing: Drawing, key: str, **fields: str) -> str:
         """A sentence for how it is laid off."""
         return drawing.words(
             key,
@@ -186,7 +186,7 @@ class RollingOnWheel(RollingNormal, frozen=True, kw_only=True):
         """How it is laid off; the first time, also why it is along the line of centres."""
         first = self is next(self.alike(drawing))
         key = "step.lay-off-rolling-on" if first else "step.lay-off-named"
-        return self.told(drawing, key, formula=self.formula(drawing))
+        return self.laid_off(drawing, key, formula=self.formula(drawing))
 
     def sizes(self, own: OwnSizes) -> Iterator[Size]:
         """The sizes on a straight track, times the ratio of the distances of the other centre."""

@@ -82,7 +82,7 @@ class CrossedImage(FindsImage, frozen=True, kw_only=True):
 
     gives: ClassVar[tuple[str, ...]] = ("image",)
     reasons: ClassVar[Mapping[str, str]] = {"image": "why.meet"}
-    told_after: ClassVar[tuple[str, ...]] = ("first", "second")
+    lines_before: ClassVar[tuple[str, ...]] = ("first", "second")
     imaged: ClassVar[frozenset[str]] = frozenset({"image"})
 
     point: str

@@ -49,7 +49,7 @@ class PerpendicularThrough(AboutPivot, frozen=True, kw_only=True):
     gives: ClassVar[tuple[str, ...]] = ("line",)
     reasons: ClassVar[Mapping[str, str]] = {"line": "why.perpendicular"}
     lines: ClassVar[Mapping[str, str]] = {"line": "⊥ {p}{q}"}
-    told_after: ClassVar[tuple[str, ...]] = ("start",)
+    lines_before: ClassVar[tuple[str, ...]] = ("start",)
     along_bar: ClassVar[str] = "turn.wrong.along_bar"
 
     start: int
@@ -124,7 +124,7 @@ class ParallelThrough(AlongGuide, frozen=True, kw_only=True):
 
     gives: ClassVar[tuple[str, ...]] = ("line",)
     lines: ClassVar[Mapping[str, str]] = {"line": "∥ guide {guide}"}
-    told_after: ClassVar[tuple[str, ...]] = ("start",)
+    lines_before: ClassVar[tuple[str, ...]] = ("start",)
     guided: ClassVar[str] = "guide"
 
     line: int

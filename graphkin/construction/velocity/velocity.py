@@ -86,8 +86,8 @@ def slide_arrow(pen: Pen, pair: Joint, link: str, point: str) -> None:
     """
     known, o = partner(pair, link), pen.pole(Plane.VELOCITIES)
     start, tip = image_under(pen, known, point, VELOCITY), pen.the("velocity", point)
-    told = not pen.turns(known) and tip != o and arrow_joins(pen, tip, start)
-    if start not in (o, tip) and not told:
+    is_seen = not pen.turns(known) and tip != o and arrow_joins(pen, tip, start)
+    if start not in (o, tip) and not is_seen:
         arrow_between(pen, start, tip, point, letter(under(point, known)))
 
 

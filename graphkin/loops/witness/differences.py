@@ -13,9 +13,10 @@ from msgspec.structs import replace
 
 from graphkin.construction.core.quantities import (
     BY_TARGET,
-    KINDS,
+    JERK,
     OF_POINTS,
     OF_SLIDES,
+    ORDERS,
     QUANTITIES,
     RATES,
     MotionQuantity,
@@ -23,6 +24,7 @@ from graphkin.construction.core.quantities import (
 )
 from graphkin.construction.core.solution import UNKNOWN, Solution
 from graphkin.loops.equations import equations
+from graphkin.loops.jerks import jerks
 from graphkin.loops.loop_motion import Motion
 from graphkin.loops.newton import LoopSolution
 from graphkin.loops.rigid_bodies import Complexes, Reals
@@ -397,6 +399,15 @@ def of_points(order: int, scale: str) -> Route:
     return route
 
 
+def of_jerks(solved: LoopSolution, ours: Mapping[str, Any], scales: Magnitudes) -> Left:
+    """The route to the jerk of points: the loops differentiated once more."""
+    every, bar = jerks(solved), solved.loops.size
+    natural = scales.acceleration * np.maximum(scales.omega, scales.speed / bar)
+    scale = or_one(np.maximum(largest(every.found, every.bound), FLOOR * natural))
+    which = [solved.motion.names[name] for name in ours]
+    return apart(solved, ours, every.found[:, which], every.bound[:, which], scale)
+
+
 def of_links(rate: str) -> Route:
     """The route to ω or ε of links."""
 
@@ -450,6 +461,7 @@ ROUTES: dict[str, Route] = {
     "position": of_points(0, "length"),
     "velocity": of_points(1, "speed"),
     "acceleration": of_points(2, "acceleration"),
+    JERK: of_jerks,
     "omega": of_links("omega"),
     "epsilon": of_links("epsilon"),
     "slide": of_slides("position", "length"),
@@ -478,7 +490,7 @@ def digits_of(differences: Differences) -> dict[str, int]:
         kind = KINDS_OF.get(name.rpartition(".")[2])
         if kind is not None:
             found[kind] = min(found.get(kind, MOST_DIGITS), sure_digits(off))
-    return {kind: found[kind] for kind in KINDS if kind in found}
+    return {kind: found[kind] for kind in ORDERS if kind in found}
 
 
 def sure_digits(share: float) -> int:

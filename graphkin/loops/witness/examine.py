@@ -12,6 +12,7 @@ from msgspec import Struct
 from msgspec.structs import replace
 
 from graphkin.construction.core.quantities import (
+    JERK,
     QUANTITIES,
     LinkMotion,
     PointMotion,
@@ -162,7 +163,7 @@ class Check(Struct, frozen=True, eq=False, dict=True):
         missing.
         """
         examined = self.examine(solution, numbered=NUMBERED if numbered else 0)
-        difference, quantity, limit = examined.told(0)
+        difference, quantity, limit = examined.largest(0)
         broken = tuple(name for name, holds in examined.branches.items() if not holds[0])
         report = examined.solved.report
         return Verdict(
@@ -317,7 +318,7 @@ class Examined(Struct, frozen=True, eq=False):
             agrees = agrees & holds
         return np.asarray(agrees)
 
-    def told(self, row: int) -> tuple[float, str, float]:
+    def largest(self, row: int) -> tuple[float, str, float]:
         """The largest difference of one setting, the name of that quantity, and the largest limit.
 
         If a difference exceeds its limit, that difference is returned with its own limit. Of
@@ -430,7 +431,7 @@ def has_acceleration(solution: Solution) -> bool:
     return any(
         motion_value(motion, quantity) is not None
         for quantity in QUANTITIES
-        if quantity.kind == "acceleration"
+        if quantity.kind in ("acceleration", JERK)
         for motion in getattr(solution, quantity.whose).values()
     )
 

@@ -13,7 +13,10 @@ from graphkin.construction.core.quantities import (
     BALANCING_FORCE,
     BALANCING_MOMENT,
     BY_TARGET,
+    JERK,
+    MOTION,
     PAIR_REACTION,
+    PLURALS,
     RATES,
     VECTORS,
     motion_value,
@@ -136,7 +139,7 @@ def sampled(cycle: Cycle, fine: int = FINE) -> Sampled:
 
 def moving_points(scene: Scene, solution: Solution) -> list[str]:
     """The requested points, else all that are neither fixed nor on a driven link alone."""
-    asked = names_asked(scene.ask, *VECTORS)
+    asked = names_asked(scene.ask, *VECTORS, MOTION[JERK])
     known = [name for name in asked if name in solution.points]
     if known:
         return known
@@ -198,7 +201,7 @@ def pictures(found: Sampled) -> dict[str, Callable[[], Figure]]:
     scene, solution = found.scene, found.solution
     points = moving_points(scene, solution)
     drawn: dict[str, Callable[[], Figure]] = {}
-    for quantity, name in NAMES.items():
+    for quantity, name in PLURALS.items():
         if any(getattr(solution.points[p], quantity) is not None for p in points):
             drawn[name] = partial(of_points, found, points, quantity)
     links = turning_links(scene, solution)
@@ -213,18 +216,9 @@ def pictures(found: Sampled) -> dict[str, Callable[[], Figure]]:
     return drawn
 
 
-NAMES = {"position": "positions", "velocity": "velocities", "acceleration": "accelerations"}
-WORDS = {
-    "position": ("Positions", ("x", "y", ""), ""),
-    "velocity": ("Velocities", ("v", "v", "v"), "m/s"),
-    "acceleration": ("Accelerations", ("a", "a", "a"), "m/s²"),
-}
-
-
 def of_points(found: Sampled, points: Sequence[str], quantity: str) -> Figure:
     """A panel for each point with its components and its magnitude."""
-    title, letters, unit = WORDS[quantity]
-    factor = 1.0
+    letter, unit, factor = MOTION[quantity].letter, MOTION[quantity].unit, 1.0
     if quantity == "position":
         unit, factor = found.length_unit, found.per_length
     known = [n for n in points if getattr(found.solution.points[n], quantity) is not None]
@@ -238,14 +232,13 @@ def of_points(found: Sampled, points: Sequence[str], quantity: str) -> Figure:
                 (subscripted("y", name), value.imag, COLOURS[1], DASHES[1]),
             ]
         else:
-            letter = letters[0]
             curves = [
                 (subscripted(letter, name), np.abs(value), INK, DASHES[0]),
                 (f"{subscripted(letter, name)} along x", value.real, COLOURS[0], DASHES[1]),
                 (f"{subscripted(letter, name)} along y", value.imag, COLOURS[1], DASHES[2]),
             ]
         panels.append((f"Point {name.replace('@', ' of link ')}", unit, curves))
-    return stacked(found, title + more, panels)
+    return stacked(found, PLURALS[quantity].capitalize() + more, panels)
 
 
 def of_links(found: Sampled, links: Sequence[str]) -> Figure:

@@ -1,6 +1,7 @@
 // The field in which a mechanism is built by hand: each action is sent to the studio as an edit.
 
 import { replace, written } from "./editor.js";
+import { typedAfter, typedEnd } from "./exact.js";
 import { keyed, panned, wheeled } from "./view.js";
 import { sentence } from "./mistakes.js";
 import { ask, find, onSpeaking, say, tell } from "./talk.js";
@@ -105,9 +106,10 @@ function resized() {
   else showAll();
 }
 
-/** Keys of the field: digits choose tools, 0 shows all, + and - zoom, arrows pan. */
+/** Keys of the field: digits choose tools, 0 shows all, + and - zoom, arrows pan; digits in a drag are its length. */
 function onKey(event) {
   if (event.ctrlKey || event.metaKey || event.altKey || !view) return;
+  if (press) return onTyped(event);
   const named = find("tools").elements.tool[Number(event.key) - 1];
   const next = keyed(view, event.key, svg.clientHeight / svg.clientWidth);
   if (event.key === "0") showAll();
@@ -115,6 +117,23 @@ function onKey(event) {
   else if (next) see(next);
   else return;
   event.preventDefault();
+}
+
+const TYPED = { bar: 0.5, wheel: 0.5, block: 5 }; // tools with a typed length or angle, with the step of a drawn angle
+
+/** Keys of a drag: its length and angle are typed, Escape lets it go. */
+function onTyped(event) {
+  const typed = event.key === "Escape" ? "" : typedAfter(press.typed, event.key);
+  if (typed === undefined || !TYPED[press.tool]) return;
+  event.preventDefault();
+  press.typed = typed;
+  showDrag(press.seen ?? press.at);
+}
+
+/** The place where a drag begins, and where it ends for a pointer at a place. */
+function endsOf(at) {
+  const from = sketch.points[press.point] ?? press.at;
+  return [from, press.typed ? typedEnd(press.typed, from, at, TYPED[press.tool]) : at];
 }
 
 /** Choose a tool as if it were pressed. */
@@ -315,8 +334,8 @@ function linkAt(at, but = "") {
 }
 
 /** A length as it is written. */
-const lengthTold = (far) =>
-  `${+(Math.max(1, Math.round(far / sketch.grid)) * sketch.grid).toFixed(6)} ${sketch.unit}`;
+const lengthTold = (far, grid = sketch.grid) =>
+  `${+(Math.max(1, Math.round(far / grid)) * grid).toFixed(6)} ${sketch.unit}`;
 
 /** The distances of a new point of the pressed link from its first two points; on their line,
  * from one. */
@@ -378,7 +397,8 @@ svg.addEventListener("pointerdown", (event) => {
   if (!sketch || event.button) return;
   tellAt(event, "");
   const at = spot(event);
-  press = { at, point: pointAt(at), link: linkAt(at), ghost: ghostAt(at), tool: tool(), last: at };
+  press = { at, point: pointAt(at), link: linkAt(at), ghost: ghostAt(at), tool: tool(), last: at, typed: "" };
+  svg.focus({ preventScroll: true }); // a length is typed there
   svg.setPointerCapture(event.pointerId);
 });
 
@@ -398,14 +418,21 @@ svg.addEventListener("pointermove", (event) => {
     press.last = at;
     draw();
   }
+  press.seen = at;
+  showDrag(at);
+});
+
+/** Draw what a release at a place would make, with its length and angle. */
+function showDrag(pointer) {
   if (!["bar", "plate", "block", "wheel", "scale"].includes(press.tool)) return;
-  const from = (press.tool !== "scale" && sketch.points[press.point]) || press.at;
-  const goal = press.tool === "bar" ? pointAt(at, press.point) : undefined;
+  const [from, at] = press.tool === "scale" ? [press.at, pointer] : endsOf(pointer);
+  const goal = press.tool === "bar" && !press.typed ? pointAt(at, press.point) : undefined;
   const to = sketch.points[goal] ?? at;
   const [dx, dy] = [to[0] - from[0], to[1] - from[1]];
-  const length = lengthTold(Math.hypot(dx, dy));
-  const step = press.tool === "block" ? 5 : 0.5; // degrees, as building.py rounds them
-  const angle = `${Math.round((Math.atan2(dy, dx) * 180) / Math.PI / step) * step}°`;
+  const grid = press.typed ? 0.001 : undefined; // typed numbers are drawn as they are
+  const length = lengthTold(Math.hypot(dx, dy), grid);
+  const step = grid ?? TYPED[press.tool] ?? 0.5; // degrees, as building.py rounds them
+  const angle = `${+(Math.round((Math.atan2(dy, dx) * 180) / Math.PI / step) * step).toFixed(3)}°`;
   const slot = press.tool === "block" && linkAt(at, press.point);
   const words = {
     plate: () => spokes(at),
@@ -419,15 +446,16 @@ svg.addEventListener("pointermove", (event) => {
     drawn.push(element("circle", "drawn", { cx: from[0], cy: -from[1], r: Math.hypot(dx, dy) }));
   }
   draw({}, drawn);
-});
+}
 
 svg.addEventListener("pointerup", (event) => {
   const from = press;
-  press = null;
   if (!from) return;
-  const at = spot(event);
-  const dragged = away(at, from.at) > 3 * pixel();
-  const end = pointAt(at);
+  const exact = Boolean(from.typed);
+  const at = exact ? endsOf(spot(event))[1] : spot(event);
+  press = null;
+  const dragged = exact || away(at, from.at) > 3 * pixel();
+  const end = exact ? undefined : pointAt(at);
   draw();
   if (from.tool === "shift" && dragged) return;
   if (from.tool === "scale" && dragged) {
@@ -446,14 +474,14 @@ svg.addEventListener("pointerup", (event) => {
   else if (from.tool === "move" && from.ghost && !from.point) {
     act(event, "close", [from.ghost.key], at, { words: from.ghost.words });
   } else if (from.tool === "bar" && from.point && dragged) {
-    act(event, "bar", end ? [from.point, end] : [from.point], at);
+    act(event, "bar", end ? [from.point, end] : [from.point], at, { exact });
   } else if (from.tool === "plate" && from.link) act(event, "plate", [from.link], at);
   else if (from.tool === "block" && from.point && dragged) {
-    const slot = linkAt(at, from.point);
-    act(event, "block", slot ? [from.point, slot] : [from.point], at);
+    const slot = exact ? undefined : linkAt(at, from.point);
+    act(event, "block", slot ? [from.point, slot] : [from.point], at, { exact });
   } else if (from.tool === "wheel" && from.point && dragged) {
     const rim = rimAt(at, from.point);
-    act(event, "wheel", rim ? [from.point, rim.link] : [from.point], at);
+    act(event, "wheel", rim ? [from.point, rim.link] : [from.point], at, { exact });
   } else if (from.tool === "driver" && from.link) {
     drive(event, from.link, at);
   } else if (from.tool === "delete" && (from.point || from.link)) {

@@ -1,34 +1,4 @@
 // What a student draws is checked by its value; a right move is made, a wrong one answered.
-function draw_move() {
-  if (!is_complete()) return;
-  const { action } = turn, given = turn.inputs.slice(0, slots_of(action).length), plane = plane_of(action, given);
-  const found = results_of(action, given);
-  if (CHOICE.includes(action) && found.length > 1 && !all_alike(action, found, plane)) {
-    const at_keys = keys_within();
-    turn.asked = Object.assign(different(action, found, plane), { plane, given });
-    tell_turn(worded("which"));
-    show_picks();
-    if (at_keys) byId("which").querySelector("button").focus({ preventScroll: true });
-    return;
-  }
-  check_move(action, given, found, plane);
-}
-
-const all_alike = (action, found, plane) => found.every(one => same_value(action, one, found[0], plane));
-const different = (action, found, plane) => found.filter((one, i) => found.findIndex(other => same_value(action, one, other, plane)) === i);
-
-/** Go on with the result that the student has chosen out of two. */
-function settle_which(which) {
-  const { given, plane } = turn.asked, found = [turn.asked[which]];
-  const other = turn.asked[1 - which], { action } = turn;
-  if (keys_within()) byId("inputs").querySelector("select").focus({ preventScroll: true });
-  turn.asked = null;
-  check_move(action, given, found, plane, other);
-}
-
-/** Whether the keyboard focus is in the lists, where it must stay. */
-const keys_within = () => byId("turn-form").contains(document.activeElement);
-
 /** The move that gives one of some values; moves still to be made come first. */
 function giving(action, given, found, plane, among) {
   const kind = shape_of(action);
@@ -84,6 +54,11 @@ function keep_own(action, given, step) {
 function add_line(action, given, sheet) {
   const name = named_from(action, given.map(one => picks[one].name), turning.words), [value] = results_of(action, given);
   picks[`own${turn.lines.push([action, given, sheet])}`] = { kind: shape_of(action) === "circle" ? "circle" : "locus", name, plane: plane_of(action, given), needs: [], value, sheet };
+}
+
+/** Draw the lines that no sentence draws. */
+function draw_own() {
+  for (const key of Object.keys(picks).filter(one => one.startsWith("own") && is_there(one))) put_in("front", shown_at(key), "own");
 }
 
 /** The ways in which a move can be found, the least of a student's own work last. */

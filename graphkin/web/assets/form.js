@@ -10,7 +10,8 @@ const HEADS = ["field", "value"];
 const SHOWN = 30;
 const NAMED = 8; // largest number of fields named in one sentence
 const memory = `${told.memory} ${location.origin}${location.pathname}`; // a copy elsewhere has its own
-const fields = [...form.querySelectorAll("[name]")];
+const fields = [...form.querySelectorAll("[name]:not([type=hidden])")];
+const drawing = form.querySelector("[name=drawing]"); // the moves made on the board, which keeps them here
 const own = form.querySelector("#answers-id");
 const status = form.querySelector(".status");
 const file = form.querySelector(".file");
@@ -30,12 +31,13 @@ function wrong(text, unit, name) {
   const rest = stripped.slice(found[0].length);
   const written = plainUnit(rest);
   const known = told.units[unit];
-  if (written && !Object.hasOwn(known, written)) {
+  const factor = Object.keys(known).find((each) => each.toLowerCase() === written.toLowerCase());
+  if (written && !factor) {
     if (MISTYPED.test(rest)) return say("no_number", { text: shown(stripped) });
     const list = Object.keys(known).join(", ");
     return say("no_unit", { unit: shown(written), list });
   }
-  const value = Number(`${digits(found.groups)}e${power(found.groups)}`) * (written ? known[written] : 1);
+  const value = Number(`${digits(found.groups)}e${power(found.groups)}`) * (written ? known[factor] : 1);
   return value < told.largest ? "" : say("too_large", { text: shown(stripped) });
 }
 
@@ -57,8 +59,9 @@ function power({ power: plain, raised }) {
 }
 
 function plainUnit(text) {
-  const bare = text.replace(/[\s()[\]^*·]/g, "");
-  return bare.replaceAll("²", "2").replaceAll("⁻¹", "-1").replaceAll("−", "-");
+  const bare = [...text.replace(/[\s()[\]^*·]/g, "")].map((sign) => told.raised[sign] || sign).join("");
+  const plain = bare.replace(/[а-я]+\.?/g, (part) => told.russian[part.replace(".", "")] || part);
+  return plain.replaceAll("sec", "s").replace(/([\p{L}\p{N}])[.,;]$|^;$/u, "$1");
 }
 
 // Show the error of a field next to it, and return whether there is one.
@@ -75,10 +78,14 @@ function mark(field, problem) {
 }
 
 function answers() {
-  return Object.fromEntries(fields.map((field) => [field.name, field.value]));
+  return Object.fromEntries([...fields, drawing].filter(Boolean).map(({ name, value }) => [name, value]));
 }
 
 function fill(values) {
+  if (drawing && Object.hasOwn(values, drawing.name)) {
+    drawing.value = values[drawing.name];
+    drawing.dispatchEvent(new Event("change"));
+  }
   for (const field of fields.filter((field) => Object.hasOwn(values, field.name))) {
     const text = values[field.name];
     const sense = field.options && ["", "+", "-"].indexOf(text);
@@ -123,6 +130,7 @@ function table() {
     const read = !wrong(field.value, field.dataset.unit ?? "", field.name);
     rows.push([field.name, cell(clean(field.value), read)]);
   }
+  if (drawing?.value) rows.push([drawing.name, cell(drawing.value, true)]);
   return rows.map((row) => row.join(told.separator) + "\r\n").join("");
 }
 
@@ -181,7 +189,7 @@ async function open() {
   file.value = "";
   if (!chosen) return;
   const rows = rowsOf(await chosen.text());
-  const known = new Set(fields.map((field) => field.name));
+  const known = new Set(Object.keys(answers()));
   const found = rows.slice(1).filter(([name, text]) => name && text !== undefined);
   const given = found.find(([name]) => name === "id")?.[1] ?? "";
   const values = Object.fromEntries(found.filter(([name]) => known.has(name)));
@@ -204,7 +212,7 @@ async function open() {
 
 // Whether opening a file would replace answers by different ones.
 function differs(values) {
-  return fields.some((f) => clean(f.value) && f.name in values && values[f.name] !== clean(f.value));
+  return Object.entries(answers()).some(([name, text]) => clean(text) && name in values && values[name] !== clean(text));
 }
 
 function clear() {

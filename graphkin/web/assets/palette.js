@@ -5,7 +5,7 @@ function named_from(action, names, words) {
   if (action === "compass") return words.arc.replace("{p}", names[0]).replace("{bar}", names[1]);
   if (action === "join") return names.join("");
   if (action === "transfer") return names[0];
-  return `${{ perpendicular: "⊥", parallel: "∥" }[action]} ${names[1]} (${names[0]})`;
+  return `${{ perpendicular: "⊥", parallel: "∥", ray: "∠" }[action]} ${names[1]} (${names[0]})`;
 }
 
 /** A record completed by what follows from it: picks of moves, bars and vectors, names and needs. */
@@ -30,7 +30,7 @@ function followed({ moves, picks, words }) {
 /** The actions of a construction by its record; `all_done` says whether some moves are made. */
 function palette_of(record, all_done) {
   followed(record);
-  const { moves, picks, places, shares, seconds } = record;
+  const { moves, picks, places, shares, seconds, millimetre } = record;
   const SAME = 1e-7; // parts of a drawing within which two values are equal
   const ACTIONS = $ACTIONS; // shape and plane of each result: mechanism, velocities, accelerations, numbers
   const steps = Object.keys(moves).map(Number);
@@ -84,6 +84,9 @@ function palette_of(record, all_done) {
   /** The direction of a bar, a vector or a line. */
   const way = key => picks[key].on ? value_of(key) : value_of(key)[1];
   const places_of = key => (places[key] ?? []).map(value_of);
+
+  /** A length in the drawing of another pick; a typed length is in millimetres of paper. */
+  const reach = (length, at) => value_of(length) * (picks[length].paper ? millimetre[picks[at].plane] : 1);
 
   /** The vector along a bar from its other end to a point at one end. */
   function arm(point, bar) {

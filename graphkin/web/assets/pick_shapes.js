@@ -1,5 +1,5 @@
 // Where picks lie on the screen, as points, segments, lines and circles in mm of a field.
-const UNSEEN = ["length", "rate", "vector"]; // kinds of picks that are drawn nowhere
+const UNSEEN = ["length", "rate", "vector", "angle"]; // kinds of picks that are drawn nowhere
 /** The field of a sheet that shows a value of a drawing, and the place in it in mm. */
 function placed(plane, value) {
   const [plan, ...fields] = turning.fields[here()], side = plane === 0 ? 0 : 1;

@@ -118,7 +118,7 @@ function input_list(i) {
     show_ready();
     ask_inputs();
   });
-  label.append(slot_words()[i] ?? "", list);
+  label.append(slot_words()[i] ?? "", list, ...number_field(i));
   return label;
 }
 
@@ -129,9 +129,8 @@ function show_ready() {
 
 /** Offer what cannot be pointed at here as buttons: for the chosen action, and vectors of this part of the work. */
 function show_chips() {
-  const due = moves_left().filter(step => part_of(step) === part_of(next_move())).flatMap(step => moves[step].inputs.map(key => picks[key].kind));
-  const kinds = new Set([...due.filter(kind => UNSEEN.includes(kind)), ...slots_of(turn.tool).flat().filter(kind => kind === "arrow")]);
-  const keys = Object.keys(picks).filter(key => kinds.has(picks[key].kind) && is_there(key) && (UNSEEN.includes(picks[key].kind) || !shown_at(key)));
+  const kinds = new Set([...kinds_due().filter(kind => UNSEEN.includes(kind)), ...slots_of(turn.tool).flat().filter(kind => kind === "arrow")]);
+  const keys = Object.keys(picks).filter(key => kinds.has(picks[key].kind) && is_there(key) && !picks[key].typed && (UNSEEN.includes(picks[key].kind) || !shown_at(key)));
   const held = document.activeElement?.dataset.pick; // the focus stays where it is
   byId("chips").replaceChildren(...keys.map(key => {
     const chip = document.createElement("button");

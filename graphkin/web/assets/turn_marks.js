@@ -5,7 +5,7 @@ function light_up() {
   const lit = [...turn.taken.map(key => [key, "old"]), ...(turn.hinted && turn.grade > 2 ? moves[turn.hinted].inputs.map(key => [picks[key].by || key, "new"]) : [])];
   for (const { halo, front, aims } of sheet.fields) for (const group of [halo, front, aims]) group.replaceChildren();
   for (const step of turn.open) whole_line(String(step), turn.fresh.includes(step) ? "open fresh" : "open");
-  for (const key of Object.keys(picks).filter(one => one.startsWith("own") && is_there(one))) put_in("front", shown_at(key), "own");
+  draw_own();
   for (const [key, look] of lit) put_in("halo", shown_at(key), look);
   for (const drawn of turn.wrong_line ?? []) put_in("front", drawn, "wrong");
   byId("which").replaceChildren();

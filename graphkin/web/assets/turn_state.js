@@ -26,6 +26,10 @@ function moves_left() {
 
 const next_move = () => moves_left().find(step => all_done(moves[step].needs));
 
+/** The kinds of things that this part of the work still needs. */
+const kinds_due = () => moves_left().filter(step => part_of(step) === part_of(next_move())).flatMap(step => moves[step].inputs.map(key => picks[key].kind));
+const typed_numbers = () => [], number_field = () => [], is_letter = () => false; // here nothing is typed but moves
+
 /** A message of the page with names filled in; the names are markup, escaped by their maker. */
 const worded = (key, fields = null) => turning.words[key].replace(/\{(\w+)\}/g, (gap, name) => fields?.[name] ?? gap);
 const tell_turn = text => {

@@ -1,7 +1,7 @@
 // A move typed as it is written: "⊥ AB a", or with an ASCII word "perp AB a". What would come is shown before Enter.
 const TYPED = $TYPED; // the signs and words of each action
-const PLAIN = { "′": "'", "″": "''", "ν": "n", "τ": "t", "ω": "w", "ε": "e" };
-const typed_form = text => text.replace(/[′″ντωε]/g, letter => PLAIN[letter]).replace(/[’]/g, "'");
+const PLAIN = { "°": "", "′": "'", "″": "''", "ν": "n", "τ": "t", "ω": "w", "ε": "e" };
+const typed_form = text => text.replace(/[°′″ντωε]/g, letter => PLAIN[letter]).replace(/[’]/g, "'");
 
 /** The ways in which a pick is written: its whole name, without words before it, or by the bar or guide of a line. */
 function forms_of(key) {
@@ -29,7 +29,7 @@ function readings(action, text, in_order) {
     const left = rest.trimStart();
     if (found.length > 20) return;
     if (!left) return void (slots.every((_, i) => inputs[i]) && found.push(inputs));
-    for (const [key, form] of named) {
+    for (const [key, form] of [...named, ...typed_numbers(left)]) {
       const end = written_length(left, form), free = slots.map((_, i) => i).filter(i => !inputs[i]);
       if (!end) continue;
       const slot = (in_order ? free.slice(0, 1) : free).find(i => fits(action, key, i));
@@ -54,7 +54,8 @@ function written_length(text, form) {
 /** The lines or arcs drawn last of which no point is found yet. */
 function open_pair() {
   const drawn = [...turn.log.map(({ step }) => String(step)), ...Object.keys(picks).filter(key => key.startsWith("own"))].filter(key => picks[key] && is_curve(key));
-  const used = new Set([...turn.done].filter(step => moves[step]?.action === "cut").flatMap(step => moves[step].inputs));
+  const cut_already = turn.lines.filter(([action]) => action === "cut").flatMap(([, given]) => given);
+  const used = new Set([...cut_already, ...[...turn.done].filter(step => moves[step]?.action === "cut").flatMap(step => moves[step].inputs)]);
   const free = drawn.filter(key => !used.has(key)).reverse(), last = free.find(key => free.some(other => other !== key && picks[other].plane === picks[key].plane));
   const other = free.find(key => key !== last && picks[key].plane === picks[last]?.plane);
   return other ? [other, last] : null;
@@ -87,7 +88,7 @@ function show_typed() {
 /** Make the move that is typed; the action stays chosen for lines typed without one. */
 function draw_typed() {
   const { value } = byId("turn-typed"), way = typed_way(value);
-  if (!value.trim()) return;
+  if (!value.trim() || is_letter(value)) return;
   if (!way) {
     byId("turn-typed").select();
     return tell_turn(worded("unread", { text: escaped(value) }));

@@ -15,6 +15,7 @@ from msgspec.structs import replace
 from graphkin.classroom.grading.answer_numbers import read_answer
 from graphkin.classroom.grading.causes import Variants
 from graphkin.classroom.grading.class_marking import Book, graded_class
+from graphkin.classroom.grading.class_report import result_lines
 from graphkin.classroom.grading.feedback import notes, points_words, rows
 from graphkin.classroom.grading.graded import Answer
 from graphkin.classroom.grading.readings import FormFields
@@ -65,6 +66,37 @@ def test_no_two_causes_share_a_name_and_a_way(lab):
 def test_nobody_honest_has_a_mistake_named():
     for lab in ("offset-slider-crank", "pump"):
         assert not any(graded.causes for graded, _ in a_class(lab, [()], 2, count=20))
+
+
+def test_what_a_coarse_pencil_explains_is_no_mistake():
+    """At 86° the protractor's other scale reads 94°, as a crank set badly by hand may lie."""
+    lab, book, rng = "pump", book_of("pump"), np.random.default_rng(7)
+    takers = [taker(28 + i % 3, f"s{i:03d}") for i in range(150)]
+    book.prepare(takers)
+    answers = {}
+    for who in takers:
+        paper = book.marker_of(who).standard.paper
+        sheet = (paper.mechanism, paper.velocities, paper.accelerations)
+        data = hand.data(lab, int(who.settings["n"]))
+        row = mistaken.handed_in(lab, data, sheet, rng, mistaken.SLOPPY)
+        answers[who.student.id] = {
+            item.field: read_answer(row[item.field], item) for item in book.form
+        }
+    named = [e.name for g in graded_class(book, takers, answers).graded for e in g.causes]
+    assert named == []
+
+
+@pytest.mark.parametrize("second", [("ruler 1:2",), ("diameter",), ("clockwise",)])
+def test_another_students_number_is_named_beside_a_second_mistake(second):
+    found = a_class("offset-slider-crank", [("another number", *second)], 3, count=2)
+    assert found and all(is_named(*each) for each in found)
+    assert all(e.whose for g, _ in found for e in g.causes if e.name == "data_of_another")
+
+
+def test_a_crank_turned_the_other_way_is_named_beside_another_mistake():
+    """All that shows it is the sense of one ω."""
+    found = a_class("offset-slider-crank", [("diameter", "reversed")], 3, count=2)
+    assert found and all(is_named(*each) for each in found)
 
 
 def test_a_sense_without_its_value_earns_nothing():
@@ -207,6 +239,8 @@ def test_a_class_that_shares_a_mistake_is_marked():
     """Plans drawn 2:1, and values in mm: no mistake of the table."""
     doubled = whole_class(lambda f, v: v * 2 if f.endswith("_mm") and f[0] in "va" else v)
     assert {c.name for each in doubled.graded for c in each.causes} == {"own_scale"}
+    said = list(result_lines(doubled, words("en")))[1]
+    assert said.startswith("The same cause is named for 12 of 12 students: own_scale.")
     millimetres = whole_class(lambda f, v: v * 1000 if f in ("v_D", "a_D") else v)
     assert {c.name for each in millimetres.graded for c in each.causes} == {"power_of_ten"}
 

@@ -172,7 +172,7 @@ def test_reasons_stand_on_feedback_in_the_report_and_in_the_marks(language):
     escaped = "măsurat &lt;din nou&gt; *pe* foaie"
     assert spoken("feedback.decided", reason=escaped) in page
     assert spoken("feedback.decided", reason="citit de mine") in page
-    assert spoken("feedback.stands", reason="văzut") in page
+    assert spoken("feedback.kept", reason="văzut") in page
     assert spoken("feedback.held") not in page and ">?<" not in page
     assert feedback_pages(of(found, "s007"), "Lab", lab_of(LAB).rubric, spoken)
     files = report_files(found, lab_of(LAB), ReportSettings("Lab", spoken), ())

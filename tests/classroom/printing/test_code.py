@@ -14,21 +14,21 @@ from hypothesis import strategies as st
 from graphkin.classroom.printing.personal import (
     SIDE,
     boxes,
-    corners_of_a3,
     corners_of_a4,
+    corners_on,
     modules,
     overlap,
     rectangles,
     stamped,
 )
-from graphkin.drawing.field import A3_AREA, A3_TITLE_BLOCK, A4_AREA, BELOW
+from graphkin.drawing.field import A3, A4_AREA
 from graphkin.drawing.frame import TitleBlock, page_frame, sheet_frame
 from graphkin.drawing.marks import LineMark, Page, Polyline, Text, reach
 from graphkin.writers.pdf import write_pdf
 
 CODE = "TZHG6MXPZY"
 GRID = st.lists(st.lists(st.booleans(), min_size=7, max_size=7), min_size=1, max_size=9)
-A3 = Page(420, 297, sheet_frame(TitleBlock(title="Task")))
+SHEET = Page(420, 297, sheet_frame(TitleBlock(title="Task")))
 A4 = Page(210, 297, page_frame(("a", "b"), ("c", "d")))
 
 
@@ -73,7 +73,7 @@ def test_an_outline_takes_up_its_sides_and_nothing_within(closed):
     assert not any(overlap(box, (10, 10, 30, 20)) for box in found)
 
 
-@pytest.mark.parametrize(("page", "area"), [(A3, A3_AREA), (A4, A4_AREA)])
+@pytest.mark.parametrize(("page", "area"), [(SHEET, A3.area), (A4, A4_AREA)])
 def test_four_modules_around_the_square_stay_white(page, area):
     left, top, right, bottom = stamp(page)
     margin = SIDE / 21 * 4  # ISO/IEC 18004, 6.3.8
@@ -94,7 +94,7 @@ def test_the_square_gives_way_to_what_stands_there_or_stays_away(places):
 
 
 def test_the_square_on_a_printed_page_can_be_read():
-    data = write_pdf([stamped(A3, CODE)])
+    data = write_pdf([stamped(SHEET, CODE)])
     document = pdfium.PdfDocument(data)
     picture = document[0].render(scale=150 / 72).to_numpy()
     document.close()
@@ -107,10 +107,10 @@ def test_places_of_the_square_lie_4_mm_apart_in_all_the_room_there_is():
     """On A4 from the right upper corner down, on A3 from beside the title block up; each then
     further to the left, with its white margin and a millimetre within the area at first."""
     margin = 3.0
-    beside = (*BELOW[:2], A3_TITLE_BLOCK[0], A3_TITLE_BLOCK[3])
+    beside = (*A3.below[:2], A3.title_block[0], A3.title_block[3])
     for places, area, down in (
         ([*corners_of_a4(margin)], A4_AREA, 4.0),
-        ([*corners_of_a3(margin)], beside, -4.0),
+        ([*corners_on(A3, margin)], beside, -4.0),
     ):
         left, top, right, bottom = area
         columns = [*dict.fromkeys(x for x, _ in places)]

@@ -35,6 +35,7 @@ from graphkin.classroom.printing.print_work import make as made
 from graphkin.classroom.roster.student import Student
 from graphkin.classroom.roster.taker import Taker
 from graphkin.documents.view_names import VIEWS
+from graphkin.drawing.field import A3
 from graphkin.drawing.marks import Page, Text
 from graphkin.drawing.richtext import measures, plain
 from graphkin.text import LANGUAGES, words
@@ -203,7 +204,7 @@ def test_a_long_form_goes_on_on_further_pages(edition):
 @given(st.text(max_size=60))
 def test_any_name_can_be_written_and_fits(text):
     whose = owner(Taker(Student(1, text or "id", name=text, group=text), {}, "CODE"))
-    assert fits(whose.name)
+    assert fits(whose.name, A3)
     assert set(whose.name) <= measures(italic=False).keys()
 
 

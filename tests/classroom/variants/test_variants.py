@@ -69,6 +69,17 @@ def test_what_ranges_give_is_drawn_again_until_it_is_fair():
     assert [tuple(cells) for cells in told[1:]] == rows
 
 
+def test_after_hundreds_without_room_nobody_else_is_compared():
+    """Data lie apart for a few of 30 numbers; a list of thousands is not compared for ever."""
+    fair = replace(read_lab("pump").fair, apart=0.5)
+    lab = drawing_lab(fair)
+    found = assigned(lab, [Student(i, f"s{i}") for i in range(900)])
+    limits = [each.faults[0].limit if each.faults else "" for each in found]
+    assert 1 < limits.count("") < 30
+    first = limits.index("room")
+    assert set(limits[first:]) == {"room"} and "apart" in limits[:first]
+
+
 def test_the_data_of_a_student_do_not_hang_on_the_others_or_on_the_order():
     lab = drawing_lab()
     whole = {each.student.id: each for each in assigned(lab, STUDENTS)}

@@ -1,0 +1,172 @@
+"""What was decided at the desk about a class's answers: lines of a file in the report's folder.
+
+One line holds what was decided at once, for one field or for a whole cluster of like answers.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from fractions import Fraction
+from pathlib import Path
+
+from msgspec import Struct, field
+from msgspec.structs import replace
+
+from graphkin.classroom.grading.answer_numbers import read_answer
+from graphkin.classroom.grading.appeals import Appeal
+from graphkin.classroom.grading.decisions import Deciding
+from graphkin.classroom.grading.graded import Answer, Decision
+from graphkin.classroom.lab.lab_model import Item
+from graphkin.writers.shared_lines import Said, SharedLine, SharedLines
+
+RULINGS = "decisions.jsonl"
+"""The file of a report folder that holds the desk's decisions."""
+Place = tuple[str, str]
+"""A student's id and a field; no field for the whole form."""
+
+
+class Ruling(Struct, frozen=True, omit_defaults=True, tag_field="does"):
+    """A decision about one student's field, or about the whole form."""
+
+    who: str
+    field: str = ""
+
+    @property
+    def place(self) -> Place:
+        """Whom and what it is about."""
+        return self.who, self.field
+
+
+class SetPoints(Ruling, frozen=True, tag="points"):
+    """What a field earns; ``reason`` is for the student, ``asked`` is the appeal it answers."""
+
+    points: Fraction = Fraction()
+    reason: str = ""
+    asked: str = ""
+
+
+class LeaveMark(Ruling, frozen=True, tag="stays"):
+    """The mark stays."""
+
+    reason: str = ""
+    asked: str = ""
+
+
+class ReadAs(Ruling, frozen=True, tag="reads"):
+    """The cell in which ``written`` is found is read as ``text``, and marked."""
+
+    written: str = ""
+    text: str = ""
+
+
+class Remark(Ruling, frozen=True, tag="remarks"):
+    """A remark for the student; an empty one takes back an earlier remark."""
+
+    text: str = ""
+
+
+AnyRuling = SetPoints | LeaveMark | ReadAs | Remark
+
+
+class DeskAct(SharedLine, frozen=True):
+    """What a marker decided at once."""
+
+    rulings: tuple[AnyRuling, ...] = ()
+
+
+class DeskRulings(SharedLines[DeskAct]):
+    """The desk's decisions in a report's folder."""
+
+    def __init__(self, report: Path) -> None:
+        super().__init__(report / RULINGS, DeskAct, targets_of)
+
+    def about(self, kind: type[Ruling], place: Place) -> tuple[Said[DeskAct], ...]:
+        """What counts of one kind about a place: none, one, or those that disagree."""
+        return self.decided.get((family(kind), *place), ())
+
+
+def family(kind: type[Ruling]) -> type[Ruling]:
+    """The kind under which rival decisions are found: points, and that the mark stays, are one."""
+    return SetPoints if kind is LeaveMark else kind
+
+
+def targets_of(line: DeskAct) -> Iterator[tuple[object, object]]:
+    """What a line decides, each with what it says."""
+    for each in line.rulings:
+        yield (family(type(each)), *each.place), each
+
+
+class DeskDecided(Struct):
+    """What the desk decided about a class.
+
+    ``strangers`` are decisions about students or fields that the class does not have, or about more
+    points than a field has. ``rivals`` are decisions on which people disagree: they do not count.
+    """
+
+    decisions: list[Decision] = field(default_factory=list)
+    readings: dict[Place, ReadAs] = field(default_factory=dict)
+    remarks: dict[Place, str] = field(default_factory=dict)
+    strangers: list[Ruling] = field(default_factory=list)
+    rivals: list[tuple[Said[DeskAct], ...]] = field(default_factory=list)
+
+
+def desk_decided(report: Path, on: Deciding) -> DeskDecided:
+    """What the desk decided in a report's folder; nothing where there is no file."""
+    found = DeskDecided()
+    worths = {taker.student.id: on.worth_of(taker) for taker in on.takers}
+    for told in DeskRulings(report).decided.values():
+        ruling = told[-1].what
+        points = worths.get(ruling.who)
+        most = None
+        if points is not None:
+            most = points.get(ruling.field) if ruling.field else sum(points.values(), Fraction())
+        if most is None or (isinstance(ruling, SetPoints) and not 0 <= ruling.points <= most):
+            found.strangers.append(ruling)
+        elif len(told) > 1:
+            found.rivals.append(told)
+        elif isinstance(ruling, ReadAs):
+            found.readings[ruling.place] = ruling
+        elif isinstance(ruling, Remark):
+            if ruling.text:
+                found.remarks[ruling.place] = ruling.text
+        else:
+            earned = ruling.points if isinstance(ruling, SetPoints) else None
+            decision = Decision(ruling.who, ruling.field, earned, ruling.reason, at_desk=True)
+            found.decisions.append(replace(decision, answers=ruling.asked))
+    return found
+
+
+def all_decisions(
+    table: Sequence[Decision], desk: Sequence[Decision], appeals: Iterable[Appeal]
+) -> tuple[Decision, ...]:
+    """The decisions of the table, then those of the desk elsewhere, and what students asked.
+
+    The table answers every appeal on its fields; the desk answers one by its text.
+    """
+    found: dict[Place, Decision] = {(each.who, each.field): each for each in desk}
+    found |= {(each.who, each.field): each for each in table}
+    for appeal in appeals:
+        known = found.get(appeal.place)
+        if known is None:
+            found[appeal.place] = Decision(*appeal.place, None, appeal.text, is_open=True)
+        elif known.at_desk and known.answers != appeal.text:
+            found[appeal.place] = replace(known, asked=appeal.text, answers="")
+        elif not known.is_open:
+            found[appeal.place] = replace(known, answers=appeal.text)
+    return tuple(found.values())
+
+
+def read_as(
+    answers: Mapping[str, Mapping[str, Answer]],
+    readings: Mapping[Place, ReadAs],
+    form: Sequence[Item],
+) -> dict[str, dict[str, Answer]]:
+    """The answers, with the cells that a person has read; a cell that was changed since is left."""
+    items = {item.field: item for item in form}
+    found = {who: dict(own) for who, own in answers.items()}
+    for (who, name), reading in readings.items():
+        own = found.get(who, {})
+        if name in own and own[name].text == reading.written:
+            read = replace(read_answer(reading.text, items[name]), grouped=None)
+            own[name] = replace(read, written=reading.written)
+    return found

@@ -1,0 +1,318 @@
+"""The desk's part about answers: cells, appeals, suspects, sheets and clusters of answers."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from fractions import Fraction
+from pathlib import Path
+from typing import Any
+
+import msgspec
+from msgspec import Struct
+from msgspec.structs import replace
+
+from graphkin.classroom.grading.answer_numbers import read_answer
+from graphkin.classroom.grading.appeals import Appeal, read_appeals
+from graphkin.classroom.grading.decisions import AMOUNT, LONGEST
+from graphkin.classroom.grading.desk_rulings import (
+    AnyRuling,
+    DeskAct,
+    DeskRulings,
+    LeaveMark,
+    Place,
+    ReadAs,
+    Remark,
+    SetPoints,
+)
+from graphkin.classroom.grading.feedback import (
+    COLUMNS,
+    HEADS,
+    cause_sentence,
+    decision_words,
+    points_words,
+    row_of,
+)
+from graphkin.classroom.grading.graded import Decision, EarnedMark
+from graphkin.classroom.grading.kept_marks import KeptReport
+from graphkin.classroom.roster.student_signs import signs
+from graphkin.reading.desk_queue import DeskItem, DeskQueue
+from graphkin.studio.session import PageRequestError
+from graphkin.text import Words
+from graphkin.text.errors import Problem
+from graphkin.writers.shared_lines import Said
+from graphkin.writers.templates import marked_up
+
+
+class DeskRequest(Struct, frozen=True, forbid_unknown_fields=True):
+    """What a marker decides about an item: one of its choices, or points, or a reading.
+
+    ``known`` is the number of lines of the file that the page has seen.
+    """
+
+    item: str
+    known: int
+    choice: int | None = None
+    points: str = ""
+    reading: str | None = None
+    reason: str = ""
+
+
+class RemarkRequest(Struct, frozen=True, forbid_unknown_fields=True):
+    """A remark on a row of an item, by the row's number; None for the whole form."""
+
+    item: str
+    known: int
+    row: int
+    text: str
+
+
+class MarkDesk(Struct, dict=True):
+    """The marks of a report's folder and the decisions on them; one request at a time."""
+
+    folder: Path
+    report: KeptReport
+    words: Words
+    marker: str = ""
+    anonymous: bool = False
+
+    def __post_init__(self) -> None:
+        self.rulings = DeskRulings(self.folder)
+        graded = {each.taker.student.id: each for each in self.report.graded}
+        named = self.words("studio.student")
+        names = {
+            who: f"{named} {place}" if self.anonymous else each.taker.student.called
+            for place, (who, each) in enumerate(
+                sorted(graded.items(), key=lambda pair: pair[1].taker.code), 1
+            )
+        }
+        if self.anonymous:  # the order of the class list would tell who is who
+            graded = {who: graded[who] for who in names}
+        self.queue = DeskQueue(self.report, graded, names, self.words)
+        self.stamp: tuple[int, int] | None = None
+        self.problems: tuple[Problem, ...] = ()
+        self.known_items: dict[str, DeskItem] = {}
+
+    def items(self) -> dict[str, DeskItem]:
+        """Everything to decide, by name; read again where the appeals changed."""
+        path = self.folder / "appeals.csv"
+        stat = path.stat() if path.is_file() else None
+        stamp = (stat.st_mtime_ns, stat.st_size) if stat else (0, 0)
+        if stamp != self.stamp:
+            self.stamp = stamp
+            every = self.queue.items(self.appeals())
+            self.known_items = {each.name: each for each in every}
+        return self.known_items
+
+    def appeals(self) -> Sequence[Appeal]:
+        """The appeals in the folder."""
+        takers = [each.taker for each in self.queue.graded.values()]
+        ids = {taker.student.id: taker for taker in takers}
+        known = signs(
+            ids,
+            {who: taker.code for who, taker in ids.items()},
+            {who: taker.email for who, taker in ids.items()},
+            {who: taker.student.name for who, taker in ids.items()},
+        )
+        fields = {who: [f for _, f in self.queue.whole(who)] for who in ids}
+        found = read_appeals(self.folder, known, fields)
+        self.problems = found.problems
+        return found.every
+
+    # --- what the page shows ----------------------------------------------------------------------
+
+    def listed(self) -> list[dict[str, Any]]:
+        """A line for each thing to decide: its name, kind, title and state."""
+        return [
+            {"name": name, "kind": each.kind, "title": each.title, "state": self.state(each)}
+            for name, each in self.items().items()
+        ]
+
+    def state(self, item: DeskItem) -> str:
+        """Whether an item is ``open``, ``decided``, or people ``disagree`` on it."""
+        told = [list(self.about(item, place)) for place in item.places]
+        if any(len(said) > 1 for each in told for said in each):
+            return "disagree"
+        table = (self.of_table(place) for place in item.places)
+        settled = (
+            any(each) or (decision is not None and not decision.is_open)
+            for each, decision in zip(told, table, strict=True)
+        )
+        return "decided" if all(settled) else "open"
+
+    def about(self, item: DeskItem, place: Place) -> Iterator[tuple[Said[DeskAct], ...]]:
+        """What counts about a place of an item: rulings on its mark, and on its cell."""
+        said = self.rulings.about(SetPoints, place)
+        if item.kind != "appeal" or (said and said[-1].what.asked == item.own):
+            yield said
+        if item.kind == "cell":
+            yield self.rulings.about(ReadAs, place)
+
+    def of_table(self, place: Place) -> Decision | None:
+        """The decision of ``decisions.csv`` on a place."""
+        graded = self.queue.graded[place[0]]
+        found = graded.mark(place[1]).decision if place[1] else graded.decision
+        return None if found is None or found.at_desk else found
+
+    def shown(self, name: str) -> dict[str, Any]:
+        """One thing to decide, with its rows and choices. Raises PageRequestError if unknown."""
+        item, words = self.item(name), self.words
+        most = {points_words(self.most(place), words) for place in item.places}
+        return {
+            "name": name,
+            "kind": item.kind,
+            "title": item.title,
+            "state": self.state(item),
+            "told": item.told,
+            "causes": self.causes(item),
+            "heads": [words(HEADS[each]) for each in COLUMNS],
+            "rows": [self.row(place) for place in item.shown],
+            "choices": [each.said for each in item.choices],
+            "reads": item.own if item.kind == "cell" and item.own else None,
+            "most": most.pop() if len(most) == 1 else "",
+            "decided": self.decided(item),
+            "known": self.rulings.count,
+        }
+
+    def item(self, name: str) -> DeskItem:
+        """The item of a name. Raises PageRequestError where there is none."""
+        found = self.items().get(name)
+        if found is None:
+            raise PageRequestError(name)
+        return found
+
+    def most(self, place: Place) -> Fraction:
+        """The most points of a field, or of the whole form."""
+        graded = self.queue.graded[place[0]]
+        return graded.mark(place[1]).points if place[1] else graded.points
+
+    def row(self, place: Place) -> dict[str, Any]:
+        """A field as the student's feedback shows it, as browser markup, with the remark on it."""
+        graded = self.queue.graded[place[0]]
+        mark = graded.mark(place[1])
+        told = row_of(replace(graded, remarks={}), undecided(mark), self.words)
+        (remark,) = self.rulings.about(Remark, place)[-1:] or (None,)
+        table = self.of_table(place)
+        return {
+            "who": self.queue.names[place[0]],
+            "cells": [marked_up(cell) for cell in told.cells],
+            "why": marked_up(told.why),
+            "status": told.status.value,
+            "table": marked_up(decision_words(table, self.words)) if table is not None else "",
+            "remark": remark.what.text if remark is not None else "",
+        }
+
+    def causes(self, item: DeskItem) -> list[str]:
+        """The causes that explain the sheets of an appeal, as browser markup."""
+        if item.kind != "appeal":
+            return []
+        graded = self.queue.graded[item.places[0][0]]
+        return [marked_up(cause_sentence(each, self.words)) for each in graded.causes]
+
+    def decided(self, item: DeskItem) -> list[str]:
+        """What was decided about an item, by whom; each sentence once."""
+        found: dict[str, None] = {}
+        for place in item.places:
+            table = self.of_table(place)
+            if table is not None and not table.is_open:
+                found[f"decisions.csv: {self.words('desk.by_table', reason=table.reason)}"] = None
+            earlier = self.rulings.about(SetPoints, place) if item.kind == "appeal" else ()
+            for said in (*self.about(item, place), earlier):
+                for each in said:
+                    found[self.said(each, len(item.places) > 1)] = None
+        return list(found)
+
+    def said(self, each: Said[DeskAct], several: bool) -> str:
+        """A ruling in words, with its marker."""
+        ruling: AnyRuling = each.what
+        who = f"{self.queue.names[ruling.who]}: " if several and not ruling.field else ""
+        told: str = self.words("desk.stays")
+        if isinstance(ruling, SetPoints):
+            told = self.words("desk.earns", points=points_words(ruling.points, self.words))
+        elif isinstance(ruling, ReadAs):
+            read = self.words("desk.read_as", text=ruling.text)
+            told = read if ruling.text else self.words("desk.no_answer")
+        reason = getattr(ruling, "reason", "")
+        told = f"{told}: {reason}" if reason else told
+        return f"{who}{told} ({each.line.by})" if each.line.by else f"{who}{told}"
+
+    # --- what the page decides --------------------------------------------------------------------
+
+    def decide(self, data: bytes) -> dict[str, Any]:
+        """Record a decision, all of it in one line. Raises PageRequestError where it is invalid."""
+        asked = decoded(data, DeskRequest)
+        item = self.item(asked.item)
+        if any(each is not None and not each.is_open for each in map(self.of_table, item.places)):
+            raise PageRequestError(self.words("desk.in_table"))
+        if len(asked.reason) > LONGEST:
+            raise PageRequestError(f"{len(asked.reason)} > {LONGEST}")
+        rulings = tuple(with_reason(each, asked.reason) for each in self.wanted(item, asked))
+        self.rulings.add(DeskAct(by=self.marker, seen=asked.known, rulings=rulings))
+        return self.shown(asked.item)
+
+    def wanted(self, item: DeskItem, asked: DeskRequest) -> tuple[AnyRuling, ...]:
+        """The rulings of a request."""
+        if asked.choice is not None:
+            if not 0 <= asked.choice < len(item.choices):
+                raise PageRequestError(str(asked.choice))
+            return item.choices[asked.choice].rulings
+        if asked.reading is not None and item.kind == "cell" and item.own:
+            form = {each.field: each for each in self.report.form}
+            if read_answer(asked.reading, form[item.places[0][1]]).problem:
+                raise PageRequestError(self.words("desk.unreadable", text=asked.reading))
+            read = ({"written": item.own, "text": asked.reading} for _ in item.places)
+            return tuple(ReadAs(*at, **own) for at, own in zip(item.places, read, strict=True))
+        most = min(map(self.most, item.places))
+        points = Fraction(asked.points.replace(",", ".")) if AMOUNT.fullmatch(asked.points) else -1
+        if not 0 <= points <= most:
+            raise PageRequestError(
+                self.words("desk.bad_points", most=points_words(most, self.words))
+            )
+        asked_by = item.own if item.kind == "appeal" else ""
+        return tuple(
+            SetPoints(*place, points=Fraction(points), asked=asked_by) for place in item.places
+        )
+
+    def remark(self, data: bytes) -> dict[str, Any]:
+        """Record a remark on a row. Raises PageRequestError where it is invalid."""
+        asked = decoded(data, RemarkRequest)
+        item = self.item(asked.item)
+        if not 0 <= asked.row < len(item.shown) or len(asked.text) > LONGEST:
+            raise PageRequestError(str(asked.row))
+        who, field = item.shown[asked.row]
+        remark = Remark(who, field, asked.text.strip())
+        self.rulings.add(DeskAct(by=self.marker, seen=asked.known, rulings=(remark,)))
+        return self.shown(asked.item)
+
+    def undo(self) -> str:
+        """Take back this marker's last decision; returns the item that it was about, if listed."""
+        last = self.rulings.last_of(self.marker)
+        if last is None:
+            return ""
+        places = {each.place for each in last[1].rulings}
+        self.rulings.add(DeskAct(by=self.marker, undo=True))
+        exact = (n for n, each in self.items().items() if places == {*each.places})
+        near = (n for n, each in self.items().items() if places <= {*each.places, *each.shown})
+        return next(exact, next(near, ""))
+
+
+def undecided(mark: EarnedMark) -> EarnedMark:
+    """A mark as it was found, without the decision on it."""
+    decision = mark.decision
+    if decision is None or decision.before is None:
+        return replace(mark, decision=None)
+    return replace(mark, decision=None, earned=decision.before)
+
+
+def with_reason(ruling: AnyRuling, reason: str) -> AnyRuling:
+    """A ruling with the marker's reason."""
+    if isinstance(ruling, SetPoints | LeaveMark) and reason.strip():
+        return replace(ruling, reason=reason.strip())
+    return ruling
+
+
+def decoded(data: bytes, kind: type[Any]) -> Any:
+    """A request of the page. Raises PageRequestError for anything else."""
+    try:
+        return msgspec.json.decode(data, type=kind)
+    except msgspec.MsgspecError as error:
+        raise PageRequestError(str(error)) from None

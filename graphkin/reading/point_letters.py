@@ -1,0 +1,140 @@
+"""The letters beside the points of a plan, read by a small network as evidence of their own.
+
+Straight lines are taken away, what is left falls into pieces, and each piece is a letter from a to
+z or none. The weights are made by ``python -m tests.reading.letter_network``.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from functools import cache
+from pathlib import Path
+from typing import Any
+
+import cv2
+import numpy as np
+
+from graphkin.drawing.field import AREA
+from graphkin.reading.drawn_ink import DENSITY, DrawnInk
+
+WEIGHTS = Path(__file__).parent / "letter_weights.npz"
+ALPHABET = "abcdefghijklmnopqrstuvwxyz"
+INKED = 0.35
+"""The darkness from which a pixel belongs to a piece."""
+ROOM, NEAR, ABOUT = 13.0, 8.0, 1.0
+"""Half the side of the square about a point that is looked at; pieces lie between ABOUT and NEAR
+mm from the point, where no ring is taken for a letter.
+"""
+STRAIGHT, TURNS = 31, np.arange(0.0, 180.0, 5.0)
+"""Lines of so many pixels in one of these directions (degrees) are no part of a letter."""
+SMALLEST, LARGEST = 0.8, 6.0
+"""The least and the most height or width of a letter, in mm."""
+JOINED = 0, 3, 5
+"""Pieces less than so many pixels apart are one piece, tried in turn."""
+SIDE, BOX = 24, 20
+"""The side of the square that the network sees, and of the piece in it, in pixels."""
+FLOOR = 0.02
+"""The least probability of a letter, since a letter may stand farther away or not at all."""
+UNLIKE = 0.1
+"""The least probability that a piece is one of the letters looked for, or none."""
+FADES = 4.0
+"""A letter so many mm farther away counts e times less."""
+
+
+def pieces(dark: Any) -> Iterator[tuple[tuple[int, int, int, int], Any]]:
+    """The pieces of ink in a square that may be letters: their box (x, y, width, height), and what
+    the network sees of them.
+    """
+    inked = (dark > INKED).astype(np.uint8)
+    left = inked & ~cv2.dilate(straight(inked), np.ones((3, 3), np.uint8))
+    low, high = SMALLEST * DENSITY, LARGEST * DENSITY
+    seen = set[tuple[int, int, int, int]]()
+    for gap in JOINED:
+        joined = cv2.dilate(left, np.ones((gap, gap), np.uint8)) if gap else left
+        count, names = cv2.connectedComponents(joined)
+        names = names * left
+        for name in range(1, count):
+            mask = (names == name).astype(np.uint8)
+            box = tuple(int(each) for each in cv2.boundingRect(mask))
+            long, short = max(box[2:]), min(box[2:])
+            if low <= long <= high and short >= 2 and box not in seen:
+                seen.add(box)
+                yield box, shown(dark * cv2.dilate(mask, np.ones((3, 3), np.uint8)), box)
+
+
+def straight(inked: Any) -> Any:
+    """The pixels of long straight lines."""
+    found = np.zeros_like(inked)
+    for kernel in kernels():
+        found |= cv2.dilate(cv2.erode(inked, kernel), cv2.flip(kernel, -1))
+    return found
+
+
+@cache
+def kernels() -> tuple[Any, ...]:
+    """A line of ``STRAIGHT`` pixels in each direction."""
+    half, found = STRAIGHT // 2, []
+    for turn in np.radians(TURNS):
+        kernel = np.zeros((STRAIGHT, STRAIGHT), np.uint8)
+        x, y = round(half * float(np.cos(turn))), round(half * float(np.sin(turn)))
+        cv2.line(kernel, (half - x, half - y), (half + x, half + y), 1)
+        found.append(kernel)
+    return tuple(found)
+
+
+def shown(dark: Any, box: tuple[int, int, int, int]) -> Any:
+    """A piece as the network sees it: in the middle of a small square, and its size in mm."""
+    x, y, width, height = box
+    scale = BOX / max(width, height)
+    size = max(1, round(width * scale)), max(1, round(height * scale))
+    part = cv2.resize(
+        np.clip(dark[y : y + height, x : x + width], 0, 1), size, interpolation=cv2.INTER_AREA
+    )
+    square = np.zeros((SIDE, SIDE), np.float32)
+    top, left = (SIDE - size[1]) // 2, (SIDE - size[0]) // 2
+    square[top : top + size[1], left : left + size[0]] = part
+    size_mm = np.array([width, height], np.float32) / DENSITY / LARGEST
+    return np.concatenate([square.ravel(), size_mm])
+
+
+@cache
+def network() -> tuple[Any, ...]:
+    """The weights and offsets of the layers."""
+    with np.load(WEIGHTS) as kept:
+        return tuple(kept[name].astype(np.float32) for name in sorted(kept.files))
+
+
+def probabilities(seen: Any, layers: tuple[Any, ...]) -> Any:
+    """The probability of each letter, and at last of none, for each piece."""
+    value = seen
+    for weights, offsets in zip(layers[0::2], layers[1::2], strict=True):
+        value = np.maximum(value, 0) if value is not seen else value
+        value = value @ weights + offsets
+    value = np.exp(value - value.max(axis=1, keepdims=True))
+    return value / value.sum(axis=1, keepdims=True)
+
+
+def letters_near(ink: DrawnInk, place: complex, letters: str = ALPHABET) -> Mapping[str, float]:
+    """How likely each of some letters stands beside a place: from FLOOR to 1.
+
+    A piece is taken for one of these letters, or for none.
+    """
+    x, y = (place.real - AREA[0]) * DENSITY, (place.imag - AREA[1]) * DENSITY
+    half = round(ROOM * DENSITY)
+    left, top = max(0, round(x) - half), max(0, round(y) - half)
+    part = slice(top, round(y) + half), slice(left, round(x) + half)
+    dark = ink.dark[part] * (ink.known[part] > 0)
+    found = np.full(len(letters), FLOOR)
+    beside = []
+    if min(dark.shape) >= STRAIGHT:
+        for (bx, by, width, height), seen in pieces(dark):
+            far = np.hypot(left + bx + width / 2 - x, top + by + height / 2 - y) / DENSITY
+            if ABOUT < far < NEAR:
+                beside.append((far, seen))
+    if beside:
+        likely = probabilities(np.stack([seen for _, seen in beside]), network())
+        likely = likely[:, [*(ALPHABET.index(each) for each in letters), -1]]
+        likely /= np.maximum(likely.sum(axis=1, keepdims=True), UNLIKE)
+        fades = np.exp(-np.maximum(np.array([far for far, _ in beside]) - FADES, 0) / FADES)
+        found = np.maximum(found, (likely[:, :-1] * fades[:, None]).max(axis=0))
+    return dict(zip(letters, found.tolist(), strict=True))

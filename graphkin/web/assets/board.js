@@ -1,0 +1,84 @@
+// The board of a task page: where its moves are kept, its keys and buttons, and its beginning.
+const kept_in = document.querySelector("form.answers input[name=drawing]");
+const MEMORY = `graphkin board ${location.pathname} ${[...byId("board").textContent].reduce((sum, letter) => Math.imul(31, sum) + letter.codePointAt(0) | 0, 7)}`;
+
+/** Keep the moves with the answers, or in this browser where the page has no form. */
+function keep_board() {
+  const log = log_of();
+  if (kept_in) {
+    if (kept_in.value === log) return;
+    kept_in.value = log;
+    kept_in.dispatchEvent(new Event("input", { bubbles: true }));
+    return;
+  }
+  try {
+    localStorage.setItem(MEMORY, log);
+  } catch { /* it is lost with the page */ }
+}
+
+/** The moves that were kept. */
+function kept_log() {
+  try {
+    return kept_in ? kept_in.value : localStorage.getItem(MEMORY) ?? "";
+  } catch {
+    return "";
+  }
+}
+
+/** Draw what was kept, in place of what is drawn. */
+function recall_board() {
+  const log = kept_log();
+  if (log === log_of()) return;
+  forget_own_lines();
+  Object.assign(turn, { lines: [], log: [], past: [], future: [], fresh: [] });
+  const whole = draw_log(log);
+  turn.past = turn.lines.map((_, i) => ({ done: [], log: turn.log.slice(0, i), lines: turn.lines.slice(0, i) })); // each move can be taken back
+  tell_turn(worded(whole ? "begin" : "broken", { number: turn.lines.length }));
+  show_turn();
+}
+
+/** On the second request, take all moves back. */
+function turn_again() {
+  const { sure } = turn;
+  if (sure) {
+    keep_past();
+    forget_own_lines();
+    Object.assign(turn, { lines: [], log: [], fresh: [] });
+    follow_letters();
+    forget_inputs();
+    show_turn();
+  }
+  tell_turn(worded(sure ? "begin" : "sure"));
+  turn.sure = !sure;
+}
+
+/** Give each field of a sheet its share of the width, and all that it shows. */
+function fit() {
+  for (const { fields } of sheets) for (const one of fields) one.drawn = null; // nothing is drawn that a frame could close on
+  wanted = false;
+  style(page, "--dock", `${Math.min(byId("dock").offsetHeight, innerHeight / 2)}px`);
+  look();
+  light_up();
+}
+
+for (const type of EVENTS) document.addEventListener(type, in_turn, true);
+for (const [name, act] of [["turn-undo", undo], ["turn-redo", redo], ["turn-again", turn_again]]) byId(name).addEventListener("click", act);
+byId("turn-sheet").addEventListener("click", () => {
+  state.step = (state.step + 1) % sheets.length;
+  show_turn();
+});
+for (const [name, act] of [["turn-form", draw_move], ["turn-type", draw_typed]]) {
+  byId(name).addEventListener("submit", event => {
+    event.preventDefault();
+    act();
+  });
+}
+byId("turn-typed").addEventListener("input", show_typed);
+for (const button of byId("palette").children) button.addEventListener("click", () => choose_action(button.dataset.action));
+kept_in?.addEventListener("change", recall_board); // another file of answers was opened
+addEventListener("resize", fit);
+follow_letters();
+fit();
+tell_turn(worded("begin"));
+if (kept_log()) recall_board();
+else show_turn();

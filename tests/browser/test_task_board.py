@@ -1,0 +1,289 @@
+"""The board of a task page: a plan drawn by keys and by mouse, kept, handed in and graded."""
+
+from __future__ import annotations
+
+import csv
+from pathlib import Path
+from shutil import copytree
+from typing import Any
+
+import pytest
+
+from graphkin.construction.board import BETWEEN, Board, BoardGiven, board_given, replayed
+from graphkin.drawing.field import Field
+from graphkin.mechanism import load
+from graphkin.numbers.plane import Line
+from graphkin.scene import scene_files
+from graphkin.web.screen_sheets import ScreenSheet, screen_sheets
+from tests.browser.opening import Opened, barred
+from tests.browser.test_form import class_folder, page_of, save
+from tests.running import Run
+from tests.web.drawn_logs import PUMP, VELOCITIES
+
+TYPED = """
+ray O1 44
+off O1 44 60 /1
+A
+arc A AB
+arc O2 O2B
+x /2
+B
+arc A AC
+arc B BC
+x /1
+C
+arc C CD
+cut CD 5 /1
+D
+perp o O1A
+off o O1A 150 /1
+a
+perp a AB
+o O2B
+x
+b
+perp a AC
+b BC
+x
+c
+perp c CD
+par o 5
+x
+d
+"""
+"""The pump's position and velocity plan as they are typed; after a stroke the result to take."""
+MOST_PRESSES = 250
+"""The most key presses for the plan."""
+MOST_CLICKS = 95
+"""The most clicks for the position and the plan."""
+SCREEN = """([side, x, y]) => {
+  const svg = document.querySelectorAll(".sheet:not([hidden]) .view > svg")[side];
+  const place = new DOMPoint(x, y).matrixTransform(svg.getScreenCTM());
+  return [place.x, place.y];
+}"""
+
+
+@pytest.fixture(scope="module")
+def folder(tmp_path_factory) -> Path:
+    """A class folder of the pump with the task pages of two students."""
+    return class_folder("pump", tmp_path_factory.mktemp("task-board"))
+
+
+def fresh(opened: Opened, path: Path, **options: Any) -> Any:
+    """A page on which nothing is drawn yet."""
+    page = opened(path, **options)
+    page.evaluate("localStorage.clear()")
+    page.reload()
+    return page
+
+
+def log_of(page: Any) -> str:
+    """The moves that the form holds."""
+    return page.locator("form.answers [name=drawing]").input_value()
+
+
+def typed(page: Any, lines: str = TYPED) -> int:
+    """Type moves; the number of key presses."""
+    presses = 0
+    field = page.locator("#turn-typed")
+    for line in lines.strip().splitlines():
+        text, _, which = line.partition(" /")
+        field.fill(text)
+        field.press("Enter")
+        presses += len(text) + 1
+        if which:
+            page.keyboard.press(which)
+            presses += 1
+    return presses
+
+
+def graded(run: Run, folder: Path, answers: Path, report: Path) -> dict[str, str]:
+    """The row of the first student in the marks of some answers."""
+    run("grade", folder, answers, "-o", report, "--as-it-is", "--format", "html")
+    with (report / "marks.csv").open(encoding="utf-8-sig", newline="") as file:
+        return {row["id"]: row for row in csv.DictReader(file)}["0042"]
+
+
+class MouseHand:
+    """Draws a log by mouse: an action, then each thing at its place on the screen."""
+
+    def __init__(self, page: Any, sheets: list[ScreenSheet]) -> None:
+        self.page, self.sheets = page, sheets
+        self.given: BoardGiven = board_given([sheet.drawing for sheet in sheets])
+        self.board, self.clicks = Board(self.given), 0
+
+    def draw(self, log: str) -> None:
+        """Draw each move of a log."""
+        for move in log.split(BETWEEN):
+            words = move.split()
+            which = int(words.pop()[1:]) if words[-1].startswith("/") else 0
+            self.move(words, which)
+            self.board.move(move.split())
+
+    def move(self, words: list[str], which: int) -> None:
+        """Draw one move: a name by its letter, a crossing where it is, the rest by its action."""
+        action, *keys = words
+        if action == "name":
+            letter = self.page.locator("#letters button").nth(self.letters(keys[1]))
+            self.press(letter)
+        elif action == "cut":
+            board = Board(self.given)
+            board.own, board.moves = dict(self.board.own), self.board.moves
+            board.move([*words, f"/{which}"])
+            self.click(board.own[str(board.moves)].value, board.thing(keys[0]).plane)
+        else:
+            button = self.page.locator(f"#palette [data-action={ACTIONS[action]}]")
+            if button.get_attribute("aria-pressed") != "true":
+                self.press(button)
+            for key in keys:
+                self.take(key)
+            if self.page.locator("#which button").count():
+                self.press(self.page.locator("#which button").nth(which))
+
+    def letters(self, key: str) -> int:
+        """The place of a letter among those that are offered."""
+        plane = self.given.letters[key].plane
+        free = [k for k, each in self.given.letters.items() if each.plane == plane]
+        return [k for k in free if k not in self.board.named].index(key)
+
+    def take(self, key: str) -> None:
+        """Take one thing: a point, a line or bar, a stated length, or a typed number."""
+        thing = self.board.thing(key)
+        if thing.kind in ("length", "angle", "rate"):
+            if key in self.given.things:
+                kinds = ("length", "angle")
+                stated = [k for k, each in self.given.things.items() if each.kind in kinds]
+                self.press(self.page.locator("#chips button").nth(stated.index(key)))
+                return
+            number = self.page.locator("#turn-form input")
+            number.fill(key.rstrip("mdegra"))
+            number.press("Enter")
+        elif thing.on:
+            ends = [self.board.value_of(end) for end in thing.on]
+            self.click(0.4 * ends[0] + 0.6 * ends[1], thing.plane)
+        elif isinstance(thing.value, Line):
+            along = thing.value.along / abs(thing.value.along)
+            self.click(
+                thing.value.point + 47 * self.given.millimetre[thing.plane] * along, thing.plane
+            )
+        else:
+            self.click(thing.value, thing.plane)
+
+    def click(self, value: complex, plane: int) -> None:
+        """Click at a place of a drawing."""
+        layout = self.sheets[max(plane - 1, 0)].layout
+        field: Field = layout.plan if plane else layout.mechanism
+        x, y = self.page.evaluate(SCREEN, [1 if plane else 0, *field(value)])
+        self.page.mouse.click(x, y)
+        self.clicks += 1
+
+    def press(self, button: Any) -> None:
+        """Click on a button."""
+        button.click()
+        self.clicks += 1
+
+
+ACTIONS = {"ray": "ray", "off": "set_off", "perp": "perpendicular", "par": "parallel",
+           "arc": "compass"}  # fmt: skip
+
+
+def test_the_velocity_plan_by_keys_is_handed_in_and_marked(
+    opened: Opened, folder: Path, run: Run, tmp_path: Path
+):
+    page = fresh(opened, page_of(folder))
+    presses = typed(page)
+    assert log_of(page) == VELOCITIES
+    assert presses <= MOST_PRESSES
+    answers = tmp_path / "answers"
+    answers.mkdir()
+    save(page, answers)
+    row = graded(run, folder, answers, tmp_path / "report")
+    assert row["v_D_mm why"] == "right"
+    assert row["a_D_mm why"] == "blank"
+    told = (tmp_path / "report" / "feedback" / "0042.html").read_text(encoding="utf-8")
+    assert told.count('stroke="#087a2c"') == 12  # four points on both sheets, and four images
+    assert 'stroke="#c21807"' not in told
+
+
+def test_the_velocity_plan_by_mouse_is_the_same_drawing(opened: Opened, folder: Path):
+    page = fresh(opened, page_of(folder), viewport={"width": 1366, "height": 900})
+    page.locator("#desk").evaluate("desk => desk.scrollIntoView()")
+    hand = MouseHand(page, screen_sheets(load("pump", n=7).measured, "ro", "task"))
+    hand.draw(VELOCITIES)
+    drawn, right = (replayed(hand.given, log) for log in (log_of(page), VELOCITIES))
+    assert drawn.named.keys() == right.named.keys()
+    for letter in right.named:
+        assert abs(drawn.value_of(letter) - right.value_of(letter)) < 1e-9
+    assert hand.clicks <= MOST_CLICKS
+
+
+def test_a_mistake_is_red_and_what_follows_from_it_green(folder: Path, run: Run, tmp_path: Path):
+    log = VELOCITIES.replace("150mm", "140mm")
+    answers = tmp_path / "answers"
+    answers.mkdir()
+    (answers / "0042-answers.csv").write_text(f"field,value\nid,0042\ndrawing,{log}\n", "utf-8")
+    row = graded(run, folder, answers, tmp_path / "report")
+    assert row["v_D_mm why"].startswith(("follows", "right"))
+    told = (tmp_path / "report" / "feedback" / "0042.html").read_text(encoding="utf-8")
+    assert told.count('r="2.20" stroke="#c21807"') == 1  # a alone
+
+
+def test_both_plans_earn_what_they_would_on_paper(folder: Path, run: Run, tmp_path: Path):
+    answers = tmp_path / "answers"
+    answers.mkdir()
+    (answers / "0042-answers.csv").write_text(f"field,value\nid,0042\ndrawing,{PUMP}\n", "utf-8")
+    row = graded(run, folder, answers, tmp_path / "report")
+    assert (row["v_D_mm why"], row["a_D_mm why"]) == ("right", "right")
+
+
+def test_a_log_of_nobody_waits_and_harms_no_one(folder: Path, run: Run, tmp_path: Path):
+    answers = tmp_path / "answers"
+    answers.mkdir()
+    for who, log in (("0042", "evil 0:O1"), ("0043", "perp 1: O1-A|" * 3)):
+        text = f"field,value\nid,{who}\nomega_3,27.6\ndrawing,{log}\n"
+        (answers / f"{who}-answers.csv").write_text(text, "utf-8")
+    result = run("grade", folder, answers, "-o", tmp_path / "report", "--as-it-is")
+    assert result.exit_code == 1
+    assert "cannot be drawn from its move 1 on" in result.output
+    row = graded(run, folder, answers, tmp_path / "again")
+    assert row["omega_3 why"] in ("right", "wrong")
+    assert row["v_D_mm why"] == "unreadable"
+
+
+def test_what_is_drawn_is_kept_taken_back_and_drawn_again(opened: Opened, folder: Path):
+    page = fresh(opened, page_of(folder, "0043"))
+    typed(page, "ray O1 48\noff O1 48 60 /1\nA\narc A AB")
+    whole = log_of(page)
+    page.reload()
+    assert log_of(page) == whole
+    page.locator("body").press("Control+z")
+    assert log_of(page) == whole.rpartition(BETWEEN)[0]
+    page.locator("#turn-redo").click()
+    assert log_of(page) == whole
+    page.locator("#turn-again").click()
+    assert log_of(page) == whole  # it asks first
+    page.locator("#turn-again").click()
+    assert log_of(page) == ""
+    page.locator("#turn-undo").click()
+    assert log_of(page) == whole
+
+
+def test_the_page_is_open_to_everybody(opened: Opened, folder: Path):
+    page = fresh(opened, page_of(folder))
+    assert not barred(page)
+
+
+def test_a_lab_may_let_its_page_say_what_is_right(opened: Opened, run: Run, tmp_path: Path):
+    """A point within the cell of the key is right; one 5 mm off is not; other labs say nothing."""
+    lab = tmp_path / "pump"
+    copytree(scene_files.folder("pump"), lab)
+    with (lab / "lab.toml").open("a", encoding="utf-8") as file:
+        file.write("\n[marking]\nsays_right = true\n")
+    run("sheet", lab, "-o", tmp_path, "--view", "task", "--format", "html", "--lang", "en")
+    page = fresh(opened, tmp_path / "pump-task.html")
+    say = page.locator("#turn-say")
+    typed(page, "ray O1 44\noff O1 44 55 /1\nA")
+    say.filter(has_text="A is not at its place.").wait_for()
+    page.locator("#turn-undo").click()
+    typed(page, "off O1 44 60.4 /1\nA")
+    say.filter(has_text="A: right.").wait_for()

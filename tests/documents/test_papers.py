@@ -1,0 +1,166 @@
+"""Sheets on every paper: its size, its frame, nothing outside it, scales that fill its fields."""
+
+from __future__ import annotations
+
+import io
+import re
+from pathlib import Path
+from xml.etree import ElementTree
+
+import pypdf
+import pytest
+
+from graphkin.construction.core.layout import lay_out
+from graphkin.documents.scaling import sheet_motion
+from graphkin.documents.sheet_documents import drawings_of, hand_out, language_of, proved
+from graphkin.drawing.field import A3, paper_of
+from graphkin.drawing.marks import LineMark, Polyline, Text, reach
+from graphkin.mechanism import Mechanism, load
+from graphkin.scene.house import FRAMES, PAPERS, house_of
+from graphkin.scene.read_scene import read_scene, read_text
+from graphkin.text.errors import HouseError, SceneError
+from graphkin.writers.pdf import write_pdf
+from graphkin.writers.svg import write_svg
+
+VIEWS = ("key", "task", "steps", "overlay", "positions", "diagrams")
+OTHERS = [name for name in PAPERS if name != "A3"]
+OUTSIDE = ("field", "size", "border", "centring-mark", "crop", "corner", "frame")
+
+
+def on(paper: str, name: str = "pump", more: str = "") -> Mechanism:
+    """A scene of a school that has only one paper."""
+    house = house_of(f'graphkin = 1\n[pages]\npaper = "{paper}"\nlanguage = "en"\n{more}', ".")
+    return Mechanism(read_scene(load(name).scene.source, house=house))
+
+
+def pages_on(paper: str, view: str, name: str = "pump", more: str = ""):
+    """The drawn pages of a view."""
+    parts = hand_out(on(paper, name, more), view)
+    return [page for part in parts if part.kind != "calculation" for page in part.pages]
+
+
+@pytest.mark.parametrize("paper", OTHERS)
+@pytest.mark.parametrize("view", VIEWS)
+def test_every_view_is_drawn_on_every_paper_within_its_frame(paper: str, view: str) -> None:
+    size, own = PAPERS[paper], paper_of(paper, "ISO").leaf
+    left, top, right, low = own.area
+    for page in pages_on(paper, view):
+        page.check()
+        assert (page.width, page.height) == size
+        for mark in page.marks:
+            if mark.name in OUTSIDE or mark.cls.split()[0] in OUTSIDE:
+                continue
+            x1, y1, x2, y2 = reach(mark)
+            assert left <= x1 + 0.01 and x2 <= right + 0.01, mark
+            assert top <= y1 + 0.01 and y2 <= low + 0.01, mark
+
+
+@pytest.mark.parametrize("paper", PAPERS)
+def test_files_have_the_size_of_the_paper(paper: str) -> None:
+    page = pages_on(paper, "task")[0]
+    width, height = PAPERS[paper]
+    root = ElementTree.fromstring(write_svg(page))
+    assert (root.get("width"), root.get("height")) == (f"{width:g}mm", f"{height:g}mm")
+    assert [float(side) for side in re.split("[ ,]", root.get("viewBox"))] == [0, 0, width, height]
+    (found,) = pypdf.PdfReader(io.BytesIO(write_pdf([page]))).pages
+    assert [float(side) * 25.4 / 72 for side in found.mediabox[2:]] == pytest.approx(
+        [width, height], abs=0.01
+    )
+
+
+@pytest.mark.parametrize("paper", PAPERS)
+def test_every_page_to_draw_on_has_a_bar_of_100_mm(paper: str) -> None:
+    leaves = paper_of(paper, "ISO").leaves
+    for page in pages_on(paper, "task")[:leaves]:
+        (bar,) = (m for m in page.marks if m.name == "check-bar" and isinstance(m, LineMark))
+        assert bar.x2 - bar.x1 == pytest.approx(100.0)
+
+
+def test_a_larger_paper_has_a_larger_mechanism_at_a_standard_scale() -> None:
+    found = {}
+    for paper in ("A4", "A3", "A2", "A1"):
+        mechanism = on(paper).measured
+        verdict = proved(mechanism, sheet_motion(mechanism))
+        first, *_ = drawings_of(mechanism, verdict, language_of(mechanism, "en"))
+        found[paper] = first.scales.kL
+        field, area = lay_out(first).mechanism.rect, first.paper.fields
+        assert area[0] <= field[0] and field[2] <= area[2] and field[3] == area[3]
+    assert found["A4"] > found["A3"] > found["A2"] > found["A1"]
+
+
+def test_a4_has_mechanism_and_plan_on_pages_that_join() -> None:
+    """Laid side by side, their frames, fields and lines are level, and the pages are lettered."""
+    first, second, *_ = pages_on("A4", "key")
+    levels = []
+    for page in (first, second):
+        frame = next(m for m in page.marks if m.cls == "frame" and isinstance(m, Polyline))
+        panel = next(m for m in page.marks if m.cls == "panel" and m.x2 - m.x1 > 150)
+        levels.append((reach(frame), panel.y1, {m.y1 for m in page.marks if m.name == "check-bar"}))
+    assert levels[0] == levels[1]
+    numbers = [next(m.markup for m in p.marks if m.name == "sheet") for p in (first, second)]
+    assert [number[:2] for number in numbers] == ["1A", "1B"]
+    assert any("link" in m.cls.split() for m in first.marks)
+    assert not any("link" in m.cls.split() for m in second.marks)
+    assert any("velocity" in m.cls and m.step is not None for m in second.marks)
+
+
+@pytest.mark.parametrize(
+    ("more", "standard"),
+    [('frame = "GOST"', "GOST"), ('[signs]\nset = "russian"', "GOST"), ("", "ISO")],
+)
+def test_the_frame_follows_the_signs_or_the_key(more: str, standard: str) -> None:
+    page, *_ = pages_on("A3", "key", more=more)
+    words = {m.markup for m in page.marks if isinstance(m, Text)}
+    frame = next(m for m in page.marks if m.cls == "frame" and isinstance(m, Polyline))
+    assert reach(frame) == paper_of("A3", standard).area
+    assert ("Разраб." in words) is (standard == "GOST")
+    assert FRAMES == ("ISO", "GOST")
+
+
+def test_the_cells_of_form_one_are_those_of_the_standard() -> None:
+    """GOST 2.104-2006, figure of form 1: 185 × 55 mm, 5 mm from the edges of the sheet."""
+    own = paper_of("A3", "GOST")
+    assert own.title_block == (230.0, 237.0, 415.0, 292.0)
+    assert own.area == (20.0, 5.0, 415.0, 292.0)
+
+
+def test_the_margins_of_ansi_papers_are_those_of_the_standard() -> None:
+    """ASME Y14.1: the area of size B is 15.76 × 10.24 in, that of size C 21 × 15.5 in."""
+    for paper, wide, high in (("ANSI B", 15.76, 10.24), ("ANSI C", 21.0, 15.5)):
+        left, top, right, low = paper_of(paper, "ISO").area
+        assert ((right - left) / 25.4, (low - top) / 25.4) == pytest.approx((wide, high))
+
+
+def test_an_unknown_paper_is_one_error_that_lists_them() -> None:
+    with pytest.raises((HouseError, SceneError)) as caught:
+        house_of('graphkin = 1\n[pages]\npaper = "Letter"\n', ".")
+    (problem,) = caught.value.problems
+    assert problem.place == "pages.paper"
+    assert all(name in str(problem) for name in PAPERS)
+    with pytest.raises(SceneError) as caught:
+        read_text(with_sheet('paper = "A5"'), "own")
+    (problem,) = caught.value.problems
+    assert problem.place == "sheet.paper" and "ANSI C" in str(problem)
+
+
+def test_a_scene_goes_before_its_house() -> None:
+    house = house_of('graphkin = 1\n[pages]\npaper = "A2"\n', ".")
+    assert read_text(with_sheet(""), "own", house=house).sheet.paper == "A2"
+    assert read_text(with_sheet('paper = "A4"'), "own", house=house).sheet.paper == "A4"
+
+
+def with_sheet(more: str) -> str:
+    """The text of a scene with some keys in [sheet]."""
+    written = Path(load("offset-slider-crank").scene.source).read_text(encoding="utf-8")
+    if "[sheet]" in written:
+        return written.replace("[sheet]", f"[sheet]\n{more}")
+    return f"{written}\n[sheet]\n{more}\n"
+
+
+def test_a3_is_the_usual_paper() -> None:
+    assert (A3.fields, A3.title_block) == ((22, 38, 408, 201), (230, 251, 410, 287))
+    assert (A3.below, A3.tables, A3.scheme) == (
+        (22, 203, 408, 285),
+        (230, 203, 408, 249),
+        (150, 210, 226, 281),
+    )
