@@ -25,7 +25,7 @@ from graphkin.text.errors import StructureError
 from tests.chosen import FOLDER
 
 SCENES = Path(__file__).parents[1] / "scenes" / "forces"
-NAMES = ("four-bar", "ram", "shaper")
+NAMES = ("four-bar", "gears", "ram", "shaper")
 
 
 def forces_of(name: str, language: str = "en"):
@@ -151,7 +151,7 @@ moment = 10
     [
         ("cylinders-two", 3, "with driven cylinders", True),
         ("stephenson-3-crank", 3, "class III", True),
-        ("gears-pair", 2, "link 2", True),
+        ("gears-planet", 2, "link", True),
         ("cam-roller", 2, "cam", True),
         ("belts-crossed", 2, "belt", False),
     ],
