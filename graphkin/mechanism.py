@@ -102,10 +102,13 @@ class Mechanism(Struct, frozen=True, dict=True):
     """A scene with its derived data; lengths in m, angles in rad, times in s.
 
     The scene states the branches of its groups, also where it was ``written`` with the number of a
-    closure of links that are grouped otherwise.
+    closure of links that are grouped otherwise. ``closings`` holds what closes groups of higher
+    class in this position, by their links, where a motion has found it; other closures are
+    searched for.
     """
 
     scene: Scene
+    closings: Mapping[tuple[str, ...], tuple[Any, ...]] = {}
 
     def __post_init__(self) -> None:
         if not may_be_numbered(self.scene):
@@ -171,7 +174,19 @@ class Mechanism(Struct, frozen=True, dict=True):
             return {}
         from graphkin.construction.higher_class.trial_rates import trial_rates
 
-        return trial_rates(self.scene, self.program)
+        return trial_rates(self.scene, self.program, self.closed)
+
+    @cached_property
+    def closed(self) -> Mapping[int, tuple[Any, ...]]:
+        """The steps of groups of higher class whose closings are known, with these closings."""
+        if not self.closings:
+            return {}
+        from graphkin.construction.core.kind import constructions
+        from graphkin.construction.higher_class.closed_group import ClosedGroup
+
+        groups = constructions(self.program, ClosedGroup)
+        known = (each for each in groups if each.closes in self.closings)
+        return {each.closing: self.closings[each.closes] for each in known}
 
     @cached_property
     def check(self) -> Check:
@@ -242,13 +257,11 @@ class Mechanism(Struct, frozen=True, dict=True):
         seconds: float | None = None,
         kind: Kind = FLOAT,
         aside: bool = True,
-        closed: Mapping[int, Any] | None = None,
     ) -> Trace:
         """Every value that the targets need (all targets if None), for this one scene.
 
         ``by_hand`` runs the drawn steps too, with velocities drawn on the mechanism at the scale
         ``seconds`` = kL/kv. Auxiliary plans that nobody sees (not ``aside``) have any trial rates.
-        ``closed`` are the values of steps that close groups, where a motion has led there.
         ``kind`` is the kind of numbers (see kinds). Raises ClosureError for a step that cannot be
         drawn.
         """
@@ -257,7 +270,6 @@ class Mechanism(Struct, frozen=True, dict=True):
         needed = self.steps_of(wanted, by_hand)
         overrides = {} if seconds is None or program.seconds is None else {program.seconds: seconds}
         overrides |= self.trial_rates if by_hand and aside else {}
-        overrides |= closed or {}
         try:
             if kind is FLOAT:
                 trace = self.in_doubles(needed, overrides, by_hand)
@@ -289,6 +301,7 @@ class Mechanism(Struct, frozen=True, dict=True):
             from graphkin.construction.higher_class.closure_solver import run_settled
 
             begun = begun if by_hand else None
+            overrides = {**self.closed, **overrides}
             trace = run_settled(self.scene, program, needed, overrides=overrides, begun=begun)
         if by_hand or not self.is_of_higher_class:
             kept(self.drawings, needed, trace)

@@ -25,8 +25,11 @@ NARROWINGS = 5
 """How many times the last step at the end of a range is cut into parts."""
 PARTS = 16
 """Parts of each such cut, all tried at once."""
-FEWER, FEWER_PARTS = 36, 4
-"""FEWEST and PARTS for groups that try several links at once; a position costs a hundredfold."""
+FEWER, ROUNDS = 36, (0, 2, 1, 3)
+"""FEWEST for groups that try several links at once; a position costs a hundredfold.
+
+They are searched in rounds of every fourth one, until one closes.
+"""
 SOUGHT = 2
 """The most links tried at once for which positions are searched at all."""
 MOST = 3
@@ -178,8 +181,9 @@ def closing(scene: Scene, number: int = 1) -> ClosingRanges:
             return ClosingRanges(reached, followed=True)
         if course.tried_at_once > SOUGHT:
             return ClosingRanges([], tried=course.tried_at_once)
-        fewest = FEWER if course.tries_several else FEWEST
-        count = min(GRID, max(fewest, WORK // max(course.closing_work, 1)))
+        if course.tries_several:
+            return range_sought(course)
+        count = min(GRID, max(FEWEST, WORK // max(course.closing_work, 1)))
         found = ranges_of(course, count)
     except GraphkinError:
         return ClosingRanges([])
@@ -238,12 +242,24 @@ def ranges_followed(course: Course) -> list[Range]:
     return sorted(path.spans)
 
 
-def range_reached(course: Course) -> list[Range]:
-    """The range through which the motion goes from the scene's position; empty without one."""
+def range_sought(course: Course) -> ClosingRanges:
+    """The range through which the motion goes from the first of some positions that closes."""
+    sweep = course.sweep
+    grid = sweep.low + (np.arange(FEWER) + 0.5) * (sweep.high - sweep.low) / FEWER
+    for n, first in enumerate(ROUNDS, 1):
+        tried = grid[first :: len(ROUNDS)]
+        for start in tried[course.closes(tried)].tolist():
+            if reached := range_reached(course, start):
+                return ClosingRanges(reached, n * len(tried))
+    return ClosingRanges([], FEWER)
+
+
+def range_reached(course: Course, start: float | None = None) -> list[Range]:
+    """The range through which the motion goes from a position, or the scene's; empty without."""
     from graphkin.motion.driving import TURN
     from graphkin.motion.pieces import range_about
 
-    path = range_about(course.sweep)
+    path = range_about(course.sweep, start)
     if path is None:
         return []
     return [(0.0, TURN)] if path.whole else [*path.spans]
@@ -263,13 +279,12 @@ def swept(scene: Scene, number: int) -> Sweep:
 
 def refined(course: Course, at: Any, steps: Any) -> Any:
     """The ends of closing ranges, each between a closing position and one a step further."""
-    count = FEWER_PARTS if course.tries_several else PARTS
-    share = np.arange(1, count) / count
+    share = np.arange(1, PARTS) / PARTS
     for _ in range(NARROWINGS):
         between = at[:, None] + steps[:, None] * share
         turn = course.sweep.start // 360 * 360  # |the full turn of the driver's position
         tried = turn + between % 360 if course.sweep.whole else between
         closes = course.closes(tried.ravel()).reshape(between.shape)
         passed = np.cumprod(closes, axis=1).sum(axis=1)
-        at, steps = at + steps * passed / count, steps / count
+        at, steps = at + steps * passed / PARTS, steps / PARTS
     return at

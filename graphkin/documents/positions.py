@@ -306,8 +306,7 @@ def entry(value: Any, k: int) -> Any:
 def plans_at(moved: Cycle, place: float, seconds: float, words: Words) -> dict[str, Drawing]:
     """The plans that the scene asks for at a place, each constructed by hand."""
     piece, within = piece_at(moved, place)
-    mechanism = Mechanism(piece.course.standing(within))
-    closed = piece.course.closed_at(within, mechanism.program)
+    mechanism = piece.course.mechanism(within)
     scales = Scales(1.0, seconds, of_crank=float(the_crank(moved.mechanism) > 0), triangles=False)
     nobody = Verdict(True, 0.0, "", 0.0, 0.0, 0.0)
     kinds = {kind: targets_of(mechanism, kind) for kind in SHEETS}
@@ -315,9 +314,7 @@ def plans_at(moved: Cycle, place: float, seconds: float, words: Words) -> dict[s
     try:
         for kind, targets in kinds.items():
             if targets:
-                trace = mechanism.trace(
-                    targets, by_hand=True, seconds=seconds, aside=False, closed=closed
-                )
+                trace = mechanism.trace(targets, by_hand=True, seconds=seconds, aside=False)
                 own = as_drawn(trace, triangles=False)
                 found[kind] = Drawing(kind, mechanism.scene, own, scales, nobody, words)
     except GraphkinError:

@@ -13,6 +13,7 @@ import numpy as np
 
 from graphkin.construction.higher_class.closure_solver import closing
 from graphkin.construction.higher_class.following import (
+    LONGEST,
     MERGED,
     FollowedClosure,
     GroupOnWay,
@@ -56,15 +57,16 @@ MOST = 20_000
 """The most positions at which closures are numbered in one sweep."""
 
 
-def carried(course: Course, start: float, stop: float) -> Course:
+def carried(course: Course, start: float, stop: float, longest: float = LONGEST) -> Course:
     """The course with its higher-class groups and counted links followed from one u to another.
 
-    They are followed as far as they go. What was followed before is kept.
+    They are followed as far as they go, by steps of at most ``longest`` usual ranges. What was
+    followed before is kept.
     """
     if course.closers and start != stop:
         end = stop
         for number in range(len(course.closers)):
-            onward = followed(course, number, start, end)
+            onward = followed(course, number, start, end, longest)
             if onward is None:
                 return course.along(closures=())
             course, at = onward, onward.closures[number].at
@@ -82,7 +84,9 @@ def carried_about(course: Course, start: float) -> Course:
     return carried(course, start, min(far[1], start))
 
 
-def followed(course: Course, k: int, start: float, stop: float) -> Course | None:
+def followed(
+    course: Course, k: int, start: float, stop: float, longest: float = LONGEST
+) -> Course | None:
     """The course with a group followed up to a given u; None where it does not close.
 
     Where the group is followed already, it continues from there.
@@ -106,7 +110,7 @@ def followed(course: Course, k: int, start: float, stop: float) -> Course | None
         row = group.begun(start, closing(course.program.steps[step]).number)
     if row is None:
         return None
-    way = group.followed(row, start, stop, moving.seen)
+    way = group.followed(row, start, stop, moving.seen, longest)
     if known is not None:
         ways = (known, way) if stop > start else (way, known)
         way = ways[0].joined(ways[1], [one.turns for one in group.trying.unknowns])

@@ -28,6 +28,7 @@ from graphkin.construction.higher_class.closed_group import ClosedGroup
 from graphkin.construction.higher_class.closure_solver import closer_of, closing
 from graphkin.construction.higher_class.following import FollowedClosure, GroupOnWay
 from graphkin.construction.links.rolled_turn import counted_link
+from graphkin.mechanism import Mechanism
 from graphkin.motion.sweep import Sweep, inputs
 from graphkin.motion.turns_counted import Turned
 from graphkin.numbers.arithmetic import FLOAT, batch_kind
@@ -77,6 +78,16 @@ class Course(Struct, frozen=True, dict=True):
         """The scene with these closures in the position of a given u."""
         values = None if here is None else self.values(np.array([here]))
         return self.sweep.with_branches(self.branches, values)
+
+    def mechanism(self, here: float) -> Mechanism:
+        """The mechanism at a given u, with its groups closed as they were followed to there."""
+        at = np.array([here])
+        closings = {}
+        for step, closed in self.closing(self.values(at), at).items():
+            links = self.closed_links[self.closers.index(step)]
+            if all(np.isfinite(each).all() for each in closed):
+                closings[links] = tuple(each[0].item() for each in closed)
+        return Mechanism(self.standing(here), closings)
 
     def values(self, at: Any, *, geometric: bool = False) -> dict[str, Any]:
         """All values of the scene for an array of u (N,): those of the sweep, and turned angles."""
@@ -141,18 +152,9 @@ class Course(Struct, frozen=True, dict=True):
         ``closed`` are closed groups in addition to those that were followed.
         """
         some = self.counting if links is None else tuple(links)
-        wanted = [("turned", link) for link in some]
-        keep = [self.program.targets[target] for target in wanted]
+        keep = tuple(self.program.targets["turned", link] for link in some)
         overrides = self.closing(values, at, closed=closed)
-        with np.errstate(all="ignore"):
-            trace = run_batch(
-                self.program,
-                self.program.needed(wanted),
-                values,
-                batch_kind(),
-                keep,
-                overrides=overrides,
-            )
+        trace = self.run_ready(keep, values, overrides)
         return {link: spread(trace.value("turned", link), len(at)) for link in some}
 
     def angles(self, at: float) -> dict[str, float]:
@@ -259,20 +261,6 @@ class Course(Struct, frozen=True, dict=True):
                 found[number] = way.closed(self.group(k), stated, at, known)
         return found
 
-    def closed_at(self, at: float, program: Program) -> dict[int, tuple[Any, ...]]:
-        """The values that close the followed groups at one u, by the steps of another program.
-
-        That program places the same groups in the same order.
-        """
-        if not self.closures:
-            return {}
-        here = np.array([at])
-        found = self.closing(self.values(here), here).values()
-        steps = (n for n, step in enumerate(program.steps) if closer_of(step) is not None)
-        return {
-            n: tuple(part[0].item() for part in each) for n, each in zip(steps, found, strict=False)
-        }
-
     @cached_property
     def _readied(self) -> dict[Any, Ready]:
         """The prepared inputs of steps for arrays of some values."""
@@ -292,14 +280,23 @@ class Course(Struct, frozen=True, dict=True):
     ) -> list[Reals]:
         """The inputs of a step for values of the scene: arrays (N,)."""
         args = self.program.steps[number].args
+        trace = self.run_ready(args, values, closed or {})
+        return [spread(trace.values[arg], count) for arg in args]
+
+    def run_ready(
+        self, keep: tuple[int, ...], values: Mapping[str, Any], closed: Mapping[int, Any]
+    ) -> Trace:
+        """The values of some steps for arrays of values, from steps prepared for the same arrays.
+
+        All values that are no arrays are those of the scene.
+        """
         arrays = frozenset(name for name, value in values.items() if is_array(value))
-        key = number, arrays, frozenset(closed or ())
+        key = keep, arrays, frozenset(closed)
         with np.errstate(all="ignore"):
             if key not in self._readied:
-                before = self.program.behind(args)
-                self._readied[key] = made_ready(self.program, before, values, args, key[-1])
-            trace = run_moving(self._readied[key], values, batch_kind(), overrides=closed)
-        return [spread(trace.values[arg], count) for arg in args]
+                before = self.program.behind(keep)
+                self._readied[key] = made_ready(self.program, before, values, keep, key[-1])
+            return run_moving(self._readied[key], values, batch_kind(), overrides=closed)
 
     def closes(self, at: Any) -> Flags:
         """Whether all positions exist and are unambiguous, for each u (N,)."""

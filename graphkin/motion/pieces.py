@@ -47,6 +47,8 @@ FEWER = 360
 
 This search serves a group that does not close where the scene is drawn.
 """
+COARSE = 1 / 12
+"""The longest step, in turns, where it is only asked whether a motion ends."""
 MOST_WAYS = 200
 """The most turns, or slide lengths, over which a motion is followed."""
 
@@ -115,13 +117,13 @@ class Path(Struct, frozen=True):
         return next((place for place in every if low <= place <= high), at)
 
 
-def range_about(sweep: Sweep) -> Path | None:
-    """The range of a mechanism with followed closures that contains the scene's position.
+def range_about(sweep: Sweep, at: float | None = None) -> Path | None:
+    """The range of a mechanism with followed closures that contains a given u, or the scene's.
 
     The closures have no numbers along it. None where nothing closes in that position.
     """
     course = Course(sweep, sweep.original.branches)
-    start = beside_touch(course, sweep.at_scene)
+    start = beside_touch(course, sweep.at_scene if at is None else at)
     if start is None:
         return None
     turns = turns_back(led(course, sweep.at_scene, sweep.start), sweep.start) if sweep.whole else 0
@@ -329,7 +331,7 @@ def ends_within(course: Course, start: float, way: float) -> bool:
     """
     if not course.closers or abs(way) <= TURN:
         return True
-    closures = carried(course, start, start + way).closures
+    closures = carried(course, start, start + way, COARSE).closures
     return any(each.lost(np.array([start + way]))[0] for each in closures)
 
 

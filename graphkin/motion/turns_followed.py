@@ -110,7 +110,8 @@ def led_both(course: Course, start: float, low: float, high: float, step: float 
 
 def angles_near(course: Course, at: Reals, near: Mapping[str, float]) -> dict[str, Reals]:
     """The angles of links (degrees) at some u, each within half a turn of a given one."""
-    values = course.values(at) | {name_of(link): angle for link, angle in near.items()}
+    kept = {name_of(link): np.full(len(at), angle) for link, angle in near.items()}
+    values = course.values(at) | kept
     rows = course.counted(values, at, near)
     return {link: np.degrees(row) for link, row in rows.items()}
 

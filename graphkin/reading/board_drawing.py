@@ -32,7 +32,7 @@ from graphkin.classroom.printing.edition import Edition
 from graphkin.classroom.printing.print_work import PrintOrder
 from graphkin.classroom.roster.taker import Taker
 from graphkin.construction.board import PLANES, Board, board_given, replayed
-from graphkin.drawing.field import Field, clipped
+from graphkin.drawing.field import A3, Field, SheetPaper, clipped
 from graphkin.drawing.marks import LineMark, Mark, Page, Text
 from graphkin.drawing.symbol_markup import escape
 from graphkin.numbers.arithmetic import np
@@ -53,7 +53,7 @@ DRAWINGS, SEED = 300, 23
 """The number of pencil drawings that give a point's error, and the seed of their errors."""
 COMMON = 95.0
 """The percentage of careful drawings that the error of a point holds."""
-NOWHERE = Page(420.0, 297.0, ())
+NOWHERE = Page(A3.width, A3.height, ())
 """The page of a drawing that is on no paper."""
 LONG = 1000.0
 """Half the length of a drawn line, in mm; its field cuts it."""
@@ -285,7 +285,7 @@ def given_back(sheets: Sequence[JudgedSheet], words: Words) -> DrawingBack:
     markup = from_template("reading/web/board.html", title=title, legend=legend, sheets=told)
     blocks: list[Block] = [text_block(title, 3.5), text_block(escape(legend), SMALL)]
     for name, drawn, lines in told:
-        blocks += [text_block(name, LETTER), on_paper(drawn)]
+        blocks += [text_block(name, LETTER), on_paper(drawn, sheets[0].sheet.drawing.paper)]
         blocks += [remark(text, look) for text, look in lines]
     return DrawingBack(markup, tuple(blocks))
 
@@ -296,14 +296,14 @@ CHORDS = 96
 """The chords for a circle on paper."""
 
 
-def on_paper(drawn: Sequence[tuple[Field, Sequence[Shape]]]) -> Block:
+def on_paper(drawn: Sequence[tuple[Field, Sequence[Shape]]], paper: SheetPaper) -> Block:
     """The fields of a sheet side by side, in the width of a page."""
     marks: list[Mark] = []
-    lefts, tops, rights, lows = zip(*(field.rect for field, _ in drawn), strict=True)
-    scale = (RIGHT - LEFT) / (max(rights) - min(lefts))
+    first, upper, last, lower = paper.fields
+    scale = (RIGHT - LEFT) / (last - first)
 
     def place(x: float, y: float) -> tuple[float, float]:
-        return LEFT + (x - min(lefts)) * scale, (y - min(tops)) * scale
+        return LEFT + (x - first) * scale, (y - upper) * scale
 
     for field, every in drawn:
         left, top, right, low = field.rect
@@ -318,7 +318,7 @@ def on_paper(drawn: Sequence[tuple[Field, Sequence[Shape]]]) -> Block:
             for p, q in pairwise(shape.outline):
                 if (cut := clipped(p, q, field.rect)) is not None:
                     marks.append(LineMark(*place(*cut[0]), *place(*cut[1]), INKED[shape.look]))
-    return (max(lows) - min(tops)) * scale + 3.0, marks
+    return (lower - upper) * scale + 3.0, marks
 
 
 INKED = {"own": "construction", "dot": "dimension", "bar": "dimension"} | {

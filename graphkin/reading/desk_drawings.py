@@ -10,12 +10,12 @@ import msgspec
 from msgspec import Struct
 from msgspec.structs import replace
 
-from graphkin.drawing.field import paper_of
+from graphkin.drawing.field import A3, SheetPaper
+from graphkin.drawing.frame import STUDENT, TitleBlock, cells_of
 from graphkin.reading.kept_readings import PICTURE, records_in
 from graphkin.reading.point_reading import PointReading
 from graphkin.reading.read_sheet import QUALITY, SHOWN, SheetRecord
 from graphkin.reading.settled_points import LONGEST, PointDecision, SettledPoints, settled_points
-from graphkin.scene.house import FRAMES, PAPERS
 from graphkin.studio.session import PageRequestError
 from graphkin.text import Words
 from graphkin.text.markup import as_text
@@ -56,7 +56,7 @@ class DrawingDesk(Struct, dict=True):
             "code": "" if self.anonymous else record.code,
             "who": "" if self.anonymous else record.who,
             "kind": self.words(f"sheet.{record.kind}") if record.kind else "",
-            "size": record.size,
+            "size": (record.on.width, record.on.height),
             "refused": record.refused,
             "lines": record.key_lines,
             "points": [
@@ -88,8 +88,8 @@ class DrawingDesk(Struct, dict=True):
         steps = {point.step for point in record.points} if record is not None else set()
         on_paper = decision.at is None or (
             record is not None
-            and 0 <= decision.at[0] <= record.size[0]
-            and 0 <= decision.at[1] <= record.size[1]
+            and 0 <= decision.at[0] <= record.on.width
+            and 0 <= decision.at[1] <= record.on.height
         )
         drawn = (decision.at is None) == (decision.verdict in ("missing", "unread"))
         pinned = decision.step is None and decision.at is not None and decision.verdict == "unread"
@@ -117,19 +117,20 @@ class DrawingDesk(Struct, dict=True):
         if record is None or record.refused is not None:
             raise PageRequestError(shown)
         data = (self.folder / f"{record.name}{PICTURE}").read_bytes()
-        return without_name(data, record.size) if self.anonymous else data
+        return without_name(data, record.on) if self.anonymous else data
 
 
-def without_name(picture: bytes, size: tuple[float, float]) -> bytes:
-    """A flattened picture of a sheet on which its title block is covered, in whatever frame."""
+def without_name(picture: bytes, paper: SheetPaper = A3) -> bytes:
+    """A flattened picture on which the student's cell of each title block is covered."""
     from PIL import Image, ImageDraw
 
-    papers = (paper_of(name, frame) for name in PAPERS for frame in FRAMES)
+    block = TitleBlock(labels={STUDENT: ""}, frame=paper.frame)
+    cell = next(rect for name, rect, _ in cells_of(block) if name == STUDENT)
     image = Image.open(io.BytesIO(picture)).convert("RGB")
-    for paper in papers:
-        if (paper.width, paper.height) == size:
-            box = [side * SHOWN for side in paper.title_block]
-            ImageDraw.Draw(image).rectangle(box, fill="white", outline="black")
+    pen = ImageDraw.Draw(image)
+    for left, top, _, _ in paper.blocks:
+        sides = zip(cell, (left, top, left, top), strict=True)
+        pen.rectangle([(part + side) * SHOWN for part, side in sides], "white", "black")
     out = io.BytesIO()
     image.save(out, "JPEG", quality=QUALITY)
     return out.getvalue()

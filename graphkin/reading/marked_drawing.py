@@ -20,7 +20,7 @@ from graphkin.classroom.printing.edition import Edition
 from graphkin.classroom.printing.file_names import stems
 from graphkin.classroom.roster.taker import Taker
 from graphkin.construction.core.quantities import MOTION
-from graphkin.drawing.field import A3
+from graphkin.drawing.field import A3, SheetPaper
 from graphkin.drawing.richtext import font_file
 from graphkin.reading.kept_readings import PICTURE, records_in
 from graphkin.reading.point_reading import PointReading
@@ -49,8 +49,7 @@ class MarkedSheet(Struct, frozen=True):
     lines: tuple[tuple[str, str], ...]
     """The remarks on the whole plan, on each point, and on other places, with their colours."""
     pins: tuple[DrawingRemark, ...] = ()
-    size: tuple[float, float] = (A3.width, A3.height)
-    """The width and height of the sheet in mm."""
+    paper: SheetPaper = A3
 
 
 def drawings_of_class(
@@ -89,7 +88,7 @@ def marked_sheet(
     causes = () if record.cause is None else record.cause.sentences(words)
     whole = ((cause, RED) for cause in causes)
     lines = (*whole, *said_of(points, notes, words), *pinned)
-    return MarkedSheet(head, picture, points, lines, pins, record.size)
+    return MarkedSheet(head, picture, points, lines, pins, record.on)
 
 
 def remarks_on(record: SheetRecord, settled: SettledPoints) -> Iterator[DrawingRemark]:
@@ -156,7 +155,7 @@ def as_page(sheets: Sequence[MarkedSheet], words: Words) -> bytes:
     shown = [
         {
             "title": sheet.title,
-            "size": [f"{side:g}" for side in sheet.size],
+            "size": [f"{side:g}" for side in (sheet.paper.width, sheet.paper.height)],
             "picture": b64encode(sheet.picture).decode("ascii"),
             "points": [(point, colour_of(point)) for point in sheet.points],
             "pins": sheet.pins,
@@ -183,7 +182,7 @@ def as_pdf(sheets: Sequence[MarkedSheet], words: Words) -> bytes:
     pages = []
     for sheet in sheets:
         image = Image.open(io.BytesIO(sheet.picture)).convert("RGB")
-        width, height = (round(side * DENSITY) for side in sheet.size)
+        width, height = (round(sheet.paper.width * DENSITY), round(sheet.paper.height * DENSITY))
         rows = [(sheet.title, "#000000"), *sheet.lines, (words("marked.legend"), "#000000")]
         page = Image.new("RGB", (width, height + 2 * MARGIN + LINE * len(rows)), "white")
         page.paste(image.resize((width, height)), (0, 0))

@@ -14,7 +14,6 @@ from typing import Any
 import cv2
 import numpy as np
 
-from graphkin.drawing.field import AREA
 from graphkin.reading.drawn_ink import DENSITY, DrawnInk
 
 WEIGHTS = Path(__file__).parent / "letter_weights.npz"
@@ -46,7 +45,7 @@ def pieces(dark: Any) -> Iterator[tuple[tuple[int, int, int, int], Any]]:
     the network sees of them.
     """
     inked = (dark > INKED).astype(np.uint8)
-    left = inked & ~cv2.dilate(straight(inked), np.ones((3, 3), np.uint8))
+    left = inked & (1 - cv2.dilate(straight(inked), np.ones((3, 3), np.uint8)))
     low, high = SMALLEST * DENSITY, LARGEST * DENSITY
     seen = set[tuple[int, int, int, int]]()
     for gap in JOINED:
@@ -55,8 +54,9 @@ def pieces(dark: Any) -> Iterator[tuple[tuple[int, int, int, int], Any]]:
         names = names * left
         for name in range(1, count):
             mask = (names == name).astype(np.uint8)
-            box = tuple(int(each) for each in cv2.boundingRect(mask))
-            long, short = max(box[2:]), min(box[2:])
+            x, y, width, height = map(int, cv2.boundingRect(mask))
+            box = x, y, width, height
+            long, short = max(width, height), min(width, height)
             if low <= long <= high and short >= 2 and box not in seen:
                 seen.add(box)
                 yield box, shown(dark * cv2.dilate(mask, np.ones((3, 3), np.uint8)), box)
@@ -119,7 +119,8 @@ def letters_near(ink: DrawnInk, place: complex, letters: str = ALPHABET) -> Mapp
 
     A piece is taken for one of these letters, or for none.
     """
-    x, y = (place.real - AREA[0]) * DENSITY, (place.imag - AREA[1]) * DENSITY
+    first, upper, *_ = ink.paper.fields
+    x, y = (place.real - first) * DENSITY, (place.imag - upper) * DENSITY
     half = round(ROOM * DENSITY)
     left, top = max(0, round(x) - half), max(0, round(y) - half)
     part = slice(top, round(y) + half), slice(left, round(x) + half)

@@ -15,7 +15,7 @@ from graphkin.classroom.lab.lab_model import Item
 from graphkin.classroom.printing.personal import without_crosses
 from graphkin.classroom.printing.print_work import PrintOrder, Sheets
 from graphkin.classroom.roster.taker import Taker
-from graphkin.drawing.field import A3, SheetPaper
+from graphkin.drawing.field import A3, SheetPaper, paper_of
 from graphkin.numbers.arithmetic import np
 from graphkin.reading.lettered_points import LetteredSheet
 from graphkin.reading.paper_map import PaperMap
@@ -58,8 +58,13 @@ class SheetRecord(Struct, frozen=True):
     key_lines: tuple[tuple[float, float, float, float], ...] = ()
     residual: float = 0.0
     cause: PlanCause | None = None
-    size: tuple[float, float] = (A3.width, A3.height)
-    """The width and height of the sheet in mm."""
+    paper: tuple[str, str] = (A3.name, A3.frame.name)
+    """The names of the paper and of its frame."""
+
+    @property
+    def on(self) -> SheetPaper:
+        """The paper of the sheet."""
+        return paper_of(*self.paper)
 
 
 class ReadOrder(Struct, frozen=True):
@@ -127,7 +132,7 @@ def read_one(order: ReadOrder, photograph: Photograph, key: str) -> SheetRead:
             corners=corners_at,
             key_lines=found.sheet.key_lines,
             residual=round(found.residual, 3),
-            size=(found.map.paper.width, found.map.paper.height),
+            paper=(found.map.paper.name, found.map.paper.frame.name),
             cause=cause,
         )
         return SheetRead(read, flat_picture(picture, found.map))

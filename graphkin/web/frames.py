@@ -223,7 +223,7 @@ def moment_at(cycle: Cycle, place: float, words: Words) -> Frame | None:
     piece, within = piece_at(cycle, place)
     if piece is None:
         return None
-    mechanism = Mechanism(piece.course.standing(within))
+    mechanism = piece.course.mechanism(within)
     try:
         scales = Scales(1.0, natural_seconds(mechanism), triangles=False)
         drawings = {

@@ -37,8 +37,8 @@ from msgspec.structs import replace
 from graphkin.accuracy.pencil.pencil import Pencil
 from graphkin.classroom.printing.edition import read_edition
 from graphkin.cli.main import app
+from graphkin.drawing.field import A3
 from graphkin.reading.lettered_points import LetteredSheet
-from graphkin.reading.paper_map import HALF
 from graphkin.reading.pictures import Photograph
 from graphkin.reading.point_reader import forecast_points
 from graphkin.reading.point_reading import PointReading
@@ -259,13 +259,13 @@ class Tally:
             if read is None:
                 self.untold.append(f"{where}: {point.verdict}")
                 if point.at is not None:
-                    self.placed.append(2 * HALF)
+                    self.placed.append(A3.width)
                     self.labs[lab, False] += 1
                 continue
             self.count[lab, point.verdict, read.verdict, read.ask] += 1
             self.decided += clean and not read.ask
             if point.at is not None:
-                off = 2 * HALF
+                off = A3.width
                 if read.at is not None:
                     off = float(np.hypot(read.at[0] - point.at[0], read.at[1] - point.at[1]))
                 self.placed.append(off)

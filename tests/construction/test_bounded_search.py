@@ -9,9 +9,10 @@ import pytest
 
 from graphkin.construction.higher_class.closure_solver import KEPT, ClosureSolver, Trying
 from graphkin.construction.higher_class.trial import Trial
-from graphkin.diagnosis.ranges import FEWEST, WORK, closing, where_it_closes
+from graphkin.diagnosis.ranges import FEWER, FEWEST, ROUNDS, WORK, closing, swept, where_it_closes
 from graphkin.documents.sheet_documents import hand_out
 from graphkin.mechanism import load
+from graphkin.motion.course import Course
 from graphkin.motion.driving import GRID
 from graphkin.numbers.roots import roots
 from graphkin.scene.read_scene import read_text
@@ -84,6 +85,19 @@ def test_a_length_beyond_all_others_is_searched_within_the_bound(tried):
     words = where_it_closes(scene)
     assert words.startswith("it closes for no angle of the driver: check the lengths (searched at ")
     assert sum(tried) < 3 * WORK
+
+
+def test_a_ring_that_does_not_close_is_followed_from_one_of_a_few_positions():
+    """At the end of the range two closures meet, which a search finds on one side only."""
+    text = (EXAMPLES / "plates-ring.toml").read_text(encoding="utf-8")
+    text = text.replace("O-A = 50", "O-A = 200").replace("angle = 255", "angle = 160")
+    scene = read_text(text, "ring", None, {})
+    found = closing(scene)
+    assert found.searched == FEWER // len(ROUNDS) and len(found.ranges) == 1
+    end = found.ranges[0][1]
+    group = Course(swept(scene, 1), scene.branches).group(0)
+    before, beyond = map(len, group.every(end + np.array([-0.01, 0.01])))
+    assert before - beyond == 2
 
 
 def test_a_range_that_is_searched_everywhere_says_nothing_of_it():

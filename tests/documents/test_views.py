@@ -147,11 +147,8 @@ def test_however_long_a_sentence_is_nothing_that_is_done_stands_below_the_field(
     drawing, *_ = material("pump")
     done, lowest = Sentence(1, "", "join A with B"), 0.0
     for long in range(1, 2400, 50):
-        marks = [
-            *text_block(
-                drawing, [*[done] * 20, Sentence(2, "", "mm " * long)], 20, 20, step_lines(A3)
-            )
-        ]
+        said = [*[done] * 20, Sentence(2, "", "mm " * long)]
+        marks = [*text_block(drawing, said, 20, 20, step_lines(A3))]
         words = [mark for mark in marks if isinstance(mark, Text)]
         below = [mark.y for mark in words if mark.name not in ("step", "sentence")]
         assert max(below, default=0.0) <= A3.below[3]
@@ -258,7 +255,7 @@ def test_sentences_that_draw_nothing_share_a_page_as_far_as_they_have_room():
 def test_sentences_to_do_stay_above_the_title_block_and_beside_it(many):
     """They are large as long as all are above it; none reaches over its frame or the mark."""
     said = [Sentence(n, "", "of what is computed alone " * 14) for n in range(many)]
-    marks = [*text_block(material("pump")[0], said, 0, many - 1)]
+    marks = [*text_block(material("pump")[0], said, 0, many - 1, step_lines(A3))]
     words = [mark for mark in marks if isinstance(mark, Text) and mark.name == "sentence"]
     assert {mark.height for mark in words} == {3.5 if many < 3 else 2.5}
     left, top, *_ = A3.title_block

@@ -10,7 +10,9 @@ import pytest
 from msgspec.structs import replace
 
 from graphkin.cli.report.cycle_report import pieces_words
-from graphkin.mechanism import load
+from graphkin.construction.higher_class.closure_solver import Trying
+from graphkin.construction.higher_class.trial_rates import Spread, best_of, enlarged
+from graphkin.mechanism import Mechanism, load
 from graphkin.motion.closures_followed import carried_about, numbers_at
 from graphkin.motion.course import Course
 from graphkin.motion.cycle import cycle
@@ -196,3 +198,27 @@ def test_a_followed_closure_is_led_to_where_it_meets_another():
     # the sine goes as the root of the way that is left
     assert sines[:-1] / sines[1:] == pytest.approx(10.0, rel=0.02)
     assert np.isnan(last.course.margins(np.array([end.at + 1e-8]))[0, 0])
+
+
+def test_a_followed_mechanism_is_that_of_a_search_and_needs_none(swept, monkeypatch):
+    at = 103.0
+    piece = next(each for each in swept.pieces if each.holds(np.array([at]))[0])
+    sought = Mechanism(piece.course.standing(at)).solve()
+    led = piece.course.mechanism(at)
+    monkeypatch.setattr(Trying, "closures_of", lambda *known: pytest.fail("searched again"))
+    for name, motion in led.solve().points.items():
+        assert motion.position == pytest.approx(sought.points[name].position, abs=1e-12)
+        assert motion.velocity == pytest.approx(sought.points[name].velocity, abs=1e-11)
+    assert led.trial_rates
+
+
+def test_trial_rates_are_the_best_of_all_pairs():
+    spread = Spread((0.3 + 0.1j, -0.2 + 0.5j), (0.5 - 0.2j, 0.1 + 0.7j), 1.7, 1.5)
+    worse = {0.0: -0.8, 1.0: 0.0, -1.5: 0.1, 2.0: 0.0, 3.0: 0.05}
+
+    def fault(first: float, second: float) -> float:
+        large = enlarged(spread, first, second)
+        return spread.fault(first, second, large) + worse[first] + worse[second]
+
+    pairs = [(a, b) for a in worse for b in worse if abs(a) < abs(b)]
+    assert best_of(spread, worse) == min(pairs, key=lambda pair: fault(*pair))

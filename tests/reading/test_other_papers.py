@@ -67,7 +67,7 @@ def test_a_sheet_on_ansi_b_is_found_by_its_own_frame(tmp_path: Path) -> None:
     (record,) = records_in(tmp_path / "read")
     off = np.hypot(*(np.array(record.map) - taken.where(PLACES)).T)
     assert np.median(off) < 0.5  # pixels, of about 6 a mm
-    assert record.size == (431.8, 279.4)
+    assert record.paper == ("ANSI B", "ASME")
 
 
 def test_two_photographed_leaves_of_a4_are_one_sheet(tmp_path: Path) -> None:

@@ -41,7 +41,7 @@ DRAWINGS = 8_192
 Settings = Mapping[str, str]
 
 
-class VariantMechanism(Mechanism, frozen=True, dict=True):
+class VariantMechanism(Mechanism, frozen=True, dict=True, kw_only=True):
     """A mechanism with other data than ``like``, whose construction has the same steps."""
 
     like: Mechanism
@@ -60,7 +60,7 @@ class VariantMechanism(Mechanism, frozen=True, dict=True):
     def with_forces(self) -> Mechanism:
         """The mechanism with the plan of forces of ``like``."""
         whole = self.like.with_forces
-        return self if whole is self.like else VariantMechanism(self.scene, whole)
+        return self if whole is self.like else VariantMechanism(self.scene, like=whole)
 
 
 def standards(
@@ -132,7 +132,8 @@ def mechanisms(usual: Mechanism, text: str, many: Sequence[Settings]) -> list[Me
     changed = {name for each in many for name in each}
     if scene.time is None and by_driving(usual, changed):
         return [
-            VariantMechanism(replace(scene, values=values_of(scene, each)), usual) for each in many
+            VariantMechanism(replace(scene, values=values_of(scene, each)), like=usual)
+            for each in many
         ]
     texts = (read_text(text, scene.name, settings=dict(each), house=scene.house) for each in many)
     return [as_usual(Mechanism(each), usual) for each in texts]
@@ -165,7 +166,7 @@ def as_usual(mechanism: Mechanism, usual: Mechanism) -> Mechanism:
     own, known = mechanism.program, usual.program
     same = len(own.steps) == len(known.steps) and own.targets == known.targets
     if same and all(map(is_same, own.steps, known.steps)):
-        return VariantMechanism(mechanism.scene, usual)
+        return VariantMechanism(mechanism.scene, like=usual)
     return mechanism
 
 

@@ -98,10 +98,12 @@ class GroupOnWay(Struct, frozen=True, dict=True):
         start: float,
         stop: float,
         seen: Callable[[float, Reals], None] = lambda at, row: None,
+        longest: float = LONGEST,
     ) -> FollowedClosure:
         """The path of a closure from one place to another, or as far as it goes.
 
-        ``seen`` is called for each place, in order, with the values that close the group there.
+        A step is at most ``longest`` usual ranges. ``seen`` is called for each place, in order,
+        with the values that close the group there.
         """
         tried, signs, _ = self.trying.split(row)
         here, way = np.array([start]), 1.0 if stop > start else -1.0
@@ -118,7 +120,7 @@ class GroupOnWay(Struct, frozen=True, dict=True):
             if place is not None:
                 found.append(place)
                 seen(place.at, np.append(place.tried, place.signs))
-                step = min(step * (GROW if miss < GOOD else 1.0), LONGEST * self.usual)
+                step = min(step * (GROW if miss < GOOD else 1.0), longest * self.usual)
                 continue
             step = abs(target - found[-1].at) / SHRINK
             if step > LEAST * self.usual:

@@ -7,7 +7,6 @@ best rates give plans that fit with the right one and points that are well apart
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Mapping
-from itertools import product
 from math import floor, log10
 from typing import Any
 
@@ -18,7 +17,7 @@ from graphkin.construction.core.program import Program
 from graphkin.construction.higher_class.closure_solver import run_settled
 from graphkin.construction.higher_class.divided_point import Divided
 from graphkin.construction.higher_class.two_trials import TwoTrials
-from graphkin.numbers.arithmetic import larger, smaller
+from graphkin.numbers.arithmetic import larger, np, smaller
 from graphkin.scene.model import Scene
 
 ROUND = {1.0: 0.0, 1.5: 0.1, 2.0: 0.0, 3.0: 0.05, 4.0: 0.05, 5.0: 0.0, 6.0: 0.05, 8.0: 0.1}
@@ -47,8 +46,8 @@ FARTHEST = 1.0
 The unit is the rate that moves all points by the reach of the right plan.
 """
 
-Box = tuple[float, float, float, float]
-"""Left, bottom, right and top of the upright box around some points and the pole."""
+Array = Any
+"""Numbers (N,), or the left, bottom, right and top (4, N) of upright boxes."""
 
 
 class Spread(Struct, frozen=True):
@@ -63,30 +62,34 @@ class Spread(Struct, frozen=True):
     rate: float
     whole: float
 
-    def box(self, rate: float) -> Box:
-        """The box of the plan at a rate."""
-        points = [0j, *(p + rate * w for p, w in zip(self.start, self.way, strict=True))]
-        xs, ys = [p.real for p in points], [p.imag for p in points]
-        return min(xs), min(ys), max(xs), max(ys)
+    def boxes(self, rates: Array) -> Array:
+        """The boxes (4, N) of the plans at some rates, each around its points and the pole."""
+        start, way = (np.array([0j, *each])[:, None] for each in (self.start, self.way))
+        points = start + rates * way
+        x, y = points.real, points.imag
+        return np.array([x.min(axis=0), y.min(axis=0), x.max(axis=0), y.max(axis=0)])
 
     @property
     def reach(self) -> float:
         """The largest distance that a unit of the rate moves a point."""
         return max(map(abs, self.way))
 
-    def fault(self, first: float, second: float, large: float) -> float:
-        """The penalty of two trials: too large, too close together, or both on one side."""
+    def fault(self, first: Array, second: Array, large: Array) -> Array:
+        """The penalty of pairs of trials: too large, too close together, or both on one side."""
         share = (self.rate - first) / (second - first)
         near = APART - abs(second - first) * self.reach / self.whole
-        outside = max(WITHIN[0] - share, share - WITHIN[1])
-        return 3 * sum(max(amount, 0.0) for amount in (large - LARGER, near, outside))
+        outside = np.maximum(WITHIN[0] - share, share - WITHIN[1])
+        faults = (np.maximum(amount, 0.0) for amount in (large - LARGER, near, outside))
+        return 3 * sum(faults)
 
 
-def trial_rates(scene: Scene, program: Program) -> dict[int, float]:
+def trial_rates(
+    scene: Scene, program: Program, closed: Mapping[int, Any] | None = None
+) -> dict[int, float]:
     """The two rates for each pair of trial plans, by the steps that hold them.
 
-    Rates of groups come first. The rates within their trial plans depend on these. Raises
-    StepFailed where the mechanism does not close.
+    Rates of groups come first. The rates within their trial plans depend on these. ``closed`` holds
+    the closings that are known, by step. Raises StepFailed where the mechanism does not close.
     """
     divided = [each.value for each in constructions(program, Divided)]
     wanted = {*divided} & {*program.targets.values()}
@@ -95,7 +98,7 @@ def trial_rates(scene: Scene, program: Program) -> dict[int, float]:
     rates: dict[int, float] = {}
     for together in levels_of(program):
         needed = program.behind(wanted)
-        found = run_settled(scene, program, needed, overrides={**rates}).values
+        found = run_settled(scene, program, needed, overrides={**(closed or {}), **rates}).values
         for trials in together:
             spread = spread_of(program, found, trials) if trials.share in found else None
             if spread is not None:
@@ -182,25 +185,32 @@ def chosen_rates(spread: Spread) -> tuple[float, float]:
 
 
 def best_of(spread: Spread, worse: Mapping[float, float]) -> tuple[float, float]:
-    """The best two of some rates, given the penalty of each."""
-    faults = {}
-    for first, second in product(worse, worse):
-        if abs(first) < abs(second):
-            fault = spread.fault(first, second, enlarged(spread, first, second))
-            faults[first, second] = fault + worse[first] + worse[second]
-    return min(faults, key=lambda pair: faults[pair])
+    """The best two of some rates, given the penalty of each; the first is the smaller."""
+    rates, penalties = np.array([*worse]), np.array([*worse.values()])
+    first, second = np.nonzero(abs(rates)[:, None] < abs(rates))
+    boxes = spread.boxes(rates)
+    large = larger_by(spread, boxes[:, first], boxes[:, second])
+    fault = spread.fault(rates[first], rates[second], large)
+    best = int((fault + penalties[first] + penalties[second]).argmin())
+    return float(rates[first[best]]), float(rates[second[best]])
 
 
 def enlarged(spread: Spread, *rates: float) -> float:
     """The size of the plan with trials at some rates, relative to the right plan alone."""
-    right = spread.box(spread.rate)
-    return longest(right, *map(spread.box, rates)) / longest(right)
+    return float(larger_by(spread, *(spread.boxes(np.array([rate])) for rate in rates))[0])
 
 
-def longest(*boxes: Box) -> float:
-    """The longer side of the box around some boxes."""
-    left, bottom, right, top = zip(*boxes, strict=True)
-    return float(max(max(right) - min(left), max(top) - min(bottom)))
+def larger_by(spread: Spread, *tried: Array) -> Array:
+    """The sizes (N,) of the plan with trials in some boxes (4, N), relative to the right plan."""
+    right = spread.boxes(np.array([spread.rate]))
+    return longest(right, *tried) / longest(right)
+
+
+def longest(*boxes: Array) -> Array:
+    """The longer side (N,) of the box around some boxes (4, N)."""
+    low = np.minimum.reduce([*np.broadcast_arrays(*(each[:2] for each in boxes))])
+    high = np.maximum.reduce([*np.broadcast_arrays(*(each[2:] for each in boxes))])
+    return (high - low).max(axis=0)
 
 
 def candidates(least: float, most: float) -> Iterator[tuple[float, float]]:

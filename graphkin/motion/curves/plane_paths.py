@@ -77,7 +77,7 @@ def stand_of(cycle: Cycle, factor: float) -> Outline:
         return Outline(placed(cycle.mechanism), factor, True)
     except ClosureError:
         first = cycle.pieces[cycle.piece[0] - 1]
-        return Outline(placed(Mechanism(first.course.standing(cycle.at[0]))), factor, False)
+        return Outline(placed(first.course.mechanism(cycle.at[0])), factor, False)
 
 
 def placed(mechanism: Mechanism) -> Drawing:
