@@ -114,8 +114,7 @@ class Canvas(Protocol):
         """The line through the tips of two parallel vectors, each as tail and direction."""
 
     def holds(self, place: Any) -> bool:
-        """Whether a place is in the field; a page that moves cuts what is not."""
-        return True
+        """Whether a place is in the field."""
 
     def note(self, text: str) -> None:
         """A text at the foot of the field."""
