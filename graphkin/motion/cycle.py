@@ -143,7 +143,7 @@ class Cycle(Struct, frozen=True, eq=False, dict=True):
             return None
         from graphkin.motion.forces_along import forces_along
 
-        return forces_along(self, self.scene.forces)
+        return forces_along(self.pieces, self.piece, self.at, self.scene.forces)
 
     def slid(self, block: str) -> Reals:
         """The coordinate (m) of a block on its first guide at every position: (N,)."""
@@ -433,8 +433,9 @@ def turns_left_open(found: Cycle) -> dict[str, Reals]:
     position, or from the beginning of a range that the motion does not reach from there.
     """
     sweep, targets = found.sweep, found.path.ranges[0][0].course.program.targets
-    near = {link: sweep.scene.values.get(name_of(link)) for link in found.scene.links}
-    links = [m for m, at in near.items() if at is not None and ("turned", m) not in targets]
+    values = sweep.scene.values
+    near = {m: float(values[name_of(m)]) for m in found.scene.links if name_of(m) in values}
+    links = [link for link in near if ("turned", link) not in targets]
     wanted = [("axis", link) for link in links if ("axis", link) in targets]
     turns: dict[str, Reals] = {name_of(link): np.zeros(len(found.at)) for _, link in wanted}
     for low, high in found.ranges if wanted else ():
@@ -447,6 +448,6 @@ def turns_left_open(found: Cycle) -> dict[str, Reals]:
         for target in wanted if at.size else ():
             angle = np.degrees(np.unwrap(np.angle(columns[target][known])))
             first = angle[np.abs(at - start).argmin()]
-            angle += TURN * np.round((float(near[target[1]]) - first) / TURN)
+            angle += TURN * np.round((near[target[1]] - first) / TURN)
             turns[name_of(target[1])][rows] = np.interp(found.at[rows], at, angle)
     return turns

@@ -7,7 +7,7 @@ z or none. The weights are made by ``python -m tests.reading.letter_network``.
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
-from functools import cache
+from functools import lru_cache
 from pathlib import Path
 from typing import Any
 
@@ -70,7 +70,7 @@ def straight(inked: Any) -> Any:
     return found
 
 
-@cache
+@lru_cache(maxsize=1)
 def kernels() -> tuple[Any, ...]:
     """A line of ``STRAIGHT`` pixels in each direction."""
     half, found = STRAIGHT // 2, []
@@ -97,7 +97,7 @@ def shown(dark: Any, box: tuple[int, int, int, int]) -> Any:
     return np.concatenate([square.ravel(), size_mm])
 
 
-@cache
+@lru_cache(maxsize=1)
 def network() -> tuple[Any, ...]:
     """The weights and offsets of the layers."""
     with np.load(WEIGHTS) as kept:
