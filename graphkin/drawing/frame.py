@@ -10,7 +10,7 @@ from math import floor
 from msgspec import Struct, field
 from msgspec.structs import replace
 
-from graphkin.drawing.field import A3, A4_AREA, A4_FRAME, GOST, ISO, PaperFrame, Rect, SheetPaper
+from graphkin.drawing.field import A3, A4_AREA, A4_FRAME, GOST, ISO, SheetFrame, Rect, SheetPaper
 from graphkin.drawing.marks import LineMark, Mark, Text, box
 from graphkin.drawing.richtext import extent, flowed, plain, words_of
 from graphkin.drawing.symbol_markup import escape
@@ -47,7 +47,7 @@ class TitleBlock(Struct, frozen=True):
     revision: str = ""
     labels: Mapping[str, str] = field(default_factory=dict)
     logo: float = 0.0
-    frame: PaperFrame = ISO
+    frame: SheetFrame = ISO
     size: str = ""
 
     @property
@@ -297,7 +297,7 @@ def fitting(
     )
 
 
-def room_in(rect: Rect, frame: PaperFrame = ISO) -> tuple[float, float]:
+def room_in(rect: Rect, frame: SheetFrame = ISO) -> tuple[float, float]:
     """The width and height, in mm, of the space for a value in a title block cell.
 
     It is below the label; the cells of GOST have none.
