@@ -433,9 +433,8 @@ def turns_left_open(found: Cycle) -> dict[str, Reals]:
     position, or from the beginning of a range that the motion does not reach from there.
     """
     sweep, targets = found.sweep, found.path.ranges[0][0].course.program.targets
-    values = sweep.scene.values
-    near = {m: float(values[name_of(m)]) for m in found.scene.links if name_of(m) in values}
-    links = [link for link in near if ("turned", link) not in targets]
+    near = sweep.scene.values
+    links = [m for m in found.scene.links if name_of(m) in near and ("turned", m) not in targets]
     wanted = [("axis", link) for link in links if ("axis", link) in targets]
     turns: dict[str, Reals] = {name_of(link): np.zeros(len(found.at)) for _, link in wanted}
     for low, high in found.ranges if wanted else ():
@@ -448,6 +447,6 @@ def turns_left_open(found: Cycle) -> dict[str, Reals]:
         for target in wanted if at.size else ():
             angle = np.degrees(np.unwrap(np.angle(columns[target][known])))
             first = angle[np.abs(at - start).argmin()]
-            angle += TURN * np.round((near[target[1]] - first) / TURN)
+            angle += TURN * np.round((float(near[name_of(target[1])]) - first) / TURN)
             turns[name_of(target[1])][rows] = np.interp(found.at[rows], at, angle)
     return turns
