@@ -111,7 +111,7 @@ def not_drawn(mechanism: Mechanism, group: Group) -> Problem:
             links=links,
             what=group.title,
         ),
-        message("dyads of pins and slides, driven cranks and blocks"),
+        message("dyads of pins and slides, wheels on fixed pivots, driven cranks and blocks"),
         hint,
     )
 

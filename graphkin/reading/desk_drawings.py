@@ -48,6 +48,16 @@ class DrawingDesk(Struct, dict=True):
         read = sorted(self.records.values(), key=lambda each: each.refused is not None)
         return [self.told(each) for each in read]
 
+    def being_decided(self, since: str) -> set[str]:
+        """The codes of students whose sheets have open points, or points decided ``since``."""
+        standing = self.settled.standing
+        late = {sheet for (sheet, _), each in standing.items() if each.when > since}
+        return {
+            record.code
+            for name, record in self.records.items()
+            if name in late or any(point.ask for point in settled_points(record, standing))
+        }
+
     def told(self, record: SheetRecord) -> dict[str, Any]:
         """A sheet in the form that the page expects."""
         standing = self.settled.standing

@@ -125,8 +125,9 @@ class PrintedLines(Struct, frozen=True):
     paper: SheetPaper = A3
 
     def some(self, which: Any) -> PrintedLines:
-        own = (self.places, self.normals, self.widths, self.shared, self.dark)
-        return PrintedLines(*(each[which] for each in own), self.paper)
+        places, normals = self.places[which], self.normals[which]
+        widths, shared, dark = (each[which] for each in (self.widths, self.shared, self.dark))
+        return PrintedLines(places, normals, widths, shared, dark, self.paper)
 
     def beside(self, others: PrintedLines) -> PrintedLines:
         """The lines without a nearby parallel line among others."""
@@ -522,11 +523,13 @@ class MapFit:
         near = np.hypot(*(self.crosses - self.square.mean(axis=0)).T) < ring
         offs, _ = crosses_off(smooth, self.map, self.crosses[near])
         more, lines = np.zeros(len(offs.off)), measured.lines
-        every = PrintedLines(
-            np.concatenate([lines.places, offs.places]),
-            np.concatenate([lines.normals, offs.ways]),
-            *(np.concatenate([own, more]) for own in (lines.widths, lines.shared, lines.dark)),
-            lines.paper,
+        every = replace(
+            lines,
+            places=np.concatenate([lines.places, offs.places]),
+            normals=np.concatenate([lines.normals, offs.ways]),
+            widths=np.concatenate([lines.widths, more]),
+            shared=np.concatenate([lines.shared, more]),
+            dark=np.concatenate([lines.dark, more]),
         )
         off = np.concatenate([measured.off, offs.off])
         found, seen = (np.concatenate([own, more == 0]) for own in (measured.found, measured.seen))

@@ -348,6 +348,10 @@ class MovingCanvas(Struct, frozen=True):
         room = above_foot(self.binder.room)
         return self.binder.between(first - on, last + on, room, shown)
 
+    def holds(self, place: Any) -> bool:
+        """Draw every place; the page cuts what is beyond its field."""
+        return True
+
     def note(self, text: str) -> None:
         """Ignore a note, which holds for the drawn position alone."""
 

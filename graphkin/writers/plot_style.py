@@ -97,7 +97,8 @@ def figure_file(figure: Figure, kind: str, *, laid_out: bool = False) -> bytes:
     out = io.BytesIO()
     if laid_out and kind == "png":
         figure.dpi = DOTS
-        FigureCanvasAgg(figure).print_png(out, metadata=NO_DATE[kind])
+        canvas = FigureCanvasAgg(figure)
+        canvas.print_png(out, metadata=NO_DATE[kind])  # type: ignore[no-untyped-call]
     else:
         figure.savefig(out, format=kind, metadata=NO_DATE[kind])
     data = out.getvalue()

@@ -66,6 +66,7 @@ OWN = {
         TESTS / "motion" / "scenes" / "planet-on-coupler.toml",
         TESTS / "scenes" / "construction" / "coupler-point-curvature.toml",
         TESTS / "scenes" / "construction" / "wheels-that-speed-up.toml",
+        TESTS / "scenes" / "forces" / "gears.toml",
         TESTS / "scenes" / "forces" / "ram.toml",
         TESTS / "scenes" / "forces" / "shaper.toml",
         TESTS / "scenes" / "structure" / "pins" / "rod-in-two-bushings.toml",

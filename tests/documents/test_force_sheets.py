@@ -25,7 +25,7 @@ from graphkin.text.errors import StructureError
 from tests.chosen import FOLDER
 
 SCENES = Path(__file__).parents[1] / "scenes" / "forces"
-NAMES = ("four-bar", "ram", "shaper")
+NAMES = ("four-bar", "gears", "ram", "shaper")
 
 
 def forces_of(name: str, language: str = "en"):
@@ -151,7 +151,7 @@ moment = 10
     [
         ("cylinders-two", 3, "with driven cylinders", True),
         ("stephenson-3-crank", 3, "class III", True),
-        ("gears-pair", 2, "link 2", True),
+        ("gears-planet", 2, "link", True),
         ("cam-roller", 2, "cam", True),
         ("belts-crossed", 2, "belt", False),
     ],
@@ -220,3 +220,16 @@ def test_the_web_page_of_forces_holds_the_sheet_and_fetches_nothing(view):
     assert not re.search(r"(?:src|href)=\"http", page)
     assert page.count("<svg") == (1 if view == "task" else 1 + len(sheet_of("four-bar", "steps")))
     assert all(f"--{ink}:" in page for ink in INKS.values())
+
+
+def test_a_reaction_that_acts_beyond_its_field_is_noted_and_not_drawn():
+    """At 105° the guide of the ram would push 144 mm from C on paper, within the polygons."""
+    text = (SCENES / "shaper.toml").read_text(encoding="utf-8").replace("angle = 38", "angle = 105")
+    text = text.replace("mass = 3\ncentre", "mass = 0\ncentre").replace("[-2000, 0]", "[-2300, 0]")
+    (page,) = next(
+        e.pages for e in hand_out(Mechanism(read_text(text, "far", None, {}))) if e.kind == "force"
+    )
+    assert any("beyond the edge" in plain(mark.markup) for mark in texts(page))
+    right = next(m.x1 for m in page.marks if isinstance(m, LineMark) and m.name == "field-border")
+    own = [m for m in page.marks if isinstance(m, LineMark) and m.name == "x_5"]
+    assert all(max(m.x1, m.x2) < right for m in own)

@@ -14,7 +14,7 @@ from graphkin.scene.model import FRAME
 from graphkin.scene.read_scene import read_text
 from graphkin.text.errors import StructureError
 from tests.chosen import FOLDER
-from tests.laws.force_routes import loaded
+from tests.laws.force_routes import differences, loaded
 
 CLOSE = 1e-9
 
@@ -134,3 +134,69 @@ def test_what_equilibrium_does_not_determine_is_refused(name, said):
     with pytest.raises(StructureError) as caught:
         forces_of(name, "link = 2\nmoment = 3")
     assert said in str(caught.value)
+
+
+TWO = """
+graphkin = 1
+title = "Two wheels"
+units = {{ length = "mm", angle = "deg", speed = "rev/min" }}
+{module}
+[frame]
+O = [0, 0]
+Q = [{apart}, 40]
+[links.1]
+O-A = 30
+wheel = {{ centre = "O", {first} }}
+[links.2]
+Q-B = 50
+wheel = {{ centre = "Q", {second} }}
+rolls = {{ on = 1, start = {{ 1 = 0, 2 = 120 }} }}
+mass = 4
+centre = "B"
+inertia = 0.03
+[[loads]]
+at = "B"
+link = 2
+force = [60, -35]
+[[drivers]]
+turn = 1
+angle = {angle}
+speed = {speed}
+acceleration = 25
+[ask]
+reactions = ["O", "Q", 2]
+balance = true
+"""
+PLAIN = {"module": "", "apart": 30, "first": "radius = 20", "second": "radius = 30"}
+TEETH = {"module": "module = 2", "apart": 30, "first": "teeth = 20", "second": "teeth = 30"}
+RING = {**PLAIN, "first": "radius = 100, inside = true", "second": "radius = 50"}
+INSIDE = {**PLAIN, "first": "radius = 50", "second": "radius = 100, inside = true"}
+
+
+@pytest.mark.parametrize(
+    "wheels", [PLAIN, TEETH, RING, INSIDE], ids=["plain", "teeth", "ring", "in"]
+)
+@pytest.mark.parametrize("angle", [10, 130, 250])
+@pytest.mark.parametrize("speed", [90, -200])
+def test_the_drawn_force_of_a_wheel_is_that_of_the_equations(wheels, angle, speed):
+    text = TWO.format(**wheels, angle=angle, speed=speed)
+    mechanism = Mechanism(read_text(text, "two", None, {}))
+    assert max(differences(mechanism)) < CLOSE
+
+
+def test_a_chain_of_wheels_passes_the_moment_on():
+    """M_1 = M_3·ω_3/ω_1 without masses; each tooth force is that moment over its base radius."""
+    file = Path(__file__).parents[1] / "scenes" / "forces" / "gears.toml"
+    text = (
+        file.read_text(encoding="utf-8")
+        .replace("mass = 6", "mass = 0")
+        .replace("mass = 9", "mass = 0")
+    )
+    text = text.replace("inertia = 0.02", "").replace("inertia = 0.05", "")
+    mechanism = Mechanism(read_text(text, "train", None, {}))
+    found, verdict = mechanism.forces()
+    assert verdict.agrees and max(differences(mechanism)) < CLOSE
+    (balance,) = found.balance
+    assert math.isclose(balance.moment, -30 * 18 / 38, rel_tol=CLOSE)
+    base = 0.095 * math.cos(math.radians(20))
+    assert math.isclose(abs(on(found, "3-2", "3")), 30 / base, rel_tol=CLOSE)

@@ -119,7 +119,8 @@ class Keys(Struct, frozen=True, dict=True):
             weights = np.nan_to_num(1 / self.deviations, posinf=0.0)
         sizes = np.nan_to_num(self.sizes, posinf=0.0, neginf=0.0)
         weights = np.where(np.isfinite(self.sizes), weights, 0.0)
-        return tuple(np.ascontiguousarray(each.T, dtype=np.float32) for each in (sizes, weights))
+        one, other = (np.ascontiguousarray(each.T, np.float32) for each in (sizes, weights))
+        return one, other
 
     def known(self, variant: int) -> Any:
         """The fields whose error in a drawing of a variant is known."""

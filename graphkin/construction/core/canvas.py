@@ -113,5 +113,8 @@ class Canvas(Protocol):
     def through_tips(self, one: tuple[Any, Any], other: tuple[Any, Any]) -> None:
         """The line through the tips of two parallel vectors, each as tail and direction."""
 
+    def holds(self, place: Any) -> bool:
+        """Whether a place is in the field."""
+
     def note(self, text: str) -> None:
         """A text at the foot of the field."""

@@ -650,6 +650,10 @@ class PaperCanvas(Struct, frozen=True):
                 line = LineMark(*part[0], *part[1], "ray", self.step.name, self.number)
                 self.plot.board.marks.append(line)
 
+    def holds(self, place: Any) -> bool:
+        """Whether a place is in the field of the sheet."""
+        return self.plot.field.holds(place)
+
     def note(self, text: str) -> None:
         """Write a text at the foot of the field."""
         self.plot.board.notes.append(FootNote(text))

@@ -36,10 +36,11 @@ from graphkin.construction.forces.polygon import (
     side_between,
 )
 from graphkin.construction.forces.slide_pressure import pressure
+from graphkin.construction.forces.tooth_force import tooth
 from graphkin.scene.model import FRAME, Scene
 from graphkin.structure.groups import Crank, Driven, Dyad, Group
 from graphkin.structure.pairs import Joint, Pin, PinLine, Sliding
-from graphkin.structure.wheel_groups import other_of
+from graphkin.structure.wheel_groups import Geared, other_of
 
 
 def undrawn(scene: Scene, groups: Sequence[Group]) -> Group | None:
@@ -54,7 +55,11 @@ def is_drawn(scene: Scene, group: Group) -> bool:
             pairs = (*group.outer, group.inner)
             return all(is_plain(scene, pair) for pair in pairs)
         case Crank(driver=driver, link=link):
-            return other_of(driver, link) == FRAME and not scene.link(link).wheels
+            return other_of(driver, link) == FRAME
+        case Geared(link=link, pair=Pin() as pin, contact=contact):
+            on_frame = FRAME in pin.links and contact.arm == FRAME
+            both = contact.track is not None and contact.rolling.belt is None
+            return on_frame and both and contact.wheel_of(link).centre == pin.place
         case Driven(driver=driver, link=link, pair=pair):
             return other_of(driver, link) == FRAME and is_plain(scene, pair)
     return False
@@ -96,6 +101,8 @@ class ForcePlan:
                     self.by_inner_pin(group)
                 case Dyad():
                     self.by_inner_slide(group)
+                case Geared():
+                    self.geared(group)
                 case Crank():
                     balances.append((group, self.crank(group)))
                 case Driven():
@@ -272,8 +279,8 @@ class ForcePlan:
         place = self.pen.the("position", pin.place)
         return any(each.couple is not None or each.place != place for each in self.acting[link])
 
-    def pressed(self, inner: Sliding, one: str, other: str, force: int, place: int) -> None:
-        """Enter the force of a guide on one link, and its opposite on the other."""
+    def pressed(self, inner: Joint, one: str, other: str, force: int, place: int) -> None:
+        """Enter the force of a guide or wheel on one link, and its opposite on the other."""
         pen = self.pen
         with pen.on(Part.FORCE, Plane.NUMBERS):
             back = pen.draw(opposite, force)
@@ -308,6 +315,23 @@ class ForcePlan:
         rest = moments_about(pen, place, pair.place, self.acting[other], self.arms)
         self.settle(outer, other, outward, rest)
         self.closed_at(group.type, one, pair)
+
+    # --- wheels ----------------------------------------------------------------------------------
+
+    def geared(self, group: Geared) -> None:
+        """A wheel on a fixed pivot: the force of the other wheel by moments, then its polygon."""
+        pen, link, contact, pin = self.pen, group.link, group.contact, group.pair
+        assert isinstance(pin, Pin)
+        other = self.partner(contact, link)
+        pivot = pen.the("position", pin.place)
+        moments = moments_about(pen, pivot, pin.place, self.acting[link], self.arms)
+        wheels = contact.wheel_of(link), contact.wheel_of(other)
+        found = tooth(pen, self.name(contact, link), link, wheels, moments)
+        self.pressed(contact, link, other, found.force, found.pitch)
+        polygon = self.closed_at("", link, pin)
+        with pen.on(Part.FORCE, Plane.NUMBERS):
+            side = pen.draw(side_between, *polygon.ends[found.name])
+        pen.want(PAIR_REACTION.target, found.name, side)
 
     # --- drivers ---------------------------------------------------------------------------------
 

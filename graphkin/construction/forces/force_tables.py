@@ -12,6 +12,7 @@ from graphkin.construction.forces.force_drawing import ForceDrawing
 from graphkin.construction.forces.force_words import drawn_force
 from graphkin.construction.forces.polygon import ClosedByLines, ClosingReaction, side_size
 from graphkin.construction.forces.slide_pressure import SlidePressure
+from graphkin.construction.forces.tooth_force import ToothForce
 from graphkin.drawing.symbol_markup import symbol
 from graphkin.text.tables import CellTable, Row
 
@@ -49,7 +50,7 @@ def sorted_sides(drawing: ForceDrawing) -> list[tuple[str, float]]:
                     found[name] = side_size(drawing, tail, tip)
         elif isinstance(kind, ClosingReaction) and step.role == "arrow":
             found[kind.name] = side_size(drawing, kind.tail, kind.tip)
-        elif isinstance(kind, SlidePressure) and step.role == "force":
+        elif isinstance(kind, SlidePressure | ToothForce) and step.role == "force":
             found[kind.name] = drawing.settled(abs(drawing.trace.values[kind.force]))
     return list(found.items())
 

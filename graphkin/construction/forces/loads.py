@@ -116,11 +116,15 @@ class AppliedForce(Construction, frozen=True, kw_only=True):
     where: int
 
     def marks(self, canvas: Canvas, role: str) -> None:
-        """Draw the arrow; the arrow of a reaction or of a load on a pin starts at the pin."""
+        """Draw the arrow from the place; a note says that the place is beyond the field."""
         place, force = canvas.value(self.place), canvas.value(self.force)
-        if canvas.drawing.settled(abs(force)):
-            way = force / abs(force) * LENGTH / canvas.mm
-            canvas.vector(self.name, self.look, place, place + way)
+        if not canvas.drawing.settled(abs(force)):
+            return
+        if not canvas.holds(place):
+            canvas.note(canvas.drawing.words("page.force_beyond", name=symbol(self.name)))
+            return
+        way = force / abs(force) * LENGTH / canvas.mm
+        canvas.vector(self.name, self.look, place, place + way)
 
 
 def moment_slips(role: str) -> Mapping[str, Slip]:

@@ -309,7 +309,7 @@ class PlaceOnGuide(Construction, frozen=True, kw_only=True):
         """Draw the distance from the pin, with its dimension."""
         pin, place = canvas.value(self.moments.about), canvas.value(self.place)
         drawn = canvas.drawing.settled(abs(canvas.value(self.reaction)))
-        if drawn and canvas.size(place - pin) > SEEN:
+        if drawn and canvas.size(place - pin) > SEEN and canvas.holds(place):
             canvas.dimension(self.number, pin, place)
 
     def symbols(self) -> Mapping[str, str]:

@@ -16,7 +16,7 @@ from graphkin.mechanism import Mechanism, load
 from graphkin.scene.read_scene import read_text
 
 SCENES = Path(__file__).parents[2] / "scenes" / "forces"
-NAMES = ("four-bar", "ram", "shaper")
+NAMES = ("four-bar", "gears", "ram", "shaper")
 
 
 def text_of(name: str) -> str:
