@@ -72,8 +72,11 @@ FULLY = 0.97
 """The drawn share of many lines that meet where a point was only vaguely expected."""
 WHOLE = 0.9
 """The drawn share of a point's lines that is needed for it to count without a question."""
-EXCHANGED, CLEARLY_EXCHANGED = 3.0, 4.5
-"""By how much likelier, as a logarithm, two letters are exchanged: asked, and proposed as wrong."""
+EXCHANGED, CLEARLY_EXCHANGED, EITHER = 3.0, 4.5, 0.5
+"""By how much likelier, as a logarithm, two letters are exchanged: asked, and proposed as wrong.
+
+EITHER is the least of it at each of the two points.
+"""
 SHORTEST = 1e-3
 """Places closer than this, in mm, coincide."""
 FLAT = 0.2
@@ -181,9 +184,12 @@ class PointReader(PointSearch):
     def compare_letters(self) -> None:
         """Doubt points of the plan beside which the letters seem to be exchanged.
 
-        *Wrong* is proposed, each at the other's place, where both letters are clearly read.
+        *Wrong* is proposed, each at the other's place, where both letters are clearly read. Letters
+        of trial plans are too close to tell whose they are.
         """
-        steps = self.sheet.exact.program.steps
+        steps, exact = self.sheet.exact.program.steps, self.sheet.exact.trace.values
+        if any(steps[n].aside is not None and steps[n].name for n in exact):
+            return
         lettered = {
             number: reading.name[0]
             for number, reading in self.readings.items()
@@ -195,8 +201,9 @@ class PointReader(PointSearch):
         likely = {n: letters_near(self.ink, self.own[n], letters) for n in lettered}
         for one, other in combinations(likely, 2):
             mine, others = self.readings[one], self.readings[other]
-            gain = log_ratio(likely[one], others, mine) + log_ratio(likely[other], mine, others)
-            if gain < EXCHANGED:
+            sides = log_ratio(likely[one], others, mine), log_ratio(likely[other], mine, others)
+            gain = sum(sides)
+            if gain < EXCHANGED or min(sides) < EITHER:
                 continue
             for number, there in ((one, other), (other, one)):
                 reading = self.readings[number]

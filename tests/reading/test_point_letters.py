@@ -65,8 +65,9 @@ PLACES = {0: POINT, 1: OTHER}
 def compared(ink: DrawnInk) -> list[PointReading]:
     """The readings of b and d, both right by their lines, after their letters were compared."""
     reader = object.__new__(PointReader)
-    steps = [SimpleNamespace(plane=Plane.VELOCITIES)] * 2
-    exact = SimpleNamespace(program=SimpleNamespace(steps=steps))
+    steps = [SimpleNamespace(plane=Plane.VELOCITIES, aside=None, name="b")] * 2
+    trace = SimpleNamespace(values=PLACES)
+    exact = SimpleNamespace(program=SimpleNamespace(steps=steps), trace=trace)
     drawing = SimpleNamespace(plane=Plane.VELOCITIES)
     reader.sheet = cast("Any", SimpleNamespace(exact=exact, drawing=drawing))
     reader.ink, reader.own = ink, dict(PLACES)

@@ -116,7 +116,7 @@ def taken(a_class: Path, code: str, tmp_path_factory: pytest.TempPathFactory) ->
     """Photographs of one student's sheets, right and wrong, with their readings."""
     folder = tmp_path_factory.mktemp("photos")
     drawings = {
-        "plain": drawn_sheet(a_class, code, "velocity", Habits(point=0.3, line=0.3), 3),
+        "plain": drawn_sheet(a_class, code, "velocity", Habits(point=0.3, line=0.3), 13),
         "hard": drawn_sheet(a_class, code, "acceleration", Habits(point=0.4, mistake=True), 5),
     }
     for name, drawing in drawings.items():
