@@ -140,7 +140,7 @@ class Cycle(Struct, frozen=True, eq=False, dict=True):
             return None
         from graphkin.motion.forces_along import forces_along
 
-        return forces_along(self, self.scene.forces)
+        return forces_along(self.pieces, self.piece, self.at, self.scene.forces)
 
     def slid(self, block: str) -> Reals:
         """The coordinate (m) of a block on its first guide at every position: (N,)."""
