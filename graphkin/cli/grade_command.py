@@ -231,7 +231,7 @@ def grade(  # noqa: PLR0915
     appeals = read_appeals(out, opened.signs, fields)
     decisions = all_decisions(table, desk.decisions, appeals.every)
     if both := ", ".join(who for who in held if who in settled(decisions)):
-        said = f"--hold: {both} is decided in {DECISIONS} or at the desk; take that back"
+        said = f"--hold: {both} is decided: take the row out of {DECISIONS}, or undo it at the desk"
         raise click.UsageError(said, context)
     refusals = Refusals()
     drawings, answers = answers, drawn_table(opened, answers, refusals)

@@ -80,7 +80,7 @@ def print_sheets(
 
     DIR is the folder that graphkin variants wrote.
 
-    Writes into DIR/print a task sheet (A3) and a form (A4) for every student, and the other views
+    Writes into DIR/print a task sheet and a form for every student, and the other views
     that --view names. Then merges each view into one file to print, with all students in the order
     of the roster: class-task.pdf, class-key.pdf. Every sheet shows name, group and an opaque code,
     and a QR code where it fits. A column language of the class list sets each student's language;

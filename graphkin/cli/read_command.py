@@ -62,8 +62,9 @@ def read(
     """Read the drawings of a class from photographs.
 
     CLASS is the folder that graphkin variants wrote. PHOTOS are pictures (JPEG, PNG, HEIC), scans
-    (PDF), or folders of them. Each shows one A3 sheet, with the whole QR code and most of the
-    frame.
+    (PDF), or folders of them. Each shows one sheet, with the whole QR code and most of the frame.
+    The two pages of a sheet on A4, and the scanned halves of one on A3, are named NAME-left and
+    NAME-right.
 
     The command identifies each sheet by its code and flattens it to millimetres of paper by its
     frame. It reads the points one after the other, and expects each from the student's own earlier

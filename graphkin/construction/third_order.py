@@ -18,7 +18,7 @@ from graphkin.construction.core.quantities import JERK, KINDS, OMEGA, RATES, SLI
 from graphkin.construction.core.vocabulary import Action, action
 from graphkin.construction.higher_class.closed_group import ClosedGroup
 from graphkin.numbers.arithmetic import Point, Real
-from graphkin.numbers.dual_numbers import rate_of, with_rate
+from graphkin.numbers.dual_numbers import at_rest, rate_of, with_rate
 from graphkin.scene.link_points import is_under
 from graphkin.structure.pairs import Pin, Sliding
 
@@ -41,10 +41,10 @@ class StepRate(Struct, frozen=True):
 
     def __call__(self, *args: Any) -> Any:
         """The rate of the action's value."""
-        inputs = [*args[: self.count]]
+        inputs = [at_rest(value) for value in args[: self.count]]
         rates, extra = args[self.count :][: len(self.moved)], args[self.count + len(self.moved) :]
         for place, rate in zip(self.moved, rates, strict=True):
-            inputs[place] = with_rate(inputs[place], rate)
+            inputs[place] = with_rate(args[place], rate)
         return rate_of(self.action.value(*inputs, *extra))
 
 

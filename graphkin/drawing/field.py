@@ -34,7 +34,7 @@ FILING = 20.0
 """Width of the filing margin at the left of a sheet, in mm."""
 
 
-class Frame(Struct, frozen=True):
+class PaperFrame(Struct, frozen=True):
     """A standard's frame: its name, the margins beside and above the area, the title block, in mm.
 
     The left margin may be wider, for filing. ``writing`` is the height below the fields for tables
@@ -52,15 +52,15 @@ class Frame(Struct, frozen=True):
     filing: float = FILING
 
 
-ISO = Frame("ISO", 10.0, 10.0, (180.0, 36.0), 86.0, 178.0, 100.0)
+ISO = PaperFrame("ISO", 10.0, 10.0, (180.0, 36.0), 86.0, 178.0, 100.0)
 """ISO 5457:1999 with the title block of ISO 7200:2004."""
-GOST = Frame("GOST", 5.0, 5.0, (185.0, 55.0), 97.0, 208.0, 113.0)
+GOST = PaperFrame("GOST", 5.0, 5.0, (185.0, 55.0), 97.0, 208.0, 113.0)
 """GOST 2.301-68 and GOST 2.104-2006, form 1."""
 ASME_BLOCK = (158.75, 50.8)
 """The title block of ASME Y14.1 for sizes B and C: 6.25 × 2 in."""
 ASME = {
-    "ANSI B": Frame("ASME", 15.748, 9.652, ASME_BLOCK, 94.0, 208.0, filing=15.748),
-    "ANSI C": Frame("ASME", 12.7, 19.05, ASME_BLOCK, 94.0, 208.0, filing=12.7),
+    "ANSI B": PaperFrame("ASME", 15.748, 9.652, ASME_BLOCK, 94.0, 208.0, filing=15.748),
+    "ANSI C": PaperFrame("ASME", 12.7, 19.05, ASME_BLOCK, 94.0, 208.0, filing=12.7),
 }
 """ASME Y14.1-2012: margins of 0.62 and 0.38 in for size B, of 0.5 and 0.75 in for size C."""
 
@@ -75,7 +75,7 @@ class SheetPaper(Struct, frozen=True, dict=True):
     name: str
     width: float
     height: float
-    frame: Frame
+    frame: PaperFrame
     leaves: int = 1
 
     @property
@@ -258,7 +258,7 @@ class SheetPaper(Struct, frozen=True, dict=True):
         return (*self.left[:3], self.notes[1] - 2)
 
 
-@lru_cache
+@lru_cache(maxsize=16)
 def paper_of(name: str, frame: str) -> SheetPaper:
     """The paper of a name with the frame of a standard; ANSI papers have that of ASME Y14.1."""
     width, height = PAPERS[name]

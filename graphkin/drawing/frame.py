@@ -10,7 +10,7 @@ from math import floor
 from msgspec import Struct, field
 from msgspec.structs import replace
 
-from graphkin.drawing.field import A3, A4_AREA, A4_FRAME, GOST, ISO, Frame, Rect, SheetPaper
+from graphkin.drawing.field import A3, A4_AREA, A4_FRAME, GOST, ISO, PaperFrame, Rect, SheetPaper
 from graphkin.drawing.marks import LineMark, Mark, Text, box
 from graphkin.drawing.richtext import extent, flowed, plain, words_of
 from graphkin.drawing.symbol_markup import escape
@@ -47,7 +47,7 @@ class TitleBlock(Struct, frozen=True):
     revision: str = ""
     labels: Mapping[str, str] = field(default_factory=dict)
     logo: float = 0.0
-    frame: Frame = ISO
+    frame: PaperFrame = ISO
     size: str = ""
 
     @property
@@ -114,6 +114,10 @@ def cells_of(block: TitleBlock) -> tuple[tuple[str, Rect, float], ...]:
     )
 
 
+SIGNED = 55.0
+"""The right end of a student's cell in form 1, which has the room of the signature, in mm."""
+
+
 def gost_cells(block: TitleBlock) -> tuple[tuple[str, Rect, float], ...]:
     """The cells of GOST 2.104, form 1. The student, or else the author, has the first row."""
     first = STUDENT if STUDENT in block.labels else "creator"
@@ -125,10 +129,10 @@ def gost_cells(block: TitleBlock) -> tuple[tuple[str, Rect, float], ...]:
         (OWNER, (135.0, 40.0, 185.0, 55.0), 3.5),
         ("scale", (167.0, 20.0, 185.0, 35.0), 3.5),
         ("sheet", (135.0, 35.0, 185.0, 40.0), 2.5),
-        (first, (17.0, 25.0, 40.0, 30.0), 2.5),
+        (first, (17.0, 25.0, SIGNED if first == STUDENT else 40.0, 30.0), 2.5),
         *second,
         ("approved_by", (17.0, 50.0, 40.0, 55.0), 2.5),
-        ("date_of_issue", (40.0, 25.0, 65.0, 30.0), 2.5),
+        ("date_of_issue", (SIGNED if first == STUDENT else 40.0, 25.0, 65.0, 30.0), 2.5),
     )
 
 
@@ -293,9 +297,14 @@ def fitting(
     )
 
 
-def room_in(rect: Rect) -> tuple[float, float]:
-    """The width and height, in mm, of the space below the label in a title block cell."""
+def room_in(rect: Rect, frame: PaperFrame = ISO) -> tuple[float, float]:
+    """The width and height, in mm, of the space for a value in a title block cell.
+
+    It is below the label; the cells of GOST have none.
+    """
     left, top, right, bottom = rect
+    if frame is GOST:
+        return right - left - 2, bottom - top - 2
     return right - left - 3, bottom - top - LABEL - UNDER - 0.9
 
 
@@ -381,11 +390,21 @@ ASIDE = (("Лит.", 142.5), ("Масса", 158.5), ("Масштаб", 176.0))
 """The heads above the stage, the mass and the scale, and their middles."""
 
 
+def lines_of_form(block: TitleBlock) -> Iterator[Rect]:
+    """The strong lines of form 1; a student's cell has none within it."""
+    for x1, y1, x2, y2 in LINES:
+        if x1 == x2 == COLUMNS[2] and STUDENT in block.labels:
+            yield x1, y1, x2, 25.0
+            yield x1, 30.0, x2, y2
+        else:
+            yield x1, y1, x2, y2
+
+
 def form_one(block: TitleBlock, x: float, y: float) -> Iterator[Mark]:
     """Draw the title block of GOST 2.104-2006, form 1, with its printed words."""
     width, height = block.frame.block
     yield box(x, y, width, height, "frame title-block")
-    for x1, y1, x2, y2 in LINES:
+    for x1, y1, x2, y2 in lines_of_form(block):
         yield LineMark(x + x1, y + y1, x + x2, y + y2, "frame title-block")
     for row in (*range(5, 20, 5), *range(30, 55, 5)):
         yield LineMark(x, y + row, x + 65.0, y + row, "border title-block")
@@ -411,7 +430,7 @@ def form_one(block: TitleBlock, x: float, y: float) -> Iterator[Mark]:
 def centred(name: str, rect: Rect, most: float, value: str) -> Iterator[Mark]:
     """The lines of a value in the middle of a cell without a label."""
     left, top, right, bottom = rect
-    lines, height = fitting(name, value, right - left - 2, bottom - top - 2, most, CLOSER)
+    lines, height = fitting(name, value, *room_in(rect, GOST), most, CLOSER)
     first = (top + bottom - (len(lines) - 1) * CLOSER * height + height) / 2
     for i, line in enumerate(lines):
         y = first + i * CLOSER * height

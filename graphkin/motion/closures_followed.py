@@ -212,8 +212,8 @@ def changes(course: Course, k: int, low: float, high: float) -> list[tuple[float
     """The number of a group's closure at the start of an interval, and each later number."""
     group, way = course.group(k), course.closures[k]
     usual = course.sweep.usual
-    places = FEWER if group.trying.several else PLACES
-    count = max(int(np.ceil((high - low) / usual * places)), 2)
+    places, least = (FEWER, STRIDE) if group.trying.several else (PLACES, 2 * STRIDE)
+    count = max(int(np.ceil((high - low) / usual * places)), least)
     if count > MOST:
         raise too_many(course)
     grid = np.linspace(low, high, count + 1)

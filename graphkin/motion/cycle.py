@@ -19,6 +19,7 @@ from graphkin.motion.driving import TURN
 from graphkin.motion.events import Singular, singulars
 from graphkin.motion.pieces import Path, Piece, reachable_ranges
 from graphkin.motion.sweep import Sweep, sweep_of
+from graphkin.motion.turns_counted import name_of
 from graphkin.numbers.plane import Ratio
 from graphkin.scene.model import FRAME, Branch, Scene
 from graphkin.text.errors import (
@@ -44,6 +45,8 @@ LISTED = 6
 """The most ranges listed in a message."""
 NUMBERED = 4
 """Rows of a cycle in which the residual check numbers closures."""
+FOLLOWED = 720
+"""Parts of a range in which links are followed that the program does not count."""
 FULL = 10_000_000
 """The most values of a cycle: rows times quantities in each."""
 
@@ -402,6 +405,7 @@ def witnessed(found: Cycle, *, numbered: bool = True) -> Witnessed:
     count = len(found.at)
     difference, agrees = np.full(count, np.nan), np.zeros(count, dtype=bool)
     unsure: dict[str, Flags] = {}
+    turns = turns_left_open(found)
     for number, piece in enumerate(found.pieces, 1):
         rows = found.piece == number
         if not rows.any():
@@ -411,7 +415,7 @@ def witnessed(found: Cycle, *, numbered: bool = True) -> Witnessed:
             examined = examine(
                 course.scene,
                 rows_of(found.solution, rows),
-                course.values(found.at[rows]),
+                course.values(found.at[rows]) | {n: turn[rows] for n, turn in turns.items()},
                 numbered=max(NUMBERED // len(found.pieces), 1) if numbered else 0,
             )
         except GraphkinError as error:
@@ -420,3 +424,30 @@ def witnessed(found: Cycle, *, numbered: bool = True) -> Witnessed:
         for name, lost in examined.unsure.items():
             unsure.setdefault(name, np.zeros(count, dtype=bool))[rows] = lost
     return Witnessed(difference, agrees, unsure=unsure)
+
+
+def turns_left_open(found: Cycle) -> dict[str, Reals]:
+    """The turned angles (degrees) (N,) of links that count for the scene, not for the program.
+
+    The program may count another link in their place. Their axes are followed from the scene's
+    position, or from the beginning of a range that the motion does not reach from there.
+    """
+    sweep, targets = found.sweep, found.path.ranges[0][0].course.program.targets
+    values = sweep.scene.values
+    near = {m: float(values[name_of(m)]) for m in found.scene.links if name_of(m) in values}
+    links = [link for link in near if ("turned", link) not in targets]
+    wanted = [("axis", link) for link in links if ("axis", link) in targets]
+    turns: dict[str, Reals] = {name_of(link): np.zeros(len(found.at)) for _, link in wanted}
+    for low, high in found.ranges if wanted else ():
+        rows = np.flatnonzero((low <= found.at) & (found.at <= high))
+        start = sweep.start if low <= sweep.start <= high else low
+        at = np.unique([*np.linspace(low, high, FOLLOWED + 1), *found.at[rows], start])
+        columns = columns_at(sweep, found.path, at, wanted).columns
+        known = np.all([np.isfinite(columns[target]) for target in wanted], axis=0)
+        at = at[known]
+        for target in wanted if at.size else ():
+            angle = np.degrees(np.unwrap(np.angle(columns[target][known])))
+            first = angle[np.abs(at - start).argmin()]
+            angle += TURN * np.round((near[target[1]] - first) / TURN)
+            turns[name_of(target[1])][rows] = np.interp(found.at[rows], at, angle)
+    return turns

@@ -14,6 +14,7 @@ from graphkin.construction.core.run import run_batch
 from graphkin.construction.forces.force_plan import force_program, undrawn
 from graphkin.construction.forces.force_words import is_asked
 from graphkin.construction.forces.lever import LeverBalance
+from graphkin.motion.course import Reals
 from graphkin.motion.pieces import Piece
 from graphkin.numbers.arithmetic import batch_kind
 from graphkin.scene.forces import Forces
@@ -30,30 +31,32 @@ class ForcesAlong(Struct, frozen=True, eq=False):
     difference: Any = None
 
 
-def forces_along(pieces: Sequence[Piece], piece: Any, at: Any, given: Forces) -> ForcesAlong | None:
-    """The forces that a scene asks; None where the forces of a group are not drawn.
+def forces_along(
+    pieces: Sequence[Piece], numbers: Reals, at: Reals, given: Forces
+) -> ForcesAlong | None:
+    """The forces that a scene asks at places ``at`` (N,), each in the piece of its number from 1.
 
-    ``piece`` (N,) numbers the pieces from 1, and ``at`` (N,) is u of every row.
+    None where the forces of a group are not drawn.
     """
     values: dict[Target, Any] = {}
     difference: Any = None
-    for number, each in enumerate(pieces, 1):
-        rows, course = np.flatnonzero(piece == number), each.course
+    for number, piece in enumerate(pieces, 1):
+        rows, course = np.flatnonzero(numbers == number), piece.course
         if undrawn(course.scene, course.groups) is not None:
             return None
         program = force_program(course.scene, course.program, course.groups)
         asked = [target for target in program.targets if is_asked(course.scene, given, target)]
         levers = [*constructions(program, LeverBalance)]
         keep = [program.targets[target] for target in asked]
-        keep += [n for lever in levers for n in (of_lever(lever), lever.other)]
+        keep += [n for each in levers for n in (of_lever(each), each.other)]
         steps = program.behind(keep)
         with np.errstate(all="ignore"):
             trace = run_batch(program, steps, course.values(at[rows]), batch_kind(), keep)
         for target in asked:
             found = np.broadcast_to(trace.values[program.targets[target]], len(rows))
             values.setdefault(target, np.full(len(at), np.nan, found.dtype))[rows] = found
-        for lever in levers:
-            one, other = (trace.values[n] for n in (of_lever(lever), lever.other))
+        for each in levers:
+            one, other = (trace.values[n] for n in (of_lever(each), each.other))
             largest = np.maximum(abs(one), abs(other))
             off = abs(one - other) / np.where(largest > 0, largest, 1.0)
             difference = np.full(len(at), np.nan) if difference is None else difference

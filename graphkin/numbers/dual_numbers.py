@@ -160,6 +160,14 @@ def with_rate(value: Any, rate: Any) -> Any:
     return Dual(value, rate)
 
 
+def at_rest(value: Any) -> Any:
+    """A value with the rate zero: traced numbers and dual ones do not mix."""
+    if isinstance(value, tuple):
+        parts = [at_rest(part) for part in value]
+        return type(value)(*parts) if hasattr(value, "_fields") else tuple(parts)
+    return Dual(value, 0.0)
+
+
 def rate_of(value: Any) -> Any:
     """The rate of a value, a plain tuple for a line or another tuple; zero of what is at rest."""
     if isinstance(value, tuple):

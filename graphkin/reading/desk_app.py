@@ -7,6 +7,7 @@ decision to a file in the folder, so that several people can decide at once.
 from __future__ import annotations
 
 from collections.abc import Callable
+from datetime import UTC, datetime
 from pathlib import Path
 from threading import Lock
 from typing import Any
@@ -81,8 +82,18 @@ class DeskSession(Struct, dict=True):
         return {
             "count": self.count(),
             "sheets": [] if drawings is None else drawings.sheets(),
-            "items": [] if marks is None else marks.listed(),
+            "items": self.listed(),
         }
+
+    def listed(self) -> list[dict[str, Any]]:
+        """A line for each thing to decide about marks."""
+        if self.marks is None:
+            return []
+        if self.drawings is None:
+            return self.marks.listed()
+        written = (self.folder / KEPT_MARKS).stat().st_mtime
+        since = datetime.fromtimestamp(written, UTC).isoformat(timespec="milliseconds")
+        return self.marks.listed(self.drawings.being_decided(since))
 
     def problems(self) -> tuple[Problem, ...]:
         """What is wrong with rows of appeals."""
@@ -130,7 +141,7 @@ class DeskSession(Struct, dict=True):
     def rule(self, data: bytes) -> dict[str, Any]:
         """Record a decision about marks."""
         with self.lock:
-            return self.of_marks().decide(data) | {"items": self.of_marks().listed()}
+            return self.of_marks().decide(data) | {"items": self.listed()}
 
     def remark(self, data: bytes) -> dict[str, Any]:
         """Record a remark on a row."""
@@ -144,7 +155,7 @@ class DeskSession(Struct, dict=True):
             drawn = None if drawings is None else drawings.settled.last_of(self.marker)
             ruled = None if marks is None else marks.rulings.last_of(self.marker)
             if marks is not None and ruled and (not drawn or ruled[1].when > drawn[1].when):
-                return {"item": marks.undo(), "items": marks.listed()}
+                return {"item": marks.undo(), "items": self.listed()}
             return {} if drawings is None else drawings.undo()
 
 

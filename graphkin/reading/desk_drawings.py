@@ -48,9 +48,20 @@ class DrawingDesk(Struct, dict=True):
         read = sorted(self.records.values(), key=lambda each: each.refused is not None)
         return [self.told(each) for each in read]
 
+    def being_decided(self, since: str) -> set[str]:
+        """The codes of students whose sheets have open points, or points decided ``since``."""
+        standing = self.settled.standing
+        late = {sheet for (sheet, _), each in standing.items() if each.when > since}
+        return {
+            record.code
+            for name, record in self.records.items()
+            if name in late or any(point.ask for point in settled_points(record, standing))
+        }
+
     def told(self, record: SheetRecord) -> dict[str, Any]:
         """A sheet in the form that the page expects."""
         standing = self.settled.standing
+        whole = () if record.cause is None else record.cause.sentences(self.words)
         return {
             "name": self.shown[record.name],
             "code": "" if self.anonymous else record.code,
@@ -58,6 +69,7 @@ class DrawingDesk(Struct, dict=True):
             "kind": self.words(f"sheet.{record.kind}") if record.kind else "",
             "size": (record.on.width, record.on.height),
             "refused": record.refused,
+            "whole": " ".join(f"{each}." for each in whole),
             "lines": record.key_lines,
             "points": [
                 self.point(each, standing.get((record.name, each.step)))

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Collection, Iterator, Sequence
 from fractions import Fraction
 from pathlib import Path
 from typing import Any
@@ -11,7 +11,7 @@ import msgspec
 from msgspec import Struct
 from msgspec.structs import replace
 
-from graphkin.classroom.grading.answer_numbers import read_answer
+from graphkin.classroom.grading.answer_numbers import OPEN, read_answer
 from graphkin.classroom.grading.appeals import Appeal, read_appeals
 from graphkin.classroom.grading.decisions import AMOUNT, LONGEST
 from graphkin.classroom.grading.desk_rulings import (
@@ -120,11 +120,16 @@ class MarkDesk(Struct, dict=True):
 
     # --- what the page shows ----------------------------------------------------------------------
 
-    def listed(self) -> list[dict[str, Any]]:
-        """A line for each thing to decide: its name, kind, title and state."""
+    def listed(self, drawn: Collection[str] = ()) -> list[dict[str, Any]]:
+        """A line for each thing to decide: its name, kind, title and state.
+
+        The open cells of students whose drawings are still being decided (``drawn``, by their
+        codes) are left out: the next marking fills them in.
+        """
         return [
             {"name": name, "kind": each.kind, "title": each.title, "state": self.state(each)}
             for name, each in self.items().items()
+            if not (each.own == OPEN and self.queue.graded[each.places[0][0]].taker.code in drawn)
         ]
 
     def state(self, item: DeskItem) -> str:

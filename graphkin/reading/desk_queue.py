@@ -12,7 +12,7 @@ from typing import Literal
 from msgspec import Struct
 from msgspec.structs import replace
 
-from graphkin.classroom.grading.answer_numbers import beyond_number, rounding, shown_cell
+from graphkin.classroom.grading.answer_numbers import OPEN, beyond_number, rounding, shown_cell
 from graphkin.classroom.grading.appeals import Appeal
 from graphkin.classroom.grading.class_report import copies_words, wrong_variant_words
 from graphkin.classroom.grading.desk_rulings import AnyRuling, LeaveMark, Place, ReadAs, SetPoints
@@ -88,13 +88,17 @@ class DeskQueue(Struct, frozen=True):
     # --- cells ------------------------------------------------------------------------------------
 
     def cells(self) -> Iterator[DeskItem]:
-        """Cells that wait: the same text in the same field is one thing to decide."""
-        words, told = self.words, defaultdict[tuple[str, str, str], list[Place]](list)
+        """Cells that wait: the same text in the same field is one thing to decide.
+
+        A drawing that leaves a field open is a matter of its student alone.
+        """
+        words, told = self.words, defaultdict[tuple[str, str, str, str], list[Place]](list)
         units = {cell.field: cell.unit for cell in self.report.cells}
         for cell in self.report.cells:
             if cell.who in self.graded:
-                told[cell.field, cell.text, cell.problem].append((cell.who, cell.field))
-        for (field, text, problem), places in told.items():
+                alone = cell.who if cell.text.strip() == OPEN else ""
+                told[cell.field, cell.text, cell.problem, alone].append((cell.who, cell.field))
+        for (field, text, problem, _), places in told.items():
             mark = self.mark(places[0])
             shown = shown_cell(text.strip())
             why = unread(problem, units[field], words, shown_cell(beyond_number(text)))

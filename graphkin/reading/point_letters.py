@@ -7,7 +7,7 @@ z or none. The weights are made by ``python -m tests.reading.letter_network``.
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
-from functools import cache
+from functools import lru_cache
 from pathlib import Path
 from typing import Any
 
@@ -45,7 +45,7 @@ def pieces(dark: Any) -> Iterator[tuple[tuple[int, int, int, int], Any]]:
     the network sees of them.
     """
     inked = (dark > INKED).astype(np.uint8)
-    left = inked & (1 - cv2.dilate(straight(inked), np.ones((3, 3), np.uint8)))
+    left = inked * (cv2.dilate(straight(inked), np.ones((3, 3), np.uint8)) == 0)
     low, high = SMALLEST * DENSITY, LARGEST * DENSITY
     seen = set[tuple[int, int, int, int]]()
     for gap in JOINED:
@@ -54,8 +54,8 @@ def pieces(dark: Any) -> Iterator[tuple[tuple[int, int, int, int], Any]]:
         names = names * left
         for name in range(1, count):
             mask = (names == name).astype(np.uint8)
-            x, y, width, height = map(int, cv2.boundingRect(mask))
-            box = x, y, width, height
+            x, y, width, height = cv2.boundingRect(mask)
+            box = int(x), int(y), int(width), int(height)
             long, short = max(width, height), min(width, height)
             if low <= long <= high and short >= 2 and box not in seen:
                 seen.add(box)
@@ -70,7 +70,7 @@ def straight(inked: Any) -> Any:
     return found
 
 
-@cache
+@lru_cache(maxsize=1)
 def kernels() -> tuple[Any, ...]:
     """A line of ``STRAIGHT`` pixels in each direction."""
     half, found = STRAIGHT // 2, []
@@ -97,7 +97,7 @@ def shown(dark: Any, box: tuple[int, int, int, int]) -> Any:
     return np.concatenate([square.ravel(), size_mm])
 
 
-@cache
+@lru_cache(maxsize=1)
 def network() -> tuple[Any, ...]:
     """The weights and offsets of the layers."""
     with np.load(WEIGHTS) as kept:
@@ -119,8 +119,8 @@ def letters_near(ink: DrawnInk, place: complex, letters: str = ALPHABET) -> Mapp
 
     A piece is taken for one of these letters, or for none.
     """
-    first, upper, *_ = ink.paper.fields
-    x, y = (place.real - first) * DENSITY, (place.imag - upper) * DENSITY
+    corner = complex(*ink.paper.fields[:2])
+    x, y = (place - corner).real * DENSITY, (place - corner).imag * DENSITY
     half = round(ROOM * DENSITY)
     left, top = max(0, round(x) - half), max(0, round(y) - half)
     part = slice(top, round(y) + half), slice(left, round(x) + half)

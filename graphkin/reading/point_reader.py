@@ -72,7 +72,7 @@ FULLY = 0.97
 """The drawn share of many lines that meet where a point was only vaguely expected."""
 WHOLE = 0.9
 """The drawn share of a point's lines that is needed for it to count without a question."""
-EXCHANGED, CLEARLY_EXCHANGED = 2.0, 4.0
+EXCHANGED, CLEARLY_EXCHANGED = 3.0, 4.5
 """By how much likelier, as a logarithm, two letters are exchanged: asked, and proposed as wrong."""
 SHORTEST = 1e-3
 """Places closer than this, in mm, coincide."""

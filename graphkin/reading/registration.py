@@ -559,26 +559,23 @@ class MapFit:
             by_lines = (found[: len(pixels)] * normal).sum(1) / scale / NOISE
             return np.concatenate([by_lines, found[len(pixels) :].ravel() / size / CORNER])
 
-        def pixels_with(parameters: Any, du: float = 0.0, dv: float = 0.0) -> Any:
-            shift = bends @ parameters[PLAIN : self.most].reshape(kinds, 2)
-            across, along = u + shift[:, 0] + du, v + shift[:, 1] + dv
+        def pixels_with(parameters: Any, across: Any, along: Any) -> Any:
             return seen_at(parameters, across, along, self.width, self.height)
 
         goal = errors(np.concatenate([pixels, self.corners]))
         for _ in range(ROUNDS):
-            here = errors(pixels_with(self.parameters))
+            shift = bends @ self.parameters[PLAIN : self.most].reshape(kinds, 2)
+            at = u + shift[:, 0], v + shift[:, 1]
+            seen = pixels_with(self.parameters, *at)
+            here = errors(seen)
             columns = []
             for number in range(min(count, PLAIN)):
                 nudged = self.parameters.copy()
                 nudged[number] += NUDGE
-                columns.append((errors(pixels_with(nudged)) - here) / NUDGE)
+                columns.append((errors(pixels_with(nudged, *at)) - here) / NUDGE)
             if bent:
-                across = (
-                    pixels_with(self.parameters, du=NUDGE) - pixels_with(self.parameters)
-                ) / NUDGE
-                along = (
-                    pixels_with(self.parameters, dv=NUDGE) - pixels_with(self.parameters)
-                ) / NUDGE
+                across = (pixels_with(self.parameters, at[0] + NUDGE, at[1]) - seen) / NUDGE
+                along = (pixels_with(self.parameters, at[0], at[1] + NUDGE) - seen) / NUDGE
                 both = np.stack([errors(across), errors(along)], axis=1)
                 columns.append((rows[:, :, None] * both[:, None]).reshape(len(rows), -1))
             off, jacobian = here - goal, np.column_stack(columns)

@@ -30,7 +30,7 @@ HEADED, CLEARLY = 0.8, 0.25
 """The least share of an arrowhead that is drawn; how much clearer one head is than another."""
 OWN = 0.75
 """The least share of the head at a point that counts as the end of its vector without a doubt."""
-RINGS, PINS, ROUND = np.arange(0.6, 1.05, 0.1), np.arange(0.6, 1.45, 0.1), 0.86
+RINGS, PINS, ROUND = np.arange(0.7, 1.05, 0.1), np.arange(0.7, 1.45, 0.1), 0.86
 """Radii in mm of the rings of points and of pins; the least share of one that is drawn."""
 ASTRAY = 0.3
 """How far from its point, in mm, the middle of a ring may be."""
@@ -171,7 +171,8 @@ def vector_end(
     for other in others:
         free &= abs(along - other) > FREE
     there = np.where(free, share, -1.0)
-    clearer = there.max() >= HEADED and there.max() > here + CLEARLY and not marked
+    least = CERTAIN if marked else HEADED
+    clearer = there.max() >= least and there.max() > here + CLEARLY
     rival = there if clearer or alike else steady(there)
     place = tail + float(along[int(rival.argmax())]) * way
     elsewhere = (clearer or rival.max() >= CERTAIN) and (

@@ -51,7 +51,7 @@ def test_a_newcomer_builds_the_offset_slider_crank(hand):
     assert hand.page.locator("#told").is_hidden()
     upper = hand.page.locator("#canvas").bounding_box()["y"]
     hand.driver(crank, 90)
-    assert hand.page.locator("#canvas").bounding_box()["y"] == upper
+    assert abs(hand.page.locator("#canvas").bounding_box()["y"] - upper) < 0.1  # of a dot
     assert hand.text.count("speed = 90") == 1
     hand.write("speed", "75")
     hand.settled(lambda: hand.page.press("#speed", "Enter"))

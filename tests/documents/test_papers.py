@@ -10,10 +10,14 @@ from xml.etree import ElementTree
 import pypdf
 import pytest
 
+from graphkin.classroom.printing.personal import owner
+from graphkin.classroom.roster.student import Student
+from graphkin.classroom.roster.taker import Taker
 from graphkin.construction.core.layout import lay_out
 from graphkin.documents.scaling import sheet_motion
 from graphkin.documents.sheet_documents import drawings_of, hand_out, language_of, proved
 from graphkin.drawing.field import A3, paper_of
+from graphkin.drawing.frame import STUDENT, TitleBlock, cells_of, title_block_marks
 from graphkin.drawing.marks import LineMark, Polyline, Text, reach
 from graphkin.mechanism import Mechanism, load
 from graphkin.scene.house import FRAMES, PAPERS, house_of
@@ -122,6 +126,21 @@ def test_the_cells_of_form_one_are_those_of_the_standard() -> None:
     own = paper_of("A3", "GOST")
     assert own.title_block == (230.0, 237.0, 415.0, 292.0)
     assert own.area == (20.0, 5.0, 415.0, 292.0)
+
+
+@pytest.mark.parametrize(("paper", "frame"), [("A3", "ISO"), ("A4", "GOST"), ("ANSI B", "ISO")])
+def test_a_student_has_a_name_on_every_frame(paper: str, frame: str) -> None:
+    name = "Анна Иванова-Петрова"
+    own = paper_of(paper, frame)
+    whose = owner(Taker(Student(1, "7", name=name, group="5"), {}, "CODE"), own)
+    assert whose.name == f"{name}, 5"
+    block = TitleBlock(
+        student=whose.name, labels={STUDENT: "Name"}, frame=own.frame, sheet="1/2", scale="1:5"
+    )
+    said = [m for m in title_block_marks(block, 0, 0) if m.name == STUDENT]
+    left, _, right, _ = next(rect for cell, rect, _ in cells_of(block) if cell == STUDENT)
+    assert " ".join(line.markup for line in said) == whose.name
+    assert all(left < reach(line)[0] < reach(line)[2] < right for line in said)
 
 
 def test_the_margins_of_ansi_papers_are_those_of_the_standard() -> None:

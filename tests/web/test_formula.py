@@ -15,6 +15,7 @@ from pathlib import Path
 
 import pytest
 from click.testing import CliRunner
+from msgspec.structs import replace
 from openpyxl import load_workbook
 
 from graphkin.cli.export_command import export
@@ -23,6 +24,7 @@ from graphkin.documents.program_files import PROGRAMS
 from graphkin.mechanism import Mechanism, load
 from graphkin.motion.driving import stated_motion
 from graphkin.motion.sweep import law_of_time
+from graphkin.scene.link_points import is_under
 from graphkin.text.errors import GraphkinError, SceneError
 from graphkin.web.formula import LANGUAGES, Formula, formula_of
 from graphkin.web.formula_workbook import formula_workbook
@@ -41,7 +43,14 @@ Case = list[float]
 
 def scene_named(name: str, **settings: object) -> Mechanism:
     path = SCENES / f"{name}.toml"
-    return load(path if path.exists() else name, **settings)
+    return jerking(load(path if path.exists() else name, **settings))
+
+
+def jerking(mechanism: Mechanism) -> Mechanism:
+    """The mechanism asked for the jerks of its points of links, too."""
+    scene = mechanism.scene
+    jerk = tuple(point for point in scene.ask.velocity if not is_under(point))
+    return Mechanism(replace(scene, ask=replace(scene.ask, jerk=jerk)))
 
 
 def at_other_values(name: str) -> list[Mechanism]:
@@ -68,7 +77,8 @@ def motion_of(mechanism: Mechanism) -> dict[str, float]:
     found, solution = {}, mechanism.solve()
     for name, point in solution.points.items():
         named = name.replace("@", "_")
-        vectors = (("", point.position), ("v", point.velocity), ("a", point.acceleration))
+        vectors = [("", point.position), ("v", point.velocity), ("a", point.acceleration)]
+        vectors.append(("j", point.jerk))
         for letter, value in vectors:
             if value is not None:
                 found[f"{letter}x_{named}"] = complex(value).real
@@ -249,7 +259,7 @@ def test_a_law_of_time_is_a_function_of_the_time(tmp_path: Path) -> None:
     assert "time = 0.5\n" in text
     later = tmp_path / "later.toml"
     later.write_text(text.replace("time = 0.5\n", "time = 0.7\n"), encoding="utf-8")
-    wanted = motion_of(load(later))
+    wanted = motion_of(jerking(load(later)))
     (found,) = by_python(formula, [[0.7]], tmp_path)
     assert found == pytest.approx(wanted, rel=TOLERANCE, abs=TOLERANCE)
     (before,) = by_python(formula, [[0.5]], tmp_path)

@@ -21,7 +21,7 @@ from msgspec.structs import replace
 from graphkin.accuracy.pencil.pencil import SCALES
 from graphkin.classroom.grading.explanations import CauseWay
 from graphkin.classroom.grading.graded import Graded, Status, Suspicion
-from graphkin.classroom.grading.keys import Keys, distinct, read_of
+from graphkin.classroom.grading.keys import COMPUTED, Keys, distinct, read_of
 from graphkin.classroom.grading.likelihood import (
     FAR,
     PENCILS,
@@ -112,6 +112,8 @@ STRONG = 1000.0
 """The least odds at which a wrong variant is reported, after correction for all comparisons."""
 TRIED = 3
 """The number of variants compared closely: those nearest to the answers taken singly."""
+WAYS = 8
+"""The number of ways of working with a cause that are compared closely with some answers."""
 CLOSE = 64
 """The number of variants of which the nearest are chosen, by the digits of the answers too."""
 
@@ -191,6 +193,7 @@ def best_other(
     the least odds, as a logarithm.
     """
     answers, digits = read_of(graded, keys)
+    caused = likeliest(tuple(by_causes(known, keys)), answers, digits, keys, mine)
     marks = {mark.item.field: mark for mark in graded.marks}
     explained = np.array([marks[field].cause not in ("", ANOTHER) for field in keys.fields])
     found = None
@@ -206,7 +209,6 @@ def best_other(
         if theirs.likelihood - plain < enough:
             continue
         honest = (rightly(keys, mine), *by_own_scales(answers, keys, mine, read))
-        caused = tuple(by_causes(known, keys))
         tried = [(way, way.key(keys, mine, read)) for way in (*honest, *caused)]
         tried += [(way, as_drawn(way, keys, int(other), read)) for way in caused]
         own = max(way.share + fit(given, rounded, k, theirs.fits).likelihood for way, k in tried)
@@ -217,6 +219,20 @@ def best_other(
             fields = tuple(keys.fields[place] for place in fits)
             found = Best(int(other), fields, int((~np.isnan(answers)).sum()), odds)
     return found
+
+
+def likeliest(
+    ways: Sequence[OwnWay], answers: Any, digits: Any, keys: Keys, mine: int
+) -> Sequence[OwnWay]:
+    """The ``WAYS`` whose values are nearest to the answers, each answer taken singly."""
+    if len(ways) <= WAYS:
+        return ways
+    sizes, times = (np.array([getattr(w, name) for w in ways]) for name in ("sizes", "times"))
+    with np.errstate(all="ignore"):
+        spread = (keys.deviations[mine] * times) ** 2 + digits**2 / 3 + (COMPUTED * sizes) ** 2
+        far = (answers - sizes) ** 2 / spread + np.log(spread / keys.deviations[mine] ** 2)
+    order = np.argsort(np.nansum(np.minimum(far, FAR**2), axis=1), kind="stable")
+    return [ways[i] for i in order[:WAYS].tolist()]
 
 
 def as_drawn(way: OwnWay, keys: Keys, other: int, read: Any) -> Key:

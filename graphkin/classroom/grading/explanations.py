@@ -44,8 +44,6 @@ LIKELY = 5.0
 """The least odds, as a logarithm, at which a cause is named."""
 SENSES = -1.0
 """The same where nothing but senses is wrong, all of which the cause must reverse."""
-FEW = 2
-"""The fewest wrong senses that speak for a cause beside wrong numbers that it does not give."""
 SECOND = 2.0
 """The least odds, as a logarithm, by which two causes must be likelier than one."""
 EXPLAINS = 0.6
@@ -511,10 +509,10 @@ class AnswerSheets(Struct, frozen=True, dict=True):
         return None
 
     def turns_all(self, i: int, found: SheetCauses) -> bool:
-        """Whether an explanation gives several wrong senses, all there are, and no wrong number."""
+        """Whether an explanation gives the wrong senses, all there are, and changes no number."""
         agree = np.array([field in found.fits for field in self.variants.fields])
         wrong, senses = self.missed[i] & self.is_read[i], self.form.senses
-        every = (wrong & senses).sum() >= FEW and not (self.is_read[i] & senses & ~agree).any()
+        every = (wrong & senses).any() and not (self.is_read[i] & senses & ~agree).any()
         told = np.array([found.values[field] for field in self.variants.fields])
         same = np.isclose(abs(told), abs(self.key[i]), rtol=1e-9)
         return bool(every and not (wrong & ~senses & ~same).any())

@@ -236,7 +236,7 @@ def why(graded: Graded, mark: EarnedMark, words: Words) -> str:
         few = mark.rounded == "few"
         return words("feedback.digits_few" if few else "feedback.digits_many", share=percent(mark))
     if mark.status is Status.CAUSE:
-        return words("feedback.caused" if mark.earned else "feedback.lost_sense")
+        return caused_words(graded, mark, words)
     if mark.alone:
         return words("feedback.alone")
     if mark.status is Status.RIGHT and mark.source:
@@ -263,6 +263,16 @@ def why(graded: Graded, mark: EarnedMark, words: Words) -> str:
         source = graded.mark(mark.source)
         parts.append(words("feedback.follows", source=source.item.symbol, share=percent(mark)))
     return "; ".join(parts)
+
+
+def caused_words(graded: Graded, mark: EarnedMark, words: Words) -> str:
+    """Why an answer is right that a cause explains: what the cause makes of the value."""
+    if not mark.earned:
+        return words("feedback.lost_sense")
+    if not mark.by_cause or mark.item.what == "sense":
+        return words("feedback.caused")
+    key = "caused_value" if len(graded.causes) == 1 else "caused_values"
+    return words(f"feedback.{key}", value=value_words(mark, words, mark.by_cause))
 
 
 def unread(problem: str, unit: str, words: Words, rest: str = "") -> str:
@@ -396,6 +406,9 @@ def cause_words(graded: Graded, words: Words) -> list[str]:
     else:
         fields = ", ".join(dict.fromkeys(item.symbol for item in left))
         parts.append(words("feedback.not_all", fields=fields))
+    blank = [m.item.symbol for m in graded.marks if m.points and m.status is Status.BLANK]
+    if blank:
+        parts.append(words("feedback.left_blank", fields=", ".join(dict.fromkeys(blank))))
     return [" ".join(parts)]
 
 

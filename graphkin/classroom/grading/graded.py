@@ -105,7 +105,8 @@ class EarnedMark(Struct, frozen=True):
     A right answer has a source where it is right but not by the key. ``source`` is empty where
     the student's drawing shows what follows.
 
-    ``cause`` names what explains the answer: it is right for a student who made that mistake.
+    ``cause`` names what explains the answer: it is right for a student who made that mistake, which
+    gives the value ``by_cause``.
     ``torn`` says that a sense contradicts the sign of its own value, ``alone`` that a right sense
     earns nothing, since the size beside it earns nothing. ``rounded`` says that it is right but for
     its digits: ``few`` or ``many``. ``decision`` is the lecturer's.
@@ -120,6 +121,7 @@ class EarnedMark(Struct, frozen=True):
     tolerance: float
     source: str = ""
     cause: str = ""
+    by_cause: float | None = None
     torn: bool = False
     alone: bool = False
     rounded: str = ""

@@ -197,6 +197,8 @@ class Marker:
             elif field in caused or field in also:
                 earned = NONE if field in lost else points
                 mark = replace(mark, status=Status.CAUSE, earned=earned, cause=name)
+                if found is not None and field in caused:
+                    mark = replace(mark, by_cause=found.values[field])
             elif field in rest:
                 mark = self.following(mark, followed.get(field))
             mark = self.by_digits(mark)

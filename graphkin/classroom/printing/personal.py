@@ -192,7 +192,7 @@ def fits(text: str, paper: SheetPaper) -> bool:
     try:
         block = TitleBlock(labels={STUDENT: ""}, creator="-", frame=paper.frame)
         _, rect, most = next(cell for cell in cells_of(block) if cell[0] == STUDENT)
-        fitting(STUDENT, text, *room_in(rect), most)
+        fitting(STUDENT, text, *room_in(rect, paper.frame), most)
     except PageError:
         return False
     return True

@@ -114,7 +114,8 @@
     }));
     queue();
     const rivals = point()?.rivals;
-    tell(now?.refused ? `${said.refused} ${now.refused}` : rivals ? `${said.rivals} ${rivals}` : "");
+    const refused = now?.refused && `${said.refused} ${now.refused}`;
+    tell([refused, now?.whole, rivals && `${said.rivals} ${rivals}`].filter(Boolean).join(" "));
   }
 
   const label = (each) =>

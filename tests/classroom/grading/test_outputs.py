@@ -280,12 +280,12 @@ def test_decisions_survive_a_new_marking_and_reach_the_gradebook(folder):
     for _ in range(2):
         found = run(folder, "--force", "--gradebook", str(folder / "canvas.csv"), "--lang", "en")
         assert found.exit_code == 0, found.output
-        assert "decisions.csv: 1 decided, 0 still open" in found.output
+        assert "decisions: 1 decided, 0 still open" in found.output
         assert path.read_bytes() == own
         assert "A,19,88.5" in text_in(folder)
         assert "drawn twice" in text_in(folder, "feedback/0001.html")
     refused = run(folder, "--force", "--hold", "0001")
-    assert refused.exit_code == 2 and "take the row out of it" in refused.output
+    assert refused.exit_code == 2 and "take the row out of decisions.csv" in refused.output
     before = (folder / "out" / "marks.csv").read_bytes()
     path.write_text("id;field;points;reason\n0001;v_Q;9;\n9;total;2;why\n", encoding="utf-8")
     refused = run(folder, "--force")

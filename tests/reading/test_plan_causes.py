@@ -1,0 +1,66 @@
+"""A whole plan at another scale, turned or mirrored has one cause; a right one has none."""
+
+from __future__ import annotations
+
+import cmath
+
+import pytest
+
+from graphkin.reading.plan_causes import PlanCause, Shaft, Similarity, similarity_of
+from graphkin.text import words
+from tests.reading.test_reading import ink_of
+from tests.reading.test_vector_ends import Strokes, vector
+
+POLE = 300 + 150j
+TIPS = [POLE + each for each in (60 - 30j, 48 + 26j, -20 + 44j)]
+SHAFTS: list[Shaft] = [*((POLE, tip) for tip in TIPS), (TIPS[0], TIPS[1]), (TIPS[1], TIPS[2])]
+"""The vectors of the key."""
+CASES = {
+    "halved": Similarity(POLE, 0.5 + 0j, False),
+    "spun": Similarity(POLE, cmath.rect(1.0, 0.5), False),
+    "mirrored": Similarity(POLE, -1 + 0j, True),
+    "smaller and spun": Similarity(POLE, cmath.rect(0.8, -1.0), False),
+}
+
+
+def strokes(drawn: Similarity, *, lacking: int = 0) -> Strokes:
+    """A plan drawn by a similarity, without some of its last vectors."""
+    shafts = SHAFTS[: len(SHAFTS) - lacking]
+    return [stroke for tail, tip in shafts for stroke in vector(drawn(tail), drawn(tip))]
+
+
+def found(drawn: Similarity, *, lacking: int = 0) -> PlanCause | None:
+    """The cause seen where the first point was read."""
+    ink = ink_of(*strokes(drawn, lacking=lacking))
+    similarity = similarity_of(ink, SHAFTS, POLE, [drawn(TIPS[0])])
+    return None if similarity is None else similarity.cause
+
+
+@pytest.mark.parametrize("name", CASES)
+def test_the_similarity_of_a_whole_plan_is_found(name: str) -> None:
+    drawn, cause = CASES[name], found(CASES[name])
+    assert cause is not None
+    assert cause.factor == pytest.approx(abs(drawn.size), abs=0.02)
+    assert cause.mirrored == drawn.mirrored
+    if not drawn.mirrored:
+        assert cmath.rect(1, cmath.pi / 180 * cause.turn) == pytest.approx(
+            drawn.size.conjugate() / abs(drawn.size), abs=0.02
+        )
+
+
+def test_a_right_plan_and_one_that_lacks_a_vector_have_no_cause() -> None:
+    assert found(Similarity(POLE, 1 + 0j, False)) is None
+    assert found(CASES["halved"]) is not None
+    assert found(CASES["halved"], lacking=1) is None
+
+
+def test_the_cause_is_said_in_the_readers_language() -> None:
+    half, turned = PlanCause(0.5, 0.0), PlanCause(1.0, -30.0)
+    assert list(half.sentences(words("en"))) == ["The whole plan is drawn at 0.50 times its size"]
+    assert list(half.sentences(words("it"))) == [
+        "L’intero piano è disegnato 0,50 volte la sua grandezza"
+    ]
+    assert list(turned.sentences(words("en"))) == ["The whole plan is turned by −30°"]
+    assert list(PlanCause(1.0, 140.0, True).sentences(words("en"))) == [
+        "The whole plan is mirrored"
+    ]

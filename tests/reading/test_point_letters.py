@@ -1,0 +1,95 @@
+"""The letter beside a point is evidence: exchanged letters are asked, unread ones say nothing."""
+
+from __future__ import annotations
+
+from itertools import pairwise
+from types import SimpleNamespace
+from typing import Any, cast
+
+import numpy as np
+import pytest
+
+from graphkin.construction.core.program import Plane
+from graphkin.drawing.marks import Text
+from graphkin.reading.drawn_ink import DrawnInk
+from graphkin.reading.point_letters import FLOOR, letters_near
+from graphkin.reading.point_reader import PointReader
+from graphkin.reading.point_reading import PointReading, pair
+from tests.reading.hand_letters import Writing, written
+from tests.reading.test_reading import ink_of
+
+POINT = 300 + 150j
+LINES = [(POINT, POINT + 50j), (POINT, POINT - 50 + 20j), (POINT, POINT + 30 - 40j)]
+LETTERS = "abcd"
+SEEDS = range(8)
+
+
+def strokes(letter: str, seed: int, point: complex = POINT) -> list[tuple[complex, complex]]:
+    """A letter written beside a point."""
+    mark = Text(point.real + 2.5, point.imag + 0.5, letter, "letter", 3.2)
+    paths = written(mark, Writing(wobble=0.2), np.random.default_rng(seed))
+    return [
+        (complex(*start), complex(*end)) for path in paths for start, end in pairwise(path.tolist())
+    ]
+
+
+def beside(letter: str, seed: int) -> DrawnInk:
+    """A point at which lines meet, with a letter beside it."""
+    return ink_of(*LINES, *strokes(letter, seed))
+
+
+@pytest.mark.parametrize("letter", LETTERS)
+def test_a_written_letter_is_likelier_than_any_other_of_the_plan(letter: str) -> None:
+    best = [
+        max(likely := letters_near(beside(letter, seed), POINT, LETTERS), key=likely.__getitem__)
+        for seed in SEEDS
+    ]
+    assert best.count(letter) >= 0.75 * len(best)
+
+
+def test_a_point_without_a_letter_has_none() -> None:
+    likely = letters_near(ink_of(*LINES), POINT, LETTERS)
+    assert max(likely.values()) == FLOOR
+
+
+def test_a_letter_far_from_the_point_is_not_its_own() -> None:
+    far = POINT - 14 - 8j
+    likely = letters_near(beside("b", 1), far, LETTERS)
+    assert max(likely.values()) == FLOOR
+
+
+OTHER = POINT + 30 - 40j
+PLACES = {0: POINT, 1: OTHER}
+
+
+def compared(ink: DrawnInk) -> list[PointReading]:
+    """The readings of b and d, both right by their lines, after their letters were compared."""
+    reader = object.__new__(PointReader)
+    steps = [SimpleNamespace(plane=Plane.VELOCITIES)] * 2
+    exact = SimpleNamespace(program=SimpleNamespace(steps=steps))
+    drawing = SimpleNamespace(plane=Plane.VELOCITIES)
+    reader.sheet = cast("Any", SimpleNamespace(exact=exact, drawing=drawing))
+    reader.ink, reader.own = ink, dict(PLACES)
+    reader.readings = {
+        number: PointReading(name, number, pair(at), "right", False, pair(at), pair(at), 0.0)
+        for (number, at), name in zip(PLACES.items(), ("b", "d_1"), strict=True)
+    }
+    reader.compare_letters()
+    return list(reader.readings.values())
+
+
+@pytest.mark.parametrize("seed", SEEDS)
+def test_exchanged_letters_are_asked_and_proposed_as_wrong(seed: int) -> None:
+    right = ink_of(*LINES, *strokes("b", seed), *strokes("d", seed, OTHER))
+    assert not any(each.ask for each in compared(right))
+    exchanged = ink_of(*LINES, *strokes("d", seed), *strokes("b", seed, OTHER))
+    one, other = compared(exchanged)
+    assert one.ask
+    assert other.ask
+    assert one.doubts == ("letter",)
+    if one.verdict == "wrong":
+        assert one.at == pair(OTHER)
+
+
+def test_points_without_letters_are_not_asked() -> None:
+    assert not any(each.ask for each in compared(ink_of(*LINES)))
