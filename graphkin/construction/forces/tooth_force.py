@@ -44,7 +44,7 @@ def tooth_force(centre: Point, pitch: Point, *rest: Any) -> Point:
     radius = abs(centre - pitch)
     inward = (centre - pitch) / radius
     along = moment_sum(centre, (*terms, pairs)) / radius
-    return (along * 1j + pick(along < 0, -along, along) * slant) * inward
+    return along * (1j * inward) + pick(along < 0, -along, along) * (slant * inward)
 
 
 class ToothForce(Construction, frozen=True, kw_only=True):
