@@ -10,7 +10,7 @@ from math import floor
 from msgspec import Struct, field
 from msgspec.structs import replace
 
-from graphkin.drawing.field import A3, A4_AREA, A4_FRAME, GOST, ISO, SheetFrame, Rect, SheetPaper
+from graphkin.drawing.field import A3, A4_AREA, A4_FRAME, GOST, ISO, Rect, SheetFrame, SheetPaper
 from graphkin.drawing.marks import LineMark, Mark, Text, box
 from graphkin.drawing.richtext import extent, flowed, plain, words_of
 from graphkin.drawing.symbol_markup import escape
