@@ -239,7 +239,8 @@ def test_what_is_decided_to_follow_earns_follow(a_class: Path, taken: Path, tmp_
     """The lecturer moves d by 12 mm and says that it follows; the mark is not that of the key."""
     out = shutil.copytree(taken / "read", tmp_path / "read")
     session = DeskSession(out, words("en"))
-    d = next(point for point in session.records["plain"].points if point.name == "d")
+    assert session.drawings is not None
+    d = next(point for point in session.drawings.records["plain"].points if point.name == "d")
     assert d.at is not None
     earned = {}
     for verdict in ("wrong", "follows"):

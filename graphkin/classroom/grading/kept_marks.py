@@ -42,6 +42,7 @@ class KeptMark(Struct, frozen=True, omit_defaults=True):
     tolerance: float | None = None
     source: str = ""
     cause: str = ""
+    by_cause: float | None = None
     torn: bool = False
     alone: bool = False
     rounded: str = ""
