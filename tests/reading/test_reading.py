@@ -1052,7 +1052,7 @@ def test_the_frame_is_not_taken_for_the_border(a_class: Path, code: str) -> None
     height, width = image.shape
     corners = registration.square_of(page) * 10 - 0.5
     corners[:, 1] += 48  # as if all lay 4.8 mm lower, where the border is the frame's neighbour
-    over = registration.start(width, height, registration.square_of(page), corners)
+    over = registration.start(width, height, registration.square_of(page), corners, A3)
     nothing = np.zeros(len(lines.places))
     none = registration.MeasuredLines(lines, nothing, nothing > 0, nothing == 0)
     about = registration.sides_off(image, over, none)
@@ -1075,7 +1075,7 @@ def test_a_corner_that_lies_off_is_sought_where_its_side_does_not(a_class: Path,
     fallen = 40 * np.clip((1500 - xs) / 600, 0, 1) * np.clip((1000 - ys) / 600, 0, 1)
     image = cv2.remap(image, xs, ys - fallen, cv2.INTER_LINEAR, borderValue=255)
     square = registration.square_of(found.pages[0])
-    over = registration.start(width, height, square, square * 10 - 0.5)
+    over = registration.start(width, height, square, square * 10 - 0.5, A3)
     measured = registration.measure(image, over, lines, registration.REACH)
     about = registration.sides_off(image, over, measured) * lines.normals[:, 1]
     x, y = lines.places.T
