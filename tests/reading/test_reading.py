@@ -1061,7 +1061,7 @@ def test_the_frame_is_not_taken_for_the_border(a_class: Path, code: str) -> None
     shift = lines.normals[:, 1] * about
     assert shift[level & (y < 14)] == pytest.approx(-4.8, abs=0.9)  # the fit does the rest
     assert not about[level & (y > 20) & (y < 270)].any()
-    right = registration.start(width, height, registration.square_of(page), corners - [0, 48])
+    right = registration.start(width, height, registration.square_of(page), corners - [0, 48], A3)
     assert not registration.sides_off(image, right, none).any()
 
 
