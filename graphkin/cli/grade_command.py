@@ -296,8 +296,8 @@ def pins_of(opened: Edition, folder: Path) -> dict[str, tuple[DrawingRemark, ...
     from graphkin.reading.marked_drawing import pinned_remarks
 
     owners = {taker.code: taker.student.id for taker in opened.takers}
-    told = pinned_remarks(folder)
-    return {owners[code]: pins for code, pins in told.items() if code in owners}
+    pins_by_code = pinned_remarks(folder)
+    return {owners[code]: pins for code, pins in pins_by_code.items() if code in owners}
 
 
 def remarked(

@@ -271,20 +271,20 @@ def given_back(sheets: Sequence[JudgedSheet], words: Words) -> DrawingBack:
     """The drawing in green and red with a remark on each point."""
     title, legend = words("marked.title"), words("marked.legend")
     said = set[int]()
-    told = []
+    sheet_parts = []
     for each in sheets:
         points = [point for point in each.points if point.step not in said]
         said |= {point.step for point in points}
-        told.append(
+        sheet_parts.append(
             (
                 words(f"sheet.{each.sheet.kind}"),
                 [(field, list(shapes(each, field))) for field in fields(each)],
                 [(sentence(point, words), LOOKS[colour_of(point)]) for point in points],
             )
         )
-    markup = from_template("reading/web/board.html", title=title, legend=legend, sheets=told)
+    markup = from_template("reading/web/board.html", title=title, legend=legend, sheets=sheet_parts)
     blocks: list[Block] = [text_block(title, 3.5), text_block(escape(legend), SMALL)]
-    for name, drawn, lines in told:
+    for name, drawn, lines in sheet_parts:
         blocks += [text_block(name, LETTER), on_paper(drawn, sheets[0].sheet.drawing.paper)]
         blocks += [remark(text, look) for text, look in lines]
     return DrawingBack(markup, tuple(blocks))

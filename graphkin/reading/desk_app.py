@@ -70,9 +70,9 @@ class DeskSession(Struct, dict=True):
     def everything(self) -> dict[str, Any]:
         """All sheets and all else to decide, after the lines of others were read."""
         with self.lock:
-            return self.told()
+            return self.overview()
 
-    def told(self) -> dict[str, Any]:
+    def overview(self) -> dict[str, Any]:
         """All sheets, and a line for each other thing to decide."""
         drawings, marks = self.drawings, self.marks
         if drawings is not None:
@@ -117,7 +117,7 @@ class DeskSession(Struct, dict=True):
         except msgspec.MsgspecError as error:
             raise PageRequestError(str(error)) from None
         with self.lock:
-            found = self.told()
+            found = self.overview()
             return {} if found["count"] == known else found
 
     def item(self, name: str) -> dict[str, Any]:

@@ -46,7 +46,7 @@ class DrawingDesk(Struct, dict=True):
     def sheets(self) -> list[dict[str, Any]]:
         """All sheets with their current decisions; refused sheets come last."""
         read = sorted(self.records.values(), key=lambda each: each.refused is not None)
-        return [self.told(each) for each in read]
+        return [self.shown_sheet(each) for each in read]
 
     def being_decided(self, since: str) -> set[str]:
         """The codes of students whose sheets have open points, or points decided ``since``."""
@@ -58,7 +58,7 @@ class DrawingDesk(Struct, dict=True):
             if name in late or any(point.ask for point in settled_points(record, standing))
         }
 
-    def told(self, record: SheetRecord) -> dict[str, Any]:
+    def shown_sheet(self, record: SheetRecord) -> dict[str, Any]:
         """A sheet in the form that the page expects."""
         standing = self.settled.standing
         whole = () if record.cause is None else record.cause.sentences(self.words)
@@ -112,7 +112,7 @@ class DrawingDesk(Struct, dict=True):
             raise PageRequestError(f"{len(decision.note)} > {LONGEST}")
         own = replace(decision, sheet=record.name, by=self.marker, rivals=(), when="")
         self.settled.add(own)
-        return self.told(record)
+        return self.shown_sheet(record)
 
     def undo(self) -> dict[str, Any]:
         """Undo this marker's last decision; returns its sheet, or {} where there is none."""
@@ -121,7 +121,7 @@ class DrawingDesk(Struct, dict=True):
             return {}
         self.settled.add(PointDecision(by=self.marker, undo=True))
         record = self.records.get(last[1].sheet)
-        return {} if record is None else {**self.told(record), "step": last[1].step}
+        return {} if record is None else {**self.shown_sheet(record), "step": last[1].step}
 
     def picture(self, shown: str) -> bytes:
         """The flattened picture of a sheet. Raises PageRequestError where there is none."""

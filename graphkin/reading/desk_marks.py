@@ -134,13 +134,13 @@ class MarkDesk(Struct, dict=True):
 
     def state(self, item: DeskItem) -> str:
         """Whether an item is ``open``, ``decided``, or people ``disagree`` on it."""
-        told = [list(self.about(item, place)) for place in item.places]
-        if any(len(said) > 1 for each in told for said in each):
+        said_by_place = [list(self.about(item, place)) for place in item.places]
+        if any(len(said) > 1 for each in said_by_place for said in each):
             return "disagree"
         table = (self.of_table(place) for place in item.places)
         settled = (
             any(each) or (decision is not None and not decision.is_open)
-            for each, decision in zip(told, table, strict=True)
+            for each, decision in zip(said_by_place, table, strict=True)
         )
         return "decided" if all(settled) else "open"
 
@@ -167,7 +167,7 @@ class MarkDesk(Struct, dict=True):
             "kind": item.kind,
             "title": item.title,
             "state": self.state(item),
-            "told": item.told,
+            "told": item.reason,
             "causes": self.causes(item),
             "heads": [words(HEADS[each]) for each in COLUMNS],
             "rows": [self.row(place) for place in item.shown],
@@ -194,14 +194,14 @@ class MarkDesk(Struct, dict=True):
         """A field as the student's feedback shows it, as browser markup, with the remark on it."""
         graded = self.queue.graded[place[0]]
         mark = graded.mark(place[1])
-        told = row_of(replace(graded, remarks={}), undecided(mark), self.words)
+        feedback_row = row_of(replace(graded, remarks={}), undecided(mark), self.words)
         (remark,) = self.rulings.about(Remark, place)[-1:] or (None,)
         table = self.of_table(place)
         return {
             "who": self.queue.names[place[0]],
-            "cells": [marked_up(cell) for cell in told.cells],
-            "why": marked_up(told.why),
-            "status": told.status.value,
+            "cells": [marked_up(cell) for cell in feedback_row.cells],
+            "why": marked_up(feedback_row.why),
+            "status": feedback_row.status.value,
             "table": marked_up(decision_words(table, self.words)) if table is not None else "",
             "remark": remark.what.text if remark is not None else "",
         }
@@ -230,15 +230,15 @@ class MarkDesk(Struct, dict=True):
         """A ruling in words, with its marker."""
         ruling: AnyRuling = each.what
         who = f"{self.queue.names[ruling.who]}: " if several and not ruling.field else ""
-        told: str = self.words("desk.stays")
+        text: str = self.words("desk.stays")
         if isinstance(ruling, SetPoints):
-            told = self.words("desk.earns", points=points_words(ruling.points, self.words))
+            text = self.words("desk.earns", points=points_words(ruling.points, self.words))
         elif isinstance(ruling, ReadAs):
             read = self.words("desk.read_as", text=ruling.text)
-            told = read if ruling.text else self.words("desk.no_answer")
+            text = read if ruling.text else self.words("desk.no_answer")
         reason = getattr(ruling, "reason", "")
-        told = f"{told}: {reason}" if reason else told
-        return f"{who}{told} ({each.line.by})" if each.line.by else f"{who}{told}"
+        text = f"{text}: {reason}" if reason else text
+        return f"{who}{text} ({each.line.by})" if each.line.by else f"{who}{text}"
 
     # --- what the page decides --------------------------------------------------------------------
 

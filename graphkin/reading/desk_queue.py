@@ -45,13 +45,13 @@ class DeskChoice(Struct, frozen=True):
 class DeskItem(Struct, frozen=True):
     """One thing to decide.
 
-    ``title`` is its line in the queue, ``told`` says why a person must decide. ``places`` are the
+    ``title`` is its line in the queue, ``reason`` says why a person must decide. ``places`` are the
     marks decided; ``shown`` are the rows to see. ``own`` is the text of a cell, or of an appeal.
     """
 
     kind: DeskKind
     title: str
-    told: str
+    reason: str
     places: tuple[Place, ...]
     shown: tuple[Place, ...]
     choices: tuple[DeskChoice, ...]
@@ -92,13 +92,13 @@ class DeskQueue(Struct, frozen=True):
 
         A drawing that leaves a field open is a matter of its student alone.
         """
-        words, told = self.words, defaultdict[tuple[str, str, str, str], list[Place]](list)
+        words, by_cell = self.words, defaultdict[tuple[str, str, str, str], list[Place]](list)
         units = {cell.field: cell.unit for cell in self.report.cells}
         for cell in self.report.cells:
             if cell.who in self.graded:
                 alone = cell.who if cell.text.strip() == OPEN else ""
-                told[cell.field, cell.text, cell.problem, alone].append((cell.who, cell.field))
-        for (field, text, problem, _), places in told.items():
+                by_cell[cell.field, cell.text, cell.problem, alone].append((cell.who, cell.field))
+        for (field, text, problem, _), places in by_cell.items():
             mark = self.mark(places[0])
             shown = shown_cell(text.strip())
             why = unread(problem, units[field], words, shown_cell(beyond_number(text)))
@@ -176,14 +176,14 @@ class DeskQueue(Struct, frozen=True):
         for each in self.report.wrong_variants:
             if any({*each.students[:2]} <= some for some in together):
                 continue
-            told = wrong_variant_words(each, names, words)
-            yield self.suspected(told, each.students[:1], each.students[:2], each.fields)
+            reason = wrong_variant_words(each, names, words)
+            yield self.suspected(reason, each.students[:1], each.students[:2], each.fields)
         for each in self.report.copies:
-            told = copies_words(each, names, words)
-            yield self.suspected(told, each.students, each.students, each.fields)
+            reason = copies_words(each, names, words)
+            yield self.suspected(reason, each.students, each.students, each.fields)
 
     def suspected(
-        self, told: str, who: Sequence[str], beside: Sequence[str], fields: Sequence[str]
+        self, reason: str, who: Sequence[str], beside: Sequence[str], fields: Sequence[str]
     ) -> DeskItem:
         """Suspects, with the fields that agree."""
         words, places = self.words, [(each, "") for each in who]
@@ -195,7 +195,7 @@ class DeskQueue(Struct, frozen=True):
         choices.append(DeskChoice(words("desk.none_for_all"), tuple(SetPoints(*p) for p in places)))
         shown = tuple((each, field) for field in fields for each in beside)
         title = words("list_mark").join(self.names[each] for each in who)
-        return DeskItem("suspects", title, told, tuple(places), shown, tuple(choices))
+        return DeskItem("suspects", title, reason, tuple(places), shown, tuple(choices))
 
     def flagged(self) -> set[str]:
         """The students who are suspected of anything."""
@@ -210,10 +210,10 @@ class DeskQueue(Struct, frozen=True):
             if who in flagged or graded.causes or lost <= LOST * graded.points or not lost:
                 continue
             points = points_words(lost, self.words)
-            told = self.words("desk.unexplained", points=points)
+            reason = self.words("desk.unexplained", points=points)
             place = (who, "")
             stays = (self.stays([place]),)
-            yield DeskItem("sheet", self.names[who], told, (place,), self.whole(who), stays)
+            yield DeskItem("sheet", self.names[who], reason, (place,), self.whole(who), stays)
 
     # --- like answers -----------------------------------------------------------------------------
 
@@ -225,13 +225,13 @@ class DeskQueue(Struct, frozen=True):
             for mark in wrong(graded) if who not in flagged else ():
                 if mark.item.what != "sense" and mark.answer.is_read:
                     every[mark.item.field].append((who, mark))
-        for field, told in every.items():
+        for field, answers in every.items():
             found: list[tuple[str, list[Wrong]]]
-            if told[0][1].item.what == "place":
-                found = [(words("desk.same_value"), each) for each in alike(told, value_of)]
+            if answers[0][1].item.what == "place":
+                found = [(words("desk.same_value"), each) for each in alike(answers, value_of)]
             else:
-                found = [(ratio_words(each, words), each) for each in alike(told, ratio_of)]
-                rest = [own for own in told if not any(own in run for _, run in found)]
+                found = [(ratio_words(each, words), each) for each in alike(answers, ratio_of)]
+                rest = [own for own in answers if not any(own in run for _, run in found)]
                 found += [(words("desk.same_value"), run) for run in alike(rest, value_of)]
             for said, run in found:
                 places = [(who, field) for who, _ in run]
@@ -276,10 +276,10 @@ def value_of(mark: EarnedMark) -> tuple[float, float] | None:
 
 
 def alike(
-    told: Sequence[Wrong], by: Callable[[EarnedMark], tuple[float, float] | None]
+    answers: Sequence[Wrong], by: Callable[[EarnedMark], tuple[float, float] | None]
 ) -> list[list[Wrong]]:
     """Runs of answers that are as near to the first of the run as ``by`` allows."""
-    placed = [(*where, own) for own in told if (where := by(own[1])) is not None]
+    placed = [(*where, own) for own in answers if (where := by(own[1])) is not None]
     placed.sort(key=lambda each: (each[0], each[2][0]))
     runs: list[list[Wrong]] = []
     start = None

@@ -90,9 +90,9 @@ def drawn_row(
             places |= {n: (kind, at) for n, at in found.items() if n not in places}
             settled = settled_points(own[kind], standing)
             verdicts = {point.step: point.verdict for point in settled} | verdicts
-    told = {probe.item.field: probe for probe in probes(sheets.mechanism, form)}
-    cells = tuple(cell(told[item.field], places) for item in form)
-    followed = [item.field for item in form if is_followed(told[item.field], verdicts)]
+    probe_of = {probe.item.field: probe for probe in probes(sheets.mechanism, form)}
+    cells = tuple(cell(probe_of[item.field], places) for item in form)
+    followed = [item.field for item in form if is_followed(probe_of[item.field], verdicts)]
     return DrawnRow(taker.student.id, cells, tuple(followed))
 
 

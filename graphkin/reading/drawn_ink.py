@@ -400,8 +400,8 @@ def drawn_ink(grey: Any, over: PaperMap, page: Page) -> DrawnInk:
     known[~seen_in(grey.shape, over)] = 0
     inner = lines[known > 0]
     usual = max(float(np.percentile(inner, LINES)), FAINT)
-    told = 0.0 if over.ripple is None else over.ripple.deviation
-    sway = float(np.sqrt(max(told**2 - PAPER**2, 0.0)))
+    deviation = 0.0 if over.ripple is None else over.ripple.deviation
+    sway = float(np.sqrt(max(deviation**2 - PAPER**2, 0.0)))
     drawn = np.clip(lines / usual, 0, 1.5).astype(np.float32)
     return DrawnInk(drawn, known.astype(np.float32), sway, over.paper)
 

@@ -134,15 +134,15 @@ def sentence(point: PointReading, words: Words) -> str:
     at, own, key = complex(*point.at), complex(*point.own), complex(*point.key)
     if point.verdict == "follows":
         return words("marked.follows", point=point.name, far=tenths(abs(at - key), words))
-    told = words("marked.wrong", point=point.name, off=tenths(abs(at - own), words))
+    text = words("marked.wrong", point=point.name, off=tenths(abs(at - own), words))
     if point.tail is None:
-        return told
+        return text
     tail = complex(*point.tail)
     if not abs(at - tail) or not abs(own - tail):
-        return told
+        return text
     turn = tenths(abs(degrees(phase((at - tail) / (own - tail)))), words)
     length = tenths(abs(abs(at - tail) - abs(own - tail)), words)
-    return f"{told}: {words('marked.turned', tail=point.tail_name, turn=turn, length=length)}"
+    return f"{text}: {words('marked.turned', tail=point.tail_name, turn=turn, length=length)}"
 
 
 def tenths(value: float, words: Words) -> str:

@@ -120,5 +120,5 @@ def deviation(known: Offsets, inverse: Any, height: float, paper: SheetPaper) ->
     places = np.stack(np.meshgrid(xs, ys), axis=-1).reshape(-1, 2)
     x, y = known.places.T
     alike = likeness(places[:, :1] - x) * likeness(places[:, 1:] - y) * height**2
-    told = [((alike * way) @ inverse * (alike * way)).sum(axis=1) for way in known.ways.T]
-    return float(np.sqrt(np.mean(np.clip(height**2 - np.array(told), 0, None))))
+    explained = [((alike * way) @ inverse * (alike * way)).sum(axis=1) for way in known.ways.T]
+    return float(np.sqrt(np.mean(np.clip(height**2 - np.array(explained), 0, None))))

@@ -115,7 +115,7 @@ def probabilities(seen: Any, layers: tuple[Any, ...]) -> Any:
 
 
 def letters_near(ink: DrawnInk, place: complex, letters: str = ALPHABET) -> Mapping[str, float]:
-    """How likely each of some letters stands beside a place: from FLOOR to 1.
+    """How likely each of some letters is written beside a place: from FLOOR to 1.
 
     A piece is taken for one of these letters, or for none.
     """

@@ -390,23 +390,23 @@ class PointReader(PointSearch):
         expected place are not.
         """
         if not np.isfinite(own.middle):
-            return self.told(number, key, own, None)
+            return self.verdict_on(number, key, own, None)
         best = self.best_near(number, own)
         fits = self.holds(number, best, own)
         if not fits and abs(key.middle - own.middle) > 1.0 and np.isfinite(key.middle):
             other = self.best_near(number, key)
             if self.holds(number, other, key):
                 best, fits = other, True
-        stands = self.stands(number, best, own)
-        led = best is not None and (self.agreement(number, best.place) >= DRAWN or stands)
+        clear = self.is_clear(number, best, own)
+        led = best is not None and (self.agreement(number, best.place) >= DRAWN or clear)
         if best is not None and fits and led and (best.count > 1 or best.ends):
             other = self.elsewhere(number, best.place, own)
             rival = other or self.rival(number, best.place, own)
             if other is None and rival is not None and self.is_likelier(number, rival, best, own):
                 other = rival
-            return self.told(number, key, own, other or best, doubtful=rival is not None)
+            return self.verdict_on(number, key, own, other or best, doubtful=rival is not None)
         if best is None and self.is_at_ends(number, own):
-            return self.told(number, key, own, LinesCrossing(own.middle, own.spread, 1, 0.0))
+            return self.verdict_on(number, key, own, LinesCrossing(own.middle, own.spread, 1, 0.0))
         far = self.best_far(number, own)
         if far is not None:
             there = self.likely(number, far.place, own)
@@ -415,10 +415,10 @@ class PointReader(PointSearch):
             if best is not None and fits and close and abs(far.place - best.place) < 2 * SHORT:
                 there = 0.0  # the same line runs on a little
             whole = far.count > 1 and self.agreement(number, far.place) >= WHOLE
-            ahead = AS_EXPECTED * (fits + close + stands) if led or not whole else 0.0
+            ahead = AS_EXPECTED * (fits + close + clear) if led or not whole else 0.0
             if there > here + ahead:
                 best, fits = far, False
-        return self.told(number, key, own, best, doubtful=not (fits and led))
+        return self.verdict_on(number, key, own, best, doubtful=not (fits and led))
 
     def is_at_ends(self, number: int, own: ExpectedPlace) -> bool:
         """Whether all known ends of a point's lines are too near it to see a line between.
@@ -482,7 +482,7 @@ class PointReader(PointSearch):
             for other in self.readings.keys() & self.own.keys()
         )
 
-    def told(
+    def verdict_on(
         self,
         number: int,
         key: ExpectedPlace,
@@ -571,7 +571,7 @@ class PointReader(PointSearch):
             close = abs(best.place - own.middle) <= CLOSE_BY
             if not (close and own.radius <= VAGUE and self.is_end(number, best)):
                 return True
-        agreed = self.agreement(number, best.place) >= NEARLY or self.stands(number, best, own)
+        agreed = self.agreement(number, best.place) >= NEARLY or self.is_clear(number, best, own)
         unled = best.count == 2 and not self.is_reached(number, best.place)
         return best.cover < WHOLE or not agreed or unled
 

@@ -325,9 +325,9 @@ class PointSearch:
         if best is None or where.away(best.place, best.error) > FITS:
             return False
         agreed = self.agreement(number, best.place, read=best.count > 1)
-        return agreed >= AGREED or self.stands(number, best, where)
+        return agreed >= AGREED or self.is_clear(number, best, where)
 
-    def stands(self, number: int, best: LinesCrossing | None, where: ExpectedPlace) -> bool:
+    def is_clear(self, number: int, best: LinesCrossing | None, where: ExpectedPlace) -> bool:
         """Whether lines cross so clearly at the expected place that one vector may be missing."""
         if best is None or best.count < 2 or best.cover < SURELY:
             return False

@@ -155,8 +155,8 @@ def known_code(grey: Any, takers: Mapping[str, Taker]) -> tuple[str, Any]:
     found = codes_in(grey)
     ours = [each for each in found if each.text in takers]
     if len(ours) > 1:
-        told = ", ".join(sorted(each.text for each in ours))
-        raise Unreadable(f"holds several sheets: {told}; one in each picture")
+        codes = ", ".join(sorted(each.text for each in ours))
+        raise Unreadable(f"holds several sheets: {codes}; one in each picture")
     if not ours and found:
         raise Unreadable("its code is that of no student of this class: another class, or a copy")
     if not ours:
@@ -254,8 +254,8 @@ def sheets_of(order: PrintOrder, taker: Taker, language: str) -> Sheets:
     settings = tuple(sorted(taker.settings.items()))
     kept = drawn_for(taker.code, settings, language, order.scene)
     if "" not in kept:
-        told = PrintOrder(order.lab, order.scene, language, order.ink)
-        kept[""] = Sheets(told, replace(taker, language=language))
+        own_order = PrintOrder(order.lab, order.scene, language, order.ink)
+        kept[""] = Sheets(own_order, replace(taker, language=language))
     return kept[""]
 
 

@@ -466,7 +466,7 @@ def ticks_found(measured: MeasuredLines, ticks: Any) -> float:
 
 
 def standing(dark: Any, width: float) -> Any:
-    """How much a dark line of a given width stands out at each place of profiles."""
+    """The contrast of a dark line of a given width at each place of profiles."""
     half = max(round(width / 2 / STEP), 1)
     core, flank = 2 * half + 1, 4
     kernel = np.zeros(core + 2 * (flank + 2))
@@ -478,9 +478,9 @@ def standing(dark: Any, width: float) -> Any:
 def peaks(dark: Any, across: Any, width: float, reach: float) -> tuple[Any, Any]:
     """The position and contrast of the darkest line in each profile; contrast 0 at the ends."""
     half = max(round(width / 2 / STEP), 1)
-    stands = standing(dark, width)
-    stands[:, abs(across) > reach + STEP / 2] = -1.0
-    best = stands.argmax(axis=1)
+    contrast = standing(dark, width)
+    contrast[:, abs(across) > reach + STEP / 2] = -1.0
+    best = contrast.argmax(axis=1)
     rows = np.arange(len(dark))
     window = np.clip(best[:, None] + np.arange(-half - 4, half + 5), 0, len(across) - 1)
     part = dark[rows[:, None], window]
@@ -489,7 +489,7 @@ def peaks(dark: Any, across: Any, width: float, reach: float) -> tuple[Any, Any]
     total = weight.sum(axis=1)
     centre = (weight * across[window]).sum(axis=1) / np.maximum(total, 1e-9)
     edge = abs(across[best]) > reach - STEP / 2
-    return centre, np.where((total > 0) & ~edge, stands[rows, best], 0.0)
+    return centre, np.where((total > 0) & ~edge, contrast[rows, best], 0.0)
 
 
 class MapFit:
@@ -630,7 +630,7 @@ def judged(
     side = min(held, key=lambda each: held[each])
     stretch = least_stretch(last, lines)
     ticks = [ticks_found(last, some) for _, some in edges(lines)]
-    untold = SIDES[int(np.argmin(ticks))]
+    worst_side = SIDES[int(np.argmin(ticks))]
     if held[side] < LEAST_SIDE:
         refused = f"too little of the frame is seen on the {side} side of the sheet"
     elif share < LEAST_FOUND:
@@ -640,7 +640,7 @@ def judged(
             f"only {stretch:.0%} of the frame is found along a part of it: covered, or rippled"
         )
     elif min(ticks) < LEAST_TICKS:
-        refused = f"the frame cannot be told from the border on the {untold} side of the sheet"
+        refused = f"the frame cannot be told from the border on the {worst_side} side of the sheet"
     elif residual > WORST:
         refused = f"the paper lies too unevenly: printed lines are {residual:.1f} mm off"
     return Registration(over, share, residual, own_share, refused)

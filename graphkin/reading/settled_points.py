@@ -45,16 +45,16 @@ class SettledPoints(SharedLines[PointDecision]):
     def standing(self) -> Standing:
         """The last decision on each point, with those of others who disagree."""
         found = {}
-        for (sheet, step, _), told in self.decided.items():
+        for (sheet, step, _), entries in self.decided.items():
             if step is not None:
-                *others, last = (each.line for each in told)
+                *others, last = (each.line for each in entries)
                 found[sheet, step] = replace(last, rivals=tuple(others))
         return found
 
     def pins(self, sheet: str) -> list[PointDecision]:
         """The remarks pinned to a sheet, in the order in which they were made."""
-        told = [each[-1].line for each in self.decided.values()]
-        return [d for d in told if d.sheet == sheet and d.step is None and d.note]
+        latest = [each[-1].line for each in self.decided.values()]
+        return [d for d in latest if d.sheet == sheet and d.step is None and d.note]
 
 
 def targets_of(line: PointDecision) -> Iterator[tuple[object, object]]:

@@ -798,7 +798,9 @@ def test_a_line_that_ends_before_a_point_does_not_lead_to_it(
     reader.next = reader.drawings = reader.ahead()
     assert reader.is_reached(named["C"], at["C"]) is reached
     there = ExpectedPlace(at["C"], np.eye(2) * 0.05)
-    told = reader.told(named["C"], there, there, LinesCrossing(at["C"], np.eye(2) * 0.01, 2, 1.0))
+    told = reader.verdict_on(
+        named["C"], there, there, LinesCrossing(at["C"], np.eye(2) * 0.01, 2, 1.0)
+    )
     assert told.verdict == "right"
     assert told.ask is not reached
 
@@ -818,19 +820,19 @@ def test_what_fits_and_lies_far_from_the_key_is_asked(a_class: Path, code: str) 
     own = ExpectedPlace(300.2 + 100j, np.eye(2) * 0.2)
     for off, asked in ((1.0, False), (3.2, True)):
         key = ExpectedPlace(300 + off + 100j, np.eye(2) * 4.0)
-        told = reader.told(number, key, own, read)
+        told = reader.verdict_on(number, key, own, read)
         assert (told.verdict, told.ask, told.off) == ("right", asked, 0.2)
     behind = reader.behind(number)
     for n in behind & {*sheet.points}:  # where all behind it is read and settled, none is unseen
         reader.readings[n] = msgspec.structs.replace(point(n, ask=False), verdict="right")
     for n in behind & {*sheet.corners}:
         reader.own[n] = 0j
-    assert not reader.told(number, key, own, read).ask
+    assert not reader.verdict_on(number, key, own, read).ask
     beyond = ExpectedPlace(305.2 + 100j, np.eye(2) * 4.0)  # 1.06 of what the pencil explains
-    assert reader.told(number, beyond, own, read).ask
+    assert reader.verdict_on(number, beyond, own, read).ask
     some = next(iter(behind & {*sheet.points}))
     reader.readings[some] = point(some)
-    assert reader.told(number, key, own, read).ask
+    assert reader.verdict_on(number, key, own, read).ask
 
 
 @pytest.mark.parametrize(
@@ -859,7 +861,7 @@ def test_what_hangs_on_a_doubtful_mistake_waits_for_its_own_lines(
     monkeypatch.setattr(reader, "agreement", lambda *_, **__: 1.0)
     own = ExpectedPlace(300 + 100j, np.eye(2) * 0.2)
     key = ExpectedPlace(330 + 100j, np.eye(2) * 0.2)
-    told = reader.told(b, key, own, LinesCrossing(300 + 100j, np.eye(2) * 0.01, 3, 1.0))
+    told = reader.verdict_on(b, key, own, LinesCrossing(300 + 100j, np.eye(2) * 0.01, 3, 1.0))
     assert (told.verdict, told.ask) == ("follows", asked)
 
 
@@ -1264,7 +1266,7 @@ def test_the_desk_writes_a_decision_at_once_and_takes_it_back(taken: Path) -> No
     (sheet,) = [each for each in again.sheets() if each["name"] == "hard"]
     assert told == sheet
     assert again.undo()["step"] == asked.step
-    points = again.told(record)["points"]
+    points = again.shown_sheet(record)["points"]
     (point,) = [each for each in points if each["step"] == asked.step]
     assert point["ask"]
 

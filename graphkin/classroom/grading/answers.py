@@ -124,9 +124,9 @@ def submissions(path: Path) -> Submissions:
                 message("files {kinds}", kinds=", ".join(KINDS)),
             )
         )
-    told = {each.sender.name for each in tables if each.sender is not None}
+    senders_with_table = {each.sender.name for each in tables if each.sender is not None}
     every = [each.sender for each in found if each.sender is not None]
-    empty = {each.name: each for each in every if each.name not in told}
+    empty = {each.name: each for each in every if each.name not in senders_with_table}
     others = [each for each in found if each.sender is None and each not in tables]
     names = (PurePosixPath(each.name) for each in others)
     left = tuple(str(name) for name in names if not is_beside(name))
@@ -402,9 +402,9 @@ def within_budget(tables: Sequence[HandedIn], reading: AnswerReading) -> Iterato
 
 def merged(name: str, refused: Iterable[Refused]) -> list[Problem]:
     """The problems of everything that is not marked; similar problems share a line."""
-    told = RowProblems(name)
-    told.extend(each.problem for each in refused)
-    return told.merged
+    problems = RowProblems(name)
+    problems.extend(each.problem for each in refused)
+    return problems.merged
 
 
 def refuse_other_lab(name: str, reading: AnswerReading) -> None:
@@ -457,17 +457,17 @@ class AnswerReading(Struct, dict=True):
     def file(self, file: HandedIn) -> None:
         """Read one table; its problems are noted and affect no other student."""
         heads = ["id", *HEADS["id"], *self.known, *FIELD, *VALUE]
-        told = RowProblems(file.name)
+        table_problems = RowProblems(file.name)
         try:
-            sheet = sheet_in(file.read(), file.name, heads, told)
+            sheet = sheet_in(file.read(), file.name, heads, table_problems)
             if is_form(sheet):
-                self.form(sheet, file, told)
+                self.form(sheet, file, table_problems)
             else:
-                self.rows(sheet, file, told)
+                self.rows(sheet, file, table_problems)
         except Exception as error:
             self.refuse(file, *(in_file(each, file.name) for each in problems_of(error)))
 
-    def rows(self, sheet: Spreadsheet, file: HandedIn, told: TableProblems) -> None:
+    def rows(self, sheet: Spreadsheet, file: HandedIn, table_problems: TableProblems) -> None:
         """Read a table with a row for each student, or with one row of the file's owner."""
         where = columns(sheet, HEADS | BESIDE)
         named = ((i, self.fields.get(folded(cell))) for i, cell in enumerate(sheet.head))
@@ -493,7 +493,7 @@ class AnswerReading(Struct, dict=True):
         )
         every = (*sheet.rows, *sheet.left_out)
         used = {visible(sheet.head[i]) for i in (*own, column) if i is not None}
-        wrong = wrong_rows(told, used)
+        wrong = wrong_rows(table_problems, used)
         lines = {row.broken or row.line for row in every}
         if whole := [each for line, some in wrong.items() if line not in lines for each in some]:
             raise RosterError(whole)
@@ -513,7 +513,7 @@ class AnswerReading(Struct, dict=True):
                 drawing = "" if drawn is None else cell_at(row, drawn)
                 self.claim(who, sign, place, cells, unread, file, drawing)
 
-    def form(self, sheet: Spreadsheet, file: HandedIn, told: TableProblems) -> None:
+    def form(self, sheet: Spreadsheet, file: HandedIn, table_problems: TableProblems) -> None:
         """Read one student's answers, a field in each row.
 
         The student is identified by a row with the id, by the file name, or by the learning
@@ -525,7 +525,7 @@ class AnswerReading(Struct, dict=True):
         known = self.signs.who(sign)
         if len(sheet.rows) > MOST_FIELDS:
             found = message("{count} rows", count=len(sheet.rows))
-            told.add(
+            table_problems.add(
                 sheet.name,
                 found,
                 message("at most {most}, one for each field", most=MOST_FIELDS),
@@ -544,13 +544,13 @@ class AnswerReading(Struct, dict=True):
                     strangers.append(row.cells[0])
                 continue
             if name in cells:
-                told.add(
+                table_problems.add(
                     sheet.place(row),
                     message("{name} is answered twice", name=name),
                     message("once"),
                 )
             cells[name] = self.cell(sheet, row, 1, known or "", name, unread)
-        wrong = wrong_rows(told, set(map(visible, sheet.head[:2])))
+        wrong = wrong_rows(table_problems, set(map(visible, sheet.head[:2])))
         if wrong:
             self.refuse(file, *(each for some in wrong.values() for each in some), who=known)
             return
@@ -708,10 +708,10 @@ class AnswerReading(Struct, dict=True):
         return answer
 
 
-def wrong_rows(told: TableProblems, used: Collection[str]) -> dict[int, list[Problem]]:
+def wrong_rows(table_problems: TableProblems, used: Collection[str]) -> dict[int, list[Problem]]:
     """The problems by row, without those in columns that are not used."""
     found: dict[int, list[Problem]] = defaultdict(list)
-    for problem in told.every:
+    for problem in table_problems.every:
         place = place_of(problem)
         column = place.column if place is not None else ""
         if not column or isinstance(column, int) or column in used:

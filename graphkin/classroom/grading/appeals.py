@@ -57,13 +57,13 @@ def read_appeals(report: Path, signs: Signs, fields: Mapping[str, Collection[str
     path = report / APPEALS
     if not path.is_file():
         return ReadAppeals()
-    told = RowProblems(APPEALS)
-    sheet = read_sheet(path, [name for w, every in HEADS.items() for name in (w, *every)], told)
+    problems = RowProblems(APPEALS)
+    sheet = read_sheet(path, [name for w, every in HEADS.items() for name in (w, *every)], problems)
     where = columns(sheet, HEADS)
     if missing := [what for what in HEADS if what not in where]:
         found = message("no column {missing}", missing=", ".join(missing))
-        told.add(APPEALS, found, message("the head id;field;text"))
-        return ReadAppeals(problems=tuple(told.every))
+        problems.add(APPEALS, found, message("the head id;field;text"))
+        return ReadAppeals(problems=tuple(problems.every))
     texts: dict[tuple[str, str], list[str]] = {}
     for row in sheet.rows:
         cells = {what: row.cells[column] for what, column in where.items()}
@@ -74,18 +74,18 @@ def read_appeals(report: Path, signs: Signs, fields: Mapping[str, Collection[str
         if who is None:
             missing_id = message("{cells} is no student of this class", cells=shown(cells["id"]))
             hint = nearest(cells["id"], signs.ids)
-            told.add(places["id"], missing_id, message("an id of the class list"), hint)
+            problems.add(places["id"], missing_id, message("an id of the class list"), hint)
         elif named not in (*own, *WHOLE):
             unknown = message(
                 "{text} is no field of this student's form", text=shown(cells["field"])
             )
             hint = nearest(cells["field"], own.values()) if own else NO_WORDS
-            told.add(places["field"], unknown, message('a field, or "total"'), hint)
+            problems.add(places["field"], unknown, message('a field, or "total"'), hint)
         elif not 0 < len(cells["text"]) <= LONGEST:
             count = message("{count} characters", count=len(cells["text"]))
-            told.add(places["text"], count, message("1 to {most}", most=LONGEST))
+            problems.add(places["text"], count, message("1 to {most}", most=LONGEST))
         else:
             place = who, own.get(named, "")
             texts.setdefault(place, []).append(cells["text"])
     every = tuple(Appeal(*place, "; ".join(dict.fromkeys(own))) for place, own in texts.items())
-    return ReadAppeals(every, tuple(told.every))
+    return ReadAppeals(every, tuple(problems.every))

@@ -259,9 +259,9 @@ def of_perpendiculars(layout: FormLayout, tails: Mapping[int, int]) -> Iterator[
             rates = list(rates_along(layout, bar, {steps[number].plane for number in way}))
             mends: dict[int, Mend] = dict.fromkeys(way, turned)
             mends |= {number: whole_arrow(steps[number], tails.get(number)) for number in rates}
-            told = f"{bar[0]}-{bar[1]} {len(way)}:{way[0]}"
+            detail = f"{bar[0]}-{bar[1]} {len(way)}:{way[0]}"
             reads = without_sense(layout, rates) if rates else None
-            yield Cause("parallel_for_perpendicular", told, Change(mends), reads)
+            yield Cause("parallel_for_perpendicular", detail, Change(mends), reads)
 
 
 def rates_along(layout: FormLayout, bar: Sequence[int], plans: Collection[Plane]) -> Iterator[int]:
@@ -306,8 +306,8 @@ def of_components(layout: FormLayout) -> Iterator[Cause]:
         }
         alone = [[*own] for _, own in groupby(mends, lambda number: id(steps[number].of))]
         for way in [[*mends], *(alone if len(alone) > 1 else [])] if mends else []:
-            told = str(way[0]) if len(way) < len(mends) else ""
-            yield Cause(name, told, Change({number: mends[number] for number in way}))
+            detail = str(way[0]) if len(way) < len(mends) else ""
+            yield Cause(name, detail, Change({number: mends[number] for number in way}))
 
 
 def slip_at(step: Step, name: str) -> Slip | None:
@@ -427,12 +427,12 @@ class Variants(Struct, frozen=True, dict=True):
         paper = self.paper_of(faster)
         every = {**self.values, **found}
         shape = len(self.standards), len(self.fields)
-        told = np.empty(shape)
+        readings = np.empty(shape)
         for place, probe in enumerate(self.layout.probes):
             value = np.real(np.asarray(probe.read(every, paper), dtype=complex))
             column = np.broadcast_to(value, (shape[0], 1))[:, 0]
-            told[:, place] = np.sign(column) if probe.item.what == "sense" else column
-        return told
+            readings[:, place] = np.sign(column) if probe.item.what == "sense" else column
+        return readings
 
     def paper_of(self, faster: float) -> Paper:
         """The scale factors of a crank so many times as fast, where the crank sets them."""
@@ -481,14 +481,14 @@ class Variants(Struct, frozen=True, dict=True):
         pencil = Pencil(rubric.point, rubric.line)
         paper = repeated(self.paper_of(change.faster), rows, count)
         found = self.redrawn(change, rows, pencil, paper)
-        told = np.zeros((len(rows), len(self.fields)))
+        deviations = np.zeros((len(rows), len(self.fields)))
         for place, probe in enumerate(self.layout.probes):
             if probe.item.what != "sense":
                 value = np.real(np.asarray(probe.read(found, paper), dtype=complex))
                 each = np.broadcast_to(value, (len(rows) * count,)).reshape(shape)
                 off = each - each[:, -1:]
-                told[:, place] = np.sqrt(np.sum(off * off, axis=1))
-        return told
+                deviations[:, place] = np.sqrt(np.sum(off * off, axis=1))
+        return deviations
 
     @property
     def closes(self) -> bool:

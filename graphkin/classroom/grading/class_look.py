@@ -121,10 +121,10 @@ def scales(keys: Keys, answers: Any, sizes: Any, allowed: Any) -> None:
         values = [i for i, e in enumerate(own) if e.what == "value" and keys.beside[i] in lengths]
         if not values or (abs(answers - sizes) <= allowed)[:, values].mean() < MOST:
             continue
-        told = logs[:, lengths][~np.isnan(logs[:, lengths]).all(axis=1)]
-        if len(told) < FEW:
+        known_logs = logs[:, lengths][~np.isnan(logs[:, lengths]).all(axis=1)]
+        if len(known_logs) < FEW:
             continue
-        each = np.nanmedian(told, axis=1)
+        each = np.nanmedian(known_logs, axis=1)
         factor = float(np.median(each))
         alike = (abs(each - factor) < SCALED).mean() >= MIXED
         by_class = min(abs(factor - np.log(ratio)) for ratio in DOUBLED) < SCALED
@@ -195,11 +195,11 @@ def tens(
         texts = [graded[i].mark(field).answer.text for i in present]
         whole = np.array([text.strip().isdigit() for text in texts])
         lost = whole & (abs(powers[:, place] - near[:, place]) < 0.03) & (near[:, place] >= 1)
-        told = ~np.isnan(answers[:, place])
+        given = ~np.isnan(answers[:, place])
         if not lost.any() or abs(np.median((powers - near)[lost, place])) > CENTRED:
             continue
         varied = len(set(near[lost, place])) > 1 or not any("." in t or "," in t for t in texts)
-        most = told.sum() >= FEW and lost.sum() > MOST * told.sum() and varied
+        most = given.sum() >= FEW and lost.sum() > MOST * given.sum() and varied
         zeros = np.mean([text.strip().endswith("0") for text in np.array(texts)[lost]])
         unit = others_whole(graded, present, keys, field) or in_smaller_unit(keys, near, field)
         if most and not unit and zeros < MIXED:

@@ -139,13 +139,13 @@ def graded_class(
     every = [(taker, handed_in(answers.get(taker.student.id))) for taker in takers]
     order = sorted(range(len(every)), key=lambda i: (sorted(every[i][0].settings.items()), i))
     done = spread(book, [every[i] for i in order], jobs)
-    told = [each for _, each in sorted(zip(order, done, strict=True), key=lambda pair: pair[0])]
+    sheets = [each for _, each in sorted(zip(order, done, strict=True), key=lambda pair: pair[0])]
     refusals = Refusals()
-    for (taker, _), each in zip(every, told, strict=True):
+    for (taker, _), each in zip(every, sheets, strict=True):
         if each.problems:
             refusals.add(taker.student.id, each.problems)
     found = [
-        (m.graded, m.expected) for m in told if m.graded is not None and m.expected is not None
+        (m.graded, m.expected) for m in sheets if m.graded is not None and m.expected is not None
     ]
     if refusals.found and not found:
         raise GraphkinError(p for problems in refusals.found.values() for p in problems)
@@ -234,10 +234,10 @@ def mark_all(book: Book, every: Sequence[tuple[Taker, Given | None]]) -> list[Ma
         with Refusals().alone("together"):
             book.prepare(taker for taker, _ in part)
         looks = [look(book, *each) for each in part]
-        told, faults = explained_all(looks)
+        sheet_causes, faults = explained_all(looks)
         for i, (taker, answers) in enumerate(part):
             seen = looks[i] if i not in faults else withheld(book, taker, faults[i])
-            found.append(marked(book, taker, answers is not None, seen, told[i]))
+            found.append(marked(book, taker, answers is not None, seen, sheet_causes[i]))
     return found
 
 

@@ -28,7 +28,7 @@ from graphkin.classroom.grading.likelihood import (
     Key,
     fit,
     likelihood_if_drawn,
-    told_odds,
+    reported_odds,
 )
 from graphkin.classroom.grading.standard import Expectation
 from graphkin.classroom.lab.cause_names import ANOTHER
@@ -87,8 +87,8 @@ def by_own_scales(answers: Any, keys: Keys, variant: int, read: Any) -> Iterator
 def by_causes(ways: Iterable[CauseWay], keys: Keys) -> Iterator[OwnWay]:
     """The ways of some causes; the error of a value grows with the value that a cause makes."""
     for way in ways:
-        told = np.array([way.values[field] for field in keys.fields])
-        sizes = np.where(keys.places, told, abs(told))
+        values = np.array([way.values[field] for field in keys.fields])
+        sizes = np.where(keys.places, values, abs(values))
         times = np.array([way.times[field] for field in keys.fields])
         if np.isfinite(sizes).all() and np.isfinite(times).all():
             yield OwnWay(sizes, times, len(way.names) * log(SHARE))
@@ -97,8 +97,8 @@ def by_causes(ways: Iterable[CauseWay], keys: Keys) -> Iterator[OwnWay]:
 def from_own_values(graded: Graded, answers: Any, keys: Keys, variant: int) -> Iterator[OwnWay]:
     """The way in which answers follow from the student's earlier values, whatever these are."""
     marks = {mark.item.field: mark for mark in graded.marks}
-    told = (Status.FOLLOWS, Status.RIGHT)
-    follows = np.array([bool(marks[f].source) and marks[f].status in told for f in keys.fields])
+    statuses = (Status.FOLLOWS, Status.RIGHT)
+    follows = np.array([bool(marks[f].source) and marks[f].status in statuses for f in keys.fields])
     follows &= ~np.isnan(answers)
     if follows.any():
         sizes = np.where(follows, answers, keys.sizes[variant])
@@ -167,7 +167,7 @@ def wrong_variants(
                 best = best_other(each, keys, place, enough, known)
         if best is not None:
             ids = (each.taker.student.id, *theirs[best.other])
-            found.append(Suspicion(ids, best.fields, told_odds(best.odds - choices), best.of))
+            found.append(Suspicion(ids, best.fields, reported_odds(best.odds - choices), best.of))
     return tuple(found)
 
 
@@ -343,7 +343,7 @@ def copies(
         if len(places) < FEW:
             return -inf
         enough = log(STRONG_COPY) + needed(pair)
-        return told(pair, sheets, keys, places, enough) - needed(pair)
+        return copy_evidence(pair, sheets, keys, places, enough) - needed(pair)
 
     strong: dict[Pair, float] = {}
     fields: dict[Pair, tuple[int, ...]] = {}
@@ -365,7 +365,7 @@ def copies(
         Suspicion(
             tuple(graded[who].taker.student.id for who in group),
             tuple(keys.fields[place] for place in common),
-            told_odds(odds),
+            reported_odds(odds),
         )
         for group, common, odds in named(strong, fields, odds_of)
     )
@@ -410,7 +410,7 @@ def agreeing(sheets: Mapping[int, AnswerSheet], keys: Keys) -> dict[Pair, dict[i
     return found
 
 
-def told(
+def copy_evidence(
     pair: Pair,
     sheets: Mapping[int, AnswerSheet],
     keys: Keys,
@@ -514,9 +514,9 @@ def by_oneself(each: AnswerSheet, other: AnswerSheet, keys: Keys, read: Any, res
         sources.append((other.variant, astray))
     own = np.array([variant == each.variant for variant, _ in sources])
     shares = np.array([way.share for _, way in sources])
-    told = shares + [likelihood(each, keys, *source, rest) for source in sources]
-    told -= np.logaddexp.reduce(told)
-    shares = np.where(own, np.maximum(shares, told), told)
+    posteriors = shares + [likelihood(each, keys, *source, rest) for source in sources]
+    posteriors -= np.logaddexp.reduce(posteriors)
+    shares = np.where(own, np.maximum(shares, posteriors), posteriors)
     digits = [likelihood(each, keys, *source, read, True) for source in sources]
     return min(0.0, float(np.logaddexp.reduce(shares + digits)))
 

@@ -73,15 +73,17 @@ def read_decisions(report: Path, on: Deciding) -> tuple[Decision, ...]:
     path = report / DECISIONS
     if not path.is_file():
         return ()
-    told = TableProblems(DECISIONS)
-    sheet = read_sheet(path, [name for w, every in HEADS.items() for name in (w, *every)], told)
+    table_problems = TableProblems(DECISIONS)
+    sheet = read_sheet(
+        path, [name for w, every in HEADS.items() for name in (w, *every)], table_problems
+    )
     where = columns(sheet, HEADS)
     missing = [what for what in HEADS if what not in where]
     if missing:
         found = message("no column {missing}", missing=", ".join(missing))
-        told.add(DECISIONS, found, message("the head id;field;points;reason"))
-        told.stop()
-    read = [decision(sheet, row, where, on, told) for row in sheet.rows]
+        table_problems.add(DECISIONS, found, message("the head id;field;points;reason"))
+        table_problems.stop()
+    read = [decision(sheet, row, where, on, table_problems) for row in sheet.rows]
     seen: dict[tuple[str, str], int] = {}
     for row, each in zip(sheet.rows, read, strict=True):
         first = seen.setdefault((each.who, each.field), row.line) if each else row.line
@@ -92,8 +94,8 @@ def read_decisions(report: Path, on: Deciding) -> tuple[Decision, ...]:
                 value=each.field or "total",
                 first=first,
             )
-            told.add(sheet.place(row), found, message("one row for each"))
-    told.stop()
+            table_problems.add(sheet.place(row), found, message("one row for each"))
+    table_problems.stop()
     return tuple(each for each in read if each is not None)
 
 
@@ -102,12 +104,12 @@ def decision(
     row: SheetRow,
     where: Mapping[str, int],
     on: Deciding,
-    told: TableProblems,
+    table_problems: TableProblems,
 ) -> Decision | None:
     """The decision in one row; None, with its problems noted, where the row is wrong."""
     cells = {what: row.cells[column] for what, column in where.items()}
     places = {what: sheet.place(row, sheet.head[column]) for what, column in where.items()}
-    before = len(told.problems)
+    before = len(table_problems.problems)
     who = on.signs.who(cells["id"])
     taker = next((each for each in on.takers if each.student.id == who), None)
     if taker is None:
@@ -116,27 +118,27 @@ def decision(
             if cells["id"]
             else message("is missing")
         )
-        told.add(
+        table_problems.add(
             places["id"],
             found,
             message("an id of the class list"),
             nearest(cells["id"], on.signs.ids),
         )
     worths = on.worth_of(taker) if taker is not None else {}
-    field, most = field_in(cells, places["field"], worths, told, taker is not None)
-    points = points_in(cells["points"], places["points"], most, told)
+    field, most = field_in(cells, places["field"], worths, table_problems, taker is not None)
+    points = points_in(cells["points"], places["points"], most, table_problems)
     if not cells["reason"] or len(cells["reason"]) > LONGEST:
         found = (
             message("{count} characters", count=len(cells["reason"]))
             if cells["reason"]
             else message("is missing")
         )
-        told.add(
+        table_problems.add(
             places["reason"],
             found,
             message("a reason of at most {most} characters", most=LONGEST),
         )
-    if len(told.problems) > before or taker is None:
+    if len(table_problems.problems) > before or taker is None:
         return None
     is_open = cells["points"] == ASKED
     return Decision(taker.student.id, field, points, cells["reason"], is_open)
@@ -146,7 +148,7 @@ def field_in(
     cells: Mapping[str, str],
     place: InTable,
     worths: Mapping[str, Fraction],
-    told: TableProblems,
+    table_problems: TableProblems,
     known: bool,
 ) -> tuple[str, Fraction | None]:
     """The field of a row, empty for the whole form, and the most points it can earn."""
@@ -164,12 +166,12 @@ def field_in(
         expected = message(
             '"total", or a field such as {worths}', worths=", ".join(list(worths)[:3])
         )
-        told.add(place, found, expected, nearest(text, worths) if text else NO_WORDS)
+        table_problems.add(place, found, expected, nearest(text, worths) if text else NO_WORDS)
     return field, worths.get(field)
 
 
 def points_in(
-    text: str, place: InTable, most: Fraction | None, told: TableProblems
+    text: str, place: InTable, most: Fraction | None, table_problems: TableProblems
 ) -> Fraction | None:
     """The points of a row; None where the mark stays."""
     if text in ("", "-", ASKED):
@@ -182,7 +184,7 @@ def points_in(
         expected = message(
             '{limit}; nothing where the mark stays, "?" while that is open', limit=limit
         )
-        told.add(place, shown(text), expected)
+        table_problems.add(place, shown(text), expected)
     return points
 
 

@@ -114,16 +114,16 @@ def desk_decided(report: Path, on: Deciding) -> DeskDecided:
     """What the desk decided in a report's folder; nothing where there is no file."""
     found = DeskDecided()
     worths = {taker.student.id: on.worth_of(taker) for taker in on.takers}
-    for told in DeskRulings(report).decided.values():
-        ruling = told[-1].what
+    for rulings in DeskRulings(report).decided.values():
+        ruling = rulings[-1].what
         points = worths.get(ruling.who)
         most = None
         if points is not None:
             most = points.get(ruling.field) if ruling.field else sum(points.values(), Fraction())
         if most is None or (isinstance(ruling, SetPoints) and not 0 <= ruling.points <= most):
             found.strangers.append(ruling)
-        elif len(told) > 1:
-            found.rivals.append(told)
+        elif len(rulings) > 1:
+            found.rivals.append(rulings)
         elif isinstance(ruling, ReadAs):
             found.readings[ruling.place] = ruling
         elif isinstance(ruling, Remark):

@@ -179,12 +179,12 @@ class AnswerSheets(Struct, frozen=True, dict=True):
     @cached_property
     def errors(self) -> tuple[Array, Array]:
         """The deviations of the forgiven pencil and ruler in each field; zero for senses."""
-        told = [each.tolerance for each in self.variants.standards]
+        tolerances = [each.tolerance for each in self.variants.standards]
         fields = self.variants.fields
         pencil, ruler = (
-            np.array([[getattr(t[f], part) if f in t else 0.0 for f in fields] for t in told])[
-                self.rows
-            ]
+            np.array(
+                [[getattr(t[f], part) if f in t else 0.0 for f in fields] for t in tolerances]
+            )[self.rows]
             for part in ("pencil", "ruler")
         )
         return np.nan_to_num(pencil, posinf=1e12) / STRAIGHT, np.nan_to_num(ruler) / STRAIGHT
@@ -213,10 +213,10 @@ class AnswerSheets(Struct, frozen=True, dict=True):
 
         ``closely`` draws with the pencil's errors; else these grow with what is drawn.
         """
-        told = self.drawn(hypothesis)
-        if told is None:
+        drawing = self.drawn(hypothesis)
+        if drawing is None:
             return None
-        drawn, values = told
+        drawn, values = drawing
         predicted, other = drawn, None
         for cause in hypothesis.causes:
             if cause.reads is not None:
@@ -236,14 +236,14 @@ class AnswerSheets(Struct, frozen=True, dict=True):
         found = Predicted(drawn, predicted, other, np.where(self.form.senses, 1.0, grown))
         return replace(found, written=self.with_open_senses(found)) if closely else found
 
-    def with_open_senses(self, told: Predicted) -> Array:
+    def with_open_senses(self, prediction: Predicted) -> Array:
         """What is written, with zero for senses that such a drawing leaves open."""
         sized = self.form.sized
         if not (sized >= 0).any():
-            return told.written
-        error = STRAIGHT * self.errors[0] * self.times(told, told.written)
-        is_open = (abs(told.written) <= error)[:, sized] & (sized >= 0)
-        return np.where(is_open, 0.0, told.written)
+            return prediction.written
+        error = STRAIGHT * self.errors[0] * self.times(prediction, prediction.written)
+        is_open = (abs(prediction.written) <= error)[:, sized] & (sized >= 0)
+        return np.where(is_open, 0.0, prediction.written)
 
     def grown(self, hypothesis: Hypothesis) -> Array:
         """How many times as large a drawing's errors are, by drawing with the pencil's errors."""
@@ -255,10 +255,10 @@ class AnswerSheets(Struct, frozen=True, dict=True):
             plain = self.growths.setdefault((), {})
             first = sorted({*new} - plain.keys())
             if first:
-                told = self.variants.deviations(Change(), first)
-                plain.update(zip(first, told, strict=True))
-            told = self.variants.deviations(change, new) / np.array([plain[i] for i in new])
-            known.update(zip(new, told, strict=True))
+                deviations = self.variants.deviations(Change(), first)
+                plain.update(zip(first, deviations, strict=True))
+            growths = self.variants.deviations(change, new) / np.array([plain[i] for i in new])
+            known.update(zip(new, growths, strict=True))
         return np.array([known[i] for i in self.rows.tolist()])
 
     @cached_property
@@ -274,8 +274,8 @@ class AnswerSheets(Struct, frozen=True, dict=True):
             found = None if change is None else self.variants.changed(change)
             self.drawings[key] = None
             if found is not None and change is not None:
-                told = self.variants.read(found, change.faster)
-                self.drawings[key] = told, {**self.variants.values, **found}
+                read_values = self.variants.read(found, change.faster)
+                self.drawings[key] = read_values, {**self.variants.values, **found}
         known: tuple[Array, Mapping[int, Any]] | None = self.drawings[key]
         return None if known is None else (known[0][self.rows], known[1])
 
@@ -292,23 +292,23 @@ class AnswerSheets(Struct, frozen=True, dict=True):
         closely: bool = False,
     ) -> Array:
         """How likely each student's answers are by a hypothesis, as a logarithm."""
-        told = self.shown(hypothesis, closely=closely)
-        if told is None:
+        prediction = self.shown(hypothesis, closely=closely)
+        if prediction is None:
             return np.full(len(self.rows), -inf)
-        return self.likely(told, pencils) + hypothesis.share
+        return self.likely(prediction, pencils) + hypothesis.share
 
-    def likely(self, told: Predicted, pencils: Iterable[int] = range(len(PENCILS))) -> Array:
+    def likely(self, prediction: Predicted, pencils: Iterable[int] = range(len(PENCILS))) -> Array:
         """How likely each student's answers are with the likeliest pencil, as a logarithm."""
         some = list(pencils)
-        each = self.by_field(told, told.written, np.array(PENCILS)[some])
-        if told.other is not None:
-            also = self.by_field(told, told.other, np.array(PENCILS)[some])
+        each = self.by_field(prediction, prediction.written, np.array(PENCILS)[some])
+        if prediction.other is not None:
+            also = self.by_field(prediction, prediction.other, np.array(PENCILS)[some])
             with np.errstate(invalid="ignore"):
                 each = np.logaddexp(each, also) - HALF
         whole = np.where(self.is_read, each, 0.0).sum(axis=2)
         return (whole + np.array(RARE_PENCILS)[some, None]).max(axis=0)
 
-    def by_field(self, told: Predicted, predicted: Array, pencils: Array) -> Array:
+    def by_field(self, prediction: Predicted, predicted: Array, pencils: Array) -> Array:
         """The density of each answer where some values are aimed at, as a logarithm.
 
         An array by pencil, student and field.
@@ -317,7 +317,7 @@ class AnswerSheets(Struct, frozen=True, dict=True):
         with np.errstate(all="ignore"):
             sizes = np.where(form.centres, predicted, abs(predicted))
             drawn, read = self.errors
-            times = self.times(told, predicted)
+            times = self.times(prediction, predicted)
             fixed = (read * np.maximum(times, 1.0)) ** 2
             fixed = fixed + (self.rounded * answers) ** 2 / 3 + (COMPUTED * sizes) ** 2
             spread = pencils[:, None, None] ** 2 * (drawn * times) ** 2 + fixed
@@ -343,25 +343,25 @@ class AnswerSheets(Struct, frozen=True, dict=True):
         whole = np.logaddexp(log(1 - DIRECT) + found, log(DIRECT) + direct)
         return np.where(np.isnan(whole), direct, whole)
 
-    def times(self, told: Predicted, predicted: Array) -> Array:
+    def times(self, prediction: Predicted, predicted: Array) -> Array:
         """How many times as large an error is beside that of the key.
 
         The errors of what is read grow as it is misread.
         """
         with np.errstate(all="ignore"):
-            misread = abs(predicted / told.drawn)
+            misread = abs(predicted / prediction.drawn)
             misread = np.where(np.isfinite(misread), misread, 1.0)
-        return np.where(self.form.centres | self.form.senses, 1.0, misread) * told.grown
+        return np.where(self.form.centres | self.form.senses, 1.0, misread) * prediction.grown
 
     @cached_property
     def open_senses(self) -> Array:
         """The senses that no drawing determines."""
         items = self.form.items
-        told = [
+        open_by_standard = [
             [item.what == "sense" and sense_is_open(each, item.field) for item in items]
             for each in self.variants.standards
         ]
-        return np.array(told)[self.rows]
+        return np.array(open_by_standard)[self.rows]
 
     # --- comparing them ---------------------------------------------------------------------------
 
@@ -380,8 +380,8 @@ class AnswerSheets(Struct, frozen=True, dict=True):
         found: list[SheetCauses | None] = [None] * len(self.rows)
         wrong = np.flatnonzero(self.missed.any(axis=1)).tolist()
         if wrong:
-            told = self.some(wrong).compared_wrong()
-            for i, each in zip(wrong, told, strict=True):
+            sheet_causes = self.some(wrong).compared_wrong()
+            for i, each in zip(wrong, sheet_causes, strict=True):
                 found[i] = each
         return found
 
@@ -438,7 +438,7 @@ class AnswerSheets(Struct, frozen=True, dict=True):
                 self.drawings.pop(pair.made, None)
         close: dict[Any, list[int]] = {}
         for i, every in tried.items():
-            for _, key in sorted(every, key=lambda told: -told[0])[:CLOSE]:
+            for _, key in sorted(every, key=lambda entry: -entry[0])[:CLOSE]:
                 close.setdefault(key, []).append(i)
         again: dict[int, list[tuple[Hypothesis, float]]] = {}
         for key, own in close.items():
@@ -446,9 +446,9 @@ class AnswerSheets(Struct, frozen=True, dict=True):
             likely = self.some(own).judged(pair, closely=True).tolist()
             for i, each in zip(own, likely, strict=True):
                 again.setdefault(i, []).append((pair, each))
-        for i, told in again.items():
-            told.sort(key=lambda pair: -pair[1])
-            each, single = self.chosen(i, told, honest[i]), found[i]
+        for i, candidates in again.items():
+            candidates.sort(key=lambda pair: -pair[1])
+            each, single = self.chosen(i, candidates, honest[i]), found[i]
             if each is not None and (single is None or self.is_likelier(i, each, single)):
                 found[i] = replace(each, single=single)
 
@@ -499,8 +499,8 @@ class AnswerSheets(Struct, frozen=True, dict=True):
         for hypothesis, likely in tried:
             if likely - honest < SENSES:
                 break
-            told = self.settled(i, hypothesis, likely - honest)
-            found = None if told is None else self.judged_enough(i, told)
+            explanation = self.settled(i, hypothesis, likely - honest)
+            found = None if explanation is None else self.judged_enough(i, explanation)
             if found is None:
                 continue
             turned = not numbers.any() or self.turns_all(i, found)
@@ -513,8 +513,8 @@ class AnswerSheets(Struct, frozen=True, dict=True):
         agree = np.array([field in found.fits for field in self.variants.fields])
         wrong, senses = self.missed[i] & self.is_read[i], self.form.senses
         every = (wrong & senses).any() and not (self.is_read[i] & senses & ~agree).any()
-        told = np.array([found.values[field] for field in self.variants.fields])
-        same = np.isclose(abs(told), abs(self.key[i]), rtol=1e-9)
+        values = np.array([found.values[field] for field in self.variants.fields])
+        same = np.isclose(abs(values), abs(self.key[i]), rtol=1e-9)
         return bool(every and not (wrong & ~senses & ~same).any())
 
     def judged_enough(self, i: int, found: SheetCauses) -> SheetCauses | None:
@@ -522,8 +522,8 @@ class AnswerSheets(Struct, frozen=True, dict=True):
         fits, read = self.fits(i, found), self.is_read[i]
         missed = self.missed[i] & read
         spoilt = (read & ~fits & ~self.beside_wrong(i, found, fits)).sum() > SPOILS * read.sum()
-        told = [f for f, fit in zip(self.variants.fields, fits, strict=True) if fit]
-        agreeing = replace(found, fits=frozenset(told))
+        fitting = [f for f, fit in zip(self.variants.fields, fits, strict=True) if fit]
+        agreeing = replace(found, fits=frozenset(fitting))
         enough = EXPLAINS if (missed & ~self.form.senses).any() else 1.0
         few = (missed & fits).sum() < enough * missed.sum()
         if spoilt or (few and not self.turns_all(i, agreeing)):
@@ -545,11 +545,11 @@ class AnswerSheets(Struct, frozen=True, dict=True):
             return True
         keys = Keys.of([self.variants.standards[self.rows[i]].expectation])
         places = np.array([fields.index(field) for field in keys.fields])
-        told = read[places] & keys.known(0) & np.isfinite(values[places])
-        own = places[told]
+        usable = read[places] & keys.known(0) & np.isfinite(values[places])
+        own = places[usable]
         if not len(own):
             return True
-        key, answers = keys.key(0, told), self.answers[i][own]
+        key, answers = keys.key(0, usable), self.answers[i][own]
         signed = np.where(form.centres, 1.0, np.sign(right))[own] * values[own]
         off = abs(answers - np.where(form.centres[own], values[own], abs(values[own])))
         wide = np.sqrt(np.maximum(np.diag(key.spread), SURELY))
@@ -568,8 +568,8 @@ class AnswerSheets(Struct, frozen=True, dict=True):
         found = np.zeros(len(fits), dtype=bool)
         if self.known is not None:
             computed, own = self.known
-            told = self.computed_rightly(i, np.array([by.values[f] for f in self.variants.fields]))
-            found[computed] = told & self.is_read[i][own] & ~fits[own]
+            right = self.computed_rightly(i, np.array([by.values[f] for f in self.variants.fields]))
+            found[computed] = right & self.is_read[i][own] & ~fits[own]
         sized = self.form.sized
         beside = self.is_read[i][sized] & ~fits[sized] & (sized >= 0)
         return found | beside
@@ -592,15 +592,17 @@ class AnswerSheets(Struct, frozen=True, dict=True):
         None where it cannot be drawn.
         """
         part = self.some([i])
-        told = part.shown(hypothesis, closely=closely)
-        if told is None:
+        prediction = part.shown(hypothesis, closely=closely)
+        if prediction is None:
             return None
-        written = told.written
-        if told.other is not None:
+        written = prediction.written
+        if prediction.other is not None:
             pencil = np.array([1.4])
-            one, two = (part.by_field(told, each, pencil)[0] for each in (written, told.other))
-            written = np.where(two > one, told.other, written)
-        times = part.times(told, written)
+            one, two = (
+                part.by_field(prediction, each, pencil)[0] for each in (written, prediction.other)
+            )
+            written = np.where(two > one, prediction.other, written)
+        times = part.times(prediction, written)
         fields = self.variants.fields
         values, scaled = (
             dict(zip(fields, each[0].tolist(), strict=True)) for each in (written, times)
@@ -767,11 +769,11 @@ def ways_of(
     sheet = sheets_of([standard], [0], [given], [missed])
     single = (Hypothesis((cause,)) for cause in sheet.causes)
     with np.errstate(all="ignore"):
-        told = [(each, sheet.settled(0, each, closely=False)) for each in single]
+        ways = [(each, sheet.settled(0, each, closely=False)) for each in single]
     (found,) = sheet.explained() if two else (None,)
     if found is not None:
-        told.append((Hypothesis(found.causes), found))
-    return tuple(CauseWay(e.names, e.values, e.times, each.share) for each, e in told if e)
+        ways.append((Hypothesis(found.causes), found))
+    return tuple(CauseWay(e.names, e.values, e.times, each.share) for each, e in ways if e)
 
 
 def explained_by(
@@ -788,11 +790,11 @@ def explained_by(
     count = len(others)
     sheet = sheets_of([standard], [0], [given], [missed])
     every = sheet.some([0] * count)
-    told = Predicted(others, others, None, growing(others, every.key))
-    likely = every.likely(told)
+    prediction = Predicted(others, others, None, growing(others, every.key))
+    likely = every.likely(prediction)
     best = int(likely.argmax())
     odds = float(likely[best] - sheet.judged(Hypothesis())[0] + SHARE - log(count))
-    times = every.times(told, others)[best]
+    times = every.times(prediction, others)[best]
     fields = sheet.variants.fields
     values, scaled = (dict(zip(fields, e.tolist(), strict=True)) for e in (others[best], times))
     found = sheet.judged_enough(0, SheetCauses((cause,), values, scaled, odds))
@@ -825,13 +827,15 @@ def explained_by_two(
             likely = np.nan_to_num(sheet.judged(each, COARSE), nan=-inf)
             row = int(likely.argmax())
             found.append((float(likely[row]), group[row], sheet, row, each))
-    for _, place, sheet, row, each in sorted(found, key=lambda told: -told[0])[:CLOSE]:
+    for _, place, sheet, row, each in sorted(found, key=lambda entry: -entry[0])[:CLOSE]:
         likely = float(sheet.some([row]).judged(each, closely=True)[0])
         odds = likely + SHARE - log(len(others)) - honest
-        told = sheet.settled(row, each, odds)
-        told = None if told is None or odds < LIKELY else sheet.judged_enough(row, told)
-        if told is None or (best is not None and told.odds <= best[1].odds):
+        explanation = sheet.settled(row, each, odds)
+        explanation = (
+            None if explanation is None or odds < LIKELY else sheet.judged_enough(row, explanation)
+        )
+        if explanation is None or (best is not None and explanation.odds <= best[1].odds):
             continue
-        if one is None or sheet.is_likelier(row, told, one):
-            best = place, replace(told, causes=(cause, *told.causes), single=one)
+        if one is None or sheet.is_likelier(row, explanation, one):
+            best = place, replace(explanation, causes=(cause, *explanation.causes), single=one)
     return best

@@ -101,8 +101,8 @@ def rows(graded: Graded, words: Words) -> list[FeedbackRow]:
 
     Where nothing was handed in, only fields with a decision have a row.
     """
-    told = (mark for mark in graded.marks if graded.present or mark.decision is not None)
-    fields = [row_of(graded, mark, words) for mark in told if mark.points]
+    marks = (mark for mark in graded.marks if graded.present or mark.decision is not None)
+    fields = [row_of(graded, mark, words) for mark in marks if mark.points]
     return [*fields, *(cause_row(each, words) for each in graded.causes if each.cost)]
 
 
@@ -140,15 +140,15 @@ def row_of(graded: Graded, mark: EarnedMark, words: Words) -> FeedbackRow:
             points=points_words(mark.points, words),
         ),
     )
-    told = why(graded, mark, words)
+    reason = why(graded, mark, words)
     if mark.answer.written:
         text = escape(safe(mark.answer.text)) or "–"
-        told = f"{words('feedback.read_as', text=text)}; {told}"
+        reason = f"{words('feedback.read_as', text=text)}; {reason}"
     if mark.decision is not None:
-        told = f"{told}; {decision_words(mark.decision, words)}"
+        reason = f"{reason}; {decision_words(mark.decision, words)}"
     if mark.item.field in graded.remarks:
-        told = f"{told}; {remark_words(graded.remarks[mark.item.field], words)}"
-    return FeedbackRow(cells, told, mark.status)
+        reason = f"{reason}; {remark_words(graded.remarks[mark.item.field], words)}"
+    return FeedbackRow(cells, reason, mark.status)
 
 
 def is_open(graded: Graded, mark: EarnedMark) -> bool:
@@ -288,12 +288,12 @@ def decision_words(decision: Decision, words: Words) -> str:
     keys = ("feedback.decided", "feedback.decided_so")
     if decision.points is None:
         keys = ("feedback.kept", "feedback.kept_so")
-    told: str = words(keys[0], reason=reason) if reason else words(keys[1])
+    text: str = words(keys[0], reason=reason) if reason else words(keys[1])
     if decision.answers:
-        told = f"{words('feedback.you_asked', text=escape(printable(decision.answers)))}; {told}"
+        text = f"{words('feedback.you_asked', text=escape(printable(decision.answers)))}; {text}"
     if decision.asked:
-        told = f"{told}; {words('feedback.asked', reason=escape(printable(decision.asked)))}"
-    return told
+        text = f"{text}; {words('feedback.asked', reason=escape(printable(decision.asked)))}"
+    return text
 
 
 def remark_words(text: str, words: Words) -> str:
@@ -392,11 +392,11 @@ def cause_words(graded: Graded, words: Words) -> list[str]:
         return []
     own = (mark.points - mark.earned for mark in graded.marks if mark.status is Status.CAUSE)
     cost = points_words(graded.cost + sum(own), words)
-    told = [cause_sentence(cause, words) for cause in causes]
+    sentences = [cause_sentence(cause, words) for cause in causes]
     if len(causes) == 1:
-        parts = [words("feedback.one_mistake", cost=cost, cause=told[0])]
+        parts = [words("feedback.one_mistake", cost=cost, cause=sentences[0])]
     else:
-        parts = [words("feedback.two_mistakes", cost=cost, cause=told[0], other=told[1])]
+        parts = [words("feedback.two_mistakes", cost=cost, cause=sentences[0], other=sentences[1])]
     shows = (shows_sentence(cause, words) for cause in causes)
     parts += [words("feedback.mistake_shows", where=each) for each in shows]
     open_yet = (Status.WRONG, Status.FOLLOWS)
@@ -429,31 +429,31 @@ def total(graded: Graded, words: Words) -> str:
 
 def notes(graded: Graded, words: Words) -> list[str]:
     """The notes on the whole form: its causes, a decision, held marks, points that wait."""
-    told: list[str] = cause_words(graded, words)
-    told += [decision_words(graded.decision, words)] if graded.decision is not None else []
-    told += [remark_words(graded.remarks[""], words)] if "" in graded.remarks else []
-    told += [pin_words(each, words) for each in graded.pins]
+    note_texts: list[str] = cause_words(graded, words)
+    note_texts += [decision_words(graded.decision, words)] if graded.decision is not None else []
+    note_texts += [remark_words(graded.remarks[""], words)] if "" in graded.remarks else []
+    note_texts += [pin_words(each, words) for each in graded.pins]
     if not graded.is_marked:
-        return [words("feedback.absent"), *told]
+        return [words("feedback.absent"), *note_texts]
     if graded.held:
-        return [words("feedback.held"), *told]
+        return [words("feedback.held"), *note_texts]
     waiting = [mark.item for mark in graded.marks if mark.points and mark.waits]
     if not waiting or not graded.pending:
-        return told
+        return note_texts
     fields = ", ".join(
         f"{item.symbol} ({words('table.sense')})" if item.what == "sense" else item.symbol
         for item in waiting
     )
     pending = points_words(graded.pending, words)
-    return [*told, words("feedback.pending", pending=pending, fields=fields)]
+    return [*note_texts, words("feedback.pending", pending=pending, fields=fields)]
 
 
 def settings_words(graded: Graded, words: Words, scene: Scene | None) -> str:
     """The data of a student's variant as markup, worded as on the sheets."""
     settings = graded.taker.settings
     if scene is None:
-        told = [f"{escape(name)} = {words.decimal(value)}" for name, value in settings.items()]
-        return "; ".join(told)
+        pairs = [f"{escape(name)} = {words.decimal(value)}" for name, value in settings.items()]
+        return "; ".join(pairs)
     exact = {name: Fraction(value) for name, value in settings.items()}
     own = replace(scene, values={**scene.values, **exact})
     return "; ".join(set_parameters(own, words, settings))
@@ -538,10 +538,10 @@ def blocks(
         yield text_block(note, LETTER)
     if not is_shown(graded):
         return
-    told = rows(graded, words)
-    if told:
+    table_rows = rows(graded, words)
+    if table_rows:
         yield head_block(words)
-    for row in told:
+    for row in table_rows:
         yield row_block(row, spacing, words("feedback.right"))
     yield text_block(how(rubric, words), SMALL)
 

@@ -46,8 +46,10 @@ def followings(
     known = (*sources, *numbers(standard, right))
     sized = (standard.by_field[field].item.sized for field in wrong)
     fields = (*wrong, *(field for field in sized if field in right))
-    told = chain(by_formula(standard, answers, known, wrong), by_drawing(standard, sources, fields))
-    return (each for each in told if not too_easy(standard, answers, each))
+    candidates = chain(
+        by_formula(standard, answers, known, wrong), by_drawing(standard, sources, fields)
+    )
+    return (each for each in candidates if not too_easy(standard, answers, each))
 
 
 def rightly(
@@ -61,8 +63,8 @@ def rightly(
     while True:
         known = numbers(standard, (*right, *found))
         rest = tuple(field for field in wrong if field not in found)
-        told = by_formula(standard, answers, known, rest)
-        more = {each.field: each for each in told if is_hit(standard, each, answers)}
+        candidates = by_formula(standard, answers, known, rest)
+        more = {each.field: each for each in candidates if is_hit(standard, each, answers)}
         if not more:
             return found
         found |= more
@@ -150,11 +152,11 @@ def by_drawing(
     for fields, overrides in (*own, *together(single)):
         given = [{*standard.by_field[field].steps} for field in fields]
         for found in reruns(standard, overrides) if overrides not in seen else ():
-            told = standard.read(found)
+            read = standard.read(found)
             for other in wrong:
                 steps = {*standard.by_field[other].steps}
                 if steps not in given and any(found[step] != values[step] for step in steps):
-                    for value in (told[other], *closing(standard, other, found, told[other])):
+                    for value in (read[other], *closing(standard, other, found, read[other])):
                         error = drawing_error(standard, other, value)
                         yield Following(other, fields, value, error, drawn=True)
         seen.append(overrides)
@@ -184,7 +186,7 @@ def reruns(standard: Standard, overrides: Mapping[int, Any]) -> Iterator[Mapping
 
 
 def closing(
-    standard: Standard, field: str, found: Mapping[int, Any], told: float
+    standard: Standard, field: str, found: Mapping[int, Any], read_value: float
 ) -> Iterator[float]:
     """A rate or a slide speed from the whole vector that closes the plan.
 
@@ -199,7 +201,7 @@ def closing(
     start = standard.exact.tails.get(probe.step, tail)
     bar = abs(found[line[1]] - found[line[0]]) if turns else 1.0
     length = float(abs(found[tip] - found[start]) / bar)
-    yield length if told >= 0 else -length
+    yield length if read_value >= 0 else -length
 
 
 def together(

@@ -73,7 +73,7 @@ def marks_row(graded: Graded, fields: Sequence[str], fits: Mapping[str, list[str
     student = graded.taker.student
     marks = {mark.item.field: mark for mark in graded.marks}
     share = None if graded.held else graded.share
-    told = {name for name in fields if graded.present or marks[name].decision is not None}
+    shown = {name for name in fields if graded.present or marks[name].decision is not None}
     return [
         str(student.row),
         "" if student.number is None else str(student.number),
@@ -86,17 +86,17 @@ def marks_row(graded: Graded, fields: Sequence[str], fits: Mapping[str, list[str
         number(graded.pending) if graded.pending else "",
         "; ".join([*fits.get(student.id, ()), *(["held"] if graded.held else [])]),
         ruling(graded.decision) if graded.decision is not None else "",
-        "; ".join(told_cause(cause) for cause in graded.causes),
+        "; ".join(cause_text(cause) for cause in graded.causes),
         number(graded.cost) if graded.causes else "",
         *(
-            number(marks[name].earned) if name in told and not marks[name].waits else ""
+            number(marks[name].earned) if name in shown and not marks[name].waits else ""
             for name in fields
         ),
-        *(reason(graded, name) if name in told else "" for name in fields),
+        *(reason(graded, name) if name in shown else "" for name in fields),
     ]
 
 
-def told_cause(cause: EarnedCause) -> str:
+def cause_text(cause: EarnedCause) -> str:
     """A cause as text: its name, and whose data were drawn."""
     return f"{cause.name} ({', '.join(cause.whose)})" if cause.whose else cause.name
 
@@ -105,12 +105,12 @@ def ruling(decision: Decision) -> str:
     """The lecturer's decision as text: ``decided, was 0: …``, ``stands: …`` or ``asked: …``."""
     if decision.is_open:
         return f"asked: {decision.reason}"
-    told = "stands"
+    text = "stands"
     if decision.points is not None:
         before = "open" if decision.before is None else number(decision.before)
-        told = f"decided, was {before}"
-    told = f"{told}: {decision.reason}" if decision.reason else told
-    return f"{told}; asked: {decision.asked}" if decision.asked else told
+        text = f"decided, was {before}"
+    text = f"{text}: {decision.reason}" if decision.reason else text
+    return f"{text}; asked: {decision.asked}" if decision.asked else text
 
 
 def reason(graded: Graded, name: str) -> str:
@@ -246,7 +246,7 @@ class ReportSettings(Struct, frozen=True):
 
 
 def report_files(
-    found: Result, lab: Lab, told: ReportSettings, formats: Sequence[str], before: bytes = b""
+    found: Result, lab: Lab, settings: ReportSettings, formats: Sequence[str], before: bytes = b""
 ) -> dict[str, bytes]:
     """The files of a report by name; with an earlier marks.csv, also the differences."""
     graded = found.graded
@@ -254,30 +254,32 @@ def report_files(
     files = {
         MARKS: marks,
         TOLERANCES: tolerances_table(graded, found.expected),
-        REPORT: class_report(found, told.title, told.unread, told.words, told.refused).encode(),
+        REPORT: class_report(
+            found, settings.title, settings.unread, settings.words, settings.refused
+        ).encode(),
     }
     if before:
         files[CHANGES] = differences_table(differences(before, marks))
-    return files | feedback_files(graded, lab, told, formats)
+    return files | feedback_files(graded, lab, settings, formats)
 
 
 def feedback_files(
-    graded: Sequence[Graded], lab: Lab, told: ReportSettings, formats: Sequence[str]
+    graded: Sequence[Graded], lab: Lab, settings: ReportSettings, formats: Sequence[str]
 ) -> dict[str, bytes]:
     """A page for each student, named by the id as far as it is plain letters."""
     students = [each.taker.student.id for each in graded]
     names = stems(students, [each.taker.code for each in graded])
     files: dict[str, bytes] = {}
     for each, name in zip(graded, names, strict=True):
-        spoken = told.words_for(each)
-        title = told.title_in(spoken.language)
-        with told.refusals.alone(each.taker.student.called):
-            drawing = told.drawings.get(each.taker.student.id)
+        spoken = settings.words_for(each)
+        title = settings.title_in(spoken.language)
+        with settings.refusals.alone(each.taker.student.called):
+            drawing = settings.drawings.get(each.taker.student.id)
             if "html" in formats:
-                text = feedback_html(each, title, lab.rubric, spoken, told.scene, drawing)
+                text = feedback_html(each, title, lab.rubric, spoken, settings.scene, drawing)
                 files[f"{FEEDBACK}/{name}.html"] = text.encode("utf-8")
             if "pdf" in formats:
-                pages = feedback_pages(each, title, lab.rubric, spoken, told.scene, drawing)
+                pages = feedback_pages(each, title, lab.rubric, spoken, settings.scene, drawing)
                 files[f"{FEEDBACK}/{name}.pdf"] = write_pdf(pages, title=pages[0].title)
     return files
 

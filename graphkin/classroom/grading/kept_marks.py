@@ -31,7 +31,7 @@ FORMAT = 1
 
 
 class KeptMark(Struct, frozen=True, omit_defaults=True):
-    """A mark with the place of its item in the form; None stands for a value that is no number."""
+    """A mark with the place of its item in the form; None represents a value that is no number."""
 
     item: int
     answer: Answer
@@ -81,11 +81,11 @@ class KeptReport(Struct, frozen=True, omit_defaults=True):
 
     def restored(self, mark: KeptMark) -> EarnedMark:
         """A mark as it was kept."""
-        told = {name: getattr(mark, name) for name in mark.__struct_fields__}
+        values = {name: getattr(mark, name) for name in mark.__struct_fields__}
         expected = nan if mark.expected is None else mark.expected
         tolerance = inf if mark.tolerance is None else mark.tolerance
         own = {"item": self.form[mark.item], "expected": expected, "tolerance": tolerance}
-        return EarnedMark(**(told | own))
+        return EarnedMark(**(values | own))
 
 
 def kept_marks(
@@ -106,11 +106,11 @@ def kept_marks(
 
 def kept(mark: EarnedMark, places: dict[str, int]) -> KeptMark:
     """A mark with the place of its item."""
-    told = {name: getattr(mark, name) for name in mark.__struct_fields__}
+    values = {name: getattr(mark, name) for name in mark.__struct_fields__}
     numbers = {
-        name: told[name] if isfinite(told[name]) else None for name in ("expected", "tolerance")
+        name: values[name] if isfinite(values[name]) else None for name in ("expected", "tolerance")
     }
-    return KeptMark(**(told | numbers | {"item": places[mark.item.field]}))
+    return KeptMark(**(values | numbers | {"item": places[mark.item.field]}))
 
 
 def as_exact(value: object) -> str:

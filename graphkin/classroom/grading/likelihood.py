@@ -72,10 +72,10 @@ def fit(answers: Any, rounding: Any, key: Key, *starts: Any) -> Fit:
     seen: dict[bytes, tuple[Fit, int | None]] = {}
 
     def judge(fits: Any) -> tuple[Fit, int | None]:
-        told = fits.tobytes()  # different starts often meet
-        if told not in seen:
-            seen[told] = judged(off, key.spread, noise, astray, fits)
-        return seen[told]
+        pattern = fits.tobytes()  # different starts often meet
+        if pattern not in seen:
+            seen[pattern] = judged(off, key.spread, noise, astray, fits)
+        return seen[pattern]
 
     found = [cleared(judge, each) for each in (np.ones_like(near), near, *starts)]
     return max(found, key=lambda each: each.likelihood)
@@ -143,6 +143,6 @@ def scattered(answers: Any, key: Key) -> Any:
     return np.where(key.places, -np.log(pi * ASTRAY * (1 + away**2)), size)
 
 
-def told_odds(logarithm: float) -> float:
+def reported_odds(logarithm: float) -> float:
     """Odds as reported: at most ``SURE``."""
     return min(exp(min(logarithm, log(SURE))), SURE)

@@ -44,8 +44,8 @@ def of_one_drawing(
     if not found:
         return ()
     keys = Keys.of([expected])
-    told = np.array([answers[field].is_read for field in keys.fields])
-    read = told & keys.known(0)
+    is_read = np.array([answers[field].is_read for field in keys.fields])
+    read = is_read & keys.known(0)
     given = [answers[keys.fields[place]] for place in np.flatnonzero(read)]
     values = np.array([float(each.value or 0.0) for each in given])
     digits = np.array([coarseness(each) for each in given]) * abs(values)
@@ -219,8 +219,8 @@ class Marker:
             return replace(mark, status=Status.FOLLOWS, earned=share, rounded="few")
         if rubric.digits is None or mark.status is Status.BLANK:
             return mark
-        told = "few" if most < rubric.digits[0] else "many" if fewest > rubric.digits[1] else ""
-        return replace(mark, earned=min(mark.earned, share), rounded=told) if told else mark
+        fault = "few" if most < rubric.digits[0] else "many" if fewest > rubric.digits[1] else ""
+        return replace(mark, earned=min(mark.earned, share), rounded=fault) if fault else mark
 
     def is_lost(self, field: str, found: SheetCauses) -> bool:
         """Whether a sense was taken the other way: it is worth no more than a blank."""
@@ -246,8 +246,8 @@ class Marker:
         """
         if not wrong or not self.standard.rubric.follow:
             return {}
-        told = followings(self.standard, answers, wrong, right)
-        hits = [following for following in told if is_hit(self.standard, following, answers)]
+        candidates = followings(self.standard, answers, wrong, right)
+        hits = [following for following in candidates if is_hit(self.standard, following, answers)]
         sized = {(following.field, following.sources) for following in hits}
         found: dict[str, Following] = {}
         for following in hits:
@@ -308,13 +308,13 @@ def explained(sheets: Sequence[tuple[Marker, FirstLook]]) -> list[SheetCauses | 
     for group in alike([each.standard for each in markers]):
         row = {id(markers[place]): k for k, place in enumerate(group)}
         own = [i for i in open_yet if id(sheets[i][0]) in row]
-        told = explanations(
+        sheet_causes = explanations(
             [markers[place].standard for place in group],
             [row[id(sheets[i][0])] for i in own],
             [unread_left_out(sheets[i][1]) for i in own],
             [frozenset(sheets[i][1].wrong) for i in own],
         )
-        for i, each in zip(own, told, strict=True):
+        for i, each in zip(own, sheet_causes, strict=True):
             found[i] = each
     return found
 

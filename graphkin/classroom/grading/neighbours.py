@@ -102,17 +102,17 @@ class RightValues(Struct, frozen=True):
         senses = list(signed)
         total = np.array([[sum(points_of(each, f) for f in each.key)] for each in found])
 
-        def told(read: Callable[[Standard, str], Any], fields: Sequence[str]) -> Array:
+        def table(read: Callable[[Standard, str], Any], fields: Sequence[str]) -> Array:
             return np.array([[read(each, f) for f in fields] for each in found])
 
         return cls(
             keys,
-            told(lambda each, f: each.tolerance[f].value, keys.fields),
-            told(lambda each, f: each.tolerance[f].most, keys.fields),
-            told(points_of, keys.fields) / total,
-            told(lambda each, f: each.key[f], senses),
-            told(sense_is_open, senses).astype(bool),
-            told(points_of, senses) / total,
+            table(lambda each, f: each.tolerance[f].value, keys.fields),
+            table(lambda each, f: each.tolerance[f].most, keys.fields),
+            table(points_of, keys.fields) / total,
+            table(lambda each, f: each.key[f], senses),
+            table(sense_is_open, senses).astype(bool),
+            table(points_of, senses) / total,
             tuple(keys.fields.index(size) for size in signed.values()),
         )
 

@@ -95,9 +95,9 @@ class Others(Struct, frozen=True, dict=True):
         other = np.flatnonzero(~np.isclose(self.table, own, rtol=1e-12, equal_nan=True).all(axis=1))
         sized = [item.what == "value" and bool(given[item.field].value) for item in self.form]
         if len(other) > most and any(sized):
-            told = [abs(given[item.field].value or 0.0) for item in self.form]
+            sizes = [abs(given[item.field].value or 0.0) for item in self.form]
             with np.errstate(all="ignore"):
-                apart = abs(np.log(np.array(told)[sized] / abs(self.table[other][:, sized])))
+                apart = abs(np.log(np.array(sizes)[sized] / abs(self.table[other][:, sized])))
             far = np.nansum(np.minimum(apart, 0.5), axis=1)
             other = other[np.argsort(far, kind="stable")]
         return [self.every[i] for i in other[:most].tolist()]
@@ -221,9 +221,9 @@ def of_numbers(book: Markers, graded: Sequence[Graded]) -> list[OtherData]:
                 break
         except SceneError:
             break
-        told = {name: exact_text(value) for name, value in data.items()}
-        if tuple(sorted(told.items())) not in taken:
-            found.append(Taker(student, told))
+        exact_data = {name: exact_text(value) for name, value in data.items()}
+        if tuple(sorted(exact_data.items())) not in taken:
+            found.append(Taker(student, exact_data))
     book.prepare(found)
     standards = [book.marker_of(each).standard for each in found]
     return [

@@ -158,10 +158,10 @@ class View(Struct, frozen=True, dict=True):
         with np.errstate(all="ignore"):
             ratios = np.where(among, self.answers / abs(predicted), np.nan)
             ratios = np.where(np.isfinite(ratios) & (ratios > 0), ratios, np.nan)
-            told = np.isfinite(ratios).sum(axis=1) >= FEW
+            enough = np.isfinite(ratios).sum(axis=1) >= FEW
             long = np.where(self.units > 0, abs(predicted) / self.units, 1.0)
-            middle = np.exp(middling(np.log(np.where(told[:, None], ratios, 1.0)), long))
-        found = np.where(told, middle, 1.0)
+            middle = np.exp(middling(np.log(np.where(enough[:, None], ratios, 1.0)), long))
+        found = np.where(enough, middle, 1.0)
         near = abs(np.log(found)) < np.log(ODD)
         return np.where(near, 1.0, found)[:, None]
 

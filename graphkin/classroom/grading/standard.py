@@ -364,13 +364,13 @@ class Standard(Struct, frozen=True, dict=True):
         values, rows = self.exact.trace.values, []
         for drive in self.layout.program.drives:
             if isinstance(values.get(drive.position), complex):
-                told = self.told(turned(values, drive, radians(1.0)))
-                rows.append([self.moved(field, told) for field in self.tolerance])
+                turned_values = self.reread(turned(values, drive, radians(1.0)))
+                rows.append([self.moved(field, turned_values) for field in self.tolerance])
         return np.array(rows).reshape(len(rows), len(self.tolerance))
 
-    def moved(self, field: str, told: Mapping[str, float]) -> float:
+    def moved(self, field: str, read_values: Mapping[str, float]) -> float:
         """The difference between a value and the key; zero where there is no finite value."""
-        off = self.by_field[field].item.off(told.get(field, nan), self.key[field])
+        off = self.by_field[field].item.off(read_values.get(field, nan), self.key[field])
         return off if isfinite(off) else 0.0
 
     @property
@@ -400,12 +400,12 @@ class Standard(Struct, frozen=True, dict=True):
         kept = {arg: value for arg, value in given.items() if arg not in again}
         values = self.mechanism.scene.values_in(FLOAT)
         try:
-            told = run(
+            result = run(
                 written, sorted({*steps, *kept}), values, FLOAT, overrides=kept | dict(overrides)
             )
         except StepFailed:
             return NOTHING
-        return {**exact, **told.values}
+        return {**exact, **result.values}
 
     def changed(self, overrides: Mapping[int, Any], program: Program) -> frozenset[int]:
         """The steps that depend on a replaced value or a replaced step."""
@@ -414,7 +414,7 @@ class Standard(Struct, frozen=True, dict=True):
         roots = [*overrides, *(n for n in other if program.steps[n] is not own[n])]
         return frozenset().union(*(self.layout.below(number) for number in roots))
 
-    def told(
+    def reread(
         self,
         overrides: Mapping[int, Any],
         program: Program | None = None,

@@ -51,21 +51,21 @@ class TurnScore(Struct, frozen=True):
 
     who: str
     file: str
-    told: TurnFile
+    sheet: TurnFile
     seal: Seal
 
     def row(self) -> tuple[object, ...]:
         """The row of the table."""
-        how = [way for _, way, _ in self.told.steps]
+        how = [way for _, way, _ in self.sheet.steps]
         counts = (how.count(way) for way in ("alone", "hint", "help"))
-        wrong = sum(turns for _, _, turns in self.told.steps)
+        wrong = sum(turns for _, _, turns in self.sheet.steps)
         return (
             self.who,
-            self.told.start,
+            self.sheet.start,
             len(how),
             *counts,
             wrong,
-            self.told.left,
+            self.sheet.left,
             self.seal,
             self.file,
         )
@@ -118,18 +118,18 @@ def turn_file(file: Path) -> TurnFile:
         ) from None
 
 
-def seal_of(code: str, told: TurnFile) -> str:
+def seal_of(code: str, sheet: TurnFile) -> str:
     """The seal of a score sheet for a student's opaque code, as the page makes it."""
-    content = [told.id, told.start, told.steps, told.left]
+    content = [sheet.id, sheet.start, sheet.steps, sheet.left]
     text = json.dumps(content, ensure_ascii=False, separators=(",", ":"))
     return sha256(f"{code}\n{text}".encode("utf-8", "replace")).hexdigest()
 
 
-def state_of(code: str, told: TurnFile) -> Seal:
+def state_of(code: str, sheet: TurnFile) -> Seal:
     """Whether the seal of a score sheet is right for a student's opaque code."""
-    if not told.seal:
+    if not sheet.seal:
         return "none"
-    return "right" if told.seal == seal_of(code, told) else "broken"
+    return "right" if sheet.seal == seal_of(code, sheet) else "broken"
 
 
 def turns_table(turns: Sequence[TurnScore]) -> bytes:

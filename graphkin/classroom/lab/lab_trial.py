@@ -73,9 +73,9 @@ class LabTrial(Struct, frozen=True):
 
     def faults(self) -> list[tuple[str, Sequence[Fault]]]:
         """Each variant with the limits that it breaks, including those that need keys."""
-        told = [(name, fault) for name, fault in self.by_keys if name not in self.coarse]
+        key_faults = [(name, fault) for name, fault in self.by_keys if name not in self.coarse]
         every = [(name, self.fairness.faults(i)) for i, name in enumerate(self.names)]
-        return [*every, *((name, (fault,)) for name, fault in (*self.coarse.items(), *told))]
+        return [*every, *((name, (fault,)) for name, fault in (*self.coarse.items(), *key_faults))]
 
     @property
     def spoilt(self) -> bool:

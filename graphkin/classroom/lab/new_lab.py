@@ -202,14 +202,14 @@ def explained(text: str, mechanism: Mechanism) -> str:
     for line in text.splitlines():
         name = line.partition(" =")[0]
         if line == "# FIELDS":
-            more = ((f"# {each} = 1", told) for each, told in fields.items() if each not in stated)
+            more = ((f"# {each} = 1", note) for each, note in fields.items() if each not in stated)
             lines += [beside(*pair) for pair in more]
         elif line == "# CAUSES":
-            lines += [beside(f'# {n} = "{GRADES[n]}"', told) for n, told in causes().items()]
+            lines += [beside(f'# {n} = "{GRADES[n]}"', note) for n, note in causes().items()]
         else:
             lines.append(beside(line, fields[name]) if name in fields else line)
     return "\n".join(lines) + "\n"
 
 
-def beside(line: str, told: str) -> str:
-    return f"{line:32} # {told}"
+def beside(line: str, note: str) -> str:
+    return f"{line:32} # {note}"

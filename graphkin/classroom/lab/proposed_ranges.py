@@ -177,8 +177,8 @@ def range_lines(lab: Lab, found: FairRanges) -> Iterator[str]:
     """The whole report on where a lab is fair."""
     tried = found.tried
     draws = "all" if tried.complete else "draws"
-    told = (f"{name} {draw_words(values)}" for name, values in tried.space.items())
-    yield from labelled("tried", [f"{len(tried.places)} {draws} of {', '.join(told)}"])
+    range_texts = (f"{name} {draw_words(values)}" for name, values in tried.space.items())
+    yield from labelled("tried", [f"{len(tried.places)} {draws} of {', '.join(range_texts)}"])
     if found.left_alone:
         names = ", ".join(found.left_alone)
         yield from labelled("left", [f"{names}: no min and max in the scene, so left as written"])

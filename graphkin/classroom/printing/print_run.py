@@ -157,8 +157,10 @@ class PrintRun:
         ways = {part: self.journal.otherwise(part, key) for part, key in self.keys.items()}
         names = [name for way in ways.values() for name in way]
         if names:
-            told = [line for part, way in ways.items() if way for line in self.unlike(part)]
-            raise PageError(in_the_way(self.journal.folder, names, list(dict.fromkeys(told))))
+            differences = [line for part, way in ways.items() if way for line in self.unlike(part)]
+            raise PageError(
+                in_the_way(self.journal.folder, names, list(dict.fromkeys(differences)))
+            )
 
     def unlike(self, part: str) -> Iterator[str]:
         """The settings of an existing part that differ from the current ones."""

@@ -179,8 +179,8 @@ class Sheets:
         whose = form_page.Identity(stem, f"{lab.name} {taker.code}", student.id, name)
         fields, points = self.asked()
         pivot = form_page.first_pivot(self.mechanism)
-        told = (fields, points, taker.compute, self.words, whose, pivot)
-        answers = form_page.form_fragment(*told, says_right=lab.rubric.says_right)
+        form_arguments = (fields, points, taker.compute, self.words, whose, pivot)
+        answers = form_page.form_fragment(*form_arguments, says_right=lab.rubric.says_right)
         return task_page(self.mechanism, language, ink, answers)
 
     def answers(self) -> tuple[Page, ...]:

@@ -47,13 +47,13 @@ class Taken(Struct, frozen=True):
     """An answer that a gap accepts; the first one that fits counts.
 
     ``answer`` is a text or a number with the tolerance ``allowed``, ``share`` the part of the
-    points it earns, and ``told`` the feedback.
+    points it earns, and ``feedback`` what Moodle shows for it.
     """
 
     answer: str | float
     allowed: float
     share: Fraction
-    told: str
+    feedback: str
 
     def in_units(self, one: float) -> Taken:
         """The answer as a multiple of a unit."""
@@ -92,11 +92,11 @@ def keyed(marker: Marker, item: Item, words: Words) -> Iterator[Taken]:
     """The correct value; for a rate also its negative, because the sense has a gap of its own."""
     standard = marker.standard
     right, allowed = standard.key[item.field], standard.tolerance[item.field].value
-    told = words("feedback.right")
+    feedback = words("feedback.right")
     size = item.size(right)
-    yield Taken(size, allowed, WHOLE, told)
+    yield Taken(size, allowed, WHOLE, feedback)
     if item.beside("sense") in standard.key and size:
-        yield Taken(-size, allowed, WHOLE, told)
+        yield Taken(-size, allowed, WHOLE, feedback)
 
 
 def sensed(marker: Marker, item: Item, words: Words) -> tuple[Taken, ...]:
@@ -107,8 +107,8 @@ def sensed(marker: Marker, item: Item, words: Words) -> tuple[Taken, ...]:
     found = []
     for positive in (True, False):
         good = is_open or (standard.key[item.field] > 0) == positive
-        share, told = (WHOLE, right) if good else (Fraction(), wrong)
-        found.append(Taken(words(SENSES[turning, positive]), 0.0, share, told))
+        share, feedback = (WHOLE, right) if good else (Fraction(), wrong)
+        found.append(Taken(words(SENSES[turning, positive]), 0.0, share, feedback))
     return tuple(found)
 
 
@@ -125,15 +125,15 @@ def caused(marker: Marker, item: Item, ways: Sequence[CauseWay], words: Words) -
             continue
         seen.append((size, allowed))
         share = 1 - Fraction(str(standard.rubric.cost(way.names[0])))
-        told = plain(words("feedback.guess", cause=words(f"cause.{way.names[0]}")))
-        yield Taken(size, allowed, share, told)
+        feedback = plain(words("feedback.guess", cause=words(f"cause.{way.names[0]}")))
+        yield Taken(size, allowed, share, feedback)
 
 
 # --- one question for each variant ----------------------------------------------------------------
 
 
 MOODLE_FILES, FILES = "@@PLUGINFILE@@", "@@FILES@@"
-"""What stands for the folder of a question's files: in Moodle, and until a package is written."""
+"""Placeholders for the folder of a question's files: in Moodle, and until a package is written."""
 PRINTED = "task.pdf"
 """The name of the PDF with a variant's sheets within its question."""
 
@@ -141,7 +141,7 @@ PRINTED = "task.pdf"
 class Question(Struct, frozen=True):
     """The question of a variant: its name, its text with the gaps, and the files shown.
 
-    ``task`` is the text without the gaps, as XML; ``FILES`` stands for the folder of the files.
+    ``task`` is the text without the gaps, as XML; ``FILES`` represents the folder of the files.
     """
 
     name: str
@@ -183,8 +183,8 @@ def asked(
 def question(order: PrintOrder, book: Book, each: Assigned, code: str) -> Question:
     """The question of one variant; ``code`` is printed on sheets where long data do not fit."""
     settings = {name: exact_text(value) for name, value in each.settings.items()}
-    told = ", ".join(f"{name} = {value}" for name, value in settings.items())
-    who = Student(each.student.row, told, name=told)
+    variant_text = ", ".join(f"{name} = {value}" for name, value in settings.items())
+    who = Student(each.student.row, variant_text, name=variant_text)
     sheets = Sheets(order, Taker(who, settings, code, each.computed))
     words = sheets.words
     marker = book.marker(settings, each.computed)
@@ -200,7 +200,7 @@ def question(order: PrintOrder, book: Book, each: Assigned, code: str) -> Questi
     ]
     shown = {
         "title": harmless(scene.titles.get(words.language, scene.title)),
-        "variant": harmless(told),
+        "variant": harmless(variant_text),
         "printed": PRINTED,
         "pictures": [name for name, _ in files if name != PRINTED],
         "advice": advice(items, words, first_pivot(sheets.mechanism)),
@@ -211,7 +211,7 @@ def question(order: PrintOrder, book: Book, each: Assigned, code: str) -> Questi
     text = from_template(template, base=MOODLE_FILES, fitted=fitted, gaps=rows, **shown)
     task = from_template(template, base=FILES, fitted=Markup(" /"), gaps=(), **shown)
     remark = plain(how(order.lab.rubric, words))
-    return Question(told, str(text), remark, files, str(task), found)
+    return Question(variant_text, str(text), remark, files, str(task), found)
 
 
 def said(what: str, words: Words) -> str:
@@ -294,7 +294,7 @@ def taken(each: Taken) -> str:
         answer = written(each.answer)
     else:
         answer = f"{each.answer:.6g}:{each.allowed:.4g}"
-    return f"{share}{answer}#{written(each.told)}"
+    return f"{share}{answer}#{written(each.feedback)}"
 
 
 def written(text: str) -> str:

@@ -22,7 +22,7 @@ from graphkin.text import Words
 from graphkin.writers.templates import marked_up
 
 CANVAS_FILES = "%24IMS-CC-FILEBASE%24"
-"""What stands for the folder of uploaded files in Canvas."""
+"""The placeholder for the folder of uploaded files in Canvas."""
 INSTANCE = "http://www.w3.org/2001/XMLSchema-instance"
 COMMON_CARTRIDGE = "http://www.imsglobal.org/xsd/imsccv1p1/imscp_v1p1"
 QTI_1 = "http://www.imsglobal.org/xsd/ims_qtiasiv1p2"
@@ -56,7 +56,7 @@ def is_decided(gap: Gap) -> bool:
 
 
 def added(parent: Element, tag: str, text: str = "", **attributes: str) -> Element:
-    """Add an element with a text; _ in the names of attributes stands for a hyphen."""
+    """Add an element with a text; _ in the names of attributes means a hyphen."""
     own = {name.replace("_", "-"): value for name, value in attributes.items()}
     found = SubElement(parent, tag, own)
     found.text = text or None
@@ -66,8 +66,8 @@ def added(parent: Element, tag: str, text: str = "", **attributes: str) -> Eleme
 def root(tag: str, space: str, schema: str, **attributes: str) -> Element:
     """The root of a document in a default namespace, with the place of its schema."""
     own = {name.replace("_", "-"): value for name, value in attributes.items()}
-    told = {"xmlns": space, "xmlns:xsi": INSTANCE, "xsi:schemaLocation": f"{space} {schema}"}
-    return Element(tag, told | own)
+    namespaces = {"xmlns": space, "xmlns:xsi": INSTANCE, "xsi:schemaLocation": f"{space} {schema}"}
+    return Element(tag, namespaces | own)
 
 
 def written(document: Element) -> bytes:
@@ -154,13 +154,13 @@ def canvas_item(
     """A question with its kind, its points, its text and the names of its answers."""
     item = added(parent, "item", ident=ident, title=ident)
     fields = added(added(item, "itemmetadata"), "qtimetadata")
-    told = (
+    metadata = (
         ("question_type", kind),
         ("points_possible", exact(float(points))),
         ("original_answer_ids", ",".join(answers)),
         ("assessment_question_identifierref", f"{ident}-ref"),
     )
-    for label, entry in told:
+    for label, entry in metadata:
         field = added(fields, "qtimetadatafield")
         added(field, "fieldlabel", label)
         added(field, "fieldentry", entry)
@@ -222,7 +222,7 @@ def assessment_meta(title: str, question: Question) -> bytes:
     schema = "https://canvas.instructure.com/xsd/cccv1p0.xsd"
     document = root("quiz", CANVAS, schema, identifier=name)
     points = sum((gap.points for gap in question.gaps if is_decided(gap)), Fraction())
-    told = (
+    entries = (
         ("title", f"{title}, {question.name}"),
         ("description", question.remark),
         ("shuffle_answers", "false"),
@@ -231,7 +231,7 @@ def assessment_meta(title: str, question: Question) -> bytes:
         ("allowed_attempts", "1"),
         ("available", "false"),
     )
-    for tag, text in told:
+    for tag, text in entries:
         added(document, tag, text)
     return written(document)
 
@@ -308,8 +308,8 @@ def item3(title: str, question: Question, words: Words) -> bytes:
 def declared3(document: Element, response: str, gap: Gap) -> None:
     """The declaration of a response, with its right value."""
     kind = "identifier" if gap.item.what == "sense" else "float"
-    told = {"identifier": response, "cardinality": "single", "base_type": kind}
-    declared = added(document, "qti-response-declaration", **told)
+    attributes = {"identifier": response, "cardinality": "single", "base_type": kind}
+    declared = added(document, "qti-response-declaration", **attributes)
     first = next(i for i, each in enumerate(gap.takes) if each.share == WHOLE)
     added(added(declared, "qti-correct-response"), "qti-value", value3(response, gap, first))
 
@@ -323,11 +323,11 @@ def value3(response: str, gap: Gap, place: int) -> str:
 def asked3(parent: Element, response: str, gap: Gap) -> None:
     """The interaction of a gap: a text entry for a number, a choice in the line for a sense."""
     if gap.item.what != "sense":
-        told = {"response_identifier": response, "expected_length": "12"}
-        added(parent, "qti-text-entry-interaction", **told)
+        attributes = {"response_identifier": response, "expected_length": "12"}
+        added(parent, "qti-text-entry-interaction", **attributes)
         return
-    told = {"response_identifier": response, "shuffle": "false"}
-    choices = added(parent, "qti-inline-choice-interaction", **told)
+    attributes = {"response_identifier": response, "shuffle": "false"}
+    choices = added(parent, "qti-inline-choice-interaction", **attributes)
     for place, each in enumerate(gap.takes):
         own = value3(response, gap, place)
         added(choices, "qti-inline-choice", str(each.answer), identifier=own)

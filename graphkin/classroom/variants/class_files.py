@@ -144,8 +144,8 @@ def class_lines(lab: Lab, found: Sequence[Assigned]) -> Iterator[str]:
     lengths = [each.shortest for each in drawn if each.shortest is not None]
     rays = [each.rays for each in drawn if each.rays is not None]
     if len(drawn) > COMPARED:
-        told = f"{COMPARED} of {len(drawn)} students, evenly spaced in the list"
-        yield from labelled("compared", [told])
+        sample = f"{COMPARED} of {len(drawn)} students, evenly spaced in the list"
+        yield from labelled("compared", [sample])
         drawn = [drawn[i * len(drawn) // COMPARED] for i in range(COMPARED)]
     names = [each.student.id for each in drawn]
     standards = held_against(lab, drawn)

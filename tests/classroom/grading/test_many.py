@@ -115,4 +115,4 @@ def test_only_what_hangs_on_a_changed_value_need_be_run_again(name):
                 assert not found.rerun(put)
                 continue
             told = found.read(whole.values)
-            assert found.told(put) == pytest.approx(told, rel=0, abs=0, nan_ok=True)
+            assert found.reread(put) == pytest.approx(told, rel=0, abs=0, nan_ok=True)

@@ -76,7 +76,7 @@ def test_what_turns_the_other_way_from_own_values_is_no_power_of_ten():
     step, values = found.by_field["a_D_mm"].step, found.exact.trace.values
 
     def told(factor: float) -> dict[str, float]:
-        return found.told({step: factor * values[step]})
+        return found.reread({step: factor * values[step]})
 
     right, other = found.key["epsilon_4"], told(1.1)["epsilon_4"]
     factor = 1 + 0.1 * (-1.098 * right) / (other - right)

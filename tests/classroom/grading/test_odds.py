@@ -22,9 +22,9 @@ from graphkin.classroom.grading.copied_answers import (
     by_own_scales,
     chosen,
     copies,
+    copy_evidence,
     misunderstood,
     sheet,
-    told,
     with_causes,
 )
 from graphkin.classroom.grading.graded import Answer, Graded
@@ -95,7 +95,7 @@ def odds(lab: str, graded: Sequence[Graded], is_pair=lambda i, j: True) -> list[
         places = np.flatnonzero((one == other) & (one != 0)).tolist()
         if is_pair(*pair):
             enough = len(places) >= FEW
-            found.append(exp(told(pair, sheets, keys, places)) if enough else 0.0)
+            found.append(exp(copy_evidence(pair, sheets, keys, places)) if enough else 0.0)
     return found
 
 
