@@ -177,7 +177,7 @@ def test_a_centre_stands_on_the_key_as_the_form_asks_for_it(tmp_path, language):
     decimal = words(language).fixed
     place = words(language).place(*(decimal(found.key[f"I_2_{axis}_mm"], 2) for axis in "xy"))
     key = [line for page in pages(sheets, "key") for line in texts(page)]
-    (line,) = [line for line in key if line.startswith("I2 = ")]
+    line = next(line for line in key if line.startswith("I2 = "))
     assert line.startswith(f"I2 = {place} mm (")
     (page,) = sheets.answers()
     assert plain(words(language)("form.places", pivot="*O*")) in texts(page)
@@ -223,10 +223,10 @@ def test_a_student_who_cannot_be_drawn_keeps_nobody_else_back(edition):
 
 def test_of_a_name_too_long_as_much_is_kept_as_fits():
     name = "Ștefania-Alexandra " * 20
-    kept = shortened(name)
-    assert kept.endswith("…") and name.startswith(kept[:-1]) and fits(kept)
-    assert not fits(f"{name[: len(kept) + 2].rstrip()}…")
-    assert shortened("Ana Pop, 912") == "Ana Pop, 912"
+    kept = shortened(name, A3)
+    assert kept.endswith("…") and name.startswith(kept[:-1]) and fits(kept, A3)
+    assert not fits(f"{name[: len(kept) + 2].rstrip()}…", A3)
+    assert shortened("Ana Pop, 912", A3) == "Ana Pop, 912"
 
 
 def test_who_has_no_letter_of_the_font_in_the_name_is_called_by_the_id():

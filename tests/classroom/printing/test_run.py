@@ -71,10 +71,10 @@ def test_a_fault_in_one_student_s_sheets_is_told_of_that_one(tmp_path, monkeypat
     printed(folders[0])
     of = print_work.owner
 
-    def owner(taker):
+    def owner(taker, *paper):
         if taker.student.id == IDS[1]:
             raise ZeroDivisionError("of a kind that nobody foresaw")
-        return of(taker)
+        return of(taker, *paper)
 
     monkeypatch.setattr(print_work, "owner", owner)
     monkeypatch.delenv(PLAIN_TRACEBACK, raising=False)
