@@ -29,7 +29,7 @@ def test_a_pole_is_held_only_where_the_field_has_room_for_it():
     box = Extent(0.0, 0.0, 0.1, 0.1)
     near, far = (
         held_beside(A3, box, [0.2 + 0.1j], 500.0, 200.0),
-        held_beside(box, [9j], 500.0, 50.0),
+        held_beside(A3, box, [9j], 500.0, 50.0),
     )
     assert near.box == Extent(0.0, 0.0, 0.2, 0.1)
     assert near.width == max(0.2 * 500 + POLES, LEAST_FIELD)

@@ -59,5 +59,5 @@ def test_a_pivot_of_the_frame_may_be_given_by_two_distances():
     """No arcs are drawn for it: the frame stands before anything is drawn."""
     some = load(Path(__file__).parent / "scenes" / "frame-triangle.toml")
     drawn = drawings_of(some, proved(some, some.solve()), words("en"))[0]
-    marks = [mark.name for mark in sheet(drawn, "key", "1").marks]
+    marks = [mark.name for page in sheet(drawn, "key", "1") for mark in page.marks]
     assert "Q" in marks and not {"OQ", "PQ"} & {*marks}

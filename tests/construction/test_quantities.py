@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from typing import get_args
-
 import pytest
 
 from graphkin.construction.core.quantities import (
@@ -11,14 +9,13 @@ from graphkin.construction.core.quantities import (
     LinkMotion,
     PointMotion,
     SlideMotion,
-    Whose,
 )
 from graphkin.construction.core.solution import Solution
 
 MOTIONS = {"points": PointMotion, "links": LinkMotion, "slides": SlideMotion}
 
 
-@pytest.mark.parametrize("whose", get_args(Whose))
+@pytest.mark.parametrize("whose", MOTIONS)
 def test_a_motion_holds_the_quantities_of_what_moves_and_no_others(whose):
     known = {each.attribute for each in QUANTITIES if each.whose == whose}
     assert known == set(MOTIONS[whose].__struct_fields__)

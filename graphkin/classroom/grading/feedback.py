@@ -271,8 +271,9 @@ def caused_words(graded: Graded, mark: EarnedMark, words: Words) -> str:
         return words("feedback.lost_sense")
     if not mark.by_cause or mark.item.what == "sense":
         return words("feedback.caused")
-    key = "caused_value" if len(graded.causes) == 1 else "caused_values"
-    return words(f"feedback.{key}", value=value_words(mark, words, mark.by_cause))
+    one, several = "feedback.caused_value", "feedback.caused_values"
+    key = one if len(graded.causes) == 1 else several
+    return words(key, value=value_words(mark, words, mark.by_cause))
 
 
 def unread(problem: str, unit: str, words: Words, rest: str = "") -> str:
