@@ -58,12 +58,14 @@ def hand_out(
     """
     from graphkin.documents.calculation import calculation
 
-    mechanism = mechanism.spoken(language).measured
-    spoken = language_of(mechanism, language)
-    if view in MOTION_VIEWS:
+    if view in MOTION_VIEWS:  # in metres, whatever the unit of results
         from graphkin.documents.motion_sheets import motion_sheets
 
+        mechanism = mechanism.spoken(language)
+        spoken = language_of(mechanism, language)
         return [SheetDocument(*part) for part in motion_sheets(mechanism, view, spoken)]
+    mechanism = mechanism.spoken(language).measured
+    spoken = language_of(mechanism, language)
     if mechanism.scene.sheet.sheets != len(SHEETS):
         raise SceneError(
             Problem(

@@ -113,7 +113,7 @@ def test_points_of_a_plan_that_nearly_fall_together_are_not_told_to_be_one():
     held = scales(found)
     held = replace(held, larger=1.0, larger_still=1.0)
     velocity, _ = drawings_of(found, proved(found, found.solve()), words("en"), held)
-    page = sheet(velocity, "key", "1/2")
+    (page,) = sheet(velocity, "key", "1/2")
     labels = [plain(mark.markup) for mark in page.marks if isinstance(mark, Text)]
     assert "c ≈ e" in labels
     assert not [label for label in labels if "≡" in label]

@@ -11,7 +11,6 @@ import pytest
 from graphkin.construction.core import quantities
 from graphkin.construction.core.quantities import (
     ASKED,
-    BY_TARGET,
     QUANTITIES,
     MotionQuantity,
     PointMotion,
@@ -81,7 +80,7 @@ def test_a_quantity_constructed_twice_as_large_does_not_agree(quantity):
 
 
 def test_every_quantity_has_its_route_and_every_question_its_quantities():
-    assert ROUTES.keys() == BY_TARGET.keys()
+    assert ROUTES.keys() == {each.target for each in QUANTITIES}
     assert ASKED.keys() == set(Ask.__struct_fields__)
 
 
