@@ -227,8 +227,9 @@ class SheetPaper(Struct, frozen=True, dict=True):
 
     @cached_property
     def scheme(self) -> Rect:
-        """The kinematic scheme of a task, right of the requests and above the centring mark."""
-        right = self.left[2] - CODE if self.is_leaf else self.title_block[0] - 4
+        """The kinematic scheme of a task, between requests and tables, above the centring mark."""
+        beside = min(self.title_block[0], self.tables[0]) - 4
+        right = self.left[2] - CODE if self.is_leaf else beside
         wide = SCHEME - (14 if self.is_leaf else 0)
         return right - wide, self.foot + 9, right, self.below[3] - (1 if self.is_leaf else 4)
 
