@@ -22,7 +22,7 @@ from graphkin.construction.forces.polygon import InPolygon, PolygonStart, links_
 from graphkin.drawing.field import Field, Rect
 from graphkin.drawing.labels import FieldContent
 from graphkin.drawing.marks import LineMark, Text
-from graphkin.drawing.richtext import extent
+from graphkin.drawing.richtext import extent, flowed, words_of
 from graphkin.drawing.scale import REDUCED, Extent, preferred
 from graphkin.numbers.arithmetic import larger, np, pick, smaller
 from graphkin.numbers.plane import Line
@@ -235,11 +235,12 @@ def title_of(drawing: ForceDrawing, start: PolygonStart) -> str:
 
 
 def caption(board: FieldContent, rect: Rect, said: str) -> None:
-    """The caption of a field, at its upper left corner."""
+    """The caption of a field, at its upper left corner, in as many lines as it needs."""
     x, y = rect[0] + 3, rect[1] + 5
-    board.marks.append(Text(x, y, said, "caption", SMALL, name="field-caption"))
-    width = extent(said, SMALL)[0]
-    board.taken.append((x - 1, y - 3.5, x + width + 1, y + 1.5))
+    for line in flowed(words_of(said), "", rect[2] - x - 1, SMALL):
+        board.marks.append(Text(x, y, line, "caption", SMALL, name="field-caption"))
+        board.taken.append((x - 1, y - 3.5, x + extent(line, SMALL)[0] + 1, y + 1.5))
+        y += 1.4 * SMALL
 
 
 def dividers(rects: Sequence[Rect], whole: Rect) -> Iterator[LineMark]:

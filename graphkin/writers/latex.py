@@ -152,6 +152,8 @@ def sign_of(sign: str, *, italic: bool) -> str:
         return r"{}^{\circ}"
     if sign == "−":
         return "-"
+    if sign in PRIMES:
+        return f"^{{\\{MATHS[sign]}}}"
     if sign in MATHS:
         return f"\\{MATHS[sign]} "
     if sign in POWERS:

@@ -11,8 +11,9 @@ from matplotlib.mathtext import MathTextParser
 
 from graphkin.documents.sheet_documents import calculation_text, hand_out
 from graphkin.drawing.marks import Arc, CircleMark, LineMark, Page, Text, polygon
+from graphkin.drawing.richtext import TextPiece
 from graphkin.mechanism import load
-from graphkin.writers.latex import latex, write_tikz
+from graphkin.writers.latex import formula_of, latex, write_tikz
 from graphkin.writers.svg import write_svg
 
 PLACE = re.compile(r"\((-?[\d.]+),(-?[\d.]+)\)")
@@ -106,3 +107,9 @@ def test_circles_arcs_and_texts_keep_their_places():
     assert "rotate=30" in text and "at (60,70) {$A$}" in text
     assert "(150,2)" not in text  # the frame is not part of the drawings
     assert text.count(r"\path") == 4
+
+
+def test_a_prime_within_a_phrase_is_a_superscript():
+    """TeX sets a prime on the line of its letter as a large stroke."""
+    parts = [TextPiece("b′ ", True, 0), TextPiece("o", True, 0)]
+    assert formula_of(parts).startswith(r"b^{\prime}")

@@ -115,7 +115,7 @@ function forget_typed() {
 function key_in_turn(event) {
   const { key, target } = event, field = byId("turn-typed"), in_field = target === field, own = event.ctrlKey || event.metaKey;
   const time = own && !event.altKey && !(in_field && field.value) ? { z: event.shiftKey ? redo : undo, y: redo }[key.toLowerCase()] : null;
-  const choice = turn.asked && !own && turn.asked[Number(key) - 1] ? () => settle_which(Number(key) - 1) : null;
+  const choice = turn.asked && !own && !(in_field && field.value) && turn.asked[Number(key) - 1] ? () => settle_which(Number(key) - 1) : null;
   const act = time ?? choice ?? (key === "Escape" ? leave_taken : null);
   if (act) {
     event.preventDefault();
