@@ -333,7 +333,7 @@ def quiz(
     order = PrintOrder(lab, scene, words.language, "colour")
     found = questions(order, fair, jobs or cores())
     written = write_all(folder, {file: work(found, words) for file, work in chosen}, force)
-    say(f"{len(found)} questions, a category for each")
+    say(f"questions: {len(found)}, each with a category of its own")
     tell(map(str, written))
 
 

@@ -189,6 +189,6 @@ def test_a3_is_the_usual_paper() -> None:
 @pytest.mark.parametrize("name", PAPERS)
 def test_the_scheme_of_a_task_is_beside_its_table(name, frame):
     paper = paper_of(name, frame)
-    left, top, right, low = paper.scheme
+    left, _, right, low = paper.scheme
     table = paper.empty_tables
     assert left < right and (right <= table[0] or low <= table[1] or paper.is_leaf)

@@ -58,9 +58,9 @@ def again_words(rule: LabRule, unfair: float) -> str:
     left = 100 * unfair**rule.tries
     tries = f"after {rule.tries} draws at most"
     if left < 0.1:
-        return f"{tries} nearly everybody has fair data"
+        return f"{tries}, nearly all students have fair data"
     some = f"{float(f'{left:.2g}'):g}"
-    return f"{tries} some {some} of 100 students keep unfair data, the least unfair drawn"
+    return f"{tries}, about {some} of 100 students keep unfair data, the least unfair drawn"
 
 
 def rule_words(lab: Lab) -> str:

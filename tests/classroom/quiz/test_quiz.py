@@ -231,7 +231,7 @@ def test_the_command_writes_the_bank_and_leaves_out_what_is_unfair(tmp_path):
     ]
     found = CliRunner().invoke(app, args)
     assert found.exit_code == 0, found.output
-    assert "2 questions, a category for each" in found.output
+    assert "questions: 2, each with a category of its own" in found.output
     path = tmp_path / "offset-slider-crank-moodle.xml"
     before = path.read_bytes()
     assert len(moodle.imported(before)) == 2
