@@ -9,7 +9,6 @@ from msgspec import Struct
 
 from graphkin.construction.core.drawn_scene import Drawing
 from graphkin.construction.core.given_data import parameters
-from graphkin.construction.core.quantities import FORCE
 from graphkin.construction.core.relation import Relation, Term, VectorEquation
 from graphkin.documents.relations import answers, in_results, relations
 from graphkin.documents.sheet import title_of
@@ -213,7 +212,6 @@ def boxed_answers(drawings: Sequence[Drawing]) -> Iterator[CalculationRow]:
     found = [
         " ".join(in_results(drawing, each).parts(solved=True))
         for drawing in drawings
-        if drawing.kind != FORCE
         for each in answers(drawing)
     ]
     if found:

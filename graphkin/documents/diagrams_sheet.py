@@ -48,7 +48,7 @@ from graphkin.drawing.field import XY, Rect
 from graphkin.drawing.marks import Anchor, CircleMark, LineMark, Mark, Page, Text, box
 from graphkin.drawing.richtext import extent, flowed
 from graphkin.drawing.scale import preferred
-from graphkin.drawing.symbol_markup import escape, symbol
+from graphkin.drawing.symbol_markup import escape
 from graphkin.drawing.symbols import head
 from graphkin.motion.course import Reals
 from graphkin.motion.cycle import columns_at
@@ -724,7 +724,7 @@ def costs(motion: FollowerMotion, rate: Derived, again: Derived) -> list[str]:
         (motion.kinds[2], cost_of_second(motion, rate, again)),
     ):
         shares = {
-            key: words.significant(100 * getattr(cost, key), 2)
+            key: words.significant(100 * share, 2) if (share := getattr(cost, key)) < 1 else ">100"
             for key in ("chord", "forecast", "pencil")
         }
         found.append(words(rate.method.cost, v=name, **shares))
@@ -780,7 +780,7 @@ def asked_courses(found: PositionSet, at: Reals, fine: Reals) -> list[Asked]:
     made = []
     for each in measures:
         quantity = BY_TARGET[each.targets[0][0]]
-        letter = symbol(f"{quantity.letter}_{lettered(each.of)}")
+        letter = found.shown.alone.symbol(f"{quantity.letter}_{lettered(each.of)}")
         size = quantity.sort == "vector"
         here, between = (each.value(columns) for columns in both)
         text = f"|{letter}|" if size else letter

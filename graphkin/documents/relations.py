@@ -394,7 +394,12 @@ def of_centres(drawing: Drawing, whose: Whose = "links") -> Iterator[Relation]:
 
 
 def answers(drawing: Drawing) -> Iterator[Relation]:
-    """What [ask] asks of the motion on a sheet, without how it follows."""
+    """What [ask] asks of a sheet, without how it follows."""
+    if drawing.kind == FORCE:
+        from graphkin.construction.forces.force_tables import forces_asked
+
+        yield from forces_asked(drawing)
+        return
     words, vector = drawing.words, drawing.vector
     for point in names_asked(drawing.scene.ask, vector):
         value = drawing.trace.value(vector.target, point)

@@ -2,14 +2,17 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
+from typing import NamedTuple
+
 from graphkin.construction.core.drawn_scene import Drawing
 from graphkin.construction.core.kind import constructions
 from graphkin.construction.core.naming import sense
 from graphkin.construction.core.quantities import in_mm
-from graphkin.construction.core.relation import answer, value_of
+from graphkin.construction.core.relation import Relation, answer, value_of
 from graphkin.construction.forces.balance import BalancingMoment
 from graphkin.construction.forces.force_drawing import ForceDrawing
-from graphkin.construction.forces.force_words import drawn_force
+from graphkin.construction.forces.force_words import drawn_force, reaction_names
 from graphkin.construction.forces.polygon import ClosedByLines, ClosingReaction, side_size
 from graphkin.construction.forces.slide_pressure import SlidePressure
 from graphkin.construction.forces.tooth_force import ToothForce
@@ -36,6 +39,19 @@ def force_tables(drawing: Drawing, *, empty: bool) -> list[CellTable]:
     return [table for table in found if table.rows]
 
 
+def forces_asked(drawing: Drawing) -> Iterator[Relation]:
+    """The reactions and the balance that the scene asks for, without how they follow."""
+    forces = drawing.scene.forces
+    assert isinstance(drawing, ForceDrawing) and forces is not None
+    asked = {*reaction_names(drawing.scene, forces.reactions)}
+    for name, size in sorted_sides(drawing):
+        if name in asked:
+            value = value_of(drawing.words, size, drawn_force(drawing, size))
+            yield Relation(symbol(name), result=value, unit="N")
+    for each in balances(drawing) if forces.balance else ():
+        yield Relation(symbol(each.name), result=each.value, unit=each.unit, remark=each.sense)
+
+
 def sorted_sides(drawing: ForceDrawing) -> list[tuple[str, float]]:
     """The whole reactions and driving forces of all polygons with their magnitudes, in order."""
     found: dict[str, float] = {}
@@ -55,20 +71,39 @@ def sorted_sides(drawing: ForceDrawing) -> list[tuple[str, float]]:
     return list(found.items())
 
 
-def balance_rows(drawing: ForceDrawing, *, empty: bool) -> list[Row]:
-    """One row for the balance of each driver: by polygons, and by the lever where it is drawn."""
-    words, rows = drawing.words, []
+class Balance(NamedTuple):
+    """What balances a driver: symbol, unit, value and sense, and its value by the lever."""
+
+    name: str
+    unit: str
+    value: str
+    sense: str
+    by_lever: str
+
+
+def balances(drawing: ForceDrawing) -> Iterator[Balance]:
+    """The balance of each driver: by polygons, and by the lever where it is drawn."""
     levers = {each.other: each for each in drawing.lever_balances()}
     for each in constructions(drawing.trace.program, BalancingMoment):
-        lever = levers.get(each.moment)
-        value = answer(drawing, abs(each.size(drawing)))
-        turned = sense(words, each.size(drawing))
+        lever, size = levers.get(each.moment), each.size(drawing)
         other = answer(drawing, abs(lever.size(drawing))) if lever is not None else "–"
-        cells = ("", "") if empty else (f"{value} {turned}".strip(), other)
-        rows.append(Row((f"{symbol(each.name)}, N·m", *cells), each.name))
+        way = sense(drawing.words, size)
+        yield Balance(each.name, "N·m", answer(drawing, abs(size)), way, other)
     for number, lever in levers.items():
         if lever.moment is None:
             force = answer(drawing, abs(drawing.trace.values[number]))
-            cells = ("", "") if empty else (force, answer(drawing, lever.size(drawing)))
-            rows.append(Row((f"{symbol(lever.name)}, N", *cells), lever.name))
-    return rows
+            yield Balance(lever.name, "N", force, "", answer(drawing, lever.size(drawing)))
+
+
+def balance_rows(drawing: ForceDrawing, *, empty: bool) -> list[Row]:
+    """One row for the balance of each driver; without values on a task."""
+    return [
+        Row(
+            (
+                f"{symbol(each.name)}, {each.unit}",
+                *(("", "") if empty else (f"{each.value} {each.sense}".strip(), each.by_lever)),
+            ),
+            each.name,
+        )
+        for each in balances(drawing)
+    ]
