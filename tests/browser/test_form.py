@@ -47,6 +47,10 @@ def class_folder(name: str, place: Path) -> Path:
     return made
 
 
+FIELDS = "form.answers [name]:not([type=hidden])"
+"""The fields that a student fills in."""
+
+
 def page_of(folder: Path, who: str = "0042") -> Path:
     """The page of a student."""
     return folder / "print" / "task" / f"{who}-task.html"
@@ -65,7 +69,7 @@ def written(value: float) -> str:
 
 def fill(page: Any, key: Mapping[str, float]) -> None:
     """Fill in the key."""
-    for field in page.locator("form.answers [name]:not([type=hidden])").all():
+    for field in page.locator(FIELDS).all():
         name, value = field.get_attribute("name"), 0.0
         value = key[name]
         if isnan(value):
@@ -113,7 +117,7 @@ def test_the_key_filled_in_saved_and_graded_earns_every_point(
 
 def test_it_can_be_filled_in_and_saved_by_keys_alone(opened: Opened, folder: Path):
     page = opened(page_of(folder))
-    names = [f.get_attribute("name") for f in page.locator("form.answers [name]:not([type=hidden])").all()]
+    names = [f.get_attribute("name") for f in page.locator(FIELDS).all()]
     key, seen = key_of(folder), []
     for _ in range(500):
         page.keyboard.press("Tab")
@@ -146,14 +150,14 @@ def test_a_saved_file_is_opened_to_go_on(
     page = opened(page_of(folder))
     fill(page, key_of(folder))
     path = save(page, tmp_path)
-    before = [field.input_value() for field in page.locator("form.answers [name]:not([type=hidden])").all()]
+    before = [field.input_value() for field in page.locator(FIELDS).all()]
     page.once("dialog", lambda dialog: dialog.accept())
     page.get_by_role("button", name="Golește").click()
-    assert {f.input_value() for f in page.locator("form.answers [name]:not([type=hidden])").all()} == {""}
+    assert {f.input_value() for f in page.locator(FIELDS).all()} == {""}
     page.set_input_files("input.file", path)
     status = page.get_by_role("status")
     status.filter(has_text=path.name).wait_for()
-    assert [f.input_value() for f in page.locator("form.answers [name]:not([type=hidden])").all()] == before
+    assert [f.input_value() for f in page.locator(FIELDS).all()] == before
 
 
 OTHERS = {

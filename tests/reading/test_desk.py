@@ -20,7 +20,7 @@ from graphkin.studio.server import served
 from graphkin.studio.session import PageRequestError
 from graphkin.text import words
 from graphkin.text.errors import PageError
-from tests.browser.opening import barred, chromium, heard  # noqa: F401 - a fixture
+from tests.browser.opening import barred, heard
 from tests.running import ran
 
 NAMES = ("Ana Pop", "Ion Marin", "Maria Ilie", "Dan Luca", "Elena Rusu", "Radu Stan", "Ioana Dinu")
@@ -364,7 +364,7 @@ def press(page: Any, *keys: str) -> None:
     page.wait_for_function(f"old => {TITLE} !== old", arg=before)
 
 
-def test_a_class_is_decided_with_single_keys(report: Path, chromium: Any) -> None:  # noqa: F811
+def test_a_class_is_decided_with_single_keys(report: Path, chromium: Any) -> None:
     """Also axe finds nothing, in both schemes and at two sizes."""
     session = desk(report)
     found = served(lambda: desk_application(session))

@@ -12,7 +12,17 @@ from graphkin.writers.templates import HOUSE, environment, from_template, tables
 
 HOSTILE = "<script>alert(\"1\")</script> & 'two'"
 ESCAPED = "&lt;script&gt;alert(&quot;1&quot;)&lt;/script&gt; &amp; &#x27;two&#x27;"
-LET_THROUGH = {"policy", "style", "script", "picture", "mark", "run", "turning", "scheme[1]", "board"}
+LET_THROUGH = {
+    "policy",
+    "style",
+    "script",
+    "picture",
+    "mark",
+    "run",
+    "turning",
+    "scheme[1]",
+    "board",
+}
 """What the program itself wrote: hashes, its own files, drawings, data made safe for a script."""
 
 

@@ -71,7 +71,7 @@ def sorted_sides(drawing: ForceDrawing) -> list[tuple[str, float]]:
     return list(found.items())
 
 
-class Balance(NamedTuple):
+class DriverBalance(NamedTuple):
     """What balances a driver: symbol, unit, value and sense, and its value by the lever."""
 
     name: str
@@ -81,18 +81,18 @@ class Balance(NamedTuple):
     by_lever: str
 
 
-def balances(drawing: ForceDrawing) -> Iterator[Balance]:
+def balances(drawing: ForceDrawing) -> Iterator[DriverBalance]:
     """The balance of each driver: by polygons, and by the lever where it is drawn."""
     levers = {each.other: each for each in drawing.lever_balances()}
     for each in constructions(drawing.trace.program, BalancingMoment):
         lever, size = levers.get(each.moment), each.size(drawing)
         other = answer(drawing, abs(lever.size(drawing))) if lever is not None else "–"
         way = sense(drawing.words, size)
-        yield Balance(each.name, "N·m", answer(drawing, abs(size)), way, other)
+        yield DriverBalance(each.name, "N·m", answer(drawing, abs(size)), way, other)
     for number, lever in levers.items():
         if lever.moment is None:
             force = answer(drawing, abs(drawing.trace.values[number]))
-            yield Balance(lever.name, "N", force, "", answer(drawing, lever.size(drawing)))
+            yield DriverBalance(lever.name, "N", force, "", answer(drawing, lever.size(drawing)))
 
 
 def balance_rows(drawing: ForceDrawing, *, empty: bool) -> list[Row]:
