@@ -85,21 +85,28 @@ def packed(files: Mapping[str, bytes]) -> bytes:
     return data.getvalue()
 
 
+def manifest_of(title: str, space: str, schema: str, kind: tuple[str, str]) -> Element:
+    """The manifest of a package up to its resources; ``kind`` is its schema and version."""
+    identifier = f"g{sha256(title.encode()).hexdigest()[:24]}"
+    manifest = root("manifest", space, schema, identifier=identifier)
+    metadata = added(manifest, "metadata")
+    for tag, text in zip(("schema", "schemaversion"), kind, strict=True):
+        added(metadata, tag, text)
+    added(manifest, "organizations")
+    return manifest
+
+
 # --- QTI 1.2, as Canvas reads it ------------------------------------------------------------------
 
 
 def canvas_package(title: str, every: Sequence[Question], words: Words) -> bytes:
     """A ZIP file that Canvas imports: a quiz for each question, its fields as its questions."""
-    manifest = root(
-        "manifest",
+    manifest = manifest_of(
+        title,
         COMMON_CARTRIDGE,
         "http://www.imsglobal.org/xsd/imscp_v1p1.xsd",
-        identifier=f"g{sha256(title.encode()).hexdigest()[:24]}",
+        ("IMS Content", "1.1.3"),
     )
-    metadata = added(manifest, "metadata")
-    added(metadata, "schema", "IMS Content")
-    added(metadata, "schemaversion", "1.1.3")
-    added(manifest, "organizations")
     resources = added(manifest, "resources")
     files: dict[str, bytes] = {MANIFEST: b""}
     for question in every:
@@ -241,16 +248,9 @@ def assessment_meta(title: str, question: Question) -> bytes:
 
 def qti3_package(title: str, every: Sequence[Question], words: Words) -> bytes:
     """A QTI 3.0 package: an item for each question, with a gap for each field."""
-    manifest = root(
-        "manifest",
-        CONTENT_3,
-        f"{SCHEMA_3}/imsqtiv3p0_imscpv1p2_v1p0.xsd",
-        identifier=f"g{sha256(title.encode()).hexdigest()[:24]}",
+    manifest = manifest_of(
+        title, CONTENT_3, f"{SCHEMA_3}/imsqtiv3p0_imscpv1p2_v1p0.xsd", ("QTI Item", "3.0.0")
     )
-    metadata = added(manifest, "metadata")
-    added(metadata, "schema", "QTI Item")
-    added(metadata, "schemaversion", "3.0.0")
-    added(manifest, "organizations")
     resources = added(manifest, "resources")
     files: dict[str, bytes] = {MANIFEST: b""}
     for question in every:
