@@ -173,8 +173,8 @@ def of_lengths(drawing: Drawing, bars: Sequence[Bar]) -> tuple[Section, Section]
     drawing the mechanism, are known already.
     """
     radii, measured = [], []
-    given = (*dimensioned_bars(drawing.scene.bare), *laid_bars(drawing))
-    known = {ends_on(drawing, *ends) for ends in given}
+    known_bars = (*dimensioned_bars(drawing.scene.bare), *laid_bars(drawing))
+    known = {ends_on(drawing, *ends) for ends in known_bars}
     alike: dict[frozenset[complex], list[Bar]] = {}
     for ends in bars:
         alike.setdefault(ends_on(drawing, *ends), []).append(ends)

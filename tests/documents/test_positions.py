@@ -16,6 +16,7 @@ from graphkin.mechanism import Mechanism, load
 from graphkin.motion.cycle import cycle
 from graphkin.motion.equal_positions import equal_places
 from graphkin.scene.model import StatedPositions
+from graphkin.scene.read_scene import read_text
 from graphkin.text import LANGUAGES
 from graphkin.text.errors import SceneError
 from tests.chosen import FOLDER
@@ -283,3 +284,14 @@ def test_bars_keep_their_length_in_all_positions():
     for link in ("1", "3"):
         lengths = [lines_of(marks, f"{link}_{i}") for i in range(1, 12)]
         assert lengths == pytest.approx([lengths[0]] * 11, rel=1e-9)
+
+
+@pytest.mark.parametrize("view", ["positions", "diagrams"])
+def test_a_whole_motion_is_drawn_in_metres_whatever_the_unit_of_results(view):
+    """A scene in inches has results in inches; these sheets are those with results in metres."""
+    text = (FOLDER / "shaper.toml").read_text(encoding="utf-8")
+    one, other = (
+        hand_out(Mechanism(read_text(text.replace('length = "mm"', length), "own")), view)
+        for length in ('length = "in"', 'length = "in", results = "SI"')
+    )
+    assert [part.pages for part in one] == [part.pages for part in other]
