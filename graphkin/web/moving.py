@@ -30,7 +30,7 @@ from graphkin.text.errors import GraphkinError, SceneError
 from graphkin.web.field_binder import FieldBinder, Record, box_of, half
 from graphkin.web.follow import MarkBindings
 from graphkin.web.moving_sheet import MovingSheet
-from graphkin.web.offline_page import MOVING, joined
+from graphkin.web.offline_page import MOVING, bundled
 from graphkin.web.page_driver import PageDriver, Reach, driven_by, figures
 from graphkin.web.traced_closings import TrackedBranch
 from graphkin.web.tracing import Tracing
@@ -342,8 +342,9 @@ def source(data: dict[str, Any], tracing: Tracing) -> str:
         MATH,
         script_source(tracing.graph, tracing.tape.outputs, tracing.inputs, "run"),
         *misses(tracing),
+        bundled(MOVING),
         f"const data = {text};",
-        joined(MOVING),
+        "return graphkinMoving(data, run, closings);",
         "})();",
     ]
     return "\n".join(lines) + "\n"

@@ -1,8 +1,14 @@
 // The sources of a step: marked in the drawing, and named.
+import { halos } from "./halos.js";
+import { read_from } from "./highlights.js";
+import { byId, data, own, state } from "./page.js";
+import { here, sheets } from "./sheets.js";
+import { look } from "./zoom.js";
 
 /** Mark what the current step, or the mark pointed at, draws, and the sources of both. */
-function trace() {
-  const sheet = sheets[here()], from = new Set([...sources(looked_at()), ...read_from()]);
+export function trace() {
+  const sheet = sheets[here()],
+    from = new Set([...sources(looked_at()), ...read_from()]);
   const done = state.step === data.bounds[here()][1] && !state.over;
   sheet.element.classList.toggle("growing", !done);
   for (const mark of sheet.marks) {
@@ -15,19 +21,19 @@ function trace() {
 }
 
 /** The steps of the current sentence, or the step pointed at. */
-function looked_at() {
+export function looked_at() {
   return state.over ? [state.over] : state.step ? own[state.step] : [];
 }
 
 /** The steps that some steps are drawn from. */
-function sources(steps) {
+export function sources(steps) {
   const from = new Set(steps.flatMap(step => data.from[step] ?? []).map(String));
   steps.forEach(step => from.delete(step));
   return from;
 }
 
 /** List the names of the sources with the steps that drew them. */
-function names(list, from) {
+export function names(list, from) {
   const told = new Map();
   for (const step of from) {
     const name = data.letters[step];
