@@ -1,4 +1,4 @@
-"""Bundle the scripts of the pages: ``python -m tests.scripts`` (needs Node, and ``npm ci`` there)."""
+"""Bundle the scripts of the pages: ``python -m tests.scripts`` (needs Node and its tools)."""
 
 from __future__ import annotations
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import shutil
 from pathlib import Path
 
 import pytest
@@ -15,8 +16,10 @@ from tests.scripts.node import HERE, TOOLS, missing_tools, ran
 LONGEST = 400
 """Most lines of a module."""
 CHECKS = {
-    "format": ("prettier", "--check", *("graphkin/**/*.js", "tests/scripts/*.js")),
+    "format": ("prettier", "--check", *("graphkin/**/*.js", "tests/scripts/*.{js,ts}")),
     "lint": ("eslint", "--max-warnings=0", "graphkin", "tests/scripts"),
+    "types": ("tsc", "-p", "tests/scripts/tsconfig.json"),
+    "types of a task page": ("tsc", "-p", "tests/scripts/tsconfig.board.json"),
 }
 """The checks by Node's tools."""
 CONFIGURED = {
@@ -40,7 +43,7 @@ def node() -> None:
 @pytest.mark.usefixtures("node")
 def test_the_scripts_hold_to_the_rules(check: str):
     tool, *rest = CHECKS[check]
-    found = ran(str(TOOLS / tool), *CONFIGURED[tool], *rest)
+    found = ran(shutil.which(tool, path=TOOLS) or tool, *CONFIGURED[tool], *rest)
     assert found.returncode == 0, found.stdout + found.stderr
 
 
@@ -55,10 +58,9 @@ def test_the_tests_of_the_modules_pass():
 def test_the_bundles_are_made_from_the_modules(tmp_path: Path):
     found = ran("node", str(HERE / "build.js"), str(tmp_path))
     assert found.returncode == 0, found.stderr
-    made = {path.name: path.read_bytes() for path in tmp_path.iterdir()}
-    assert made == {path.name: path.read_bytes() for path in BUNDLES.iterdir()}, (
-        "run python -m tests.scripts"
-    )
+    made = {path.name: path.read_text(encoding="utf-8") for path in tmp_path.iterdir()}
+    kept = {path.name: path.read_text(encoding="utf-8") for path in BUNDLES.iterdir()}
+    assert made == kept, "run python -m tests.scripts"
 
 
 def test_the_actions_of_the_pages_are_those_of_the_registry():

@@ -17,10 +17,10 @@ function fit(section, words) {
   let sum = 0;
   for (const word of words) {
     const found =
-      (title === word) * 60 +
-      title.includes(word) * 20 +
-      page.includes(word) * 6 +
-      text.includes(word);
+      Number(title === word) * 60 +
+      Number(title.includes(word)) * 20 +
+      Number(page.includes(word)) * 6 +
+      Number(text.includes(word));
     if (!found) return 0;
     sum += found;
   }
@@ -47,12 +47,14 @@ function search() {
   const words = byId("sought").value.toLowerCase().split(/\s+/).filter(Boolean);
   byId("hits").hidden = !words.length;
   if (!words.length) return;
-  const hits = SECTIONS.map(section => [fit(section, words), section]).filter(([sum]) => sum);
-  hits.sort((one, other) => other[0] - one[0]);
+  const hits = SECTIONS.map(section => ({ sum: fit(section, words), section })).filter(
+    ({ sum }) => sum,
+  );
+  hits.sort((one, other) => other.sum - one.sum);
   byId("count").textContent =
     hits.length > MOST ? `${hits.length} sections, the best ${MOST}:` : `${hits.length} sections`;
   byId("found").replaceChildren(
-    ...hits.slice(0, MOST).map(([, section]) => {
+    ...hits.slice(0, MOST).map(({ section }) => {
       const item = element("li");
       const link = element(
         "a",
@@ -110,8 +112,9 @@ function gallery(filter) {
     const wanted = [...filter.querySelectorAll(":checked")].map(box => box.value);
     for (const [card, own] of shows) card.hidden = !wanted.every(effect => own.includes(effect));
     for (const grid of document.querySelectorAll(".cards")) {
-      const empty = [...grid.children].every(card => card.hidden);
-      grid.hidden = grid.previousElementSibling.hidden = empty;
+      const empty = !grid.querySelector(":scope > :not([hidden])");
+      grid.hidden = empty;
+      grid.previousElementSibling.toggleAttribute("hidden", empty);
     }
     byId("left").textContent =
       `${cards.filter(card => !card.hidden).length} of ${cards.length} scenes`;

@@ -188,11 +188,11 @@ function queue() {
 }
 
 function panels() {
-  for (const [kind, out] of [
-    [".of-drawing", held !== null],
-    [".of-marks", held === null],
-  ]) {
-    for (const part of document.querySelectorAll(kind)) part.toggleAttribute("hidden", out);
+  for (const [kind, out] of Object.entries({
+    ".of-drawing": held !== null,
+    ".of-marks": held === null,
+  })) {
+    for (const part of document.querySelectorAll(kind)) part.hidden = out;
   }
 }
 
@@ -575,8 +575,9 @@ const onEnter = {
 };
 document.addEventListener("keydown", event => {
   if (event.ctrlKey || event.altKey || event.metaKey) return;
-  if (event.target.matches("input")) inField(event);
-  else if (!event.target.matches("select, button") || event.key !== "Enter") onDesk(event);
+  const target = /** @type {Element} */ (event.target);
+  if (target.matches("input")) inField(event);
+  else if (!target.matches("select, button") || event.key !== "Enter") onDesk(event);
 });
 // Enter and Escape in a field.
 function inField(event) {
@@ -632,8 +633,8 @@ find("next").addEventListener("click", () => next());
 find("undo").addEventListener("click", undo);
 find("key").addEventListener("click", toggle);
 find("flicker").addEventListener("click", flicker);
-find("queue").addEventListener("change", event => {
-  go(entries().flatMap(([, some]) => some)[event.target.selectedIndex]);
+find("queue").addEventListener("change", () => {
+  go(entries().flatMap(([, some]) => some)[find("queue").selectedIndex]);
 });
 for (const button of document.querySelectorAll("#choices button")) {
   button.addEventListener("click", () => decide(button.dataset.verdict));

@@ -67,7 +67,7 @@ function pictured(items) {
 function seek() {
   const words = find("sought").value.toLowerCase().split(/\s+/);
   for (const list of find("opening").querySelectorAll("ul")) {
-    for (const item of list.children) {
+    for (const item of list.querySelectorAll(":scope > li")) {
       const name = item.querySelector("[data-key]").textContent.toLowerCase();
       item.hidden = !words.every(word => name.includes(word));
     }

@@ -26,8 +26,8 @@ export function onChoosing(work) {
 
 /** Call back with the name of a clicked mark of the mechanism. */
 export function onPointing(work) {
-  find("mechanism").addEventListener("click", ({ target }) => {
-    const mark = target.closest("#mechanism .drawing [data-name]");
+  find("mechanism").addEventListener("click", event => {
+    const mark = /** @type {Element} */ (event.target).closest("#mechanism .drawing [data-name]");
     if (mark) work(mark.dataset.name);
   });
 }

@@ -46,6 +46,7 @@ export function editorOf(part) {
   /** The current text. */
   const written = () => text.value;
 
+  /** @type {(kind: string) => void} */
   let wrote = () => {};
 
   /** Call back when the text changes, with the kind of a change that continues: typing or
@@ -193,12 +194,13 @@ export function editorOf(part) {
     let left = before.length - before.lastIndexOf("\n") - 1;
     const walk = document.createTreeWalker(line, NodeFilter.SHOW_TEXT);
     while (walk.nextNode()) {
-      if (left <= walk.currentNode.length) {
+      const { length } = walk.currentNode.textContent;
+      if (left <= length) {
         const range = document.createRange();
         range.setStart(walk.currentNode, left);
         return range.getBoundingClientRect();
       }
-      left -= walk.currentNode.length;
+      left -= length;
     }
     return line.getBoundingClientRect();
   }

@@ -40,9 +40,10 @@ export function importing(take) {
     }
     return told.textContent;
   }
-  find("import-file").addEventListener("change", async ({ target }) => {
-    const chosen = target.files[0];
-    target.value = "";
+  find("import-file").addEventListener("change", async () => {
+    const field = find("import-file"),
+      [chosen] = field.files;
+    field.value = "";
     if (!chosen) return;
     try {
       file = { file: await read(chosen), name: chosen.name };

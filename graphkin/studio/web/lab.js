@@ -149,14 +149,15 @@ function map({ shares, closest, apart }) {
   );
 }
 
-find("neighbours").addEventListener("pointerover", ({ target }) => {
-  const { own, other, share } = target.dataset;
-  if (!(share >= 0)) return;
+find("neighbours").addEventListener("pointerover", event => {
+  const { own, other, share } = /** @type {Element} */ (event.target).dataset;
+  if (!(Number(share) >= 0)) return;
   const gaps = { own: students[own].name, other: students[other].name, share };
   find("pointed").textContent = say("studio.earns_of", gaps);
 });
-find("neighbours").addEventListener("click", ({ target }) => {
-  if (target.dataset.own) choose(students[target.dataset.own]);
+find("neighbours").addEventListener("click", event => {
+  const { own } = /** @type {Element} */ (event.target).dataset;
+  if (own) choose(students[own]);
 });
 
 /** List the students of the class; each entry opens the student's sheets. */

@@ -7,6 +7,7 @@ const write = find("write");
 const reset = find("reset");
 const rows = new Map();
 let moved = {};
+/** @type {(quick: boolean, name?: string) => void} */
 let changed = () => {};
 let anew = false; // a value is also shown in the field being edited
 let holding = false; // a slider is held by the pointer

@@ -104,7 +104,7 @@ function nearest_due(action, given) {
         step,
         inputs,
         first,
-        weight: 2 * count_alike(inputs, given) + (inputs[0] === given[0]),
+        weight: 2 * count_alike(inputs, given) + Number(inputs[0] === given[0]),
       };
     })
     .filter(({ weight, first, inputs }) => weight >= 2 && first >= 0 && inputs.every(is_there))

@@ -80,20 +80,13 @@ function fit() {
 }
 
 for (const type of EVENTS) document.addEventListener(type, in_turn, true);
-for (const [name, act] of [
-  ["turn-undo", undo],
-  ["turn-redo", redo],
-  ["turn-again", turn_again],
-])
-  byId(name).addEventListener("click", act);
+const acts = { "turn-undo": undo, "turn-redo": redo, "turn-again": turn_again };
+for (const [name, act] of Object.entries(acts)) byId(name).addEventListener("click", act);
 byId("turn-sheet").addEventListener("click", () => {
   state.step = (state.step + 1) % sheets.length;
   show_turn();
 });
-for (const [name, act] of [
-  ["turn-form", draw_move],
-  ["turn-type", draw_typed],
-]) {
+for (const [name, act] of Object.entries({ "turn-form": draw_move, "turn-type": draw_typed })) {
   byId(name).addEventListener("submit", event => {
     event.preventDefault();
     act();

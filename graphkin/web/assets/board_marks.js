@@ -33,7 +33,10 @@ export function draw_own() {
     draw_point(key);
 }
 
-/** A vector with its head. */
+/**
+ * A vector with its head.
+ * @param {Shape} vector
+ */
 function draw_arrow({ side, from, to }) {
   const way = minus(to, from),
     size = length_of(way);

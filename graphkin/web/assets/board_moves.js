@@ -32,8 +32,15 @@ import {
 import { show_aim } from "./pointing.js";
 import { forget_typed, typed_form } from "./typing.js";
 
-/** Draw a move whose inputs are complete. */
-export function check_move(action, given, found, plane) {
+/**
+ * Draw a move whose inputs are complete.
+ * @param {string} action
+ * @param {string[]} given
+ * @param {Result[]} found
+ * @param {number} plane
+ * @param {Result} [_other] any result may be drawn
+ */
+export function check_move(action, given, found, plane, _other) {
   const beside = turning.beside[action],
     [value] = found;
   if (!value || (beside && picks[given[beside]].plane !== picks[given[beside - 1]].plane))
@@ -119,7 +126,7 @@ function refuse(text) {
 
 /** The point that a letter would be given to: the one that is taken, or the one drawn last. */
 export function point_to_name() {
-  const [key] = turn.taken.length === 1 ? turn.taken : turn.fresh;
+  const [key] = (turn.taken.length === 1 ? turn.taken : turn.fresh).map(String);
   return key?.startsWith("own") && ["point", "image"].includes(picks[key]?.kind) ? key : null;
 }
 

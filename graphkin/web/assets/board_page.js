@@ -17,7 +17,12 @@ byId("dock").hidden = byId("turn-panel").hidden = false;
 /** Nothing moves on a task page. */
 export const moved = () => false;
 
-/** Set a style property only if it changes, since each change causes a new layout. */
+/**
+ * Set a style property only if it changes, since each change causes a new layout.
+ * @param {ElementCSSInlineStyle} element
+ * @param {string} name
+ * @param {string} value
+ */
 export function style(element, name, value) {
   if (element.style.getPropertyValue(name) !== value) element.style.setProperty(name, value);
 }

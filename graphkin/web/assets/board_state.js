@@ -4,8 +4,9 @@ import { byId, data } from "./board_page.js";
 import { named_from, palette_of } from "./palette.js";
 import * as board_actions from "./board_actions.js";
 
-export const turning = { ...data, moves: {}, places: {}, shares: [], seconds: 1 },
-  { moves, picks } = turning;
+/** @type {TurnRecord} */
+export const turning = { ...data, moves: {}, places: {}, shares: [], seconds: 1 };
+export const { moves, picks } = turning;
 export const CHOICE = Object.keys(turning.palette); // any action may have several results
 export const NUMBERS_PLANE = 3; // what is computed lies in no drawing
 export const UNITS = { length: ["mm", "mm"], angle: ["deg", "°"], rate: ["rad", "rad/s"] }; // of typed numbers, in the log and on the page
@@ -26,6 +27,7 @@ export const {
   shape_of,
 } = palette_of(turning, () => true, board_actions);
 
+/** @type {Turn} */
 export const turn = {
   done: new Set(),
   lines: [],

@@ -50,8 +50,8 @@ export function carry(steps) {
   );
   svg.classList.add("larger");
   svg.removeAttribute("style");
-  svg.style.setProperty("--g", SMALLER);
-  svg.style.setProperty("--t", SMALLER);
+  svg.style.setProperty("--g", String(SMALLER));
+  svg.style.setProperty("--t", String(SMALLER));
   aside.replaceChildren(aside.firstChild, svg);
   seat(sheets[1].fields[1].svg);
 }

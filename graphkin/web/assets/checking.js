@@ -32,7 +32,14 @@ import {
 } from "./turn_state.js";
 import { found } from "./values.js";
 
-/** Answer a move: make it where it is right, and say what is wrong elsewhere. */
+/**
+ * Answer a move: make it where it is right, and say what is wrong elsewhere.
+ * @param {string} action
+ * @param {string[]} given
+ * @param {Result[]} found
+ * @param {number} plane
+ * @param {Result} [other] the result that was not chosen
+ */
 export function check_move(action, given, found, plane, other) {
   const { is, step } = verdict({ action, given, found, plane, other }, turn.done, moves_left());
   const answers = {
@@ -58,7 +65,12 @@ function keep_own(action, given, step) {
   show_turn();
 }
 
-/** Make a line drawn from some picks on a sheet available as a pick. */
+/**
+ * Make a line drawn from some picks on a sheet available as a pick.
+ * @param {string} action
+ * @param {string[]} given
+ * @param {number} sheet
+ */
 export function add_line(action, given, sheet) {
   const name = named_from(
       action,
@@ -85,7 +97,13 @@ export function draw_own() {
 /** The ways in which a move can be found, the least of a student's own work last. */
 const HOW = ["alone", "hint", "help"];
 
-/** Record a move and draw what comes along with it. */
+/**
+ * Record a move and draw what comes along with it.
+ * @param {number} step
+ * @param {string} how one of HOW
+ * @param {string} words
+ * @param {{ action: string, given?: string[] }} [way] the move as the student made it
+ */
 export function make_move(step, how, words, way = moves[step]) {
   const before = new Set(turn.done),
     { action } = moves[step];

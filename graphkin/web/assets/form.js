@@ -53,12 +53,16 @@ function names(label, name) {
   return !label || known.some(begins => label.toLowerCase().startsWith(begins));
 }
 
-// The digits of a number with a decimal point, without gaps between thousands.
+/**
+ * The digits of a number with a decimal point, without gaps between thousands.
+ * @param {Record<string, string>} groups the groups of NUMBER
+ */
 function digits({ digits: all, part, parts }) {
   const bare = [part, parts].reduce((left, gap) => (gap ? left.replaceAll(gap, "") : left), all);
   return bare.replaceAll(",", ".");
 }
 
+/** @param {Record<string, string>} groups the groups of NUMBER */
 function power({ power: plain, raised }) {
   return [...(plain || raised || "0")].map(sign => told.raised[sign] || sign).join("");
 }
@@ -240,14 +244,15 @@ function clear() {
 form.addEventListener("submit", event => event.preventDefault());
 form.addEventListener("input", event => {
   keep();
-  const field = event.target;
+  const field = /** @type {PageElement} */ (event.target);
   if (field === own) {
     mark(own, "");
     if (id() && status.textContent === say("no_id")) status.textContent = "";
   } else if (field.getAttribute("aria-invalid")) judge(field);
 });
 form.addEventListener("change", event => {
-  if (fields.includes(event.target)) judge(event.target);
+  const field = /** @type {PageElement} */ (event.target);
+  if (fields.includes(field)) judge(field);
 });
 form.querySelector(".save").addEventListener("click", save);
 form.querySelector(".open").addEventListener("click", () => file.click());

@@ -89,10 +89,10 @@ function take(event, svg, one) {
   if (one.by.k >= 0 || changed_figures().length) one.way = way_of(one.id, one.by) ?? one.way;
   let pointer = [event.clientX, event.clientY],
     off = null;
-  const [u, v] = paper_at({ svg }, ...pointer),
+  const [u, v] = paper_at({ svg }, pointer[0], pointer[1]),
     slip = ["cx", "cy"].map((axis, k) => Number(one.pin.getAttribute(axis)) - [u, v][k]);
   const pull = () => {
-    const [across, down] = paper_at({ svg }, ...pointer),
+    const [across, down] = paper_at({ svg }, pointer[0], pointer[1]),
       x = nearest(one, across + slip[0], down + slip[1]);
     const went_on = x - one.by.now();
     if (went_on)

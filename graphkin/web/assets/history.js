@@ -26,7 +26,7 @@ function step_in_time(from, to) {
     sheet: null,
     hinted: null,
   });
-  lines.forEach(line => add_line(...line));
+  for (const [action, given, which] of lines) add_line(action, given, which);
   forget_inputs();
   byId("turn-sentence").replaceChildren();
   tell_turn(worded(from === "past" ? "undone" : "redone", { number: turn.log.length }));

@@ -9,8 +9,8 @@ export const count_alike = (inputs, given) => inputs.filter((key, i) => key === 
 
 /**
  * The verdicts on the moves of a construction.
- * @param {{ moves: Record<string, any>, picks: Record<string, any>, places: Record<string, any[]> }} record
- * @param {Record<string, any>} palette what palette_of makes of the record
+ * @param {TurnRecord} record
+ * @param {ReturnType<typeof import("./palette.js").palette_of>} palette
  * @param {number[]} order the moves in the order of their sentences
  */
 export function verdicts_of({ moves, picks, places }, palette, order) {

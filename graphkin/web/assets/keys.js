@@ -74,7 +74,8 @@ for (const part of ["reason", "from"]) {
   // the sources of a reason stay named while the focus is there
   byId(part).addEventListener(
     "focusout",
-    ({ relatedTarget: to }) => to?.closest("#reason,#from") || point_at(null),
+    ({ relatedTarget: to }) =>
+      /** @type {Element} */ (to)?.closest("#reason,#from") || point_at(null),
   );
 }
 addEventListener("hashchange", follow_address);

@@ -145,7 +145,7 @@ function letters_at_rest(one, labels) {
           half: [width / 2, (INK * height) / 2].map(size => Math.max(size, ring_of(text))),
         };
       })
-      .sort((p, q) => ("of" in q.text.dataset) - ("of" in p.text.dataset));
+      .sort((p, q) => Number("of" in q.text.dataset) - Number("of" in p.text.dataset));
   }
   return one.resting.filter(
     ({ text }) =>

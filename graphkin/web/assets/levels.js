@@ -48,7 +48,7 @@ function level_of({ goals, plan }) {
     fewest,
     moves: number,
     reached,
-    stars: reached ? 1 + (number <= fewest) + exact : 0,
+    stars: reached ? 1 + Number(number <= fewest) + Number(exact) : 0,
   };
 }
 

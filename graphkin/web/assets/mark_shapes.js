@@ -10,6 +10,7 @@ const BEYOND = 7,
 
 const written = number => String(Number(number.toFixed(DIGITS)));
 const listed = points => points.map(([u, v]) => written(u) + "," + written(v)).join(" ");
+/** @param {Place} place */
 const shifted = ([u, v], fromU, fromV) => ({
   transform: `translate(${written(u - fromU)} ${written(v - fromV)})`,
 });

@@ -41,7 +41,12 @@ export function copies(element) {
   return [...element.cloneNode(true).childNodes];
 }
 
-/** Set a style property only if it changes, since each change causes a new layout. */
+/**
+ * Set a style property only if it changes, since each change causes a new layout.
+ * @param {ElementCSSInlineStyle} element
+ * @param {string} name
+ * @param {string} value
+ */
 export function style(element, name, value) {
   if (element.style.getPropertyValue(name) !== value) element.style.setProperty(name, value);
 }

@@ -1,6 +1,11 @@
 // The results of palette actions: complex numbers as [x, y], lines as [point, direction], circles as { c, r }.
 
-/** The name of a result, from the names of its inputs; used where the result has no name of its own. */
+/**
+ * The name of a result, from the names of its inputs; used where the result has no name of its own.
+ * @param {string} action
+ * @param {string[]} names
+ * @param {Record<string, string>} words
+ */
 export function named_from(action, names, words) {
   if (action === "compass") return words.arc.replace("{p}", names[0]).replace("{bar}", names[1]);
   if (action === "join") return names.join("");
@@ -8,7 +13,10 @@ export function named_from(action, names, words) {
   return `${{ perpendicular: "⊥", parallel: "∥", ray: "∠" }[action]} ${names[1]} (${names[0]})`;
 }
 
-/** A record completed by what follows from it: picks of moves, bars and vectors, names and needs. */
+/**
+ * A record completed by what follows from it: picks of moves, bars and vectors, names and needs.
+ * @param {TurnRecord} record
+ */
 function followed({ moves, picks, words }) {
   const of_ends = key => {
     const pick = picks[key];
@@ -30,7 +38,12 @@ function followed({ moves, picks, words }) {
   for (const key of Object.keys(picks)) of_ends(key);
 }
 
-/** The actions of a construction by its record; `all_done` says whether some moves are made. */
+/**
+ * The actions of a construction by its record; `all_done` says whether some moves are made.
+ * @param {TurnRecord} record
+ * @param {(steps: number[]) => boolean} all_done
+ * @param {Pick<typeof import("./page_actions.js"), "ACTIONS" | "drawn_by">} actions
+ */
 export function palette_of(record, all_done, { ACTIONS, drawn_by }) {
   followed(record);
   const { moves, picks, places, shares, seconds, millimetre } = record;

@@ -3,7 +3,12 @@ import { dot, length_of, minus, picks, plus, scaled, turn, turning, value_of } f
 import { here, pin, sheets } from "./sheets.js";
 
 export const UNSEEN = ["length", "rate", "vector", "angle"]; // kinds of picks that are drawn nowhere
-/** The field of a sheet that shows a value of a drawing, and the place in it in mm. */
+/**
+ * The field of a sheet that shows a value of a drawing, and the place in it in mm.
+ * @param {number} plane
+ * @param {Place} value
+ * @returns {{ side: number, at: Place, mm: number } | null}
+ */
 export function placed(plane, value) {
   const [plan, ...fields] = turning.fields[here()],
     side = plane === 0 ? 0 : 1;
@@ -12,7 +17,11 @@ export function placed(plane, value) {
   return { side, at: [x + (value[0] - re) * mm, y - (value[1] - im) * mm], mm };
 }
 
-/** The shape at which a pick can be pointed at: a point, segment, line or circle of a field. */
+/**
+ * The shape at which a pick can be pointed at: a point, segment, line or circle of a field.
+ * @param {string} key
+ * @returns {Shape | null}
+ */
 export function shown_at(key) {
   const pick = picks[key];
   if (pick.on?.length) {
@@ -62,7 +71,11 @@ function stretch(side, key, at, unit) {
   return { from: plus(at, scaled(unit, -1000)), to: plus(at, scaled(unit, 1000)) };
 }
 
-/** The distance, in mm, of a place of a field from a shape. */
+/**
+ * The distance, in mm, of a place of a field from a shape.
+ * @param {Place} place
+ * @param {Shape} shape
+ */
 export function far_from(place, { at, r, from, to }) {
   if (at) return Math.abs(length_of(minus(place, at)) - (r ?? 0));
   const along = minus(to, from),

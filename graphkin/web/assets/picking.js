@@ -17,6 +17,7 @@ import { draw_move } from "./choosing.js";
 import { shown_at, UNSEEN } from "./pick_shapes.js";
 import { light_up } from "./turn_marks.js";
 
+/** @type {(action: string | null) => string[][]} */
 export const slots_of = action => (action ? turning.palette[action] : []);
 export const is_complete = () =>
   slots_of(turn.action).length > 0 && slots_of(turn.action).every((_, i) => turn.inputs[i]);
@@ -36,7 +37,11 @@ function assigned(action, taken, in_order) {
   return inputs;
 }
 
-/** The actions that some things can be taken for: the chosen one, or else all others. */
+/**
+ * The actions that some things can be taken for: the chosen one, or else all others.
+ * @param {string[]} taken
+ * @returns {Way[]}
+ */
 export function ways_of(taken) {
   const own = turn.tool && assigned(turn.tool, taken, false);
   if (own) return [{ action: turn.tool, inputs: own }];
@@ -49,13 +54,20 @@ export function ways_of(taken) {
   return ordered.length ? ordered : all(false);
 }
 
-/** The one action for which everything is taken; none where others are left. */
+/**
+ * The one action for which everything is taken; none where others are left.
+ * @param {Way[]} ways
+ * @returns {Way | null}
+ */
 export function whole_way(ways) {
   const [way] = ways;
   return ways.length === 1 && slots_of(way.action).every((_, i) => way.inputs[i]) ? way : null;
 }
 
-/** Take a thing for a move, and make the move once it has all that it needs. */
+/**
+ * Take a thing for a move, and make the move once it has all that it needs.
+ * @param {string} key
+ */
 export function take_pick(key) {
   if (turn.asked) forget_inputs();
   let taken = [...turn.taken, key],
@@ -79,7 +91,10 @@ export function take_pick(key) {
 
 export const names_of = keys => keys.map(key => picks[key].name).join(", ");
 
-/** Choose an action, which stays chosen; what is taken already is kept where it fits. */
+/**
+ * Choose an action, which stays chosen; what is taken already is kept where it fits.
+ * @param {string} action
+ */
 export function choose_action(action) {
   const kept = turn.asked ? null : assigned(action, turn.taken, false);
   turn.tool = turn.tool === action && !turn.taken.length ? null : action;

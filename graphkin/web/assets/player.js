@@ -173,7 +173,11 @@ function name(vectors, taken) {
   });
 }
 
-// Whether a line crosses a box around a spot.
+/**
+ * Whether a line crosses a box around a spot.
+ * @param {number[]} line
+ * @param {Box} spot
+ */
 function cuts([x1, y1, x2, y2], [x, y, width, height]) {
   const [a, b] = [width / 2, height / 2],
     [u, v] = [(x2 - x1) / 2, (y2 - y1) / 2],
@@ -254,7 +258,7 @@ export const rest = x => {
 
 document.addEventListener("keydown", event => {
   if (event.ctrlKey || event.metaKey || event.altKey) return;
-  const at = event.target;
+  const at = /** @type {Element} */ (event.target);
   const step = span / 100;
   const act = {
     " ": at.matches("button,select") ? null : toggle,
@@ -274,7 +278,7 @@ for (const [at, words] of data.notable) {
   const tick = document.createElement("button");
   tick.title = `${written(turned, span > 50 ? 1 : 2)}${data.unit}: ${words}`;
   tick.setAttribute("aria-label", tick.title);
-  tick.style.setProperty("--part", (place - data.low) / span);
+  tick.style.setProperty("--part", String((place - data.low) / span));
   tick.addEventListener("click", () => rest(place));
   byId("notable").append(tick);
 }

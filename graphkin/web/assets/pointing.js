@@ -31,7 +31,11 @@ const SLIP = 4; // dots by which a pointer may slip in a click
 export let press = null,
   latest_place = null; // the pressed pointer with what it began on, and the last place of a mouse
 
-/** The field at a place of the window, that place in mm, and the reach of a pointer there. */
+/**
+ * The field at a place of the window, that place in mm, and the reach of a pointer there.
+ * @param {any} event
+ * @returns {Spot | null}
+ */
 export function spot_at({ clientX, clientY, pointerType }) {
   const svg = document.elementFromPoint(clientX, clientY)?.closest(".view > svg");
   const side = sheets[here()].fields.findIndex(one => one.svg === svg);
@@ -41,7 +45,11 @@ export function spot_at({ clientX, clientY, pointerType }) {
   return { side, at: [x, y], near: NEAR[pointerType === "touch" ? "touch" : "mouse"] * matrix.a };
 }
 
-/** The picks and crossings near a place, the one most likely meant first. */
+/**
+ * The picks and crossings near a place, the one most likely meant first.
+ * @param {Spot | null} spot
+ * @returns {{ key?: string, cross?: string[], value?: Result, rank: number }[]}
+ */
 export function hits_at(spot) {
   if (!spot) return [];
   const { side, at, near } = spot;
@@ -97,7 +105,12 @@ const is_marked = (plane, at, near) =>
       length_of(minus(placed(plane, value_of(key)).at, at)) < 0.05 * near,
   );
 
-/** What a release at a place would take, after some things that are taken: what the chosen action takes goes first. */
+/**
+ * What a release at a place would take, after some things that are taken: what the chosen action takes goes first.
+ * @param {Spot | null} spot
+ * @param {string[]} taken
+ * @returns {Aim | null}
+ */
 function aim_at(spot, taken) {
   const aims = hits_at(spot)
     .map(hit => aim_of(hit, taken))
@@ -105,7 +118,12 @@ function aim_at(spot, taken) {
   return aims.find(({ ways, value }) => value || ways[0].action === turn.tool) ?? aims[0] ?? null;
 }
 
-/** What may be taken of one thing that was hit. */
+/**
+ * What may be taken of one thing that was hit.
+ * @param {ReturnType<typeof hits_at>[number]} hit
+ * @param {string[]} taken
+ * @returns {Aim | null}
+ */
 function aim_of({ key, cross, value }, taken) {
   if (cross)
     return !taken.length && turning.palette.cut
@@ -116,7 +134,11 @@ function aim_of({ key, cross, value }, taken) {
   return ways.length ? { key, ways } : null;
 }
 
-/** The results that a whole way has to choose from; empty for a single one. */
+/**
+ * The results that a whole way has to choose from; empty for a single one.
+ * @param {Way} way
+ * @returns {Result[]}
+ */
 function choices_of({ action, inputs }) {
   const found = results_of(action, inputs),
     plane = plane_of(action, inputs);
@@ -125,7 +147,11 @@ function choices_of({ action, inputs }) {
     : [];
 }
 
-/** The aim of a pressed pointer: what it began on, or what it has been dragged to. */
+/**
+ * The aim of a pressed pointer: what it began on, or what it has been dragged to.
+ * @param {Spot | null} spot
+ * @returns {Aim | null}
+ */
 function pressed_aim(spot) {
   const { aim, moved } = press,
     way = whole_way(aim.ways);
@@ -138,7 +164,10 @@ function pressed_aim(spot) {
   return spot && { ...aim, value: values.reduce((a, b) => (far(b) < far(a) ? b : a)) };
 }
 
-/** Show what a release here would take, and what would come of it. */
+/**
+ * Show what a release here would take, and what would come of it.
+ * @param {Aim | null} aim
+ */
 export function show_aim(aim) {
   turn.aim = aim;
   for (const { aims } of sheets[here()].fields) aims.replaceChildren();
@@ -167,7 +196,11 @@ function foot_on({ at, from, to }, place) {
   return plus(from, scaled(along, Math.min(Math.max(share, 0), 1)));
 }
 
-/** Draw dashed what a whole way would give. */
+/**
+ * Draw dashed what a whole way would give.
+ * @param {Way} way
+ * @param {Result} [value]
+ */
 function show_coming({ action, inputs }, value) {
   const plane = plane_of(action, inputs),
     results = value ? [value] : results_of(action, inputs);
@@ -185,7 +218,14 @@ function show_coming({ action, inputs }, value) {
   }
 }
 
-/** How a result is drawn in its field: a line, circle, vector or point. */
+/**
+ * How a result is drawn in its field: a line, circle, vector or point.
+ * @param {string} action
+ * @param {number} plane
+ * @param {Result} value
+ * @param {string[]} inputs
+ * @returns {Shape | null}
+ */
 export function drawn_as(action, plane, value, inputs) {
   const shape = shape_of(action);
   if (plane === NUMBERS_PLANE) return null;
@@ -213,7 +253,11 @@ export function drawn_as(action, plane, value, inputs) {
     : { side: start.side, at: start.at };
 }
 
-/** Write the name of what would be taken or come beside it. */
+/**
+ * Write the name of what would be taken or come beside it.
+ * @param {string} name
+ * @param {Shape | null} drawn
+ */
 function name_aim(name, drawn) {
   if (!drawn || !name) return;
   const middle = drawn.near
@@ -226,7 +270,10 @@ function name_aim(name, drawn) {
   );
 }
 
-/** Take what a release has meant. */
+/**
+ * Take what a release has meant.
+ * @param {Aim} aim
+ */
 function settle_aim(aim) {
   const way = whole_way(aim.ways);
   if (!aim.value) return take_pick(aim.key);
@@ -237,7 +284,10 @@ function settle_aim(aim) {
   check_move(way.action, way.inputs, [aim.value], plane, other);
 }
 
-/** Choose one of two results by pointing at it; returns whether one was meant. */
+/**
+ * Choose one of two results by pointing at it; returns whether one was meant.
+ * @param {Spot} spot
+ */
 function settle_asked({ side, at, near }) {
   const found = turn.asked
     .map(value => placed(turn.asked.plane, value))

@@ -10,7 +10,7 @@ import { size_read } from "./values.js";
 export const places = [...document.querySelectorAll("#steps li")].map((item, i) => {
   const link = document.createElement("a");
   link.href = `#step=${i + 1}`;
-  link.dataset.number = i + 1;
+  link.dataset.number = String(i + 1);
   link.append(...item.childNodes);
   item.append(link);
   return {
@@ -19,6 +19,7 @@ export const places = [...document.querySelectorAll("#steps li")].map((item, i) 
     why: link.querySelector(".why"),
     aside: link.querySelector(".aside"),
     crossings: [...link.querySelectorAll(".crossing")],
+    drawn: /** @type {Node[] | null} */ (null), // the sentence as it was written
   };
 });
 

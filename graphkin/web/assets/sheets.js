@@ -7,6 +7,7 @@ const marksBut = gone => `.lettering:not(:has(${gone})),*:not(g,text,tspan,.cent
 export const SEEN = marksBut(".later,.void,[visibility]"),
   PLACED = marksBut(".void,[visibility]");
 
+/** @type {Sheet[]} */
 export const sheets = [...document.querySelectorAll(".sheet")].map(element => {
   const marks = [...element.querySelectorAll("svg [data-at]")];
   const of = new Map();
@@ -24,7 +25,11 @@ export const sheets = [...document.querySelectorAll(".sheet")].map(element => {
   };
 });
 
-/** A field: its picture, groups below and above the marks, its box, the box of all marks, and its labels. */
+/**
+ * A field: its picture, groups below and above the marks, its box, the box of all marks, and its labels.
+ * @param {PageElement} svg
+ * @returns {Field}
+ */
 function field(svg) {
   const above = [...svg.children].find(mark => !mark.matches(".plate,.disc,.gear-disc")) ?? null; // not beneath filled areas
   const halo = svg.insertBefore(document.createElementNS(SVG, "g"), above);
@@ -51,7 +56,12 @@ function field(svg) {
   };
 }
 
-/** The labels of a picture or part with their boxes; notes are flagged, since they grow right and upwards. */
+/**
+ * The labels of a picture or part with their boxes; notes are flagged, since they grow right and upwards.
+ * @param {ParentNode} part
+ * @param {string} gone a selector of labels that are not shown
+ * @returns {Label[]}
+ */
 export function labels_in(part, gone) {
   return [...part.querySelectorAll(`:is(.lettering>text,.number):not(${gone})`)].map(mark => ({
     mark,
@@ -72,7 +82,12 @@ export function labels_reach(labels, times) {
   return [left, top, right - left, bottom - top];
 }
 
-/** The box of the marks in a picture or a part of it. */
+/**
+ * The box of the marks in a picture or a part of it.
+ * @param {ParentNode} part
+ * @param {string} marks a selector
+ * @returns {Box | null}
+ */
 export function extent(part, marks) {
   const boxes = [...part.querySelectorAll(marks)].map(mark => mark.getBBox());
   const [left, top] = ["x", "y"].map(axis => Math.min(...boxes.map(box => box[axis])));
@@ -86,7 +101,11 @@ export function here() {
   return data.bounds.findIndex(([, end]) => state.step <= end);
 }
 
-/** The circle that shows a point. */
+/**
+ * The circle that shows a point.
+ * @param {Sheet} sheet
+ * @param {string | number} point
+ */
 export function pin(sheet, point) {
   return (sheet.of.get(String(point)) ?? []).find(mark => mark.matches("circle:not(.void)"));
 }

@@ -45,7 +45,7 @@ export function names(list, from) {
     const part = document.createElement(at ? "a" : "span");
     part.innerHTML = name; // markup of a symbol, escaped by its maker
     if (at) {
-      part.href = `#step=${at}`;
+      part.setAttribute("href", `#step=${at}`);
       part.append(` (${at})`);
     }
     list.append(part);

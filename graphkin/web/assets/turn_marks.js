@@ -55,13 +55,17 @@ function light_choice() {
       );
     }
     button.type = "button";
-    button.textContent = i + 1;
+    button.textContent = String(i + 1);
     button.addEventListener("click", () => settle_which(i));
     byId("which").append(button);
   });
 }
 
-/** A line or arc that still holds an unknown point, drawn in full, since its drawn part would reveal it. */
+/**
+ * A line or arc that still holds an unknown point, drawn in full, since its drawn part would reveal it.
+ * @param {string} key
+ * @param {string} look
+ */
 export function whole_line(key, look) {
   const drawn = shown_at(key);
   put_in("front", drawn, look);
@@ -101,7 +105,12 @@ export function whole_line(key, look) {
   mark.setAttribute("y", (start[1] + v).toFixed(2));
 }
 
-/** The obstacles in a field except one label: boxes of letters and points, and lines end to end. */
+/**
+ * The obstacles in a field except one label: boxes of letters and points, and lines end to end.
+ * @param {PageElement} svg
+ * @param {Element | null} label
+ * @returns {Obstacle[]}
+ */
 export function taken_in(svg, label = null) {
   const marks = [
     ...svg.querySelectorAll(
@@ -125,7 +134,12 @@ export function taken_in(svg, label = null) {
     .filter(({ half }) => !half || half[0] < 20);
 }
 
-/** The cost of the objects that a label of half size [a, b] would cover at a place. */
+/**
+ * The cost of the objects that a label of half size [a, b] would cover at a place.
+ * @param {Place} at
+ * @param {Place} half
+ * @param {Obstacle} obstacle
+ */
 export function covers(at, [a, b], { from, to, at: middle, half, letters }) {
   const [u, v] = minus(at, from ? scaled(plus(from, to), 0.5) : middle).map(Math.abs);
   if (!from) return u < a + half[0] && v < b + half[1] ? (letters ? 20 : 4) : 0;
@@ -138,7 +152,11 @@ export function covers(at, [a, b], { from, to, at: middle, half, letters }) {
     : 0;
 }
 
-/** The nearest place that has room for a digit in a field. */
+/**
+ * The nearest place that has room for a digit in a field.
+ * @param {number} side
+ * @param {Place} place
+ */
 export function inside(side, [u, v]) {
   const { x, y, width, height } = sheets[here()].fields[side].svg.viewBox.baseVal;
   return [
@@ -164,7 +182,12 @@ function write_symbol(text, markup) {
   }
 }
 
-/** Draw a stroke in a group of a field. */
+/**
+ * Draw a stroke in a group of a field.
+ * @param {"halo" | "front" | "aims"} group
+ * @param {Shape | null} drawn
+ * @param {string} look
+ */
 export function put_in(group, drawn, look) {
   if (!drawn) return;
   const { side, at, r, from, to, ring, text } = drawn;

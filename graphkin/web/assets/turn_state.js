@@ -20,8 +20,9 @@ import { show_score } from "./your_turn.js";
 import { look, put } from "./zoom.js";
 import * as page_actions from "./page_actions.js";
 
-export const turning = JSON.parse(byId("turning").textContent),
-  { moves, picks } = turning;
+/** @type {TurnRecord} */
+export const turning = JSON.parse(byId("turning").textContent);
+export const { moves, picks } = turning;
 export const ORDER = Object.keys(moves)
   .map(Number)
   .sort((a, b) => moves[a].at - moves[b].at || a - b);
@@ -50,8 +51,10 @@ for (const move of Object.values(moves))
 export const CHOICE = ["cut", "lay_off"]; // actions for which the student chooses between two results
 export const NUMBERS_PLANE = 3; // what is computed lies in no drawing
 
-export let turn = null,
-  left_turn = null; // the current turn with its moves and picks; a turn that was left
+/** @type {Turn | null} */
+export let turn = null;
+/** @type {Turn | null} */
+let left_turn = null; // the current turn with its moves and picks; a turn that was left
 export const all_done = steps => steps.every(step => turn.done.has(step));
 export const is_there = key =>
   all_done(picks[key].needs) && !picks[key].by && here() === (picks[key].sheet ?? here());
@@ -77,9 +80,13 @@ export const kinds_due = () =>
   moves_left()
     .filter(step => part_of(step) === part_of(next_move()))
     .flatMap(step => moves[step].inputs.map(key => picks[key].kind));
-export const typed_numbers = () => [],
-  number_field = () => [],
-  is_letter = () => false; // here nothing is typed but moves
+// Here nothing is typed but moves: no numbers and no letters.
+/** @type {(text: string) => [string, string][]} */
+export const typed_numbers = () => [];
+/** @type {(slot: number) => HTMLInputElement[]} */
+export const number_field = () => [];
+/** @type {(text: string) => boolean} */
+export const is_letter = () => false;
 
 /** A message of the page with names filled in; the names are markup, escaped by their maker. */
 export const worded = (key, fields = null) =>
@@ -188,7 +195,7 @@ export function recall_turn() {
     const { done, lines, open, ...kept } = JSON.parse(localStorage.getItem(MEMORY));
     new_turn(kept.from);
     Object.assign(turn, kept, { done: new Set(done) });
-    lines.forEach(line => add_line(...line));
+    for (const [action, given, which] of lines) add_line(action, given, which);
     left_turn = turn;
     turn = null;
     call_turn();

@@ -113,56 +113,54 @@ function open_pair() {
   return other ? [other, last] : null;
 }
 
-/** The move that a typed line means: an action with its inputs, or several actions that would fit; null for none. */
-function typed_way(line) {
+/**
+ * The moves that a typed line may mean: one that is meant, several that would fit, or none.
+ * @param {string} line
+ * @returns {Way[]}
+ */
+function typed_ways(line) {
   const [action, rest] = split_action(typed_form(line).trim());
   if (action === "cut" && !rest.trim()) {
     const pair = open_pair();
-    return pair && { action, inputs: pair };
+    return pair ? [{ action, inputs: pair }] : [];
   }
-  if (!rest.trim()) return null;
+  if (!rest.trim()) return [];
   const of = (one, in_order) =>
     readings(one, rest, in_order)
       .slice(0, 1)
       .map(inputs => ({ action: one, inputs }));
-  if (action) return of(action, false)[0] ?? null;
+  if (action) return of(action, false);
   const own = in_order => (turn.tool ? of(turn.tool, in_order) : []);
   const all = Object.keys(turning.palette).flatMap(one => of(one, true)),
     least = Math.min(...all.map(({ inputs }) => inputs.length));
   const others = all.filter(({ inputs }) => inputs.length === least),
     alone = others.length === 1 ? others : []; // long names before many
   const [way] = [...own(true), ...alone, ...own(false)]; // what is written in the order of its words goes first
-  return way ?? (others.length ? { several: others } : null);
+  return way ? [way] : others;
 }
 
 /** Show on the drawing and in words what a typed line would draw. */
 export function show_typed() {
-  const way = typed_way(byId("turn-typed").value),
-    [first] = way?.several ?? [way];
-  show_aim(first ? { ways: [first] } : null);
-  byId("turn-would").innerHTML = first
-    ? (way.several ?? [way])
-        .map(each => `${action_name(each.action)}: ${names_of(each.inputs)}`)
-        .join(" · ")
-    : "";
+  const ways = typed_ways(byId("turn-typed").value);
+  show_aim(ways.length ? { ways: ways.slice(0, 1) } : null);
+  const told = ways.map(each => `${action_name(each.action)}: ${names_of(each.inputs)}`);
+  byId("turn-would").innerHTML = told.join(" · ");
 }
 
 /** Make the move that is typed; the action stays chosen for lines typed without one. */
 export function draw_typed() {
   const { value } = byId("turn-typed"),
-    way = typed_way(value);
+    ways = typed_ways(value),
+    [way] = ways;
   if (!value.trim() || is_letter(value)) return;
   if (!way) {
     byId("turn-typed").select();
     return tell_turn(worded("unread", { text: escaped(value) }));
   }
-  if (way.several)
-    return tell_turn(
-      worded("either", {
-        list: names_of(way.several[0].inputs),
-        actions: way.several.map(each => action_name(each.action)).join(" · "),
-      }),
-    );
+  if (ways.length > 1) {
+    const actions = ways.map(each => action_name(each.action)).join(" · ");
+    return tell_turn(worded("either", { list: names_of(way.inputs), actions }));
+  }
   if (split_action(typed_form(value).trim())[0] && STICKS.includes(way.action))
     turn.tool = way.action;
   forget_typed();

@@ -10,19 +10,33 @@ const NOTCH = 1.25,
   WHEEL = 320; // zoom per key, dots per line, dots of the wheel for a factor of two
 export const SLACK = 4; // dots by which a pointer may slip in a click
 
-/** The place on a field's paper, in mm, at a place of the window. */
+/**
+ * The place on a field's paper, in mm, at a place of the window.
+ * @param {{ svg: PageElement }} field
+ * @param {number} across
+ * @param {number} down
+ * @returns {Place}
+ */
 export function paper_at({ svg }, across, down) {
   const { x, y } = new DOMPoint(across, down).matrixTransform(svg.getScreenCTM().inverse());
   return [x, y];
 }
 
-/** The box that a view shows of a field in a picture of a given size. */
+/**
+ * The box that a view shows of a field in a picture of a given size.
+ * @param {{ middle: Place, scale: number }} view
+ * @param {number[]} size
+ * @returns {Box}
+ */
 export function viewed({ middle, scale }, [across, high]) {
   const [width, height] = [across / scale, high / scale];
   return [middle[0] - width / 2, middle[1] - height / 2, width, height];
 }
 
-/** The current view. */
+/**
+ * The current view.
+ * @param {Field} one
+ */
 function view_of(one) {
   const size = [one.svg.clientWidth, one.svg.clientHeight],
     [x, y, width, height] = one.box,
@@ -32,7 +46,12 @@ function view_of(one) {
   return { middle: [x + width / 2, y + height / 2], scale };
 }
 
-/** Zoom by a factor about a fixed place of the paper. */
+/**
+ * Zoom by a factor about a fixed place of the paper.
+ * @param {Field} one
+ * @param {number} times
+ * @param {Place} place
+ */
 function closer_by(one, times, [u, v]) {
   const { middle, scale } = view_of(one);
   const next = Math.min(Math.max(scale * times, one.least_scale), one.most_scale),
@@ -40,7 +59,11 @@ function closer_by(one, times, [u, v]) {
   see(one, { scale: next, middle: [u + (middle[0] - u) * part, v + (middle[1] - v) * part] });
 }
 
-/** Set the view of a field; null restores the page's own view. */
+/**
+ * Set the view of a field; null restores the page's own view.
+ * @param {Field} one
+ * @param {Field["view"]} view
+ */
 export function see(one, view) {
   one.view = view;
   one.svg.classList.toggle("held", view !== null);

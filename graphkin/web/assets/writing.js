@@ -35,12 +35,12 @@ export function write() {
   let start = 0;
   strokes_left = lines.map((mark, i) => {
     const path = mark.matches(".compass") ? whole_arc(mark) : { line: bare(mark) };
-    const one = { mark, ...path, start, end: (start += times[i] * quicker) };
+    const group = mark.ownerSVGElement.appendChild(document.createElementNS(SVG, "g"));
+    const one = { radius: null, ...path, mark, group, start, end: (start += times[i] * quicker) };
     one.line.setAttribute("pathLength", 1);
-    one.group = mark.ownerSVGElement.appendChild(document.createElementNS(SVG, "g"));
-    one.group.setAttribute("class", "pen");
-    if (one.radius) one.group.append(one.radius);
-    one.group.append(one.line, shape("path", "nib", "M0,0L1,-3.4L9,-11.4L11.4,-9L3.4,-1Z"));
+    group.setAttribute("class", "pen");
+    if (one.radius) group.append(one.radius);
+    group.append(one.line, shape("path", "nib", "M0,0L1,-3.4L9,-11.4L11.4,-9L3.4,-1Z"));
     return one;
   });
   for (const mark of fresh) mark.classList.add("unwritten");

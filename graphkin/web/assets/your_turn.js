@@ -93,10 +93,7 @@ export function listen_to_turn() {
     turn.sheet = (here() + 1) % sheets.length;
     show_turn();
   });
-  for (const [name, act] of [
-    ["turn-form", draw_move],
-    ["turn-type", draw_typed],
-  ]) {
+  for (const [name, act] of Object.entries({ "turn-form": draw_move, "turn-type": draw_typed })) {
     byId(name).addEventListener("submit", event => {
       event.preventDefault();
       act();

@@ -68,7 +68,11 @@ export function look(glides = false) {
   bars(sheet, sizes, boxes);
 }
 
-/** Mark where lines continue beyond the visible part of a field, once nothing moves. */
+/**
+ * Mark where lines continue beyond the visible part of a field, once nothing moves.
+ * @param {Field} field
+ * @param {Box} box
+ */
 function mark_beyond({ svg, front, view }, [x, y, width, height]) {
   for (const mark of front.querySelectorAll(".beyond")) mark.remove();
   if (!moved() || state.going || view) return;
@@ -135,11 +139,11 @@ export function whole() {
   const paper = sheets.map(({ fields }, sheet) =>
     fields.map((one, side) => {
       const box = roomy(one, one.whole.slice(2), sheet, side);
-      return [one, box, kept(one, one.whole.slice(2), box, side)];
+      return { one, box, times: kept(one, one.whole.slice(2), box, side) };
     }),
   );
-  keep_size(paper.map(fields => fields.map(([, , times]) => times)));
-  for (const [one, box, times] of paper.flat()) {
+  keep_size(paper.map(fields => fields.map(({ times }) => times)));
+  for (const { one, box, times } of paper.flat()) {
     one.edges = null;
     frame(one, box, times, times);
   }
@@ -147,12 +151,18 @@ export function whole() {
     bars(
       sheet,
       sheet.fields.map(({ whole }) => whole.slice(2)),
-      paper[i].map(([, box]) => box),
+      paper[i].map(({ box }) => box),
     ),
   );
 }
 
-/** Show a box of a field, with the magnifications of fixed-size parts and of lettering. */
+/**
+ * Show a box of a field, with the magnifications of fixed-size parts and of lettering.
+ * @param {Field} one
+ * @param {Box} box
+ * @param {number} times
+ * @param {number} lettering
+ */
 function frame(one, box, times, lettering, glides = false) {
   one.lettering = Math.max(lettering, 1);
   one.svg.classList.toggle("larger", lettering > 1.02);
@@ -183,7 +193,13 @@ function glide(one, from, to, since) {
   });
 }
 
-/** The reduction of a field in a box, as far as lettering keeps its size. */
+/**
+ * The reduction of a field in a box, as far as lettering keeps its size.
+ * @param {Field} field
+ * @param {number[]} picture
+ * @param {Box} box
+ * @param {number} side
+ */
 function kept({ whole, drawn }, picture, box, side) {
   const smaller = dots(picture, closer(picture, whole, drawn)) / dots(picture, box);
   return Math.min(KEPT[side], Math.max(1, Math.round(10 * smaller) / 10));
@@ -208,19 +224,34 @@ export function zoom() {
   look();
 }
 
-/** Dots of the screen per millimetre of a box in a picture of a given size. */
+/**
+ * Dots of the screen per millimetre of a box in a picture of a given size.
+ * @param {number[]} size
+ * @param {Box} box
+ */
 export function dots([across, high], [, , width, height]) {
   return Math.min(across / width, high / height) || READABLE;
 }
 
-/** The part of a field that a picture shows when it must show a box. */
+/**
+ * The part of a field that a picture shows when it must show a box.
+ * @param {Box} box
+ * @param {number[]} picture
+ * @returns {Box}
+ */
 function in_sight(box, picture) {
   const [x, y, width, height] = box,
     size = picture.map(each => each / dots(picture, box));
   return [x - (size[0] - width) / 2, y - (size[1] - height) / 2, ...size];
 }
 
-/** The frame of all that is drawn in a field; for a moving field, the frame of the whole motion. */
+/**
+ * The frame of all that is drawn in a field; for a moving field, the frame of the whole motion.
+ * @param {Field} one
+ * @param {number[]} picture
+ * @param {number} sheet
+ * @param {number} side
+ */
 function roomy(one, picture, sheet, side) {
   const { whole, drawn } = one,
     base = closer(picture, whole, drawn);
@@ -261,7 +292,13 @@ function all_the_way(sheet, side) {
   return one.motion;
 }
 
-/** A box moved, and enlarged if necessary, to hold another box with some air around it. */
+/**
+ * A box moved, and enlarged if necessary, to hold another box with some air around it.
+ * @param {Box} found
+ * @param {Box} base
+ * @param {number} [air]
+ * @returns {Box}
+ */
 function about(found, base, air = AIR) {
   const [starts, sizes] = [[], []];
   for (const axis of [0, 1]) {
@@ -274,7 +311,13 @@ function about(found, base, air = AIR) {
   return [...starts, ...sizes];
 }
 
-/** The part of a field around a box, in the shape of its picture and within the field; all of it without a box or a picture. */
+/**
+ * The part of a field around a box, in the shape of its picture and within the field; all of it without a box or a picture.
+ * @param {number[]} size
+ * @param {Box} whole
+ * @param {Box | null} found
+ * @returns {Box}
+ */
 function closer([across, high], whole, found) {
   if (!found || !across || !high) return whole;
   const shape = across / high;
