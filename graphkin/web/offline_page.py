@@ -69,9 +69,9 @@ def named(text: str) -> str:
 
 
 def data_block(name: str, value: Any) -> str:
-    """Data that a script reads by its id; no character of it can end the block."""
+    """Data that a script reads by its id; no text in it can end the block or begin a comment."""
     text = json.dumps(value, ensure_ascii=False, allow_nan=False, separators=(",", ":"))
-    text = text.replace("<", "\\u003c").replace("&", "\\u0026")
+    text = text.replace("</", "<\\/").replace("<!", "\\u003c!")
     return f'<script type="application/json" id="{escape(name)}">{text}</script>'
 
 
@@ -86,9 +86,10 @@ def part(name: str) -> str:
 
 BUNDLES = WEB / "bundles"
 """The bundles, which ``python -m tests.scripts`` makes from the modules beside them."""
-STEP_PAGE, BOARD_PAGE, PLAYER, FORM, MOVING = "step", "board", "player", "form", "moving"
-"""The programs: a step page; the board of a task page; the page of a cycle; the form for answers;
-and what places the marks that follow a driver."""
+STEP_PAGE, BOARD_PAGE, PLAYER, FORM = "step", "board", "player", "form"
+"""The programs: a step page; the board of a task page; the page of a cycle; the form for answers."""
+MOVING, MOVING_CLOSED = "moving", "moving_closed"
+"""What places the marks that follow a driver; the second closes groups of class III anew."""
 
 
 @lru_cache(maxsize=8)

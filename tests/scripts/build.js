@@ -13,6 +13,7 @@ const PROGRAMS = {
   player: { entry: "player.js" },
   form: { entry: "form.js" },
   moving: { entry: "moving.js", gives: "moving", as: "graphkinMoving" },
+  moving_closed: { entry: "moving_closed.js", gives: "moving_closed", as: "graphkinMoving" },
 };
 
 /** A module in one file as a script: its names are hidden, but for the one that it gives. */

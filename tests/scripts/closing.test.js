@@ -3,9 +3,10 @@ import assert from "node:assert/strict";
 import { test } from "node:test";
 
 import { construction_of } from "../../graphkin/web/assets/closing.js";
+import { closing_of } from "../../graphkin/web/assets/solving.js";
 
 /** A construction whose result is its tried number u with u² = c·x for the driver x and a figure c. */
-function root(more = {}) {
+function root() {
   const course = { at: [1, 4, 9], states: [[1], [2], [3]], places: [1], sizes: [1], turn: null };
   const figures = [{ place: 2, start: 1 }];
   const data = { size: 1, inputs: 3, figures, closed: [0], turned: [], reach: 1, start: 1, course };
@@ -16,7 +17,7 @@ function root(more = {}) {
   const run = (x, y) => {
     y[0] = x[1];
   };
-  return construction_of({ ...data, ...more }, run, [miss]);
+  return construction_of(data, run, closing_of(data, [miss]));
 }
 
 test("one tried number closes by the secant method on its own branch", () => {
@@ -75,7 +76,7 @@ test("several tried numbers close together by Newton's method", () => {
   const run = (x, y) => {
     y.set(x.slice(1));
   };
-  const { reckon, y } = construction_of(data, run, [miss]);
+  const { reckon, y } = construction_of(data, run, closing_of(data, [miss]));
   assert.equal(reckon(4), true);
   assert.ok(Math.abs(y[0] - 2) < 1e-9 && Math.abs(y[1] - 2) < 1e-9);
 });
@@ -86,7 +87,7 @@ test("the turn count of a link follows the driver", () => {
   const run = (x, y) => {
     y[0] = x[1];
   };
-  const { reckon, y } = construction_of(data, run, []);
+  const { reckon, y } = construction_of(data, run, () => true);
   reckon(4);
   assert.equal(y[0], 10);
   reckon(6);

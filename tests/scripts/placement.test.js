@@ -51,7 +51,7 @@ function two_points() {
   const run = (x, y) => {
     y.set([20, 50, 60 - x[0], 50, 1, 0]);
   };
-  return moving(data, run, []);
+  return moving(data, run);
 }
 
 /** The attributes that a position gives to each mark. */

@@ -1,4 +1,5 @@
 // The marks of the board: lines, arcs, points with letters, bars and vectors, all that the student has drawn.
+import { html_element } from "./elements.js";
 import { letters_for, make_move, point_to_name } from "./board_moves.js";
 import { byId } from "./board_page.js";
 import { length_of, minus, picks, plus, scaled, turn } from "./board_state.js";
@@ -86,7 +87,7 @@ function show_letters() {
   const key = point_to_name();
   byId("letters").replaceChildren(
     ...(key ? letters_for(key) : []).map(([letter, { name }]) => {
-      const button = document.createElement("button");
+      const button = html_element("button");
       button.type = "button";
       button.innerHTML = name;
       button.addEventListener("click", () => make_move("name", [key, letter]));

@@ -1,4 +1,5 @@
 // Moves on the board: whatever can be drawn is drawn, and nothing says whether it is right.
+import { html_element } from "./elements.js";
 import { show_turn } from "./board_marks.js";
 import { data } from "./board_page.js";
 import {
@@ -166,7 +167,7 @@ export function typed_numbers(text) {
 export function number_field(i) {
   const kinds = slots_of(turn.action)[i],
     kind = kinds.find(one => UNITS[one]),
-    field = document.createElement("input");
+    field = html_element("input");
   if (!kind) return [];
   field.inputMode = "decimal";
   field.autocomplete = "off";

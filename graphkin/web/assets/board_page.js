@@ -1,4 +1,5 @@
 // The elements and the state of a task page with its board: one sheet at a time, and nothing moves.
+import { html_element } from "./elements.js";
 import { write_numbers_with } from "./numbers.js";
 
 export const page = document.documentElement;
@@ -6,7 +7,7 @@ export const byId = id => document.getElementById(id);
 export const data = JSON.parse(byId("board").textContent);
 write_numbers_with(data.mark);
 export const motion = null,
-  follow = document.createElement("button");
+  follow = html_element("button");
 export const SMALL = matchMedia("(max-width:40rem),(max-height:34rem)"); // as in page.css
 export const STILL = matchMedia("(prefers-reduced-motion:reduce)");
 export const state = { step: 0, going: false };

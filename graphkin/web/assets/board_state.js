@@ -1,8 +1,7 @@
 // The state of a drawing on the board: what the task gives, the moves made, and what follows from their letters.
-import { TYPED } from "./board_actions.js";
 import { byId, data } from "./board_page.js";
 import { named_from, palette_of } from "./palette.js";
-import * as board_actions from "./board_actions.js";
+import { ACTIONS, drawn_by, TYPED } from "./board_actions.js";
 
 /** @type {TurnRecord} */
 export const turning = { ...data, moves: {}, places: {}, shares: [], seconds: 1 };
@@ -25,7 +24,7 @@ export const {
   results_of,
   same_value,
   shape_of,
-} = palette_of(turning, () => true, board_actions);
+} = palette_of(turning, () => true, { ACTIONS, drawn_by });
 
 /** @type {Turn} */
 export const turn = {

@@ -1,4 +1,5 @@
 // The velocity plan next to the acceleration plan, where a step takes a segment from it.
+import { html_element } from "./elements.js";
 import { between } from "./halos.js";
 import { data, motion, moved, state } from "./page.js";
 import { here, pin, sheets } from "./sheets.js";
@@ -9,8 +10,8 @@ const aside = sheets.length > 1 ? small_plan() : null;
 
 /** An empty picture in the field of the second plan, named after the first sheet. */
 function small_plan() {
-  const box = document.createElement("figure"),
-    name = document.createElement("figcaption");
+  const box = html_element("figure"),
+    name = html_element("figcaption");
   box.className = "carried";
   box.hidden = true;
   name.textContent = sheets[0].element.querySelector("h2").textContent;

@@ -1,4 +1,5 @@
 // What a student draws is checked by its value; a right move is made, a wrong one answered.
+import { html_element } from "./elements.js";
 import { refuse_move, refuse_other, why_wrong } from "./answers.js";
 import { keys_within } from "./choosing.js";
 import { keep_past } from "./history.js";
@@ -138,7 +139,7 @@ export function make_move(step, how, words, way = moves[step]) {
 /** Say what a move has found, its sentence, and the reason of the way taken. */
 function explain_move(step, way, unknown) {
   const { at, action } = moves[step],
-    sentence = document.createElement("p"),
+    sentence = html_element("p"),
     whole = !moves_left().some(one => moves[one].at === at);
   if (whole && way.action === action) sentence.append(...copies(places[at - 1].say));
   byId("turn-sentence").replaceChildren(
@@ -152,7 +153,7 @@ function explain_move(step, way, unknown) {
 function reasons_of_way(step, { action, given }) {
   if (action === moves[step].action) return reasons_of(step);
   const key = `way_${action}`,
-    line = document.createElement("p");
+    line = html_element("p");
   if (!(key in turning.words)) return [];
   line.innerHTML = worded(key, {
     name: moves[step].name,

@@ -1,4 +1,5 @@
 // The driver, and all that follows it.
+import { html_element } from "./elements.js";
 import { remember } from "./address.js";
 import { changed_figures, knob, plain, tell_figures } from "./figures.js";
 import { follow_pins } from "./grab.js";
@@ -16,7 +17,7 @@ const DEAD = Math.sin(Math.PI / 180),
 export const driver = motion && byId("driver");
 const notes = motion
   ? [...document.querySelectorAll(".sheet h2, #given-name")].map(name => {
-      const one = document.createElement("small");
+      const one = html_element("small");
       one.className = "moved-note";
       name.after(one);
       return one;

@@ -1,4 +1,5 @@
 // The figures: numbers of the data that can be dragged or changed by keys, with all that depends on them.
+import { html_element } from "./elements.js";
 import { move, place_of } from "./driver.js";
 import { nudge } from "./grab.js";
 import { written } from "./numbers.js";
@@ -71,7 +72,7 @@ export function reset_figures() {
 /** A draggable number, to be put next to its name. */
 function dragged_number(k) {
   const one = knob(k),
-    number = document.createElement("span");
+    number = html_element("span");
   const words = {
     class: "figure",
     role: "slider",
@@ -130,7 +131,7 @@ export function make_figures() {
     for (const element of said_of([...own.parentElement.children].indexOf(own)))
       write_figure(element, byId("read").dataset.name, -1);
   motion.figures.forEach(({ name, datum }, k) => {
-    byId("figures").append(write_figure(document.createElement("span"), name, k));
+    byId("figures").append(write_figure(html_element("span"), name, k));
     for (const element of said_of(datum)) write_figure(element, name, k);
   });
   derived = motion.derived.flatMap(([datum, name, place, unit]) =>

@@ -1,7 +1,8 @@
 // Moving the mechanism by hand: a pin is dragged, or moved by keys, along its path.
+import { svg_element } from "./elements.js";
 import { changed_figures, knob } from "./figures.js";
 import { byId, motion, page } from "./page.js";
-import { here, sheets, SVG } from "./sheets.js";
+import { here, sheets } from "./sheets.js";
 import { rest_from_travel } from "./travel.js";
 import { next_frame, paper_at, SLACK, while_down } from "./view.js";
 
@@ -17,7 +18,7 @@ export const grips = motion ? motion.grips.map(grips_of) : [];
 /** The moving pins of a sheet, each with a handle. */
 function grips_of(pins, sheet) {
   const [{ svg }] = sheets[sheet].fields,
-    group = svg.appendChild(document.createElementNS(SVG, "g")),
+    group = svg.appendChild(svg_element("g")),
     found = [];
   group.setAttribute("class", "grips");
   for (const [id, name, driven, k] of [...pins].sort((p, q) => q[2] - p[2])) {
@@ -50,7 +51,7 @@ function way_of(id, { low, high, at }) {
 
 /** Give a pin its handle. */
 function grip(svg, group, one) {
-  const handle = group.appendChild(document.createElementNS(SVG, "circle"));
+  const handle = group.appendChild(svg_element("circle"));
   const { low, high } = one.by,
     words = byId("move").dataset;
   const told = {

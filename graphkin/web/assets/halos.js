@@ -1,9 +1,10 @@
 // Marker-pen strokes beneath the marks of some steps and their sources, and above them the heads of
 // all drawn vectors, large enough to show where the vectors point.
+import { svg_element } from "./elements.js";
 import { carry } from "./carried.js";
 import { rates_in, similar_in, turning_in } from "./highlights.js";
 import { data, page, state } from "./page.js";
-import { here, pin, sheets, SVG } from "./sheets.js";
+import { here, pin, sheets } from "./sheets.js";
 import { looked_at, sources } from "./tracing.js";
 
 const TINTS = 4; // number of colours that separate the points of one sentence
@@ -65,7 +66,7 @@ function side(sheet, svg, points) {
 
 /** A stroke from one pin to another. */
 export function between(p, q) {
-  const line = document.createElementNS(SVG, "line");
+  const line = svg_element("line");
   line.setAttribute("class", "side");
   for (const [end, mark] of [
     ["1", p],
@@ -89,7 +90,7 @@ function squares(sheet, svg, points) {
   const [u, v] = [(tip[0] - tail[0]) / size, (tip[1] - tail[1]) / size];
   const place = (along, across) => `${x + along * u - across * v},${y + along * v + across * u}`;
   const drawn = (name, points, look) => {
-    const line = document.createElementNS(SVG, name);
+    const line = svg_element(name);
     line.setAttribute("points", points.join(" "));
     line.setAttribute("class", look);
     return line;
@@ -113,7 +114,7 @@ function head(mark) {
   const { x, y } = mark.points[0],
     [u, v] = [x - (x1 + x2) / 2, y - (y1 + y2) / 2];
   const most = (SHARE * Math.hypot(x2 - x1, y2 - y1)) / TIP,
-    copy = document.createElementNS(SVG, "polygon");
+    copy = svg_element("polygon");
   copy.setAttribute("class", `arrowhead ${mark.classList[1]}`);
   copy.setAttribute("points", `0,0 ${-TIP},${-TIP / 3} ${-TIP},${TIP / 3}`);
   copy.style.transform = `translate(${x}px,${y}px) rotate(${Math.atan2(v, u)}rad) scale(min(max(var(--dot),var(--least)),${most}))`;

@@ -1,7 +1,8 @@
 // Highlights next to the strokes of a step: links whose rates are read off, and similar triangles.
+import { svg_element } from "./elements.js";
 import { between, stroke, UNMARKED } from "./halos.js";
 import { byId, data, motion, moved, state } from "./page.js";
-import { pin, SVG } from "./sheets.js";
+import { pin } from "./sheets.js";
 import { looked_at } from "./tracing.js";
 
 const ROUND = 6.5,
@@ -59,7 +60,7 @@ export function turning_in(svg) {
 
 /** A path with a class. */
 export function shape(name, look, way) {
-  const element = document.createElementNS(SVG, name);
+  const element = svg_element(name);
   element.setAttribute("class", look);
   element.setAttribute("d", way);
   return element;

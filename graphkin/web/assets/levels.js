@@ -1,4 +1,5 @@
 // Levels of a turn: goals with the fewest moves known, and stars for reaching them, for few moves and for exactness.
+import { html_element } from "./elements.js";
 import { byId } from "./page.js";
 import { all_done, moves, ORDER, picks, turn, turning, worded } from "./turn_state.js";
 
@@ -58,9 +59,9 @@ export function show_levels() {
     before = turn.reached ?? [];
   byId("levels").replaceChildren(
     ...levels.map(level => {
-      const item = document.createElement("li"),
-        stars = document.createElement("span"),
-        said = document.createElement("span");
+      const item = html_element("li"),
+        stars = html_element("span"),
+        said = html_element("span");
       item.innerHTML = `${level.name} `;
       stars.textContent = "★".repeat(level.stars) + "☆".repeat(3 - level.stars);
       stars.setAttribute("aria-hidden", "true");

@@ -6,16 +6,32 @@ const OVER = 0.5; // mm by which two labels may overlap
 const ASIDE = 7,
   NEARER = 0.7; // without its leader a letter lies nearer
 
-/** The mechanism of a page that moves: `run` and `closings` are printed from the trace. */
-export function moving(data, run, closings) {
-  const { x, y, figures, figure, reckon, asDrawn } = construction_of(data, run, closings);
+/** Give each mark its whole id; a number goes on with the prefix of the mark before. */
+function name_marks(marks) {
+  let prefix = "";
+  for (const mark of marks) {
+    if (typeof mark[0] === "number") mark[0] = prefix + mark[0];
+    else prefix = mark[0].replace(/\d*$/, "");
+  }
+}
+
+/**
+ * The mechanism of a page that moves.
+ * @param {any} data
+ * @param {(x: Float64Array, y: Float64Array) => void} run printed from the trace
+ * @param {(x: Float64Array, led: boolean) => boolean} [close] what must be closed before
+ */
+export function moving(data, run, close = () => true) {
+  name_marks(data.marks);
+  const { x, y, figures, figure, reckon, asDrawn } = construction_of(data, run, close);
   const { shapes, middles, corners, laid, grow, grown, growth } = mark_shapes(data, { y, asDrawn });
 
   const extent = (at, sheet, side, times = 1) => {
     if (!reckon(at)) return null;
     const { room, still, seen } = data.fields[sheet][side];
     const box = still ? [...still] : [Infinity, Infinity, -Infinity, -Infinity];
-    for (const [i, across, down] of seen) {
+    for (const one of seen) {
+      const [i, across = 0, down = 0] = [one].flat();
       const [kind, shown, ...rest] = grown(i, times),
         size = kind === "t" || kind === "b" ? times : 1;
       if (shown >= 0 && !(y[shown] > 0)) continue;

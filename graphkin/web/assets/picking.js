@@ -1,4 +1,5 @@
 // What a student has taken for a move, on the drawing, in lists or by typing, and the action it fits.
+import { html_element } from "./elements.js";
 import { byId } from "#page";
 import {
   action_name,
@@ -156,8 +157,8 @@ export function show_inputs() {
 
 /** The list of what an input of the action may be. */
 function input_list(i) {
-  const label = document.createElement("label"),
-    list = document.createElement("select");
+  const label = html_element("label"),
+    list = html_element("select");
   const keys = Object.keys(picks).filter(key => fits(turn.action, key, i));
   list.append(
     ...["", ...keys].map(key => new Option(key ? plain_words(picks[key].name) : "…", key)),
@@ -200,7 +201,7 @@ function show_chips() {
   const held = document.activeElement?.dataset.pick; // the focus stays where it is
   byId("chips").replaceChildren(
     ...keys.map(key => {
-      const chip = document.createElement("button");
+      const chip = html_element("button");
       chip.type = "button";
       chip.dataset.pick = key;
       chip.innerHTML = picks[key].name;
@@ -214,7 +215,7 @@ function show_chips() {
 
 /** Markup as plain text. */
 export function plain_words(markup) {
-  const words = document.createElement("span");
+  const words = html_element("span");
   words.innerHTML = markup;
   return words.textContent;
 }

@@ -1,4 +1,5 @@
 // The sentences: each is a link in the list, and the current one is shown above the keys.
+import { html_element } from "./elements.js";
 import { point_at } from "./aiming.js";
 import { tint } from "./halos.js";
 import { rates_read } from "./highlights.js";
@@ -8,7 +9,7 @@ import { sheets } from "./sheets.js";
 import { size_read } from "./values.js";
 
 export const places = [...document.querySelectorAll("#steps li")].map((item, i) => {
-  const link = document.createElement("a");
+  const link = html_element("a");
   link.href = `#step=${i + 1}`;
   link.dataset.number = String(i + 1);
   link.append(...item.childNodes);
@@ -44,7 +45,7 @@ export function say() {
 }
 
 export const stops = [...byId("stops").children],
-  stop_list = byId("stops").appendChild(document.createElement("select")); // buttons, or a list where there is no room for them
+  stop_list = byId("stops").appendChild(html_element("select")); // buttons, or a list where there is no room for them
 stop_list.append(
   ...stops.map(({ lastChild, dataset }) => new Option(lastChild.textContent.trim(), dataset.stop)),
 );
@@ -107,7 +108,7 @@ function tell_rates_of(step) {
     ...(moved()
       ? read.flatMap(({ row, told: name }, i) => {
           const { cells } = document.querySelector(`#results [data-row="${CSS.escape(row)}"]`),
-            start = document.createElement("span");
+            start = html_element("span");
           start.innerHTML = `${i ? "; " : ""}${name} = `; // markup of symbols, escaped by its maker
           return [start, ...(state.dead ? ["?"] : size_read([...cells]))];
         })
@@ -120,7 +121,7 @@ function lines(why) {
   return [...(why?.children ?? [])].map(reason => {
     const step = reason.dataset.for,
       drawn = sheets.some(({ of }) => of.has(step));
-    const line = document.createElement(drawn ? "button" : "p");
+    const line = html_element(drawn ? "button" : "p");
     line.append(...copies(reason));
     line.className = drawn ? `line ${tint(step)}` : "line";
     if (drawn) line.dataset.for = step;

@@ -1,8 +1,8 @@
 // The sheets with their marks and fields, and the extent of marks.
+import { svg_element } from "./elements.js";
 import { data, state } from "#page";
 
 export const INK = 0.7; // part of the line height that letters fill
-export const SVG = "http://www.w3.org/2000/svg";
 const marksBut = gone => `.lettering:not(:has(${gone})),*:not(g,text,tspan,.centre-line,${gone})`; // a group holds its shift
 export const SEEN = marksBut(".later,.void,[visibility]"),
   PLACED = marksBut(".void,[visibility]");
@@ -32,9 +32,9 @@ export const sheets = [...document.querySelectorAll(".sheet")].map(element => {
  */
 function field(svg) {
   const above = [...svg.children].find(mark => !mark.matches(".plate,.disc,.gear-disc")) ?? null; // not beneath filled areas
-  const halo = svg.insertBefore(document.createElementNS(SVG, "g"), above);
-  const front = svg.appendChild(document.createElementNS(SVG, "g"));
-  const aims = svg.appendChild(document.createElementNS(SVG, "g")); // what a pointer or a typed line would take
+  const halo = svg.insertBefore(svg_element("g"), above);
+  const front = svg.appendChild(svg_element("g"));
+  const aims = svg.appendChild(svg_element("g")); // what a pointer or a typed line would take
   for (const group of [halo, front]) group.setAttribute("class", "halo");
   aims.setAttribute("class", "aims");
   const { x, y, width, height } = svg.viewBox.baseVal;

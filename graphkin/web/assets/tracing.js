@@ -1,4 +1,5 @@
 // The sources of a step: marked in the drawing, and named.
+import { html_element } from "./elements.js";
 import { halos } from "./halos.js";
 import { read_from } from "./highlights.js";
 import { byId, data, own, state } from "./page.js";
@@ -42,7 +43,7 @@ export function names(list, from) {
   list.replaceChildren();
   for (const [name, at] of [...told].sort((a, b) => a[1] - b[1])) {
     if (list.childNodes.length) list.append(", ");
-    const part = document.createElement(at ? "a" : "span");
+    const part = html_element(at ? "a" : "span");
     part.innerHTML = name; // markup of a symbol, escaped by its maker
     if (at) {
       part.setAttribute("href", `#step=${at}`);

@@ -1,4 +1,5 @@
 // The marks of a turn: inputs, hints, results to choose from, open lines with their names.
+import { html_element, svg_element } from "./elements.js";
 import { byId } from "#page";
 import {
   cross,
@@ -14,7 +15,7 @@ import {
 } from "#turn";
 import { settle_which } from "./choosing.js";
 import { placed, shown_at } from "./pick_shapes.js";
-import { here, INK, sheets, SVG } from "./sheets.js";
+import { here, INK, sheets } from "./sheets.js";
 
 /** Mark the picks, the inputs of a hint and the choice between results; draw own lines. */
 export function light_up() {
@@ -40,7 +41,7 @@ export function light_up() {
 function light_choice() {
   turn.asked.forEach((value, i) => {
     const found = placed(turn.asked.plane, value),
-      button = document.createElement("button");
+      button = html_element("button");
     const start =
       found && turn.action === "lay_off"
         ? placed(turn.asked.plane, value_of(turn.inputs[0]))
@@ -167,11 +168,11 @@ export function inside(side, [u, v]) {
 
 /** Write a symbol into a text of a drawing, with lowered, smaller indices. */
 function write_symbol(text, markup) {
-  const words = document.createElement("span");
+  const words = html_element("span");
   words.innerHTML = markup; // escaped by its maker
   let lowered = 0; // parts of the letter height
   for (const node of words.childNodes) {
-    const part = document.createElementNS(SVG, "tspan"),
+    const part = svg_element("tspan"),
       look = node.nodeName.toLowerCase();
     const shift = { sub: 0.26, sup: -0.37 }[look] ?? 0;
     part.setAttribute("dy", `${(shift - lowered) / (shift ? 0.7 : 1)}em`);
@@ -191,7 +192,7 @@ function write_symbol(text, markup) {
 export function put_in(group, drawn, look) {
   if (!drawn) return;
   const { side, at, r, from, to, ring, text } = drawn;
-  const mark = document.createElementNS(SVG, text ? "text" : at ? "circle" : "line");
+  const mark = svg_element(text ? "text" : at ? "circle" : "line");
   const ends = text
     ? { x: at[0], y: at[1] }
     : at

@@ -1,4 +1,5 @@
 // The state of a student's turn: what is done, what is left, and how it is shown.
+import { html_element } from "./elements.js";
 import { carry } from "./carried.js";
 import { add_line } from "./checking.js";
 import { drive } from "./driver.js";
@@ -18,7 +19,7 @@ import { light_up } from "./turn_marks.js";
 import { asked, found } from "./values.js";
 import { show_score } from "./your_turn.js";
 import { look, put } from "./zoom.js";
-import * as page_actions from "./page_actions.js";
+import { ACTIONS, drawn_by } from "./page_actions.js";
 
 /** @type {TurnRecord} */
 export const turning = JSON.parse(byId("turning").textContent);
@@ -27,7 +28,7 @@ export const ORDER = Object.keys(moves)
   .map(Number)
   .sort((a, b) => moves[a].at - moves[b].at || a - b);
 
-const palette = palette_of(turning, steps => all_done(steps), page_actions);
+const palette = palette_of(turning, steps => all_done(steps), { ACTIONS, drawn_by });
 export const {
   plus,
   minus,
@@ -300,7 +301,7 @@ export function told_found(rows) {
   return rows
     .filter(row => !row.matches(".unknown"))
     .map(row => {
-      const line = document.createElement("p"),
+      const line = html_element("p"),
         cells = [...row.cells],
         table = row.closest("table"),
         vector = table.matches(".vectors");
@@ -353,7 +354,7 @@ export function reasons_of(step) {
   const all = [...(places[moves[step].at - 1].why?.children ?? [])],
     own = all.filter(({ dataset }) => Number(dataset.for) === step);
   return (own.length ? own : all).map(reason => {
-    const line = document.createElement("p");
+    const line = html_element("p");
     line.append(...copies(reason));
     return line;
   });

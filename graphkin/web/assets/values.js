@@ -1,4 +1,5 @@
 // Values and margins of a position: in the tables, in the sentences, and in the line of results.
+import { html_element } from "./elements.js";
 import { rates_read } from "./highlights.js";
 import { significant, written } from "./numbers.js";
 import { byId, copies, data, motion, state } from "./page.js";
@@ -86,7 +87,7 @@ export function all_asked(kind, told) {
 
 /** A quantity in one line: its name, then size and unit, or a question mark. */
 export function asked(cells, told) {
-  const value = document.createElement("span");
+  const value = html_element("span");
   value.append(...copies(cells[0]), " = ", ...(told ? size_read(cells) : ["?"]));
   return value;
 }

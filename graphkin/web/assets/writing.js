@@ -1,8 +1,9 @@
 // The strokes of a step as a pen draws them, one by one; arcs with their swinging radius.
+import { svg_element } from "./elements.js";
 import { shape } from "./highlights.js";
 import { STROKES } from "./page_actions.js";
 import { STILL } from "./page.js";
-import { here, sheets, SVG } from "./sheets.js";
+import { here, sheets } from "./sheets.js";
 
 const PACE = 5,
   QUICK = 350,
@@ -35,7 +36,7 @@ export function write() {
   let start = 0;
   strokes_left = lines.map((mark, i) => {
     const path = mark.matches(".compass") ? whole_arc(mark) : { line: bare(mark) };
-    const group = mark.ownerSVGElement.appendChild(document.createElementNS(SVG, "g"));
+    const group = mark.ownerSVGElement.appendChild(svg_element("g"));
     const one = { radius: null, ...path, mark, group, start, end: (start += times[i] * quicker) };
     one.line.setAttribute("pathLength", 1);
     group.setAttribute("class", "pen");
@@ -126,7 +127,7 @@ function whole_arc(mark) {
     "ink",
     `M${at(middle - WIDE)}A${radius} ${radius} 0 0 1 ${at(middle + WIDE)}`,
   );
-  const leg = document.createElementNS(SVG, "line");
+  const leg = svg_element("line");
   leg.setAttribute("class", "leg");
   leg.setAttribute("x1", x);
   leg.setAttribute("y1", y);

@@ -1,4 +1,5 @@
 // Your turn: hints, help, the score sheet, and the keys and clicks during a turn.
+import { html_element } from "./elements.js";
 import { follow_address } from "./address.js";
 import { draw_move } from "./choosing.js";
 import { draw_it, give_hint } from "./hints.js";
@@ -25,8 +26,8 @@ import { draw_typed, show_typed } from "./typing.js";
 export function show_score() {
   const count = how => turn.log.filter(one => one.how === how).length;
   const wrong = turn.wrong + turn.log.reduce((sum, one) => sum + one.wrong, 0);
-  const line = document.createElement("p"),
-    list = document.createElement("ol");
+  const line = html_element("p"),
+    list = html_element("ol");
   line.innerHTML = worded("score", {
     all: turn.log.length,
     alone: count("alone"),
@@ -36,7 +37,7 @@ export function show_score() {
     left: moves_left().length,
   });
   for (const { step, how, wrong: turns } of turn.log) {
-    const item = document.createElement("li");
+    const item = html_element("li");
     item.className = how;
     item.innerHTML = `${moves[step].name}: ${worded(how === "alone" ? how : `with_${how}`)}${turns ? `, ${worded("wrong", { number: turns })}` : ""}`;
     list.append(item);
@@ -54,7 +55,7 @@ async function save_score() {
   const seal = code
     ? await seal_of(`${code}\n${JSON.stringify([id, told.from, steps, told.left])}`)
     : "";
-  const link = document.createElement("a"),
+  const link = html_element("a"),
     file = `${stem}-turn.json`;
   link.href = URL.createObjectURL(
     new Blob([JSON.stringify({ ...told, seal })], { type: "application/json" }),
