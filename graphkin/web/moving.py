@@ -7,9 +7,9 @@ compiled source elsewhere. Scales and fields stay those of the drawn position.
 from __future__ import annotations
 
 import json
-import re
 from collections.abc import Iterator, Sequence
 from math import pi
+from string import digits
 from typing import TYPE_CHECKING, Any
 
 from msgspec import Struct
@@ -179,9 +179,9 @@ def followed(
 
     Each field has the index of its first record, its room, and the box of the marks that do not
     move. ``seen`` lists the marks that must be in sight: index of the record, with the reach
-    across and down where there is any. ``labels`` lists the same for labels, large ones first, then in the order of their
-    steps, with a fourth number from ``MarkBindings.sides``. ``off`` lists the records of labels
-    kept off a point.
+    across and down where there is any. ``labels`` lists the same for labels, large ones first,
+    then in the order of their steps, with a fourth number from ``MarkBindings.sides``. ``off``
+    lists the records of labels kept off a point.
     """
     angles, first = tracing.driven.angles(tracing.x, tracing.known), 0
     fields = ((sheet.left, sheet.layout.mechanism), (sheet.right, sheet.layout.plan))
@@ -357,7 +357,8 @@ def short_ids(records: Sequence[Record]) -> Iterator[Record]:
     """Records of marks; of ids with the letters of the one before, only the number remains."""
     letters = ""
     for name, *rest in records:
-        own, number = re.fullmatch(r"(.*?)(\d*)", name).groups()
+        own = name.rstrip(digits)
+        number = name.removeprefix(own)
         yield [int(number) if own == letters and number else name, *rest]
         letters = own
 

@@ -87,7 +87,7 @@ def part(name: str) -> str:
 BUNDLES = WEB / "bundles"
 """The bundles, which ``python -m tests.scripts`` makes from the modules beside them."""
 STEP_PAGE, BOARD_PAGE, PLAYER, FORM = "step", "board", "player", "form"
-"""The programs: a step page; the board of a task page; the page of a cycle; the form for answers."""
+"""The programs: a step page, the board of a task page, a cycle's page, a form for answers."""
 MOVING, MOVING_CLOSED = "moving", "moving_closed"
 """What places the marks that follow a driver; the second closes groups of class III anew."""
 
