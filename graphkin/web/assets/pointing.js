@@ -20,6 +20,7 @@ import {
 } from "#turn";
 import { all_alike, different, settle_which } from "./choosing.js";
 import { named_from } from "./palette.js";
+import { end_magnifying, magnify } from "./magnifier.js";
 import { far_from, placed, shown_at } from "./pick_shapes.js";
 import { take_pick, ways_of, whole_way } from "./picking.js";
 import { here, sheets } from "./sheets.js";
@@ -298,20 +299,30 @@ function settle_asked({ side, at, near }) {
 
 /** Begin a press; returns whether it is one on something that can be taken. */
 function begin_press(event) {
-  if (press) return void ((press = null), show_aim(null)); // a second finger zooms
+  if (press) return void drop_press(); // a second finger zooms
   const spot = event.button ? null : spot_at(event);
   if (!spot) return false;
   const aim = turn.asked ? null : aim_at(spot, turn.taken);
   if (!aim && !turn.asked) return false;
   press = { aim, x: event.clientX, y: event.clientY, moved: false, id: event.pointerId };
   show_aim(aim);
+  magnify(spot, event, false);
   return true;
 }
 
 function move_press(event) {
   const far = Math.hypot(event.clientX - press.x, event.clientY - press.y);
   if (far > SLIP && press.aim) press.moved = true;
-  if (press.aim) show_aim(pressed_aim(spot_at(event)));
+  const spot = spot_at(event);
+  if (press.aim) show_aim(pressed_aim(spot));
+  magnify(spot, event, far > SLIP);
+}
+
+/** Give a press up. */
+function drop_press() {
+  press = null;
+  end_magnifying();
+  show_aim(null);
 }
 
 function end_press(event) {
@@ -319,8 +330,7 @@ function end_press(event) {
     spot = spot_at(event);
   const aim = first && pressed_aim(spot),
     way = first && whole_way(first.ways);
-  press = null;
-  show_aim(null);
+  drop_press();
   if (!first) return spot && settle_asked(spot);
   if (!aim || aim.band) return; // let go over nothing
   if (moved && !way) take_pick(first.key);
@@ -349,6 +359,6 @@ export function point_in_turn(event) {
   }
   if (press?.id !== event.pointerId) return false;
   if (event.type === "pointerup") end_press(event);
-  else show_aim((press = null));
+  else drop_press();
   return true;
 }
