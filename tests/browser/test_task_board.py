@@ -82,7 +82,7 @@ def fresh(opened: Opened, path: Path, **options: Any) -> Any:
 NOTHING = {
     "par O1 5\npar O2 5": "parallel",
     "arc O1 5\narc O2 5": "unmet",
-    "arc O1 5\nperp o O1A": "apart",
+    "arc O1 5\npar o 5": "apart",
 }
 """Two lines or arcs that do not cross, and the key of the reason."""
 
