@@ -38,13 +38,14 @@ if TYPE_CHECKING:
 @output_option
 @click.option(
     "--view",
-    type=click.Choice(VIEWS),
+    "views",
+    metavar="VIEWS",
     default="key",
     show_default=True,
-    help="key: everything drawn; task: what the student is given; steps: pages that grow sentence"
-    " by sentence; overlay: the key alone, to lay over a drawing; positions: the mechanism and its"
-    " plans in all positions of [positions]; diagrams: their courses, differentiated and integrated"
-    " on paper, laws of cams, and hodographs.",
+    help="Views, separated by commas. key: everything drawn; task: what the student is given;"
+    " steps: pages that grow sentence by sentence; overlay: the key alone, to lay over a"
+    " drawing; positions: the mechanism and its plans in all positions of [positions]; diagrams:"
+    " their courses, differentiated and integrated on paper, laws of cams, and hodographs.",
 )
 @language_option
 @ink_option
@@ -63,7 +64,7 @@ def sheet(
     name: str,
     settings: tuple[str, ...],
     folder: Path,
-    view: str,
+    views: str,
     lang: str | None,
     ink: Ink | None,
     formats: str,
@@ -85,10 +86,11 @@ def sheet(
     Examples:
       graphkin sheet pump --set n=7 -o sheets
       graphkin sheet pump --set n=7 -o sheets --format html
-      graphkin sheet pump --set n=7 -o sheets --view task --lang en --format pdf
+      graphkin sheet pump --set n=7 -o sheets --view task,key --lang en --format pdf
       graphkin sheet pump --set n=7 -o sheets --view positions
     """
     kinds = option_words("--format", formats, ("svg", "pdf", "html", "dxf", "tikz", "tex", "pmks"))
+    chosen = option_words("--view", views, VIEWS)
     from graphkin.classroom.sheet_files import sheet_files
     from graphkin.writers.files import file_stem, refuse_folder, write_all
 
@@ -96,7 +98,12 @@ def sheet(
     refuse_folder(folder)
     stem = file_stem(mechanism.scene.name, pairs_of(settings))
     ink = ink or mechanism.scene.house.ink
-    files, notes = sheet_files(mechanism, name, stem, view, lang, kinds, ink)
+    files: dict[str, bytes] = {}
+    notes: dict[str, None] = {}
+    for view in chosen:
+        drawn, said = sheet_files(mechanism, name, stem, view, lang, kinds, ink)
+        files |= drawn
+        notes |= dict.fromkeys(said)
     tell(str(path) for path in write_all(folder, files, force))
     for note in notes:
         complain(note)
