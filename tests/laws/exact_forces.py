@@ -130,10 +130,9 @@ class Exact:
             case OnLine(_, first, second, start, length, sense):
                 base = at(second) - at(first)
                 return at(start) + sense * self.si(length) * base / abs(base)
-            case Angled(_, vertex, arm, length, angle, clockwise):
+            case Angled(_, vertex, arm, length, angle):
                 base = at(arm) - at(vertex)
-                turned = mp.expj(-self.si(angle) if clockwise else self.si(angle))
-                return at(vertex) + self.si(length) * turned * base / abs(base)
+                return at(vertex) + self.si(length) * mp.expj(self.si(angle)) * base / abs(base)
         raise UnsupportedError(type(placing).__name__)
 
     def guess(self, mechanism: Mechanism) -> dict[str, tuple[Any, Any, Any]]:
@@ -296,7 +295,8 @@ class Exact:
             start, speed, rate = map(self.si, (driver.position, driver.speed, driver.acceleration))
             law = lambda t, a=start, v=speed, r=rate: a + v * t + r * t * t / 2  # noqa: E731
             ends = driver.link, driver.against
-            yield Equation("", ends, self.led(driver, law), drives=driver.link)
+            name = self.scene.driver_name(driver)
+            yield Equation(name, ends, self.led(driver, law), drives=driver.link)
 
     def led(self, driver: Driver, law: Callable[[Any], Any]) -> Callable[[Poses, Any], Any]:
         """How far a driven link is from its law."""
@@ -381,7 +381,9 @@ class Exact:
         poses, found = self.poses(unknowns), ExactForces()
         found.points = self.motions(poses, self.poses(first), self.poses(second))
         right = self.known(poses, found.points, self.poses(second))
-        columns = [self.column(each, poses, matrix[k, :], 0) for k, each in enumerate(self.equations)]
+        columns = [
+            self.column(each, poses, matrix[k, :], 0) for k, each in enumerate(self.equations)
+        ]
         values = mp.lu_solve(joined(columns), -right)
         if any(each.teeth for each in self.equations):
             sides = [mp.sign(value) for value in values]
@@ -457,9 +459,9 @@ class Exact:
                 k = 3 * self.moving.index(link)
                 some[link] = mp.mpc(forces[k], forces[k + 1]), forces[k + 2]
         if each.drives:
-            force, turned = some[each.drives] if each.drives in some else (0, 0)
-            kind = next(e.kind for e in self.scene.drivers if e.link == each.drives)
-            found.drivers[each.drives] = turned if kind == "turn" else force
+            force, turned = some.get(each.drives, (0, 0))
+            named = {self.scene.driver_name(e): e for e in self.scene.drivers}
+            found.drivers[each.name] = turned if named[each.name].kind == "turn" else force
             return
         for link, (force, turned) in some.items():
             moment = mp.mpf(0)

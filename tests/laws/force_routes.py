@@ -9,6 +9,7 @@ from msgspec.structs import replace
 
 from graphkin.construction.core.kind import constructions
 from graphkin.construction.core.run import Trace
+from graphkin.construction.forces.force_words import link_pair
 from graphkin.construction.forces.lever import LeverBalance
 from graphkin.construction.forces.polygon import ClosedByLines, ClosingReaction
 from graphkin.construction.reactions import ForceSolution
@@ -37,6 +38,15 @@ def loaded(mechanism: Mechanism, rng: random.Random) -> Mechanism:
     return Mechanism(replace(scene, forces=Forces(masses, gravity, loads, balance=True)))
 
 
+def loads_on(mechanism: Mechanism) -> set[str]:
+    """The links and points with masses and loads."""
+    given = mechanism.scene.forces
+    points = {load.at for load in given.loads if load.at} | {
+        e.centre for e in given.masses.values()
+    }
+    return points | {load.link for load in given.loads} | {*given.masses}
+
+
 def number(rng: random.Random, low: float, high: float, unit: str) -> Quantity:
     """A quantity of three digits."""
     return exact(f"{rng.uniform(low, high):.3f}", unit)
@@ -61,7 +71,7 @@ def on_links(found: ForceSolution) -> dict[str, complex]:
     for some in pairs.values():
         if len(some) == 2:
             (one, force), (other, back) = some
-            named |= {f"R_{other}{one}": force, f"R_{one}{other}": back}
+            named |= {f"R_{link_pair(other, one)}": force, f"R_{link_pair(one, other)}": back}
     return named
 
 

@@ -14,7 +14,7 @@ from graphkin.scene.model import FRAME
 from graphkin.scene.read_scene import read_text
 from graphkin.text.errors import StructureError
 from tests.chosen import FOLDER
-from tests.laws.force_routes import differences, loaded
+from tests.laws.force_routes import differences, loaded, loads_on
 
 CLOSE = 1e-9
 
@@ -94,15 +94,6 @@ WHEELS = sorted(
     for path in Path(FOLDER).glob("*.toml")
     if path.stem.startswith(("gears-", "cam-", "bar-on-"))
 )
-
-
-def loads_on(mechanism: Mechanism) -> set[str]:
-    """The links and points with masses and loads."""
-    given = mechanism.scene.forces
-    points = {load.at for load in given.loads if load.at} | {
-        e.centre for e in given.masses.values()
-    }
-    return points | {load.link for load in given.loads} | {*given.masses}
 
 
 @pytest.mark.parametrize("name", WHEELS)
