@@ -20,7 +20,7 @@ from tests.chance.checking import Case, case, told
 from tests.chance.maker import Maker
 from tests.chance.making import add
 from tests.laws.exact_forces import UnsupportedError, exact_forces, far_from_exact
-from tests.laws.force_routes import differences, loaded, loads_on
+from tests.laws.force_routes import differences, loaded
 
 HELD = 1e-9
 """The share of the largest force up to which the routes agree."""
@@ -42,20 +42,12 @@ def dyads(seed: int) -> Case | None:
     return told(seed, maker.standing, done) if len(done) > 1 else None
 
 
-def on_own(mechanism: Mechanism, seed: int) -> Mechanism:
-    """The mechanism with masses and loads on links and points that its scene has."""
-    scene = mechanism.scene
-    own = {*scene.points, *scene.links} - {*scene.cam_links, *scene.cam_centres}
-    some = (loaded(mechanism, random.Random(f"{seed} {k}" if k else seed)) for k in range(99))
-    return next(each for each in some if loads_on(each) <= own)
-
-
 def judged(seed: int, how: str = "") -> tuple[str, str]:
     """How the routes stand on one seed, with where they differ."""
     made = case(seed) if how == "every" else dyads(seed)
     if made is None:
         return "none", ""
-    mechanism = on_own(made.mechanism, seed)
+    mechanism = loaded(made.mechanism, random.Random(seed))
     is_drawn = undrawn(mechanism.scene, mechanism.laid[0]) is None
     if not is_drawn and not how:
         return "not drawn", ""

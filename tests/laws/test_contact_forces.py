@@ -14,7 +14,7 @@ from graphkin.scene.model import FRAME
 from graphkin.scene.read_scene import read_text
 from graphkin.text.errors import StructureError
 from tests.chosen import FOLDER
-from tests.laws.force_routes import differences, loaded, loads_on
+from tests.laws.force_routes import differences, loaded
 
 CLOSE = 1e-9
 
@@ -100,15 +100,7 @@ WHEELS = sorted(
 def test_virtual_power_and_the_frame_agree_wherever_forces_are_determined(name):
     """All loads, inertia forces and reactions of the frame together do not push the mechanism."""
     text = (FOLDER / f"{name}.toml").read_text(encoding="utf-8")
-    mechanism = Mechanism(read_text(text, name, None, {}))
-    scene = mechanism.scene
-    own = {link for link in scene.links if link not in scene.cam_links}
-    made = next(
-        made
-        for seed in range(99)
-        for made in [loaded(mechanism, random.Random(f"{name} {seed}"))]
-        if loads_on(made) <= own | ({*scene.points} - {*scene.cam_centres})
-    )
+    made = loaded(Mechanism(read_text(text, name, None, {})), random.Random(name))
     try:
         found, verdict = made.forces()
     except StructureError as error:
