@@ -52,7 +52,7 @@ Poses = Mapping[str, tuple[Any, Any, Any]]
 
 
 class UnsupportedError(Exception):
-    """A pair whose equation is not written here: belts, cams, profiles."""
+    """A pair whose equation is not written here."""
 
 
 @dataclass
@@ -87,8 +87,8 @@ class Exact:
     def __init__(self, mechanism: Mechanism) -> None:
         self.scene: Scene = mechanism.scene
         scene = self.scene
-        if scene.cams or scene.keepers or any(each.profiles for each in scene.every_link):
-            raise UnsupportedError("cams, keepers and profiles")
+        if scene.cams:
+            raise UnsupportedError("cams")
         self.kind = kind_of_context(mp)
         self.values = scene.values_in(self.kind)
         self.local = {each.name: self.placed(each) for each in scene.every_link}
