@@ -12,6 +12,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass, field
+from functools import partial
 from itertools import pairwise, product
 from typing import Any
 
@@ -25,6 +26,7 @@ from graphkin.scene.model import (
     Angled,
     Apart,
     At,
+    Cam,
     Driver,
     Link,
     OnLine,
@@ -38,6 +40,7 @@ from graphkin.scene.model import (
 )
 from graphkin.scene.quantity import Quantity
 from graphkin.structure.pairs import Contact, contacts
+from tests.chance.lifts import lifted, raised
 
 DIGITS = 140
 """Digits that are carried; differences of the step below leave more than fifty."""
@@ -87,14 +90,14 @@ class Exact:
     def __init__(self, mechanism: Mechanism) -> None:
         self.scene: Scene = mechanism.scene
         scene = self.scene
-        if scene.cams:
-            raise UnsupportedError("cams")
         self.kind = kind_of_context(mp)
         self.values = scene.values_in(self.kind)
-        self.local = {each.name: self.placed(each) for each in scene.every_link}
-        self.moving = [*scene.links]
+        own = [each for each in scene.every_link if each.name not in scene.cam_links]
+        self.local = {each.name: self.placed(each) for each in own}
+        self.moving = [name for name in scene.links if name not in scene.cam_links]
         self.first = self.guess(mechanism)
-        self.equations = [*self.pins(), *self.slides(), *self.wheels(), *self.driven()]
+        self.equations = [*self.pins(), *self.slides(), *self.wheels()]
+        self.equations += [*self.lifts(), *self.driven()]
 
     # --- numbers of the scene ------------------------------------------------------------------
 
@@ -108,7 +111,7 @@ class Exact:
             found[placing.point] = self.place(placing, found)
         for point in link.points:
             found.setdefault(point, mp.mpc(0))
-        return found
+        return {name: z for name, z in found.items() if name not in self.scene.cam_centres}
 
     def place(self, placing: Placing, found: Mapping[str, Any]) -> Any:
         """One point from those before it."""
@@ -160,9 +163,9 @@ class Exact:
     def pins(self) -> Iterator[Equation]:
         """A point of two links is in one place."""
         owners: dict[str, list[str]] = {}
-        for link in self.scene.every_link:
-            for name in link.points:
-                owners.setdefault(name, []).append(link.name)
+        for link, points in self.local.items():
+            for name in points:
+                owners.setdefault(name, []).append(link)
         for name, links in owners.items():
             for one, other in pairwise(links):
 
@@ -196,7 +199,8 @@ class Exact:
 
     def slides(self) -> Iterator[Equation]:
         """The first point of a block keeps its distance from the guide, its x axis the angle."""
-        for link in self.scene.links.values():
+        for name in self.moving:
+            link = self.scene.links[name]
             for slide in link.slides:
                 yield from self.sliding(link, slide)
 
@@ -288,6 +292,127 @@ class Exact:
         yield Equation(f"{name}-{on}", (name, on), slip)
         height = lambda poses, time: way(poses).imag - side * radius  # noqa: E731
         yield Equation(f"{name}-{on}", (name, on), height)
+
+    def lifts(self) -> Iterator[Equation]:
+        """A follower is where the law of its cam puts it, and is pushed along the normal."""
+        for follower, cam in self.scene.cams.items():
+            if cam.conjugate is not None or cam.slopes or (cam.slides and cam.is_flat):
+                raise UnsupportedError("second rollers, tables, flat faces on plates")
+            ends = dict.fromkeys((follower, cam.on, cam.carrier))
+            off = self.swung(follower, cam) if cam.lever else self.raised(follower, cam)
+            yield Equation(
+                f"{follower}-{cam.on}",
+                (*ends,),
+                lambda poses, time, off=off, cam=cam: off(
+                    poses, self.lift(cam, self.at(poses, cam))
+                ),
+                push=partial(self.pushed, follower, cam),
+            )
+
+    def at(self, poses: Poses, cam: Cam) -> Any:
+        """The angle of a cam against its carrier, or the coordinate of a plate."""
+        if not cam.slides:
+            return poses[cam.on][2] - poses[cam.carrier][2]
+        plate = self.scene.link(cam.on)
+        return self.seen(
+            poses,
+            cam.carrier,
+            self.guide(plate, cam.carrier),
+            self.named(poses, cam.on, plate.points[0]),
+        ).real
+
+    def guide(self, block: Link, on: str) -> tuple[Any, Any]:
+        """The guide of a block on a link."""
+        return self.line(on, next(each for each in block.slides if each.on == on))
+
+    def lift(self, cam: Cam, at: Any) -> Any:
+        """How far a cam lifts: metres, or radians of a lever."""
+        past = cam.sense * (at - self.si(cam.start))
+        ends = [self.si(each.to) for each in cam.law]
+        if not cam.slides:
+            ends = [mp.degrees(end) for end in ends]
+        pieces = [(e, self.si(p.rise), p.motion) for e, p in zip(ends, cam.law, strict=True)]
+        return raised(pieces, past) if cam.slides else lifted(pieces, past)
+
+    def raised(self, follower: str, cam: Cam) -> Callable[[Poses, Any], Any]:
+        """How far a sliding follower is off its place on the base circle or level and its lift."""
+        link, carrier = self.scene.links[follower], cam.carrier
+        if cam.point != link.points[0]:
+            raise UnsupportedError("a tip beside the first point")
+        line = self.guide(link, carrier)
+        reach = self.si(cam.base) + self.si(cam.roller)
+
+        def off(poses: Poses, lift: Any) -> Any:
+            tip = self.seen(poses, carrier, line, self.named(poses, follower, cam.point))
+            if cam.slides:
+                plate = self.guide(self.scene.link(cam.on), carrier)
+                foot = self.point(poses, carrier, line[0] + line[1] * (tip - lift))
+                pin = self.named(poses, cam.on, cam.pivot)
+                above = self.seen(poses, carrier, plate, foot) - self.seen(
+                    poses, carrier, plate, pin
+                )
+                side = mp.sign((line[1] * mp.conj(plate[1])).imag)
+                return above.imag - side * reach
+            pivot = self.seen(poses, carrier, line, self.named(poses, cam.on, cam.pivot))
+            if cam.is_flat:
+                return tip.real - lift - pivot.real - self.si(cam.base)
+            return tip.real - lift - pivot.real - mp.sqrt(reach**2 - (tip - pivot).imag ** 2)
+
+        return off
+
+    def swung(self, follower: str, cam: Cam) -> Callable[[Poses, Any], Any]:
+        """How far the bar of a lever is off its place on the base circle or level and its lift."""
+        lever = cam.lever
+        assert lever is not None
+        reach = self.si(cam.base) + self.si(cam.roller)
+
+        def off(poses: Poses, lift: Any) -> Any:
+            pin = self.named(poses, cam.carrier, lever.pin)
+            bar = self.named(poses, follower, cam.point) - self.named(poses, follower, lever.pin)
+            base, arm = self.named(poses, cam.on, cam.pivot), abs(bar)
+            if cam.slides:
+                along = self.guide(self.scene.link(cam.on), cam.carrier)[1]
+                along *= mp.expj(poses[cam.carrier][2])
+                above = ((pin - base) * mp.conj(along)).imag
+                towards = along * (-1j if above > 0 else 1j)
+                resting = mp.acos((abs(above) - reach) / arm)
+            else:
+                apart, towards = abs(base - pin), (base - pin) / abs(base - pin)
+                resting = mp.acos((apart**2 + arm**2 - reach**2) / (2 * apart * arm))
+                if cam.is_flat:
+                    resting = mp.asin((self.si(cam.base) + self.si(lever.face)) / apart)
+            wanted = towards * mp.expj(-lever.side * (resting + lift))
+            return (bar / arm * mp.conj(wanted)).imag
+
+        return off
+
+    def pushed(self, follower: str, cam: Cam, poses: Poses) -> tuple[Any, Any]:
+        """A place on the common normal of cam and follower, and the normal a quarter turn back.
+
+        Nothing moves along the normal there, as seen from the carrier.
+        """
+        h, at = mp.mpf(STEP), self.at(poses, cam)
+        slope = (self.lift(cam, at + h) - self.lift(cam, at - h)) / (2 * h)
+        tip, base = self.named(poses, follower, cam.point), self.named(poses, cam.on, cam.pivot)
+        turned, link = mp.expj(poses[cam.carrier][2]), self.scene.links[follower]
+        if cam.lever is not None:
+            pin, rate = self.named(poses, follower, cam.lever.pin), -cam.lever.side * slope
+            speed = 1j * rate * (tip - pin)
+            if cam.is_flat:
+                bar = (tip - pin) / abs(tip - pin)
+                along = (mp.conj(1j * bar) * 1j * (pin - base)).real / (rate - 1)
+                return pin + along * bar, bar
+        else:
+            way = self.guide(link, cam.carrier)[1] * turned
+            speed = slope * way
+            if cam.is_flat:
+                aside = (mp.conj(way) * 1j * (tip - base)).real - slope
+                return tip + aside * 1j * way, -1j * way
+        if cam.slides:
+            speed -= self.guide(self.scene.link(cam.on), cam.carrier)[1] * turned
+        else:
+            speed -= 1j * (tip - base)
+        return tip, speed / abs(speed)
 
     def driven(self) -> Iterator[Equation]:
         """A link is where its driver says."""
