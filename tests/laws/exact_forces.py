@@ -13,7 +13,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass, field
 from functools import partial
-from itertools import pairwise, product
+from itertools import accumulate, pairwise, product
 from typing import Any
 
 import mpmath
@@ -296,8 +296,8 @@ class Exact:
     def lifts(self) -> Iterator[Equation]:
         """A follower is where the law of its cam puts it, and is pushed along the normal."""
         for follower, cam in self.scene.cams.items():
-            if cam.conjugate is not None or cam.slopes or (cam.slides and cam.is_flat):
-                raise UnsupportedError("second rollers, tables, flat faces on plates")
+            if cam.conjugate is not None or (cam.slides and cam.is_flat):
+                raise UnsupportedError("second rollers, flat faces on plates")
             ends = dict.fromkeys((follower, cam.on, cam.carrier))
             off = self.swung(follower, cam) if cam.lever else self.raised(follower, cam)
             yield Equation(
@@ -332,6 +332,10 @@ class Exact:
         if not cam.slides:
             ends = [mp.degrees(end) for end in ends]
         pieces = [(e, self.si(p.rise), p.motion) for e, p in zip(ends, cam.law, strict=True)]
+        if cam.slopes:
+            lifts = accumulate((rise for _, rise, _ in pieces), initial=mp.mpf(0))
+            places = [ends[-1] - 360, *ends[:-1]]
+            pieces = [(e, rise, "") for e, rise in zip(places, lifts, strict=False)]
         return raised(pieces, past) if cam.slides else lifted(pieces, past)
 
     def raised(self, follower: str, cam: Cam) -> Callable[[Poses, Any], Any]:
