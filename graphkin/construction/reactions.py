@@ -70,7 +70,10 @@ class PairReaction(Struct, frozen=True):
 
 
 class Balance(Struct, frozen=True):
-    """The force (N) or the moment (N·m) of a driver on its link that keeps the given motion."""
+    """The force (N) or the moment (N·m) of a driver on its link that keeps the given motion.
+
+    ``link`` is the driver's name: the driven link, or 1-2 where several drivers move link 1.
+    """
 
     link: str
     force: complex | None = None
@@ -311,8 +314,10 @@ def crank_balance(standing: Standing, group: Crank) -> Balance:
     moment = -acting.about(pivot)
     if against != FRAME:
         standing.acting[against] = standing.acting[against].plus(Wrench(0j, -moment))
-    standing.settle(Pin(group.pivot, (against, link)), link, force_at(pivot, -acting.force))
-    return Balance(group.driver.link, moment=moment * sense_of(group.driver, link))
+    standing.settle(Pin(group.pivot, (group.base, link)), link, force_at(pivot, -acting.force))
+    return Balance(
+        standing.poses.scene.driver_name(group.driver), moment=moment * sense_of(group.driver, link)
+    )
 
 
 def slide_balance(standing: Standing, group: Driven) -> Balance:
@@ -325,7 +330,10 @@ def slide_balance(standing: Standing, group: Driven) -> Balance:
     standing.settle(pair, link, -acting.plus(push))
     if against != FRAME:
         standing.acting[against] = standing.acting[against].plus(-push)
-    return Balance(group.driver.link, force=push.force * sense_of(group.driver, link))
+    return Balance(
+        standing.poses.scene.driver_name(group.driver),
+        force=push.force * sense_of(group.driver, link),
+    )
 
 
 def sense_of(driver: Driver, link: str) -> int:

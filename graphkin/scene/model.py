@@ -670,6 +670,11 @@ class Scene(Struct, frozen=True, dict=True):
         """The points of the frame that do not move, unlike a fixed cam's centre of curvature."""
         return tuple(point for point in self.frame.points if point not in self.cam_centres)
 
+    def driver_name(self, driver: Driver) -> str:
+        """The driven link, with the other one where several drivers move it: 1, or 1-2."""
+        several = sum(each.link == driver.link for each in self.drivers) > 1
+        return f"{driver.link}-{driver.against}" if several else driver.link
+
     @property
     def keepers(self) -> Mapping[str, tuple[str, Rolling]]:
         """The massless links that keep wheels in contact, with the wheels' links."""

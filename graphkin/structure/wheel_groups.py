@@ -34,10 +34,14 @@ class OneLink(Struct, frozen=True):
 
 
 class Crank(OneLink, frozen=True):
-    """A link that a driver turns about a pin with known motion."""
+    """A link that a driver turns about a pin with known motion.
+
+    Link ``base`` carries the pin. It may be another than the one against which the driver turns.
+    """
 
     driver: Driver
     pivot: str
+    base: str
 
     @property
     def against(self) -> str:

@@ -343,7 +343,7 @@ class ForcePlan:
         name = "M_" + sub("b", link)
         moment = balance_of(pen, name, link, moments)
         pen.want(BALANCING_MOMENT.target, name, moment)
-        self.closed_at("crank", link, Pin(group.pivot, (FRAME, link)))
+        self.closed_at("crank", link, Pin(group.pivot, (group.base, link)))
         return moment
 
     def driven(self, group: Driven) -> int:
