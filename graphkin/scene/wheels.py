@@ -107,7 +107,7 @@ Key = tuple[str, int]
 """A wheel: its link, and its index in the link's list."""
 
 
-class Mesh(Struct, frozen=True):
+class WheelPair(Struct, frozen=True):
     """Two wheels that touch or that a belt joins."""
 
     ends: tuple[Key, Key]
@@ -175,7 +175,7 @@ def sized_by_teeth(links: Mapping[str, Link], measures: Measures) -> dict[str, L
 
 
 def spread(
-    meshes: Sequence[Mesh],
+    meshes: Sequence[WheelPair],
     wheels: Mapping[Key, Wheel],
     modules: Mapping[Key, Quantity],
     reached: dict[frozenset[str], Quantity],
@@ -207,7 +207,7 @@ def size_of(wheel: Wheel, module: Quantity | None) -> Quantity | None:
 
 def meshes_of(
     links: Mapping[str, Link], alone: Collection[Key], measures: Measures
-) -> Iterator[Mesh]:
+) -> Iterator[WheelPair]:
     """The contacts of wheels with wheels; one that may be of several pairs is noted."""
     for link in links.values():
         for index, rolling in enumerate(link.rolls):
@@ -215,7 +215,7 @@ def meshes_of(
             if on is None or on is link or rolling.through is not None:
                 continue
             ways = [
-                Mesh(((link.name, i), (on.name, k)), (own, other), rolling.belt is not None)
+                WheelPair(((link.name, i), (on.name, k)), (own, other), rolling.belt is not None)
                 for i, own in enumerate(link.wheels)
                 for k, other in enumerate(on.wheels)
                 if rolling.wheels in (None, (i, k)) and not (own.inside and other.inside)

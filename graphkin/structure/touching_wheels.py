@@ -242,9 +242,12 @@ def gap(scene: Scene, name: str, rolling: Rolling, apart: WheelsApart) -> Proble
 
 
 def teeth_hint(scene: Scene, rolling: Rolling, apart: WheelsApart) -> Message:
-    """Words for the number of teeth with which a track wheel would touch; empty if not whole."""
+    """Words for the number of teeth with which a track wheel would touch.
+
+    Empty where the number is not whole, or where the scene writes the module.
+    """
     wheel, track = apart.wheel, apart.track
-    if wheel.teeth is None or track is None or track.teeth is None:
+    if not wheel.sized or wheel.teeth is None or track is None or track.teeth is None:
         return NO_WORDS
     own = radius(scene, wheel)
     teeth = wheel.teeth.number(scene.values) / own
