@@ -189,7 +189,7 @@ def structure(scene: Scene) -> Iterator[str]:
     yield from labelled("loops", loop_lines(scene))
     drivers = [driver_words(scene, driver) for driver in scene.drivers] or ["none"]
     yield from labelled("drivers", drivers)
-    yield from labelled("put in", list(keeper_lines(scene)))
+    yield from labelled("put in", [*keeper_lines(scene), *module_lines(scene)])
 
 
 def keeper_lines(scene: Scene) -> Iterator[str]:
@@ -209,6 +209,26 @@ def keeper_lines(scene: Scene) -> Iterator[str]:
             what = f"{'-'.join(link.points)}, the line of centres"
         pair = f"the wheel of {link_words(wheel)} on {link_words(path.on)}"
         yield f"link {name}: {what}; it keeps {pair} and takes nothing from the motion"
+
+
+def module_lines(scene: Scene) -> Iterator[str]:
+    """A line for each module that the teeth and a distance give, or that the program proposes."""
+    found: dict[tuple[str, str], list[str]] = {}
+    for link in scene.every_link:
+        for wheel in link.wheels:
+            if wheel.sized and wheel.radius is not None and wheel.teeth is not None:
+                size = 2 * wheel.radius.number(scene.values) / wheel.teeth.number(scene.values)
+                module = f"{float(size):.6g} {wheel.radius.written_unit}"
+                whose = link_words(link.name)
+                teeth = wheel.teeth.written(scene.values)
+                found.setdefault((wheel.sized, module), []).append(f"{teeth} ({whose})")
+    for (sized, module), wheels in found.items():
+        many = f"the wheels with {listed(wheels)} teeth"
+        if sized == "distance":
+            yield f"module {module} of {many}: it follows from the distance of the centres"
+        else:
+            yield f"module {module} of {many}: proposed, as the scene has no length for them;"
+            yield "  angular velocities do not depend on it, velocities of points do"
 
 
 # --- pairs and the count -------------------------------------------------------------------------
