@@ -329,8 +329,7 @@ class Mechanism(Struct, frozen=True, dict=True):
         given = self.scene.forces
         if given is None:
             return None
-        from graphkin.construction.core.link_poses import LinkPoses
-        from graphkin.construction.reactions import NotConstructedError, construct
+        from graphkin.construction.reactions import reactions_of
         from graphkin.loops.equilibrium import (
             by_equations,
             by_power_alone,
@@ -338,16 +337,14 @@ class Mechanism(Struct, frozen=True, dict=True):
             equilibrium,
         )
 
-        trace = self.trace()
+        trace, whole = self.trace(), self.with_forces
         solution = gathered(trace, self.scene.links)
         motion = self.check.examine(solution, numbered=0).solved.motion
         here = equilibrium(self.scene, given, motion)
-        poses = LinkPoses(self.scene, trace)
-        try:
-            found = construct(self.scene, given, self.groups, solution, poses)
-        except NotConstructedError:
+        if whole is self:
             verdict = by_power_alone(self.scene, given, motion, here)
             return by_equations(self.scene, motion, here), verdict
+        found = reactions_of(whole.program, self.scene.values, trace)
         return found, compare_forces(self.scene, given, motion, here, found)
 
     def batch(
