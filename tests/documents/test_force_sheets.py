@@ -149,10 +149,8 @@ moment = 10
 @pytest.mark.parametrize(
     ("name", "link", "said", "solved"),
     [
-        ("cylinders-two", 3, "with driven cylinders", True),
-        ("stephenson-3-crank", 3, "class III", True),
-        ("gears-planet", 2, "link", True),
-        ("cam-roller", 2, "cam", True),
+        ("plates-coupled", 2, "class IV", True),
+        ("gears-double-planet", 2, "coupled train", True),
         ("belts-crossed", 2, "belt", False),
     ],
 )

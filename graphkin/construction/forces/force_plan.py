@@ -59,7 +59,7 @@ from graphkin.structure.groups import (
     Stretched,
     other_of,
 )
-from graphkin.structure.pairs import Joint, Pin, PinLine, Sliding, pairs
+from graphkin.structure.pairs import Joint, Pin, PinLine, Sliding, pairs, sharers
 
 
 def undrawn(scene: Scene, groups: Sequence[Group]) -> Group | None:
@@ -76,7 +76,9 @@ def is_drawn(scene: Scene, group: Group) -> bool:
         case Crank():
             return True
         case CamFollower(dyad=dyad):
-            return scene.cams[dyad.links[1]].conjugate is None and is_plain(scene, dyad.right)
+            follower = follower_of(scene, dyad)
+            single = scene.cams[follower].conjugate is None
+            return single and is_plain(scene, outer_of(dyad, follower))
         case Stretched(cylinders=cylinders, dyad=dyad):
             slides = (each.slide for each in cylinders)
             return isinstance(dyad.inner, Pin) and all(
@@ -185,10 +187,13 @@ class ForcePlan:
         self.polygons = count(1)
         self.reactions: list[PairForce] = []
         self.balances: list[DriverForce] = []
+        self.known: dict[str, int] = {FRAME: 0}
 
     def write(self, groups: Sequence[Group]) -> None:
         """Draw every group, then the lever of a mechanism with one driver."""
         driving: list[tuple[Crank | Driven | Cylinder, int]] = []
+        order = enumerate(groups, 1)
+        self.known |= {link: number for number, group in order for link in group.links}
         for group in reversed(groups):
             match group:
                 case Dyad(inner=Pin()):
@@ -320,7 +325,7 @@ class ForcePlan:
             names = () if across[side] is None else (f"{whole}^n", f"{whole}^t")
             forces[side] = polygon.reaction(whole, tail, tip, whole=names, drawn=bool(names))
         met = Pin(inner.point, (one.far, other.far))
-        between = polygon.reaction(self.name(met, one.far), middle, corner)
+        between = polygon.reaction(self.name(met, one.far), middle, corner, first=one.far)
         self.enter(met, one.far, between, pen.the("position", inner.place))
         for side in (one, other):
             self.settle(side.outer, side.near, forces[side], moments[side])
@@ -531,7 +536,7 @@ class ForcePlan:
     def lifted(self, group: CamFollower) -> None:
         """A follower: the force of the cam along the normal, and that of its guide or pin."""
         pen, dyad = self.pen, group.dyad
-        link = dyad.links[1]
+        link = follower_of(pen.scene, dyad)
         cam = pen.scene.cams[link]
         pair = CamPair((link, cam.on))
         centre = pen.the("position", cam.centre)
@@ -543,7 +548,7 @@ class ForcePlan:
             way = SideDirection(guide=guide, block=dyad.inner.block)
             with pen.on(Part.FORCE, Plane.MECHANISM):
                 place = pen.draw(foot_on_line, centre, guide)
-        name, outer = self.name(pair, link), dyad.right
+        name, outer = self.name(pair, link), outer_of(dyad, link)
         if isinstance(outer, Pin):
             with pen.on(Part.FORCE, Plane.MECHANISM):
                 line = (
@@ -722,7 +727,8 @@ class ForcePlan:
         if against != FRAME:
             passed = LinkForce(f"{name},{against}", "balance", couple=self.back(moment))
             self.acting[against].append(passed)
-        self.closed_at("crank", link, Pin(group.pivot, (against, link)))
+        earlier = (e for e in sharers(pen.scene)[group.pivot] if self.known[e] < self.known[link])
+        self.closed_at("crank", link, Pin(group.pivot, (next(earlier), link)))
         return moment
 
     def driven(self, group: Driven) -> int:
@@ -780,6 +786,11 @@ class ForcePlan:
             return crank_tip(pen.scene, group)
         assert isinstance(group.pair, Sliding)
         return pen.scene.link(group.pair.block).points[0]
+
+
+def follower_of(scene: Scene, dyad: Dyad) -> str:
+    """The follower of a cam among the links of its dyad."""
+    return next(link for link in dyad.links if link in scene.cams)
 
 
 def outer_of(group: Dyad, link: str) -> Joint:

@@ -214,7 +214,8 @@ class ClosingReaction(InPolygon, frozen=True, kw_only=True):
     """A reaction that leads from one point of a polygon to another: ``force``, and its arrow.
 
     ``whole`` are the symbols of its two parts where it is their sum. ``sides`` are the known sides
-    of a polygon that it closes alone.
+    of a polygon that it closes alone. An inner reaction begins where the loads of the link
+    ``first`` end, by default the first of the polygon.
     """
 
     gives: ClassVar[tuple[str, ...]] = ("force", "arrow")
@@ -229,6 +230,7 @@ class ClosingReaction(InPolygon, frozen=True, kw_only=True):
     whole: tuple[str, ...] = ()
     sides: tuple[KnownSide, ...] = ()
     closes: bool = False
+    first: str = ""
 
     def marks(self, canvas: Canvas, role: str) -> None:
         """Draw the reaction."""
@@ -241,7 +243,7 @@ class ClosingReaction(InPolygon, frozen=True, kw_only=True):
             return ""
         fields = {
             "n": str(self.polygon),
-            "one": escape(self.links[0]),
+            "one": escape(self.first or self.links[0]),
             "k": links_words(drawing, self.links),
             "r": symbol(self.name),
             "read": read_side(drawing, self.name, self.tail, self.tip),
@@ -400,6 +402,7 @@ class Polygon:
         whole: tuple[str, ...] = (),
         closes: bool = False,
         drawn: bool = True,
+        first: str = "",
         quantity: str = PAIR_REACTION.target,
     ) -> int:
         """The force from one point of the polygon to another, with its arrow: a ``quantity``."""
@@ -422,5 +425,6 @@ class Polygon:
             whole=whole,
             sides=tuple(self.sides) if closes else (),
             closes=closes,
+            first=first,
         )
         return pen.make(record).force

@@ -74,7 +74,8 @@ def rack_force(centre: Point, pitch: Point, guide: Line, end: Point, slant: floa
     away = (pitch - centre) / abs(pitch - centre)
     load, along = dot(end, guide.along), 1j * away
     first = -load / dot(along, guide.along)
-    way = along + pick(first < 0, -slant, slant) * away
+    one = first * 0 + 1
+    way = along + pick(first < 0, -one, one) * (slant * away)
     return -load / dot(way, guide.along) * way
 
 
