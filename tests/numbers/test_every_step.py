@@ -51,6 +51,7 @@ MANY |= {
     for name in ("table_lift", "table_rate", "table_bend")
 }
 MANY["two_trials.pace"] = ("rrr", (2,))
+MANY["loads.by_table"] = ("rrr", (0.5, 1.5, 4.0, 9.0))
 MANY["lever.lever_balance"] = ("ppppr", (2,))
 MANY |= {
     f"moments.{name}": ("ppppr", (2,))
