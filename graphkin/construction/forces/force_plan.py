@@ -142,7 +142,7 @@ def force_program(scene: Scene, motion: Program, groups: Sequence[Group]) -> Pro
     return replace(pen.program(), reactions=tuple(plan.reactions), balances=tuple(plan.balances))
 
 
-class Side(NamedTuple):
+class DyadSide(NamedTuple):
     """One side of a dyad: a link, or a cylinder of two, between an outer pair and the inner pin.
 
     The reaction in the outer pair acts on link ``near``, that in the inner pin on link ``far``.
@@ -283,13 +283,15 @@ class ForcePlan:
 
     # --- dyads -----------------------------------------------------------------------------------
 
-    def sides_of(self, group: Dyad) -> tuple[Side, Side]:
+    def sides_of(self, group: Dyad) -> tuple[DyadSide, DyadSide]:
         """The sides of a dyad; a side with a pin comes first."""
-        one, other = (Side(link, link, outer_of(group, link)) for link in group.links)
+        one, other = (DyadSide(link, link, outer_of(group, link)) for link in group.links)
         swapped = isinstance(one.outer, Sliding) and not isinstance(other.outer, Sliding)
         return (other, one) if swapped else (one, other)
 
-    def by_inner_pin(self, kind: str, inner: Joint, one: Side, other: Side) -> tuple[int, int]:
+    def by_inner_pin(
+        self, kind: str, inner: Joint, one: DyadSide, other: DyadSide
+    ) -> tuple[int, int]:
         """RRR, RRP, PRP: parts across bars, the polygon of both links, places on guides.
 
         Gives the forces of both sides in the inner pin, each on its own side.
@@ -331,7 +333,7 @@ class ForcePlan:
             self.settle(side.outer, side.near, forces[side], moments[side])
         return between, self.back(between)
 
-    def across(self, side: Side, inner: Pin, moments: Moments) -> int | None:
+    def across(self, side: DyadSide, inner: Pin, moments: Moments) -> int | None:
         """The part of an outer reaction across the bar; None where there is none."""
         if not isinstance(side.outer, Pin) or not moments.terms:
             return None
@@ -468,9 +470,9 @@ class ForcePlan:
         for link in dyad.links:
             cylinder = cylinders.get(link)
             sides.append(
-                Side(link, link, outer_of(dyad, link))
+                DyadSide(link, link, outer_of(dyad, link))
                 if cylinder is None
-                else Side(cylinder.near, link, cylinder.pin)
+                else DyadSide(cylinder.near, link, cylinder.pin)
             )
         one, other = sides
         between = self.by_inner_pin(dyad.type, dyad.inner, one, other)
@@ -628,7 +630,7 @@ class ForcePlan:
         lines = {arm: self.line_of(arm) for arm in arms}
         one, other, third = (arms[k] for k in in_order(pen, [lines[arm] for arm in arms]))
         across = {
-            arm: self.across(Side(arm.link, arm.link, arm.outer), arm.inner, moments[arm])
+            arm: self.across(DyadSide(arm.link, arm.link, arm.outer), arm.inner, moments[arm])
             for arm in arms
         }
         first, second = (pen.the("position", arm.inner.place) for arm in (one, other))
