@@ -235,7 +235,17 @@ class Mechanism(Struct, frozen=True, dict=True):
             for quantity in some
         ]
         wanted = wanted or self.for_forces() or list(self.program.answers)
+        wanted += self.forces_asked()
         return tuple(target for target in wanted if self.gives(target))
+
+    def forces_asked(self) -> list[Target]:
+        """The reactions and balances that the scene asks for, where the program draws them."""
+        given = self.scene.forces
+        if given is None or not given.asked or not self.program.reactions:
+            return []
+        from graphkin.construction.forces.force_words import is_asked
+
+        return [target for target in self.program.targets if is_asked(self.scene, given, target)]
 
     def for_forces(self) -> list[Target]:
         """The motions from which the asked forces follow; none where no force is asked."""

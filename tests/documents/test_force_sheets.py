@@ -25,7 +25,10 @@ from graphkin.text.errors import StructureError
 from tests.chosen import FOLDER
 
 SCENES = Path(__file__).parents[1] / "scenes" / "forces"
-NAMES = ("four-bar", "gears", "ram", "shaper")
+NAMES = (
+    *("cam-rocker", "class-three", "cylinders", "four-bar", "gas-engine", "gears", "rack", "ram"),
+    "shaper",
+)
 
 
 def forces_of(name: str, language: str = "en"):

@@ -28,6 +28,8 @@ Effect = Literal[
     "instantaneous centres",
     "centrodes",
     "acceleration poles",
+    "loads",
+    "reactions and balance",
 ]
 """The purpose of a step in the motion, in the order of the work."""
 
@@ -55,6 +57,7 @@ OF_PART: Mapping[Part, Effect] = {
     Part.CENTRE: "instantaneous centres",
     Part.POLE: "acceleration poles",
     Part.RESULT: "rates of links and slides",
+    Part.FORCE: "reactions and balance",
 }
 """The effect of a step that names none itself."""
 

@@ -26,7 +26,13 @@ from graphkin.construction.forces.balance import balance_of
 from graphkin.construction.forces.force_words import link_pair, sub
 from graphkin.construction.forces.lever import LeverPlan
 from graphkin.construction.forces.line_force import along_line, foot_on_line, in_order, meeting
-from graphkin.construction.forces.loads import LinkForce, applied, loads_of, opposite
+from graphkin.construction.forces.loads import (
+    LinkForce,
+    PassedReaction,
+    applied,
+    loads_of,
+    opposite,
+)
 from graphkin.construction.forces.moments import (
     Moments,
     balancing_moment,
@@ -181,7 +187,8 @@ class ForcePlan:
         assert pen.scene.forces is not None
         self.pen = pen
         self.arms = (f"h_{number}" for number in count(1))
-        self.acting = loads_of(pen, pen.scene.forces, self.arms)
+        with pen.calls_for("loads"):
+            self.acting = loads_of(pen, pen.scene.forces, self.arms)
         self.acting[FRAME] = []
         self.loads = {link: tuple(some) for link, some in self.acting.items()}
         self.polygons = count(1)
@@ -268,7 +275,8 @@ class ForcePlan:
         if other == FRAME:
             applied(pen, LinkForce(self.name(pair, link), REACTION, force, place, at=at))
             return
-        passed = LinkForce(self.name(pair, other), REACTION, self.back(force), place, at=at)
+        back = pen.make(PassedReaction(name=self.name(pair, other), force=self.back(force))).force
+        passed = LinkForce(self.name(pair, other), REACTION, back, place, at=at)
         self.acting[other].append(applied(pen, passed))
 
     def back(self, step: int) -> int:

@@ -172,6 +172,18 @@ class AppliedForce(Construction, frozen=True, kw_only=True):
         canvas.vector(self.name, self.look, place, place + way)
 
 
+class PassedReaction(Construction, frozen=True, kw_only=True):
+    """The opposite of a reaction, which acts on the other link of the pair."""
+
+    gives: ClassVar[tuple[str, ...]] = ("force",)
+    slips: ClassVar[Mapping[str, Slip]] = {
+        "reaction_reversed": Slip(-1, "moderate", ("force",)),
+    }
+
+    name: str
+    force: int
+
+
 def moment_slips(role: str) -> Mapping[str, Slip]:
     """The slips in an inertia moment, which is the result of a role."""
     return {
