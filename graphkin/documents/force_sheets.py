@@ -109,7 +109,9 @@ def not_drawn(mechanism: Mechanism, group: Group) -> Problem:
             links=links,
             what=group.title,
         ),
-        message("dyads of pins and slides, wheels on fixed pivots, driven cranks and blocks"),
+        message(
+            "dyads, cylinders, cams, wheels on pivots, racks, groups of class III, driven cranks and blocks"
+        ),
         hint,
     )
 
