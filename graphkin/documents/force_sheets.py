@@ -110,7 +110,7 @@ def not_drawn(mechanism: Mechanism, group: Group) -> Problem:
             what=group.title,
         ),
         message(
-            "dyads, cylinders, cams, wheels on pivots, racks, groups of class III, driven cranks and blocks"
+            "dyads, cylinders, cams, wheels on pivots, racks, groups of class III, driven links"
         ),
         hint,
     )
