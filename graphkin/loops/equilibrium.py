@@ -20,7 +20,7 @@ from graphkin.construction.reactions import Balance, ForceSolution, PairReaction
 from graphkin.loops.loop_motion import Motion
 from graphkin.loops.rigid_bodies import Reals
 from graphkin.numbers.plane import Line
-from graphkin.scene.forces import Forces
+from graphkin.scene.forces import ByDriver, Directed, Forces, Size
 from graphkin.scene.model import FRAME, Driver, Scene, joined_words
 from graphkin.structure.link_axes import body
 from graphkin.structure.pairs import Contact, contacts
@@ -107,13 +107,39 @@ def known_forces(scene: Scene, forces: Forces, motion: Motion) -> Iterator[Actin
         force = mass * (falls - complex(here.acceleration[0]))
         yield Acting(link, complex(here.place[0]), complex(here.velocity[0]), force, spun)
     for load in forces.loads:
-        couple = 0.0 if load.moment is None else si(load.moment, scene)
+        couple = 0.0 if load.moment is None else number_here(scene, load.moment)
         if load.force is None:
             yield Acting(load.link, 0j, 0j, 0j, couple)
             continue
         here = motion.point(load.at)
-        force = complex(si(load.force[0], scene), si(load.force[1], scene))
-        yield Acting(load.link, complex(here.place[0]), complex(here.velocity[0]), force, couple)
+        place, velocity = complex(here.place[0]), complex(here.velocity[0])
+        if not isinstance(load.force, Directed):
+            force = complex(si(load.force[0], scene), si(load.force[1], scene))
+        else:
+            size, way = number_here(scene, load.force.size), load.force.sense * velocity
+            angle = float(load.force.angle.si(scene.values))
+            unit = way / abs(way) if way else 0j
+            force = size * (unit if load.force.sense else complex(np.exp(1j * angle)))
+        yield Acting(load.link, place, velocity, force, couple)
+    for spring in forces.springs:
+        one, other = (motion.point(end) for end in spring.ends)
+        way = complex(other.place[0] - one.place[0])
+        pull = si(spring.stiffness, scene) * (1 - si(spring.free, scene) / abs(way)) * way
+        for link, here, force in zip(spring.links, (one, other), (pull, -pull), strict=True):
+            if link != FRAME:
+                place, velocity = complex(here.place[0]), complex(here.velocity[0])
+                yield Acting(link, place, velocity, force, 0.0)
+
+
+def number_here(scene: Scene, size: Size) -> float:
+    """A given number, or one from a table of a driver's coordinate."""
+    if not isinstance(size, ByDriver):
+        return si(size, scene)
+    knots, period = size.knots
+    at = si(scene.drivers[size.driver].position, scene)
+    if period:
+        at = knots[0] + (at - knots[0]) % period
+    return float(np.interp(at, knots, [si(each, scene) for each in size.ends]))
 
 
 class Column(Struct, frozen=True):

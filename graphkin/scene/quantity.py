@@ -53,7 +53,7 @@ def si_factors() -> dict[str, tuple[Fraction, bool]]:
     for base, metres in LENGTHS.items():
         bases |= {f"{unit}{IN}{base}": (each / metres, False) for unit, each in LENGTHS.items()}
     rates = {f"{unit}/{s}": each for s in ("s", "s²", "s³") for unit, each in bases.items()}
-    others = dict.fromkeys(("", "s", "kg", "kg·m²", "N", "N·m"), (Fraction(1), False))
+    others = dict.fromkeys(("", "s", "kg", "kg·m²", "N", "N·m", "N/m"), (Fraction(1), False))
     return bases | rates | others | {"rev/min": (Fraction(1, 30), True)}
 
 

@@ -157,7 +157,8 @@ def note_structure(scene: Scene, findings: Findings) -> None:
 
 def has_forces(top: Table, asked: Table) -> bool:
     """Whether a file says anything of forces, the readers of which are imported only then."""
-    keys = top.take("gravity"), top.take("loads"), asked.take("reactions"), asked.take("balance")
+    keys = [top.take(key) for key in ("gravity", "loads", "springs")]
+    keys += [asked.take(key) for key in ("reactions", "balance")]
     links = top.raw.get("links")
     written = [top.raw.get(FRAME_WORD), *(links.values() if isinstance(links, dict) else ())]
     masses = (key in each for each in written if isinstance(each, dict) for key in MASS_KEYS)

@@ -21,6 +21,7 @@ from mpmath import mp
 
 from graphkin.mechanism import Mechanism
 from graphkin.numbers.kinds import kind_of_context
+from graphkin.scene.forces import ByDriver, Components, Directed, Size
 from graphkin.scene.model import (
     FRAME,
     Angled,
@@ -558,11 +559,42 @@ class Exact:
             inertia = mp.mpf(0) if each.inertia is None else self.si(each.inertia)
             add(link, place, self.si(each.mass) * (falls - push), -inertia * second[link][2])
         for load in forces.loads:
-            couple = mp.mpf(0) if load.moment is None else self.si(load.moment)
-            force = mp.mpc(*map(self.si, load.force)) if load.force else mp.mpc(0)
+            couple = mp.mpf(0) if load.moment is None else self.here(load.moment)
             place = points[load.at][0] if load.force else mp.mpc(*poses[load.link][:2])
+            force = self.given_force(load.force, points[load.at][1]) if load.force else mp.mpc(0)
             add(load.link, place, force, couple)
+        for spring in forces.springs:
+            one, other = (points[end][0] for end in spring.ends)
+            pull = self.si(spring.stiffness) * (abs(other - one) - self.si(spring.free))
+            pull *= (other - one) / abs(other - one)
+            for link, place, force in zip(spring.links, (one, other), (pull, -pull), strict=True):
+                if link != FRAME:
+                    add(link, place, force, mp.mpf(0))
         return right
+
+    def given_force(self, force: Components | Directed, speed: Any) -> Any:
+        """A load's force, which may act along the velocity of its point."""
+        if not isinstance(force, Directed):
+            return mp.mpc(*map(self.si, force))
+        if not force.sense:
+            return self.here(force.size) * mp.expj(self.si(force.angle))
+        return force.sense * self.here(force.size) * speed / abs(speed) if speed else mp.mpc(0)
+
+    def here(self, size: Size) -> Any:
+        """A number, or one on the straight line between its neighbours in a driver's table."""
+        if not isinstance(size, ByDriver):
+            return self.si(size)
+        at = self.si(self.scene.drivers[size.driver].position)
+        places, numbers = [*map(self.si, size.places)], [*map(self.si, size.numbers)]
+        if size.period is not None:
+            period = self.si(size.period)
+            places, numbers = [*places, places[0] + period], [*numbers, numbers[0]]
+            at = places[0] + (at - places[0]) % period
+        if at <= places[0] or at >= places[-1]:
+            return numbers[0] if at <= places[0] else numbers[-1]
+        k = next(k for k, place in enumerate(places) if place > at)
+        share = (at - places[k - 1]) / (places[k] - places[k - 1])
+        return numbers[k - 1] + share * (numbers[k] - numbers[k - 1])
 
     def column(self, each: Equation, poses: Poses, gradient: Any, side: Any) -> Any:
         """What a unit multiplier of an equation does to each link."""

@@ -14,7 +14,8 @@ from graphkin.construction.forces.lever import LeverBalance
 from graphkin.construction.forces.polygon import ClosedByLines, ClosingReaction
 from graphkin.construction.reactions import ForceSolution
 from graphkin.documents.force_sheets import traced
-from graphkin.mechanism import Mechanism
+from graphkin.loops.equilibrium import by_equations, equilibrium
+from graphkin.mechanism import Mechanism, gathered
 from graphkin.scene.forces import Forces, Load, Mass
 from graphkin.scene.quantity import Quantity, exact
 
@@ -73,10 +74,22 @@ def on_links(found: ForceSolution) -> dict[str, complex]:
     return named
 
 
+def of_equations(mechanism: Mechanism) -> ForceSolution:
+    """The forces by all equations of equilibrium at once."""
+    scene = mechanism.scene
+    solution = gathered(mechanism.trace(), scene.links)
+    motion = mechanism.check.examine(solution, numbered=0).solved.motion
+    return by_equations(scene, motion, equilibrium(scene, scene.forces, motion))
+
+
 def differences(mechanism: Mechanism) -> Iterator[float]:
-    """How far polygons and lever are from the solution, as shares of the largest force."""
-    found, verdict = mechanism.forces()
-    assert verdict.agrees
+    """How far polygons are from the equations of equilibrium, and the lever from the polygons.
+
+    As shares of the largest force.
+    """
+    own, verdict = mechanism.forces()
+    assert verdict.agrees and verdict.constructed
+    found = of_equations(mechanism)
     trace, expected = traced(mechanism), on_links(found)
     largest = max(abs(each.force) for each in found.reactions)
     compared = [abs(force - expected[n]) for n, force in drawn(trace) if n in expected]
@@ -85,6 +98,6 @@ def differences(mechanism: Mechanism) -> Iterator[float]:
     values = trace.values
     for lever in constructions(trace.program, LeverBalance):
         balance = values[lever.force if lever.moment is None else lever.moment]
-        other = next(each for each in found.balance if each.link in lever.moment_name)
+        other = next(each for each in own.balance if each.link in lever.moment_name)
         size = other.force if other.moment is None else other.moment
         yield abs(balance - size) / max(abs(size), 1e-6 * largest)

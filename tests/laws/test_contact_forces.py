@@ -26,7 +26,7 @@ def forces_of(name: str, load: str, *changes: tuple[str, str]) -> ForceSolution:
         assert old in text
         text = text.replace(old, new, 1)
     found, verdict = Mechanism(read_text(text, name, None, {})).forces()
-    assert verdict.agrees and not verdict.constructed
+    assert verdict.agrees and verdict.constructed
     return found
 
 

@@ -655,5 +655,6 @@ class PaperCanvas(Struct, frozen=True):
         return self.plot.field.holds(place)
 
     def note(self, text: str) -> None:
-        """Write a text at the foot of the field."""
-        self.plot.board.notes.append(FootNote(text))
+        """Write a text at the foot of the field, once."""
+        if (note := FootNote(text)) not in self.plot.board.notes:
+            self.plot.board.notes.append(note)
