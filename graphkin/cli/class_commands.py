@@ -369,7 +369,7 @@ def ranges(name: str, folder: Path | None, force: bool) -> None:
         refuse_folder(folder)
     found = fair_ranges(lab)
     tell(range_lines(lab, found))
-    if not lab.rule.draws:
+    if not lab.rule.is_drawn:
         tell(labelled("formula", formula_lines(lab)))
     tell(["", *proposed(lab, found)])
     if folder is not None:

@@ -92,7 +92,7 @@ def proposal_of(texts: LabTexts) -> LabProposal | LabProblems:
 def searched(lab: Lab) -> LabProposal:
     """The search of a lab's whole space, and of a formula's faults."""
     found = fair_ranges(lab)
-    formula = None if lab.rule.draws else formula_faults(lab)
+    formula = None if lab.rule.is_drawn else formula_faults(lab)
     return LabProposal(found, proposed_ranges(lab, found), formula)
 
 
