@@ -8,6 +8,10 @@ attempt, parameter], written without spaces and with unescaped letters. The hash
 modulo the number of values, is the index of the value. Indices count from the least value; in a
 list, they follow its order.
 
+Several positions are picked without repetition: the hash for "p 2" instead of "p", modulo the
+number of values that are left, is the index of the second among them. Picked values are then put
+in order. The id is that of the class list.
+
 Attempt 0 is the first; unfair data are drawn again with 1, 2, … In a shell::
 
     printf '%s' '["mechanics 2026","pump","0042",0,"n"]' | sha256sum

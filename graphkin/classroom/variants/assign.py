@@ -99,7 +99,9 @@ def entries(lab: Lab, students: Sequence[Student], roster: str) -> list[Student]
         raise RosterError(
             Problem(
                 InTable(roster, each.row).message,
-                message('sheet {part} gets the id "{id}" of another student', part=each.part, id=each.id),
+                message(
+                    'sheet {part} gets the id "{id}" of another student', part=each.part, id=each.id
+                ),
                 message("ids that do not end in a hyphen and a number"),
             )
             for each in twins

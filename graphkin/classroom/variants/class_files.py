@@ -156,7 +156,9 @@ def class_lines(lab: Lab, found: Sequence[Assigned]) -> Iterator[str]:
     unsure = list(zip(names, map(unsure_fields, standards), strict=True))
     yield from labelled("unsure", unsure_lines(unsure, f"{100 * lab.rubric.cap:g} %"))
     if not lab.rule.is_drawn:
-        yield from labelled("note", alike_lines([each.student for each in found if each.student.part < 2]))
+        yield from labelled(
+            "note", alike_lines([each.student for each in found if each.student.part < 2])
+        )
 
 
 def unsure_lines(unsure: Sequence[tuple[str, Sequence[str]]], cap: str) -> list[str]:
