@@ -8,8 +8,8 @@ from fractions import Fraction
 import pytest
 
 from graphkin.classroom.grading.class_marking import graded_class
-from graphkin.classroom.grading.grading_files import points_by_id, students_table
 from graphkin.classroom.grading.graded import Answer
+from graphkin.classroom.grading.grading_files import points_by_id, students_table
 from graphkin.classroom.lab.read_lab import read_lab
 from graphkin.classroom.lab.rules import picked, settings, sheets
 from graphkin.classroom.printing.edition import read_edition
