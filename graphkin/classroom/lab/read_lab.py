@@ -203,7 +203,7 @@ def read_positions(table: Table, scene: Scene) -> SeveralValues | None:
 
 
 def whole_range(parameter: Parameter, place: str, findings: Findings) -> Range | None:
-    """All values that a scene allows a parameter; None, with a problem noted, if it has no steps."""
+    """All values of a parameter; None, with a problem noted, where the scene gives no steps."""
     least, most, step = parameter.minimum, parameter.maximum, parameter.step
     if least is None or most is None or step is None:
         findings.add(

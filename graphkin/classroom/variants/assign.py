@@ -232,9 +232,9 @@ def check_of(lab: Lab) -> Check | None:
 def misfits(lab: Lab, student: Student) -> list[Problem]:
     """The problems of a formula's data for a student: values that the scene does not allow."""
     every: list[Settings] = []
-    for each in sheets(lab.rule, student):
+    for sheet in sheets(lab.rule, student):
         try:
-            every.append(settings(lab, each))
+            every.append(settings(lab, sheet))
         except Exception as error:
             return list(problems_of(error))
     parameters = lab.mechanism.scene.parameters

@@ -247,17 +247,15 @@ TRIES = 24
 
 
 def words_along(axis: AcrossAxis, shares: Sequence[Reals], rect: Rect) -> Iterator[Mark]:
-    """The words of vertical lines, to their right, away from curves; of the last to its left.
+    """The words of vertical lines, to their right, away from curves.
 
     ``shares`` are the heights of the curves, as shares of the panel's.
     """
     left, top, right, low = rect
-    last = axis.high - NEAR * (axis.high - axis.low)
     for each in axis.uprights:
         if not each.words:
             continue
-        late = each.at > last
-        beside = (each.at - axis.at if late else axis.at - each.at) / (axis.high - axis.low)
+        beside = (axis.at - each.at) / (axis.high - axis.low)
         near = (beside > -NARROW) & (beside < NEAR)
         heights = np.concatenate([share[near] for share in shares])
         heights = heights[np.isfinite(heights)]
@@ -267,7 +265,7 @@ def words_along(axis: AcrossAxis, shares: Sequence[Reals], rect: Rect) -> Iterat
         free = [y for y in starts if clear[y] > NARROW]
         start = free[0] if free else max(starts, key=clear.__getitem__)
         x = left + (each.at - axis.low) / (axis.high - axis.low) * (right - left)
-        x += -0.8 if late else SMALL + 0.8
+        x += SMALL + 0.8
         look = f"label {each.look}"
         y = low - float(start) * (low - top)
         yield Text(x, y, escape(each.words), look, SMALL, name="upright", rotate=90)
