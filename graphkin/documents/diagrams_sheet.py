@@ -164,11 +164,14 @@ def axis_lines(axes: Axes, name: str, said: str) -> Iterator[Mark]:
 
 
 def numbers_along(words: Words, axes: Axes, name: str, factor: float, count: int) -> Iterator[Mark]:
-    """The round numbers along an axis of ordinates."""
+    """The round numbers along an axis of ordinates: about ``count``, two beside zero at least."""
     left, top, _, low = axes.rect
-    pace = next(preferred((low - top) / axes.high * factor / count))
-    lowest = (axes.zero - low) / axes.high * factor
-    first, last = ceil(lowest / pace), floor((axes.zero - top) / axes.high * factor / pace)
+    lowest, highest = ((axes.zero - y) / axes.high * factor for y in (low, top))
+    for parts in (count, 2.5 * count):
+        pace = next(preferred((highest - lowest) / parts))
+        first, last = ceil(lowest / pace), floor(highest / pace)
+        if last - first - (first <= 0 <= last) >= 1:
+            break
     for k in range(first, last + 1):
         y = axes.zero - k * pace / factor * axes.high
         yield LineMark(left - 1.2, y, left + 1.2, y, "dimension", f"axis {name}")

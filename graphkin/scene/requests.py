@@ -40,7 +40,7 @@ from graphkin.text import LANGUAGES
 from graphkin.text.errors import Hint, Message, Written, either, joined, message
 from graphkin.text.school_signs import SCHOOLS
 
-OF_LINKS = ("curves", "jerk")
+OF_LINKS = ("curves",)
 """The keys of [ask] that list points of links, not points such as A@3."""
 CENTRES_ASKED, PAIRS = "centres", "pairs"
 """The key that may also hold pairs of links, and where the scene keeps these."""
