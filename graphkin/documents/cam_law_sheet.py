@@ -391,6 +391,11 @@ def pressure_said(law: CamLaw) -> Iterator[str]:
     yield words(key, u=way_letter(law), at=place_of(law, at), **numbers)
 
 
+def size_of_order(law: CamLaw, order: int, at: Reals) -> Reals:
+    """The size of a derivative of the lift at some θ."""
+    return np.asarray(np.abs(law.orders_at(at)[order]))
+
+
 def in_time(law: CamLaw, every: Sequence[Strip]) -> Iterator[str]:
     """The largest speed, acceleration and jerk of the follower, where the driver is the cam."""
     drawing, sweep = law.found.shown.alone, law.found.cycle.sweep
@@ -404,7 +409,7 @@ def in_time(law: CamLaw, every: Sequence[Strip]) -> Iterator[str]:
     unit = "rad" if lever else "m"
     shown = []
     for order in (1, 2, 3):
-        _, most = law.largest(lambda u, order=order: np.abs(law.orders_at(u)[order]))
+        _, most = law.largest(partial(size_of_order, law, order))
         power = "" if order == 1 else f"^{order}"
         size = drawing.words.significant(most * abs(pace) ** order, 4)
         shown.append(f"{size} {unit}/s{power}")

@@ -38,7 +38,7 @@ SPARE = 0.05
 """Room above and below curves, as a share of their height."""
 
 
-class Curve(Struct, frozen=True, eq=False):
+class ChartCurve(Struct, frozen=True, eq=False):
     """A curve of a chart: its label as markup, its values, its hue and its stroke by number.
 
     In the plane its values are complex. A ``dot`` has no line: its values are single places.
@@ -64,12 +64,12 @@ class Upright(Struct, frozen=True):
     words: str = ""
 
 
-class Panel(Struct, frozen=True, eq=False):
+class ChartPanel(Struct, frozen=True, eq=False):
     """A panel: its heading and unit, its curves, and the limits of its axis if they are given."""
 
     words: str
     unit: str
-    curves: Sequence[Curve]
+    curves: Sequence[ChartCurve]
     bounds: tuple[float, float] | None = None
 
 
@@ -96,7 +96,7 @@ def numeral(value: float) -> str:
     return f"{value:.6g}".replace("-", "−")
 
 
-def limits_of(curves: Sequence[Curve]) -> tuple[float, float]:
+def limits_of(curves: Sequence[ChartCurve]) -> tuple[float, float]:
     """The limits of an axis that shows some curves whole, with room; a level one in the middle."""
     every = np.concatenate([curve.values[np.isfinite(curve.values)] for curve in curves])
     if not every.size:
@@ -114,7 +114,7 @@ def limits_of(curves: Sequence[Curve]) -> tuple[float, float]:
 # --- legends and titles ---------------------------------------------------------------------------
 
 
-def legend(curves: Sequence[Curve], rect: Rect, *, right: bool) -> tuple[list[Mark], int]:
+def legend(curves: Sequence[ChartCurve], rect: Rect, *, right: bool) -> tuple[list[Mark], int]:
     """The samples of curves with their labels above a rectangle, and the lines that they take."""
     left, top, end, _ = rect
     named = [curve for curve in curves if curve.label]
@@ -141,7 +141,7 @@ def legend(curves: Sequence[Curve], rect: Rect, *, right: bool) -> tuple[list[Ma
     return marks, len(rows)
 
 
-def dot_of(curve: Curve) -> str:
+def dot_of(curve: ChartCurve) -> str:
     """The classes of a curve's dots."""
     return f"dot {HUES[curve.hue % len(HUES)]}"
 
@@ -164,7 +164,7 @@ WIDE, HIGH = 203.0, 42.0
 """Width of a figure, and height of the curves in a panel, in mm."""
 
 
-def stacked(title: str, panels: Sequence[Panel], axis: AcrossAxis) -> Page:
+def stacked(title: str, panels: Sequence[ChartPanel], axis: AcrossAxis) -> Page:
     """A figure of panels, one below another over one axis."""
     head = title_lines(title, WIDE)
     marks: list[Mark] = [*head]
@@ -195,7 +195,7 @@ def axis_below(axis: AcrossAxis, rect: Rect) -> Iterator[Mark]:
     yield Text((left + right) / 2, low + 9.5, escape(axis.words), "caption", WORDS, "middle")
 
 
-def panel_marks(panel: Panel, axis: AcrossAxis, rect: Rect, number: int) -> Iterator[Mark]:
+def panel_marks(panel: ChartPanel, axis: AcrossAxis, rect: Rect, number: int) -> Iterator[Mark]:
     """The grid, the numbers, the vertical lines and the curves of a panel."""
     left, top, right, low = rect
     least, most = panel.bounds or limits_of(panel.curves)
@@ -231,7 +231,7 @@ def panel_marks(panel: Panel, axis: AcrossAxis, rect: Rect, number: int) -> Iter
         yield from words_along(axis, shares, rect)
 
 
-def in_parts(places: np.ndarray, rect: Rect, curve: Curve) -> Iterator[Mark]:
+def in_parts(places: np.ndarray, rect: Rect, curve: ChartCurve) -> Iterator[Mark]:
     """The parts of a curve within a rectangle; a value that is no number interrupts it."""
     gaps = np.flatnonzero(~np.isfinite(places).all(axis=0))
     bounds = [-1, *gaps.tolist(), places.shape[1]]
@@ -279,13 +279,13 @@ LONG, LEAST = 180.0, 130.0
 Box = tuple[float, float, float, float]
 
 
-class Plane(Struct, frozen=True, dict=True):
+class PlaneChart(Struct, frozen=True, dict=True):
     """A figure in the plane with equal scales: the box that it shows, and its part of the page."""
 
     title: str
     unit: str
     shown: Box
-    curves: Sequence[Curve]
+    curves: Sequence[ChartCurve]
 
     @cached_property
     def mm(self) -> float:
@@ -319,7 +319,7 @@ class Plane(Struct, frozen=True, dict=True):
 
 
 def plane_page(
-    plane: Plane,
+    plane: PlaneChart,
     below: Sequence[Mark],
     above: Sequence[Mark] = (),
     note: str = "",
@@ -362,7 +362,7 @@ def plane_page(
     return Page(plane.wide, high + MARGIN, tuple(marks), plane.title)
 
 
-def curve_in(plane: Plane, rect: Rect, curve: Curve) -> Iterator[Mark]:
+def curve_in(plane: PlaneChart, rect: Rect, curve: ChartCurve) -> Iterator[Mark]:
     """A curve in the plane, or its dots, within the figure."""
     left, top, right, low = rect
     z = np.asarray(curve.values, complex)
@@ -376,7 +376,7 @@ def curve_in(plane: Plane, rect: Rect, curve: Curve) -> Iterator[Mark]:
             yield CircleMark(u, v, curve.dot, dot_of(curve), curve.label)
 
 
-def area_in(plane: Plane, rim: np.ndarray, look: str) -> Iterator[Polyline]:
+def area_in(plane: PlaneChart, rim: np.ndarray, look: str) -> Iterator[Polyline]:
     """A filled area within the figure; the rim may run around a hole and back."""
     corners = [plane(complex(z)) for z in rim]
     left, top, right, low = plane.rect
@@ -399,7 +399,7 @@ def cut(corners: Sequence[XY], side: int, sign: int, edge: float) -> list[XY]:
     return found
 
 
-def noted(plane: Plane, place: complex, words: str, hue: int) -> Iterator[Mark]:
+def noted(plane: PlaneChart, place: complex, words: str, hue: int) -> Iterator[Mark]:
     """A diamond at a place, and words beside it on white, within the figure."""
     x, y = plane(place)
     left, _, right, _ = plane.rect

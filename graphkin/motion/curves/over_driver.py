@@ -27,7 +27,7 @@ from graphkin.construction.core.solution import Solution
 from graphkin.drawing.marks import Page
 from graphkin.drawing.style import HUES
 from graphkin.drawing.symbol_markup import escape
-from graphkin.motion.curves.charts import INK, AcrossAxis, Curve, Panel, Upright, stacked
+from graphkin.motion.curves.charts import INK, AcrossAxis, ChartCurve, ChartPanel, Upright, stacked
 from graphkin.motion.cycle import Cycle
 from graphkin.motion.driving import TURN
 from graphkin.scene.link_points import lettered
@@ -215,19 +215,19 @@ def of_points(found: Sampled, points: Sequence[str], quantity: str) -> Page:
         along = value.real, value.imag
         if quantity == "position":
             curves = [
-                Curve(indexed(axis, name), part, hue)
+                ChartCurve(indexed(axis, name), part, hue)
                 for hue, (axis, part) in enumerate(zip("xy", along, strict=True))
             ]
         else:
             sign = indexed(letter, name)
             curves = [
-                Curve(sign, np.abs(value), INK),
+                ChartCurve(sign, np.abs(value), INK),
                 *(
-                    Curve(f"{sign} along *{axis}*", part, hue, hue + 1)
+                    ChartCurve(f"{sign} along *{axis}*", part, hue, hue + 1)
                     for hue, (axis, part) in enumerate(zip("xy", along, strict=True))
                 ),
             ]
-        panels.append(Panel(f"Point {name.replace('@', ' of link ')}", unit, curves))
+        panels.append(ChartPanel(f"Point {name.replace('@', ' of link ')}", unit, curves))
     return figure(found, PLURALS[quantity].capitalize() + more, panels)
 
 
@@ -236,24 +236,24 @@ def of_links(found: Sampled, links: Sequence[str]) -> Page:
     panels = []
     links, more = some_of(links, MOST_CURVES, "links")
     angles = [
-        Curve(indexed("θ", name), angle, i)
+        ChartCurve(indexed("θ", name), angle, i)
         for i, name in enumerate(links)
         if (angle := angle_of(found, name)) is not None
     ]
     if angles:
         lines = ", ".join(f"{n}: {'-'.join(line_of(found, n))}" for n in links if line_of(found, n))
         which = f" ({lines})" if len(lines) < LINE else ", from its first point to its second"
-        panels.append(Panel(f"Angle of the line of each link{which}", "deg", angles))
+        panels.append(ChartPanel(f"Angle of the line of each link{which}", "deg", angles))
     turning = "Angular velocity, counter-clockwise positive", "Angular acceleration"
     for rate, letter, words in zip(RATES, "ωε", turning, strict=True):
-        curves: list[Curve] = []
+        curves: list[ChartCurve] = []
         for i, name in enumerate(links):
             value = motion_value(found.solution.links[name], rate)
             if value is not None:
                 whole = np.broadcast_to(np.asarray(value, float), found.at.shape)
-                curves.append(Curve(indexed(letter, name), whole, i))
+                curves.append(ChartCurve(indexed(letter, name), whole, i))
         if curves:
-            panels.append(Panel(words, rate.unit, curves))
+            panels.append(ChartPanel(words, rate.unit, curves))
     return figure(found, f"Turning of the links{more}", panels)
 
 
@@ -285,14 +285,14 @@ def of_slides(found: Sampled, blocks: Sequence[str]) -> Page:
         ("speed", "v", "Speed along the guide", "m/s", 1.0),
         ("acceleration", "a", "Acceleration along the guide", "m/s²", 1.0),
     ):
-        curves: list[Curve] = []
+        curves: list[ChartCurve] = []
         for i, name in enumerate(blocks):
             value = getattr(found.solution.slides[name], quantity)
             if value is not None:
                 whole = np.broadcast_to(np.asarray(value, float), found.at.shape) * factor
-                curves.append(Curve(indexed(letter, name), whole, i))
+                curves.append(ChartCurve(indexed(letter, name), whole, i))
         if curves:
-            panels.append(Panel(words, units, curves))
+            panels.append(ChartPanel(words, units, curves))
     return figure(found, f"Blocks on their guides{more}", panels)
 
 
@@ -306,9 +306,9 @@ def of_cams(found: Sampled) -> Page:
         lift = np.degrees(profile.rise.at) if swings else profile.rise.at * found.per_length
         letter, unit = ("ψ", "deg") if swings else ("s", found.length_unit)
         words = f"Displacement of link {name} by cam {profile.cam.on}"
-        panels.append(Panel(words, unit, [Curve(indexed(letter, name), lift)]))
-        angle = Curve(indexed("α", name), profile.pressure, 1)
-        panels.append(Panel(f"Pressure angle of link {name}", "deg", [angle]))
+        panels.append(ChartPanel(words, unit, [ChartCurve(indexed(letter, name), lift)]))
+        angle = ChartCurve(indexed("α", name), profile.pressure, 1)
+        panels.append(ChartPanel(f"Pressure angle of link {name}", "deg", [angle]))
     return figure(found, f"Cams{more}", panels)
 
 
@@ -318,27 +318,27 @@ def of_forces(found: Sampled, forces: ForcesAlong) -> Page:
     reactions = {name: value for (what, name), value in every if what == PAIR_REACTION.target}
     shown, more = some_of(list(reactions), MOST_CURVES, "reactions")
     curves = [
-        Curve(indexed(*name.split("_", 1)), np.abs(reactions[name]), i)
+        ChartCurve(indexed(*name.split("_", 1)), np.abs(reactions[name]), i)
         for i, name in enumerate(shown)
     ]
     words = "Reactions, their magnitudes"
-    panels = [Panel(words, PAIR_REACTION.unit, curves)] if curves else []
+    panels = [ChartPanel(words, PAIR_REACTION.unit, curves)] if curves else []
     for (what, name), value in every:
         quantity, sign = BY_TARGET[what], indexed(*name.split("_", 1))
         if quantity is BALANCING_MOMENT:
             words = "Balancing moment, counter-clockwise positive"
-            panels.append(Panel(words, quantity.unit, [Curve(sign, value, INK)]))
+            panels.append(ChartPanel(words, quantity.unit, [ChartCurve(sign, value, INK)]))
         elif quantity is BALANCING_FORCE:
             along = [
-                Curve(sign, np.abs(value), INK),
-                Curve(f"{sign} along *x*", value.real, 0, 1),
-                Curve(f"{sign} along *y*", value.imag, 1, 2),
+                ChartCurve(sign, np.abs(value), INK),
+                ChartCurve(f"{sign} along *x*", value.real, 0, 1),
+                ChartCurve(f"{sign} along *y*", value.imag, 1, 2),
             ]
-            panels.append(Panel("Balancing force", quantity.unit, along))
+            panels.append(ChartPanel("Balancing force", quantity.unit, along))
     return figure(found, f"Forces{more}", panels)
 
 
-def figure(found: Sampled, title: str, panels: Sequence[Panel]) -> Page:
+def figure(found: Sampled, title: str, panels: Sequence[ChartPanel]) -> Page:
     """Panels one below another over one axis of the driver, interrupted between ranges."""
     whole = [
         replace(

@@ -23,8 +23,8 @@ from graphkin.motion.centrodes import centrodes, links_with_centrodes
 from graphkin.motion.curves.charts import (
     INK,
     Box,
-    Curve,
-    Plane,
+    ChartCurve,
+    PlaneChart,
     area_in,
     noted,
     plane_page,
@@ -93,7 +93,7 @@ def stand_about(cycle: Cycle, factor: float, points: Collection[str]) -> Outline
     )
 
 
-def outline(stand: Outline, plane: Plane) -> list[Mark]:
+def outline(stand: Outline, plane: PlaneChart) -> list[Mark]:
     """The mechanism in a figure, with the letters that fit."""
     (x0, x1, y0, y1), per_metre = plane.shown, stand.factor
     middle = complex(x0 + x1, y0 + y1) / (2 * per_metre)
@@ -146,10 +146,12 @@ def paths(found: Sampled) -> Page:
     }
     box = box_of([np.array(list(stand.places.values())), *curves.values()])
     lines = [
-        Curve(f"path of {symbol(name)}", found.broken(curve), i)
+        ChartCurve(f"path of {symbol(name)}", found.broken(curve), i)
         for i, (name, curve) in enumerate(curves.items())
     ]
-    dots = [Curve("", dotted(found, curve), i, dot=DOT) for i, curve in enumerate(curves.values())]
+    dots = [
+        ChartCurve("", dotted(found, curve), i, dot=DOT) for i, curve in enumerate(curves.values())
+    ]
     plane = plane_of(found, f"Paths of points{more}", box, [*lines, *dots])
     note = ", a dot every 30° of the driver" if found.cycle.sweep.what == "turn" else ""
     note = f"mechanism as the scene has it{note}" if stand.drawn else note.lstrip(", ")
@@ -191,8 +193,8 @@ def both_centrodes(found: Sampled, link: str) -> Page:
     touch = here[2] * found.per_length
     window = near_box(places, [fixed, moving], stand.breadth(), touch)
     curves = [
-        Curve("fixed centrode", unbroken(found, fixed, window), 0),
-        Curve(
+        ChartCurve("fixed centrode", unbroken(found, fixed, window), 0),
+        ChartCurve(
             f"moving centrode, carried by link {escape(link)}", unbroken(found, moving, window), 1
         ),
     ]
@@ -226,9 +228,9 @@ def unbroken(found: Sampled, curve: np.ndarray, window: Box) -> np.ndarray:
     return np.where(out, complex(np.nan, np.nan), line)
 
 
-def plane_of(found: Sampled, title: str, box: Box, curves: Sequence[Curve]) -> Plane:
+def plane_of(found: Sampled, title: str, box: Box, curves: Sequence[ChartCurve]) -> PlaneChart:
     """A figure with equal scales over a box."""
-    return Plane(f"{title}: {found.title}", found.length_unit, box, curves)
+    return PlaneChart(f"{title}: {found.title}", found.length_unit, box, curves)
 
 
 def noting(note: str, stand: Outline) -> str:
@@ -336,10 +338,10 @@ def rim_of(loop: Loop, factor: float, box: Box) -> np.ndarray:
     return np.concatenate(rims(loop, factor, box))
 
 
-def limits(loop: Loop, factor: float, box: Box) -> list[Curve]:
+def limits(loop: Loop, factor: float, box: Box) -> list[ChartCurve]:
     """The edges of the ring or band, and the middle line of a band."""
     found = [
-        Curve(words, edge, GREEN)
+        ChartCurve(words, edge, GREEN)
         for words, edge in zip((within(loop), ""), rims(loop, factor, box), strict=True)
     ]
     if isinstance(loop.reach, Ring):
@@ -347,7 +349,7 @@ def limits(loop: Loop, factor: float, box: Box) -> list[Curve]:
     line = loop.reach.line
     long = 2 * max(abs(bound) for bound in box) + abs(line.point) * factor
     middle = line.point * factor + np.array([-1, 1]) * line.along * long
-    return [*found, Curve("", middle, GREY, 3)]
+    return [*found, ChartCurve("", middle, GREY, 3)]
 
 
 def within(loop: Loop) -> str:
@@ -359,7 +361,7 @@ def within(loop: Loop) -> str:
     return f"band that the rod reaches on either side of the path of {symbol(loop.pins[2])}"
 
 
-def pin_path(loop: Loop, factor: float) -> Iterator[Curve]:
+def pin_path(loop: Loop, factor: float) -> Iterator[ChartCurve]:
     """The driven pin's path, solid where it is within reach, dashed and red elsewhere."""
     places = path_places(loop)
     good = reached(loop, places)
@@ -370,10 +372,10 @@ def pin_path(loop: Loop, factor: float) -> Iterator[Curve]:
     ):
         if flags.any():
             line = np.where(flags, places, complex(np.nan, np.nan)) * factor
-            yield Curve(name, line, hue, stroke)
+            yield ChartCurve(name, line, hue, stroke)
 
 
-def dead_marks(plane: Plane, found: Sampled, loop: Loop) -> Iterator[Mark]:
+def dead_marks(plane: PlaneChart, found: Sampled, loop: Loop) -> Iterator[Mark]:
     """Mark the pin's positions at the dead points, beyond which the driver cannot go."""
     cycle = found.cycle
     way = 1e-6 * (found.at.max() - found.at.min())
