@@ -63,7 +63,8 @@ def jerk_of_link_under(
     ``rate`` is that of the acceleration under the moving point. It holds the share (iε - ω²)·v_r
     of the points that it passes, which does not belong to the jerk of one of them.
     """
-    return rate - (1j * epsilon - omega * omega) * (velocity - under)
+    slip = velocity - under
+    return rate - 1j * slip * epsilon + slip * omega * omega
 
 
 def draw_jerks(pen: Pen) -> None:

@@ -2,11 +2,14 @@
 
 from __future__ import annotations
 
+import io
 import json
+import zipfile
 from fractions import Fraction
 
 import pytest
 
+from graphkin.classroom.grading.answers import packed_feedback
 from graphkin.classroom.grading.class_marking import graded_class
 from graphkin.classroom.grading.graded import Answer
 from graphkin.classroom.grading.grading_files import points_by_id, students_table
@@ -171,3 +174,39 @@ def test_equal_positions_by_formula_are_refused_with_the_row(tmp_path):
 def test_an_id_that_looks_like_a_sheet_is_refused(drawn):
     with pytest.raises(RosterError, match='sheet 2 gets the id "7-2"'):
         assigned(drawn, [Student(2, "7", 1), Student(3, "7-2", 2)])
+
+
+def own_scene(count='"8 + 4*m"'):
+    text = scene_text("motion/own-position")
+    text = text.replace("[frame]", "m = { value = 1, min = 0, max = 10, step = 1 }\n[frame]", 1)
+    return text.replace("count = 12", f"count = {count}").replace(
+        "start = 20", 'start = "20 + 5*m"'
+    )
+
+
+def test_each_student_has_an_own_start_and_number_of_positions(tmp_path):
+    lab = lab_with(tmp_path, 'set = { m = "number mod 3" }', own_scene())
+    for student in STUDENTS[:3]:
+        own = settings(lab, student)
+        found = positions_of(lab.variant(own), words("en"))
+        assert len(found.numbered) == 8 + 4 * own["m"]
+        assert found.numbered[0].at == pytest.approx(20 + 5 * float(own["m"]))
+
+
+@pytest.mark.parametrize(("count", "said"), [('"7.5*m"', "gives 7.5"), ('"3*m"', "gives 3")])
+def test_a_number_of_positions_that_is_no_whole_number_is_refused(tmp_path, count, said):
+    lab = lab_with(tmp_path, 'set = { m = "number mod 3" }', own_scene(count))
+    with pytest.raises(SceneError, match=f"positions.count: .*{said}"):
+        positions_of(lab.variant({"m": Fraction(1)}), words("en"))
+
+
+def test_moodle_gets_the_feedback_of_every_sheet_of_a_student():
+    backs = {"7-1": "Ana_1_file_/", "7-2": "Ana_1_file_/", "8-1": "Ion_2_file_/"}
+    pages = {"7-1": b"one", "7-2": b"two", "8-1": b"three"}
+    with zipfile.ZipFile(io.BytesIO(packed_feedback(backs, pages, "pdf"))) as packed:
+        read = {name: packed.read(name) for name in packed.namelist()}
+    assert read == {
+        "Ana_1_file_/feedback.pdf": b"one",
+        "Ana_1_file_/feedback-2.pdf": b"two",
+        "Ion_2_file_/feedback.pdf": b"three",
+    }
