@@ -13,6 +13,8 @@ from graphkin.classroom.grading.answers import packed_feedback
 from graphkin.classroom.grading.class_marking import graded_class
 from graphkin.classroom.grading.graded import Answer
 from graphkin.classroom.grading.grading_files import points_by_id, students_table
+from graphkin.classroom.lab.fair_ranges import fair_ranges
+from graphkin.classroom.lab.proposed_ranges import proposed_ranges
 from graphkin.classroom.lab.read_lab import read_lab
 from graphkin.classroom.lab.rules import picked, settings, sheets
 from graphkin.classroom.printing.edition import read_edition
@@ -210,3 +212,16 @@ def test_moodle_gets_the_feedback_of_every_sheet_of_a_student():
         "Ana_1_file_/feedback-2.pdf": b"two",
         "Ion_2_file_/feedback.pdf": b"three",
     }
+
+
+@pytest.mark.parametrize("rule", [DRAWN, f'course = "c"\ndraw = {{ r = [60, 65] }}\n{FORMULAS}'])
+def test_proposed_ranges_leave_the_students_their_positions(tmp_path, rule):
+    scene = scene_text("motion/own-position").replace(
+        "[frame]", "r = { value = 60, min = 50, max = 70, step = 5 }\n[frame]"
+    )
+    lab = lab_with(tmp_path, rule, scene.replace("O-A = 60", 'O-A = "r"'))
+    new = proposed_ranges(lab, fair_ranges(lab))
+    text = "\n".join(new.lines)
+    again = lab_with(tmp_path, text.removeprefix("[variants]\n"), scene)
+    assert again.rule.positions == lab.rule.positions
+    assert again.rule.draws.keys() == {"r"}
