@@ -158,7 +158,7 @@ def sheet(
 @language_option
 @formats_option(
     "csv,xlsx,svg,png,gif,html",
-    "svg,png",
+    "svg",
     "Kinds of file to write; the tables are always written as CSV. xlsx: the tables as one"
     " workbook; needs the extra [class]. gif, html: mechanism and plans in motion, as a picture and"
     " as a page.",
@@ -207,17 +207,13 @@ def cycle(
         jump_words,
         positions_lines,
     )
-    from graphkin.motion.curves.curve_files import FORMATS as CURVES
-    from graphkin.motion.curves.curve_files import picture_files
     from graphkin.motion.cycle import cycle as moved
     from graphkin.motion.equal_positions import equal_positions
     from graphkin.motion.jumps import jumps
     from graphkin.motion.sweep import bounds_in_si
     from graphkin.motion.transmission import all_extremes
     from graphkin.text.tables import csv_text
-    from graphkin.web.animation import animation_files
     from graphkin.writers.files import file_stem, refuse_folder, write_all
-    from graphkin.writers.workbook import workbook
 
     mechanism = mechanism_of(name, settings)
     stem = file_stem(mechanism.scene.name, pairs_of(settings))
@@ -242,10 +238,18 @@ def cycle(
     tables |= {"extremes": extremes_rows(found, reached)} if any(reached) else {}
     tables |= {"positions": cycle_rows(few)} if few is not None else {}
     files = {f"{stem}-{kind}.csv": csv_text(rows, "\n").encode() for kind, rows in tables.items()}
-    files |= {f"{stem}-cycle.xlsx": workbook(tables)} if "xlsx" in kinds else {}
-    curves = [kind for kind in kinds if kind in CURVES]
-    files |= picture_files(found, stem, curves) if curves else {}
-    files |= animation_files(found, stem, kinds, lang)
+    if "xlsx" in kinds:
+        from graphkin.writers.workbook import workbook
+
+        files[f"{stem}-cycle.xlsx"] = workbook(tables)
+    if curves := [kind for kind in kinds if kind in ("svg", "png")]:
+        from graphkin.motion.curves.curve_files import picture_files
+
+        files |= picture_files(found, stem, curves)
+    if {"gif", "html"} & {*kinds}:
+        from graphkin.web.animation import animation_files
+
+        files |= animation_files(found, stem, kinds, lang)
     tell(["", *(str(path) for path in write_all(folder, files, force))])
     if not agrees(found):
         complain("the independent route does not agree with the construction")

@@ -268,7 +268,7 @@ def grade(  # noqa: PLR0915
     spoken = words_in(TERMINAL)
     points = points_by_id(found, full)
     books = {
-        path: with_marks(read_gradebook(path), points, column, opened.signs, match or "")
+        path: with_marks(read_gradebook(path), points, column, opened.owners, match or "")
         for path in gradebooks
     }
     files |= {gradebook_name(path): book.data for path, book in books.items()}
@@ -447,14 +447,15 @@ def tell_books(
 ) -> None:
     """Report the gradebooks: the marks written, the students missing, and the unknown rows."""
     from graphkin.classroom.grading.answer_numbers import shown_cell
-    from graphkin.classroom.grading.grading_files import number
+    from graphkin.classroom.grading.grading_files import number, of_one_student
 
     graded = found.graded
     held = [each.taker.student.id for each in graded if each.held]
     waiting = [each.taker.student.id for each in graded if each.pending and not each.held]
     for path, book in books.items():
         say(words("class.filled", file=path.name, count=book.count, column=book.column))
-        points = scale or max((each.points for each in graded), default=None)
+        sheets = of_one_student(found).values()
+        points = scale or max((sum(each.points for each in own) for own in sheets), default=None)
         if book.worth != points:
             key = "class.worth_unknown" if book.worth is None else "class.worth"
             amounts = {"worth": number(book.worth or 0), "points": number(points or 0)}

@@ -571,14 +571,14 @@ class Sheet(Struct, frozen=True):
 class StatedPositions(Struct, frozen=True):
     """The positions that a sheet of the whole motion shows.
 
-    ``count`` are the equal steps of the driver. ``start`` is "scene", "dead" for a dead point, or a
-    position of the driver. ``strong`` is the number of the position that is drawn strongly, None
-    for the one nearest to the scene's own. With ``one_pole`` all plans of a kind have one pole;
-    otherwise each has its own. ``accelerations`` are the numbers of the positions with an
-    acceleration plan, None for all.
+    ``count`` are the equal steps of the driver, which may depend on parameters. ``start`` is
+    "scene", "dead" for a dead point, or a position of the driver. ``strong`` is the number of the
+    position that is drawn strongly, None for the one nearest to the scene's own. With ``one_pole``
+    all plans of a kind have one pole; otherwise each has its own. ``accelerations`` are the numbers
+    of the positions with an acceleration plan, None for all.
     """
 
-    count: int = 12
+    count: int | Quantity = 12
     start: Literal["scene", "dead"] | Quantity = "scene"
     strong: int | None = None
     one_pole: bool = False

@@ -11,6 +11,8 @@ import zipfile
 from collections import defaultdict
 from collections.abc import Callable, Collection, Iterable, Iterator, Mapping, Sequence
 from functools import cached_property, partial
+from itertools import groupby
+from operator import itemgetter
 from pathlib import Path, PurePosixPath
 
 from msgspec import Struct, field
@@ -241,8 +243,12 @@ def packed_feedback(backs: Mapping[str, str], pages: Mapping[str, bytes], kind: 
     """
     data = io.BytesIO()
     with zipfile.ZipFile(data, "w", zipfile.ZIP_DEFLATED) as packed:
-        for back, page in sorted((backs[who], page) for who, page in pages.items() if who in backs):
-            packed.writestr(zipfile.ZipInfo(f"{back}feedback.{kind}", DATE), page)
+        known = sorted((backs[who], who) for who in pages if who in backs)
+        for back, sheets in groupby(known, key=itemgetter(0)):
+            for part, (_, who) in enumerate(sheets, 1):
+                tail = f"-{part}" if part > 1 else ""
+                name = f"{back}feedback{tail}.{kind}"
+                packed.writestr(zipfile.ZipInfo(name, DATE), pages[who])
     return data.getvalue()
 
 
