@@ -186,7 +186,10 @@ LEAST = MARGIN + CLEAR - 0.1
 def with_leaders(
     labels: Sequence[Label], spots: Sequence[Spot], marks: Sequence[Mark]
 ) -> list[Spot]:
-    """The places of labels, with a leader for each ambiguous label that can have one."""
+    """The places of labels, with a leader for each ambiguous label that can have one.
+
+    A spare one whose leader would cross a strong line has no free place.
+    """
     found = list(spots)
     doubtful = [*doubtful_ones(labels, spots, marks), *doubtful_letters(labels, spots)]
     if not doubtful:
@@ -199,7 +202,9 @@ def with_leaders(
             continue
         crossed = struck(np.array(leaders).reshape(-1, 4), strong)
         leader = leaders[int(crossed.argmin())]
-        if not any(clipped(*leader, area) for area in [*areas[:i], *areas[i + 1 :]]):
+        if labels[i].spare and crossed.min():
+            found[i] = replace(spots[i], free=False)
+        elif not any(clipped(*leader, area) for area in [*areas[:i], *areas[i + 1 :]]):
             found[i] = replace(spots[i], leader=leader)
     return found
 
@@ -397,9 +402,7 @@ class FieldContent(Struct):
         meanings: list[FootNote] = []
         foot = made[0] if made else self.footed(self.notes)
         spots = made[1] if made else self.spots(foot)
-        while lost := [
-            i for i, spot in enumerate(spots) if self.labels[i].spare and not spot.free
-        ]:
+        while lost := self.lost(spots):
             foot, spots = self.without_spare(lost, spots)
         wished = list(self.labels)
         for rounds_left in reversed(range(ROUNDS)):
@@ -446,6 +449,13 @@ class FieldContent(Struct):
         """The note of the vectors left without a name, and of some more; none without any."""
         if names := ", ".join(dict.fromkeys([*self.left_out, *more])):
             yield FootNote(f"{self.unnamed} {names}")
+
+    def lost(self, spots: Sequence[Spot]) -> list[int]:
+        """The spare labels without a place, or that only a leader across a strong line tells."""
+        if not any(label.spare for label in self.labels):
+            return []
+        led = with_leaders(self.labels, spots, self.marks)
+        return [i for i, spot in enumerate(led) if self.labels[i].spare and not spot.free]
 
     def without_spare(
         self, lost: Sequence[int], spots: Sequence[Spot]

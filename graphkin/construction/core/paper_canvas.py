@@ -199,7 +199,7 @@ def put_locus(plot: Plot, number: int, name: str, text: str, parts: tuple[int, i
     if drawn:
         end, part = drawn[-1]
         own = name, number
-        label = Label(text, "construction", end, 2.5, *own, priority=-1, part=part)
+        label = Label(text, "construction", end, 2.5, *own, priority=-1, part=part, spare=True)
         plot.board.labels.append(label)
 
 
