@@ -29,9 +29,9 @@ from graphkin.drawing.symbol_markup import escape
 from graphkin.text import Words
 from graphkin.text.errors import PageError, Problem, message
 
-EQUATION_LETTER, NOTE = 2.5, 1.8
+EQUATION_LETTER, NOTE = 2.5, 2.5
 """Heights of symbols and of the notes on what is known of them, in mm."""
-UNDER, BETWEEN, BELOW = 1.7, 0.6, 5.3
+UNDER, BETWEEN, BELOW = 1.7, 0.6, 5.9
 """Distances in mm: first line below a symbol, spacing of two lines, and baseline of the note.
 
 They keep a power in the note clear of both lines.
@@ -40,7 +40,7 @@ OVER, RAISED, BEYOND, HEAD = 3.2, 4.0, 0.35, 0.5
 """Arrows above vectors, in mm: height, height above a superscript, overhang, length of the head."""
 APART, SPACE = 1.6, 1.2
 """Least room between notes, and space between symbols, in mm."""
-DEPTH, UNDERLINED = 5.2, 2.0
+DEPTH, UNDERLINED = 5.8, 2.0
 """Extra depth of a line with notes, and of a line with underlines only, in mm."""
 
 

@@ -470,4 +470,4 @@ def text_block(
         while shown and not shown[0][0]:
             shown = shown[1:]
         shown = [("", LEFT_OUT), *shown][:room]
-    yield from written(shown, at.left, y + 2.5, *DONE)
+    yield from written(shown, at.left, y + 2.5, DONE[1])

@@ -208,11 +208,6 @@ class SheetPaper(Struct, frozen=True, dict=True):
         """The right end of sentences and requests below the drawings: beside the tables."""
         return self.left[2] if self.is_leaf else self.tables[0] - 3
 
-    @property
-    def smallest(self) -> float:
-        """The least height of letters of sentences; only on A3 are they smaller than 2.5 mm."""
-        return 1.8 if self.name == USUAL_PAPER else 2.5
-
     @cached_property
     def marked(self) -> tuple[float, float]:
         """Text left of this x, or above this y, is clear of the centring mark at the lower edge."""
@@ -235,9 +230,12 @@ class SheetPaper(Struct, frozen=True, dict=True):
 
     @cached_property
     def empty_tables(self) -> Rect:
-        """The tables of a task; on a leaf they leave room for the square with the code."""
+        """The tables of a task, close to the lines around them: their rows are as high as possible.
+
+        On a leaf they leave room for the square with the code.
+        """
         left, top, right, low = self.tables
-        return left, top, right - (CODE if self.is_leaf else 0), low
+        return left, top - 1.5, right - (CODE if self.is_leaf else 0), low + 1.5
 
     @cached_property
     def title(self) -> float:

@@ -20,7 +20,7 @@ BAND, FIELD = 5.0, 50.0  # grid border's width, field length
 LETTERS = "ABCDEFGHJKLM"  # without I and O
 LEADING, CLOSER = 1.7, 1.5  # line spacing in heights of capitals, and that of a header
 CLOSE = 3.0  # distance of two lines at the head of an A4 page, in mm
-LABEL, UNDER = 2.9, 2.0  # a cell's baselines: label below the top, value above the bottom
+LABEL, UNDER = 3.4, 1.7  # a cell's baselines: label below the top, value above the bottom
 HEIGHTS = (7.0, 5.0, 3.5, 2.5, 1.8)  # ISO 3098
 
 
@@ -314,7 +314,7 @@ def cell(name: str, rect: Rect, most: float, label: str, value: str) -> list[Mar
     x, room = left + 1.5, right - left - 3
     marks: list[Mark] = []
     if label:
-        (line,), height = fitting(f"label of {name}", label, room, 1.8, 1.8)
+        (line,), height = fitting(f"label of {name}", label, room + 1, 2.5, 2.5)
         marks.append(Text(x, top + LABEL, line, "title", height))
     if value.strip():
         lines, height = fitting(name, value, *room_in(rect), most)
@@ -448,7 +448,7 @@ def check_bar(x: float, y: float) -> tuple[Mark, ...]:
         tick = 4.0 if i % 10 == 0 else 3.0 if i % 5 == 0 else 2.0
         marks.append(LineMark(x + i, y, x + i, y - tick, "check-bar"))
     for i in range(0, 101, 10):
-        marks.append(Text(x + i, y + 3.0, str(i), "check-bar", 1.8, "middle"))
+        marks.append(Text(x + i, y + 3.6, str(i), "check-bar", 2.5, "middle"))
     return tuple(marks)
 
 

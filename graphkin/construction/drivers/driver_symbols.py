@@ -100,7 +100,7 @@ def draw_crank(
     half = field.way(base * turn_by(swept / 2 / DEGREE))
     middle = across(centre, half, radius, 0)
     text = coordinate(drawing, driver, defined)
-    board.labels.append(Label(text, "", middle, 2.5, name, away=half, shows=shows, spare=not defined))
+    board.labels.append(Label(text, "", middle, 2.5, name, away=half, shows=shows))
     if not defined:
         draw_sense(board, drawing, field, end, driver, radius - 3)
 
