@@ -9,7 +9,8 @@ import shapely
 from graphkin.construction.result_tables import slide_rows, tables, turning_rows, vector_rows
 from graphkin.documents.calculation import calculation
 from graphkin.documents.sheet import sheet
-from graphkin.drawing.columns import HEIGHT, SMALL, ColumnTable, Look, laid_out
+from graphkin.documents.sheet_documents import drawn_sheets
+from graphkin.drawing.columns import ColumnTable, Look, laid_out
 from graphkin.drawing.field import A3
 from graphkin.drawing.marks import LineMark, Mark, Text, reach
 from graphkin.drawing.symbol_markup import symbol
@@ -17,7 +18,7 @@ from graphkin.text.errors import PageError
 from graphkin.text.tables import Row
 from tests.chosen import SPOKEN
 from tests.documents.full_scenes import DYADS, NAMED, STAR, drawings_from
-from tests.documents.sheet_tools import collisions, outside
+from tests.documents.sheet_tools import collisions, drawings, outside
 
 FULL = {"star": STAR, "dyads": DYADS}
 
@@ -67,13 +68,20 @@ def test_a_name_too_long_for_every_table_is_told():
         laid_out([ColumnTable((13, 13, 13, 13), Row(("a", "b", "mm", "m/s")), rows)], A3.tables)
 
 
-@pytest.mark.parametrize("spare", [0.0, 0.2, -0.2])
-def test_letters_are_large_where_the_widest_text_fits_its_column(spare):
-    """With 0.7 mm to both sides and no more; where there is less they are small."""
-    for text in ("3,8", "12,345", "*v*_{D}", "1·10^{–3}"):
-        table = ColumnTable((1.0,), Row(("a",)), rows := (Row((text,)),), rows)
-        width = table.breadth(0, HEIGHT) + 1.4 + spare
-        assert table.letters(Look(9.0, 3.0, 1.0), [width]) == (HEIGHT if spare >= 0 else SMALL)
+def test_a_row_has_room_for_the_indices_of_its_letters():
+    table = ColumnTable((20.0,), Row(("a",)), rows := (Row(("*v*_{D}",)),), rows)
+    assert table.fits(Look(4.7, 3.2, 1.0)) and not table.fits(Look(4.7, 4.2, 1.0))
+
+
+def test_rows_to_fill_in_are_seven_millimetres_high_on_every_sheet():
+    """What does not fit at that height goes to another sheet."""
+    for name in ("pump", "watt-1"):
+        for document in drawn_sheets(drawings(name), "task"):
+            marks = [mark for page in document.pages for mark in page.marks]
+            cells = sorted((m.y, m.name) for m in marks if isinstance(m, Text) and m.cls == "table")
+            rows = sorted({y for y, name in cells if name[:2] in ("v_", "a_")})
+            assert len(rows) > 3
+            assert min(low - high for high, low in pairwise(rows)) >= 7 - 1e-9
 
 
 @pytest.mark.parametrize("wished", [1.0, *np.arange(8.0, 13.0, 0.25), 20.0])
