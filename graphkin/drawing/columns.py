@@ -39,12 +39,14 @@ class Look(NamedTuple):
         return self.head / self.row if self.head else 1.0
 
 
-HIGH = tuple(Look(*high, part) for high in ((5.0, 3.55), (5.6, 3.7)) for part in (1.0, 0.72, 0.5))
+PARTS = (1.0, 0.72, 0.5)
+"""Factors on the widths of columns, from ample space to less and less."""
+HIGH = tuple(Look(*high, part) for high in ((5.0, 3.55), (5.6, 3.7)) for part in PARTS)
 """Looks of tables with marks above letters, where space permits.
 
 Indices of indices fit below them in higher rows.
 """
-LOOKS = tuple(Look(row, row - 1.5, part) for row in (4.7, 4.2) for part in (1.0, 0.72, 0.5))
+LOOKS = tuple(Look(*low, part) for low in ((4.7, 3.2), (5.3, 3.5), (4.2, 3.0)) for part in PARTS)
 """Looks of tables, from ample space to less and less."""
 BY_HAND = tuple(Look(7.0, 4.5, part, 5.0) for part in (1.45, 1.3, 1.15, 1.0))
 """Looks of tables to be filled in by hand."""
@@ -112,8 +114,9 @@ class ColumnTable(Struct, frozen=True):
 
     def fits(self, look: Look) -> bool:
         """Whether all letters have their height in the rows of a look."""
-        cells = (cell for row in (self.head, *self.among) for cell in row.cells)
-        return max(extent(cell, HEIGHT)[2] for cell in cells) <= look.row - look.base - 0.1
+        cells = (cell for row in (self.head, *self.rows, *self.among) for cell in row.cells)
+        _, tops, lows = zip(*(extent(cell, HEIGHT) for cell in cells), strict=True)
+        return -min(tops) <= look.base - 0.1 and max(lows) <= look.row - look.base - 0.1
 
     def marks(self, x: float, y: float, look: Look) -> list[Mark]:
         """The ruled table with its top-left corner at (x, y)."""
