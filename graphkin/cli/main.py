@@ -285,6 +285,8 @@ def solve(
 
         if units == "scene":
             found = {"units": units_of(mechanism), **found}
+            if drawn_at is not None:  # a length per metre of paper, as kv and ka are
+                found["scales"] = {**found["scales"], "kL": drawn_at.kL}
         say(json.dumps(found, indent=2, ensure_ascii=False, allow_nan=False))
     else:
         say(motion_words(mechanism.scene, solution, found, verdict))
