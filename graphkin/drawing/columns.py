@@ -116,7 +116,7 @@ class ColumnTable(Struct, frozen=True):
         """Whether all letters have their height in the rows of a look."""
         cells = (cell for row in (self.head, *self.rows, *self.among) for cell in row.cells)
         _, tops, lows = zip(*(extent(cell, HEIGHT) for cell in cells), strict=True)
-        return -min(tops) <= look.base - 0.1 and max(lows) <= look.row - look.base - 0.1
+        return bool(-min(tops) <= look.base - 0.1 and max(lows) <= look.row - look.base - 0.1)
 
     def marks(self, x: float, y: float, look: Look) -> list[Mark]:
         """The ruled table with its top-left corner at (x, y)."""

@@ -19,6 +19,30 @@ A4_FRAME: Rect = (20.0, 10.0, 200.0, 287.0)
 A4_AREA: Rect = (20.0, 18.0, 200.0, 279.0)
 """The area between header and footer of an A4 page."""
 
+
+class TextPage(Struct, frozen=True):
+    """A page of text: its size, and how it differs from an A4 page, all in mm.
+
+    The text has the width of that on A4, ``aside`` of it so that it is in the middle; its foot is
+    ``shorter`` than that of A4.
+    """
+
+    name: str
+    size: XY
+    aside: float = 0.0
+    shorter: float = 0.0
+
+
+A4_PAGE = TextPage("A4", A4_SIZE)
+LETTER = TextPage("Letter", (215.9, 279.4), (215.9 - 210.0) / 2, 297.0 - 279.4)
+"""The page of ASME Y14.1 size A, upright."""
+
+
+def text_page(paper: str) -> TextPage:
+    """The page of text beside a paper of sheets: Letter beside those of ANSI, else A4."""
+    return LETTER if paper in ASME else A4_PAGE
+
+
 MARGIN = 15.0
 """Space left and right of a drawing for symbols, ends of lines and labels, in mm."""
 ABOVE = 8.5
