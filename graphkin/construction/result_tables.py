@@ -26,7 +26,7 @@ NUMBERS |= {"sides": (1, 2), "balance": (1, 2)}
 """The columns of numbers of each table; those before them name the row."""
 LEGIBLE = 2.0
 """Least length in mm of a vector that is read off a plan: an error of 0.5 mm is a quarter of it."""
-LEADING = 2.9
+LEADING = 3.9
 """Line spacing of the notes on computed values, in mm."""
 
 

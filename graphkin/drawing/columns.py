@@ -41,7 +41,7 @@ class Look(NamedTuple):
 
 PARTS = (1.0, 0.72, 0.5)
 """Factors on the widths of columns, from ample space to less and less."""
-HIGH = tuple(Look(*high, part) for high in ((5.0, 3.55), (5.6, 3.7)) for part in PARTS)
+HIGH = tuple(Look(*high, part) for high in ((4.9, 3.75), (5.2, 3.75), (5.6, 3.8)) for part in PARTS)
 """Looks of tables with marks above letters, where space permits.
 
 Indices of indices fit below them in higher rows.
@@ -58,8 +58,7 @@ class ColumnTable(Struct, frozen=True):
     """A table of a head and rows, with the least widths of its columns in mm.
 
     - ``among``: all rows of a table that is split into blocks, which share one look.
-    - ``beside``: the table goes next to a table of one block, and below a table of several blocks
-      where a whole row stays free.
+    - ``beside``: the table goes next to a table of one block, and below one of several blocks.
     - ``numbers``: the columns of numbers, aligned at their decimal marks.
     """
 
@@ -253,12 +252,11 @@ def in_columns(tables: Sequence[ColumnTable], look: Look, height: float) -> list
     columns: list[list[ColumnTable]] = []
     lines = height / look.row + 1e-9
     for table in tables:
-        room = lines - (1 - APART if table.beside and not look.head else 0)
         for block in table.blocks(max(int(lines - look.top), 1)):
             free = (
                 column
                 for column in reversed([] if table.beside and len(columns) == 1 else columns)
-                if sum(above.lines(look) + APART for above in column) + block.lines(look) <= room
+                if sum(above.lines(look) + APART for above in column) + block.lines(look) <= lines
             )
             column = next(free, None)
             if column is None:

@@ -225,7 +225,7 @@ class SheetPaper(Struct, frozen=True, dict=True):
     def tables(self) -> Rect:
         """The table above the title block."""
         left = self.right[0] if self.is_leaf else self.fields[2] - self.frame.tables
-        return left, self.foot + 2, self.fields[2], self.title_block[1] - 2
+        return left, self.foot + 1, self.fields[2], self.title_block[1] - 1
 
     @cached_property
     def writing(self) -> float:
@@ -259,7 +259,7 @@ class SheetPaper(Struct, frozen=True, dict=True):
         On a leaf they leave room for the square with the code.
         """
         left, top, right, low = self.tables
-        return left, top - 1.5, right - (CODE if self.is_leaf else 0), low + 1.5
+        return left, top - 0.5, right - (CODE if self.is_leaf else 0), low + 0.5
 
     @cached_property
     def title(self) -> float:
