@@ -56,7 +56,8 @@ class Crank(OneLink, frozen=True):
     @property
     def words(self) -> str:
         """Its kind, class and order, its links and the pairs that join it."""
-        return f"crank {self.link} about {self.pivot}{self.against} (class I)"
+        named = "crank" if self.link == "crank" else f"crank {self.link}"
+        return f"{named} about {self.pivot}{self.against} (class I)"
 
 
 class Driven(OneLink, frozen=True):

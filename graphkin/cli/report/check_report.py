@@ -25,7 +25,7 @@ from graphkin.diagnosis.closures import Choice, choices
 from graphkin.diagnosis.ranges import ClosingRanges, closing, reached_words
 from graphkin.loops.freedom import true_mobility
 from graphkin.mechanism import Mechanism
-from graphkin.scene.model import FRAME, IMPERIAL, Cam, Driver, Scene, joined_words, link_words
+from graphkin.scene.model import FRAME, Cam, Driver, Scene, joined_words, link_words
 from graphkin.scene.quantity import LENGTHS, SI, exact
 from graphkin.structure.decomposition import decompose
 from graphkin.structure.driver_count import count, driver_problem
@@ -465,6 +465,10 @@ class Checking:
             scales(self.mechanism)
 
 
+DECIMALS = {"mm": 3, "cm": 4, "m": 6, "in": 3, "ft": 4}
+"""The decimals of coordinates, by the unit of lengths."""
+
+
 def closure_lines(choice: Choice, scene: Scene) -> list[str]:
     """Both closures of a dyad, with a mark on the chosen one."""
     of = f"the angle of link {choice.pin}" if choice.is_turned else choice.pin
@@ -477,9 +481,9 @@ def closure_lines(choice: Choice, scene: Scene) -> list[str]:
         elif choice.is_turned:
             where = f"{degrees(phase(closure.place)) + 0.0:.3f}°"
         else:
-            unit = scene.units["length"] if scene.units["length"] in IMPERIAL else "mm"
-            one = 1 / float(LENGTHS[unit])
-            x, y = (f"{one * part + 0.0:.3f}" for part in (closure.place.real, closure.place.imag))
+            unit = scene.units["length"]
+            one, parts = 1 / float(LENGTHS[unit]), (closure.place.real, closure.place.imag)
+            x, y = (f"{one * part + 0.0:.{DECIMALS[unit]}f}" for part in parts)
             where = f"({x}, {y}) {unit}"
         rest = f"then {closure.fails} cannot be drawn" if closure.fails else "the rest closes"
         if closure.unfit:

@@ -676,7 +676,8 @@ def of_scales(drawing: Drawing) -> Iterator[str]:
     m = drawing.scales.of_bar(drawing.kind)
     stated = drawing.kind == "acceleration" and drawing.scene.sheet.ka is not None
     if m not in (0, 1) and not stated:
-        yield drawing.words(f"page.enlarged_{drawing.kind}", m=figure(drawing, m))
+        change = "enlarged" if m > 1 else "reduced"
+        yield drawing.words(f"page.{change}_{drawing.kind}", m=figure(drawing, m))
 
 
 def of_driver(
