@@ -181,6 +181,7 @@ class Marker:
         """The mark of each field; what agrees with an explanation of the sheet is right."""
         given, wrong = first.given, first.wrong
         caused = {f for f in wrong if found is not None and f in found.fits}
+        empty = frozenset() if found is None else self.left_out(given, found)
         lost = frozenset(f for f in caused if found is not None and self.is_lost(f, found))
         right = (*first.right, *first.computed, *(f for f in wrong if f in caused))
         rest = tuple(field for field in wrong if field not in caused)
@@ -194,10 +195,10 @@ class Marker:
             mark = self.first_mark(item, given[field], (*first.right, *first.computed), points)
             if field in first.computed:
                 mark = replace(mark, source=first.computed[field].sources[0])
-            elif field in caused or field in also:
+            elif field in caused or field in also or field in empty:
                 earned = NONE if field in lost else points
                 mark = replace(mark, status=Status.CAUSE, earned=earned, cause=name)
-                if found is not None and field in caused:
+                if found is not None and field not in also:
                     mark = replace(mark, by_cause=found.values[field])
             elif field in rest:
                 mark = self.following(mark, followed.get(field))
@@ -221,6 +222,11 @@ class Marker:
             return mark
         fault = "few" if most < rubric.digits[0] else "many" if fewest > rubric.digits[1] else ""
         return replace(mark, earned=min(mark.earned, share), rounded=fault) if fault else mark
+
+    def left_out(self, given: Mapping[str, Answer], found: SheetCauses) -> frozenset[str]:
+        """The blank fields of vectors that a student with these causes does not draw."""
+        vectors = {f for f, probe in self.standard.by_field.items() if probe.vector}
+        return frozenset(f for f in vectors if given[f].is_blank and found.values[f] == 0)
 
     def is_lost(self, field: str, found: SheetCauses) -> bool:
         """Whether a sense was taken the other way: it is worth no more than a blank."""

@@ -60,9 +60,11 @@ CAUSES: Mapping[str, tuple[str, ...]] = {
 NORMALS: Mapping[str, float] = {"no normals": 0.0, "normals turned": -1.0}
 CORIOLIS: Mapping[str, float] = {"no Coriolis": 0.0, "Coriolis turned": -1.0, "half Coriolis": 0.5}
 """By how much each mistake multiplies the component."""
+WIDEST = 700.0
+"""The longest vector that is drawn, in mm."""
 ONLY: Mapping[str, tuple[str, ...]] = {
     **dict.fromkeys(CORIOLIS, ("slotted-lever",)),
-    "parallel": ("offset-slider-crank",),
+    "parallel": ("slotted-lever",),
     "plate": ("offset-slider-crank", "pump"),
 }
 """The labs in which a mistake can be made; the others in all."""
@@ -231,22 +233,16 @@ def on_level(m: Motion, p: str, q: str, normal: float) -> complex:
 
 
 def along_the_rod(m: Motion) -> Motion:
-    """The slider-crank drawn with parallels to its rod in place of perpendiculars."""
-    (x, v, a), (y, _, _) = m["A"], m["B"]
+    """The slotted lever's plans with parallels to the rod BC in place of perpendiculars."""
+    (x, v, a), (y, _, _) = m["B"], m["C"]
     z = y - x
-    w, e, _ = turning(m, "A", "B")
-    senses = np.sign([w, e])
+    senses = np.sign(turning(m, "B", "C")[:2])
     w = -v.imag / z.imag
-    part = (m["C"][0] - x) / z
-    speed = v + w * z
     start = a - w**2 * z
-    rate = start - z * start.imag / z.imag
-    found = dict(m)
-    found["B"] = y, speed, rate
-    found["C"] = m["C"][0], v + part * (speed - v), a + part * (rate - a)
-    sizes = senses * [abs(w), abs(start.imag / z.imag)]
-    found["turns"] = complex(sizes[0]), complex(sizes[1]), 0j
-    return found
+    e = -start.imag / z.imag
+    sizes = senses * [abs(w), abs(e)]
+    turns = complex(sizes[0]), complex(sizes[1]), 0j
+    return m | {"C": (y, v + w * z, start + e * z), "turns": turns}
 
 
 def turning(m: Motion, p: str, q: str) -> tuple[float, float, float]:
@@ -291,10 +287,11 @@ def hand_in(
         found = exchanged(lab, found)
     comma = rng.random() < habits.comma
     lost = rng.integers(1, 3)
+    if any(f.endswith("_mm") and abs(v) > WIDEST for f, v in found.items() if f[0] in "va"):
+        raise ValueError("does not fit on paper")
+    row = {f: cell(f, v, student, "," if comma else ".", int(lost)) for f, v in found.items()}
     return {
-        f: cell(f, v, student, "," if comma else ".", int(lost))
-        for f, v in found.items()
-        if rng.random() >= habits.blank
+        f: text for f, text in row.items() if rng.random() >= habits.blank and found[f] == found[f]
     }
 
 
@@ -374,11 +371,9 @@ class Sheet:
         if lab == "offset-slider-crank":
             self.points("BC")
             w, _, bar = turning(m, "A", "B")
-            w = m["turns"][0].real if "turns" in m else w
             self.links({"2": ("A", "B")})
-            if "no normals" not in self.made:
-                mm = self.measured(w**2 * bar / ka)
-                self.found["a_BA_nu_mm"] = mm * (2 if "own plans" in self.made else 1)
+            mm = self.measured(w**2 * bar / ka) * (2 if "own plans" in self.made else 1)
+            self.found["a_BA_nu_mm"] = np.nan if "no normals" in self.made else mm
         elif lab == "slotted-lever":
             self.points("C")
             (w, e, _), arm = turning(m, "O", "B"), abs(m["slot"][0])
@@ -395,7 +390,9 @@ class Sheet:
         else:
             self.points("D")
             self.links({"2": ("O", "B"), "3": ("A", "B"), "4": ("C", "D")})
-            poles = {"I_3": centre(m, "A", "B"), "J_3": pole(m, "A", "B"), "J_4": pole(m, "C", "D")}
+            k = self.student.normal()
+            poles = {"I_3": centre(m, "A", "B")}
+            poles |= {"J_3": pole(m, "A", "B", k), "J_4": pole(m, "C", "D", k)}
             for name, at in poles.items():
                 for axis, value in (("x", at.real), ("y", at.imag)):
                     told = value / self.kL + 3 * self.student.error()
@@ -411,10 +408,10 @@ def centre(m: Motion, p: str, q: str) -> complex:
     return x + 1j * v / turning(m, p, q)[0]
 
 
-def pole(m: Motion, p: str, q: str) -> complex:
-    """The pole of accelerations of a bar."""
+def pole(m: Motion, p: str, q: str, normal: float) -> complex:
+    """The pole of accelerations of a bar, by the images of its ends."""
     (x, _, a), (w, e, _) = m[p], turning(m, p, q)
-    return x - a / complex(-(w**2), e)
+    return x - a / complex(-normal * w**2, e)
 
 
 def cell(field: str, value: float, student: Student, point: str, lost: int) -> str:
