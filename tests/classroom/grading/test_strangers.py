@@ -11,7 +11,7 @@ import pytest
 
 from graphkin.classroom.grading.graded import Status
 from tests.bench.strangers import a_class
-from tests.classroom.grading.strangers import CAUSES, USUAL
+from tests.classroom.grading.strangers import CAUSES, KINDS, USUAL
 
 FEW = 8
 SLICE = (
@@ -26,6 +26,13 @@ def test_the_mistake_of_a_stranger_is_named(lab, made):
     found = a_class(lab, made, 1, FEW)
     named = [{c.name for c in g.causes}.issubset(CAUSES[made]) and bool(g.causes) for g in found]
     assert sum(named) >= FEW - 1
+
+
+def test_two_who_draw_a_third_students_data_copied_from_nobody():
+    """Two of this class have the data of one other student, and half of their digits in common."""
+    found = a_class("pump", "another number", 11, habits=KINDS["whole degrees"])
+    assert {c.name for g in found for c in g.causes} == {"data_of_another"}
+    assert all(g.causes for g in found)
 
 
 @pytest.mark.parametrize("lab", ["offset-slider-crank", "slotted-lever", "pump"])
