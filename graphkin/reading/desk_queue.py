@@ -152,7 +152,10 @@ class DeskQueue(Struct, frozen=True):
         words, place = self.words, appeal.place
         name = self.names[appeal.who]
         field = called(self.mark(place)) if appeal.field else words("class.whole")
-        full = list(self.shares([place], [1])) if appeal.field else []
+        mark = self.mark(place) if appeal.field else None
+        is_full = mark is None or mark.earned == mark.points
+        full = [] if is_full else list(self.shares([place], [1]))
+        full += self.undeducted(appeal)
         given = [replace(each, rulings=answering(each.rulings, appeal.text)) for each in full]
         shown = (place,) if appeal.field else self.whole(appeal.who)
         return DeskItem(
@@ -164,6 +167,16 @@ class DeskQueue(Struct, frozen=True):
             (self.stays([place], appeal.text), *given),
             appeal.text,
         )
+
+    def undeducted(self, appeal: Appeal) -> Iterator[DeskChoice]:
+        """The whole form without a deduction, where its causes explain what is asked about."""
+        graded, place = self.graded[appeal.who], appeal.place
+        if not graded.cost or (appeal.field and self.mark(place).status is not Status.CAUSE):
+            return
+        points = sum((mark.earned for mark in graded.marks), Fraction())
+        said = self.words("desk.undeducted", points=points_words(points, self.words))
+        stays = (LeaveMark(*place),) if appeal.field else ()
+        yield DeskChoice(said, (*stays, SetPoints(appeal.who, "", points=points)))
 
     def whole(self, who: str) -> tuple[Place, ...]:
         """The rows of a student's form that earn points."""

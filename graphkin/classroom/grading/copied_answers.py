@@ -507,8 +507,8 @@ def by_oneself(each: AnswerSheet, other: AnswerSheet, keys: Keys, read: Any, res
     """How likely a student writes just these digits without the other's, as a logarithm.
 
     The digits come from the student's own drawing, or from a drawing of other data: those of the
-    other student, or of a third. The ``rest`` of the sheet weights these explanations; the student's own ways keep at least their
-    prior share.
+    other student, or of a third. The ``rest`` of the sheet weights these explanations; the
+    student's own ways keep at least their prior share.
     """
     if not read.any():
         return 0.0
