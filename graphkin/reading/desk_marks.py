@@ -170,7 +170,7 @@ class MarkDesk(Struct, dict=True):
             "told": item.reason,
             "sums": self.sums(item),
             "causes": self.causes(item),
-            "heads": [words(HEADS[each]) for each in COLUMNS],
+            "heads": [words((HEADS | {"yours": "desk.answer"})[each]) for each in COLUMNS],
             "rows": [self.row(place) for place in item.shown],
             "choices": [each.said for each in item.choices],
             "reads": item.own if item.kind == "cell" and item.own else None,
