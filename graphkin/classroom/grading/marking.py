@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from fractions import Fraction
 from math import floor, isnan
 from typing import Any
@@ -204,7 +204,7 @@ class Marker:
                 mark = self.following(mark, followed.get(field))
             mark = self.by_digits(mark)
             known[field] = replace(mark, torn=field in first.torn)
-        return tuple(self.not_by_chance(mark, known) for mark in known.values())
+        return without_chance(known.values())
 
     def by_digits(self, mark: EarnedMark) -> EarnedMark:
         """The mark of a value that is right but for its digits: too few, or other than wanted."""
@@ -231,17 +231,6 @@ class Marker:
     def is_lost(self, field: str, found: SheetCauses) -> bool:
         """Whether a sense was taken the other way: it is worth no more than a blank."""
         return REVERSED in found.names and self.standard.by_field[field].item.what == "sense"
-
-    def not_by_chance(self, mark: EarnedMark, known: Mapping[str, EarnedMark]) -> EarnedMark:
-        """The mark of a sense: it earns nothing where the size beside it earns nothing.
-
-        One of two senses is right by chance. Where a size cannot be read, its sense counts.
-        """
-        sized = known.get(mark.item.sized)
-        if mark.item.what != "sense" or sized is None or not (mark.earned and sized.points):
-            return mark
-        is_alone = sized.status in (Status.WRONG, Status.BLANK) and not sized.earned
-        return replace(mark, earned=NONE, alone=True) if is_alone else mark
 
     def followed(
         self, answers: Mapping[str, Answer], wrong: tuple[str, ...], right: tuple[str, ...]
@@ -304,6 +293,22 @@ class Marker:
         earned = mark.points * Fraction(str(rubric.follow))
         source = follows.sources[0] if follows is not None else ""
         return replace(mark, status=Status.FOLLOWS, earned=earned, source=source)
+
+
+def without_chance(marks: Iterable[EarnedMark]) -> tuple[EarnedMark, ...]:
+    """The marks, where a sense earns nothing if the size beside it earns nothing.
+
+    One of two senses is right by chance. Where a size cannot be read, its sense counts.
+    """
+    known = {mark.item.field: mark for mark in marks}
+
+    def alone(mark: EarnedMark) -> bool:
+        sized = known.get(mark.item.sized)
+        if mark.item.what != "sense" or sized is None or not (mark.earned and sized.points):
+            return False
+        return sized.status in (Status.WRONG, Status.BLANK) and not sized.earned
+
+    return tuple(replace(m, earned=NONE, alone=True) if alone(m) else m for m in known.values())
 
 
 def explained(sheets: Sequence[tuple[Marker, FirstLook]]) -> list[SheetCauses | None]:
