@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 import re
-from collections.abc import Iterable, Iterator
+from collections.abc import Collection, Iterable, Iterator
 from fractions import Fraction
 
 from msgspec import Struct
@@ -69,18 +69,18 @@ def parameters(scene: Scene, words: Words) -> list[str]:
     return [parameter(scene, words, name) for name in scene.values if name in put_in(scene)]
 
 
-def variant(scene: Scene, words: Words) -> list[str]:
-    """The parameters that distinguish variants: those with a range and those in expressions.
+def variant(scene: Scene, words: Words, names: Collection[str] = ()) -> list[str]:
+    """The parameters that distinguish variants, as markup.
 
-    A parameter that is only the position or the speed of a driver gets the driver's symbol.
+    These are ``names``; without them, those with a range and those in expressions. A parameter that
+    is only the position or the speed of a driver gets the driver's symbol.
     """
     ranged = {name for name, each in scene.parameters.items() if each.minimum is not None}
     put = put_in(scene)
+    wanted = names or ranged | put
     letters = {lone(scene, each.speed): speed_symbol(each) for each in scene.drivers}
     letters |= {lone(scene, each.position): angle_symbol(scene, each) for each in scene.drivers}
-    text_of_value = (
-        (name, *as_set(scene, words, name)) for name in scene.values if name in ranged | put
-    )
+    text_of_value = ((name, *as_set(scene, words, name)) for name in scene.values if name in wanted)
     return [
         f"{letter if name in put else letters.get(name, letter)} = {value}"
         for name, letter, value in text_of_value

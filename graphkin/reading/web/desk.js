@@ -31,6 +31,8 @@
   const waits = (item) => item.state !== "decided";
 
   const tell = (text) => { find("said").textContent = text; };
+  // A request that never arrived is a TypeError; any other was refused with a reason.
+  const why = (error, said_first) => (error instanceof TypeError ? said.gone : `${said_first} ${error.message}`.trim());
 
   async function post(path, body) {
     try {
@@ -40,7 +42,7 @@
       if (!answer.ok) throw new Error(await answer.text());
       return await answer.json();
     } catch (error) {
-      tell(`${said.failed} ${error.message ?? ""}`);
+      tell(why(error, said.failed));
       return null;
     }
   }
@@ -160,7 +162,7 @@
       if (!answer.ok) throw new Error(await answer.text());
       return await answer.json();
     } catch (error) {
-      tell(`${said.failed} ${error.message ?? ""}`);
+      tell(why(error, ""));
       return null;
     }
   }
@@ -195,6 +197,7 @@
     panels();
     find("card-title").textContent = `${said[`kind_${found.kind}`]}: ${found.title}`;
     find("told").textContent = found.told;
+    find("sums").replaceChildren(...found.sums.map((each) => element("li", each)));
     find("causes").replaceChildren(...found.causes.map((each) => marked("li", each)));
     const who = new Set(found.rows.map((each) => each.who)).size > 1;
     const heads = element("tr");
@@ -428,11 +431,12 @@
     zoom(event.deltaY > 0 ? 1.2 : 1 / 1.2, ...where(event));
   }, { passive: false });
 
+  const write = (field) => { find(field).focus(); find(field).select(); };
   const choose = (i) => () => { if (i < held.choices.length) rule({ choice: i }); };
   const everywhere = { n: () => next(), u: undo, PageDown: () => turn(1), PageUp: () => turn(-1) };
   const onMarks = {
-    r: () => { if (held.reads !== null) find("reading").focus(); },
-    p: () => find("own-points").focus(), m: () => find("reason").focus(), c: () => find("remark").focus(),
+    r: () => { if (held.reads !== null) write("reading"); },
+    p: () => write("own-points"), m: () => write("reason"), c: () => write("remark"),
     ArrowUp: () => holdRow(row - 1), ArrowDown: () => holdRow(row + 1),
     ...Object.fromEntries([...Array(9).keys()].map((i) => [i + 1, choose(i)])),
   };
