@@ -62,6 +62,8 @@ expected place, and nothing before it on the sheet is wrong or missing. Where fe
 point farther than BESIDE is checked, and so is all that follows from it: another point's lines may
 cross there.
 """
+SLIGHT = 0.8
+"""A place that fits and is no farther than this from where it is expected, in mm, is not off it."""
 AT_KEY = 2.0
 """Squared distance from the key, in deviations, within which a point is at the key."""
 ELSEWHERE = 0.6
@@ -519,7 +521,7 @@ class PointReader(PointSearch):
             loose = (vague or stray) and (bool(self.bad) or not self.is_met(number, best))
             odd = any(e.far in self.bad - behind for e in self.sheet.leading[number] if not e.after)
             doubts |= {
-                "off": self.swayed(away, abs(best.place - own.middle)) > SURE,
+                "off": self.is_off(away, abs(best.place - own.middle)),
                 "lines": self.lacks_lines(number, best, own),
                 "elsewhere": doubtful,
                 "vague": loose,
@@ -575,9 +577,13 @@ class PointReader(PointSearch):
         unled = best.count == 2 and not self.is_reached(number, best.place)
         return best.cover < WHOLE or not agreed or unled
 
-    def swayed(self, away: float, off: float) -> float:
-        """The squared distance of a place ``off`` mm away, enlarged by the paper's sway."""
-        return away * (1 + self.ink.sway / max(off, SHORTEST)) ** 2
+    def is_off(self, away: float, off: float) -> bool:
+        """Whether a place ``off`` mm away is at the edge of what the pencil explains.
+
+        ``away`` is its squared distance in deviations, which the paper's sway enlarges.
+        """
+        swayed = away * (1 + self.ink.sway / max(off, SHORTEST)) ** 2
+        return swayed > SURE and (off > SLIGHT or away > FITS)
 
     def is_end(self, number: int, best: LinesCrossing) -> bool:
         """Whether the only line that leads to a point ends there."""
