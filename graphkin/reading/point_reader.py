@@ -33,6 +33,7 @@ from graphkin.reading.point_search import (
     DRAWN,
     FITS,
     JOINS,
+    PASSES,
     SAME,
     SURE,
     ExpectedPlace,
@@ -83,6 +84,8 @@ SHORTEST = 1e-3
 """Places closer than this, in mm, coincide."""
 FLAT = 0.2
 """The most sine of the angle between a vector and a line whose ink may cover the vector's end."""
+STRAYS = 4.0
+"""How far from its expected place, in mm, the tail of a vector that was not read may be."""
 LEVER = 15.0
 """Two points must be this many mm apart to give the direction of the line through them."""
 
@@ -251,22 +254,30 @@ class PointReader(PointSearch):
         vector = unmarked(self.sheet.exact, arrow.step, self.next)
         return complex(np.ravel(self.sheet.place(arrow.tip, vector.tail))[0])
 
-    def is_met(self, number: int, best: LinesCrossing) -> bool:
+    def tails_of(self, arrow: Arrow, place: complex) -> list[complex]:
+        """Where the tail of an arrow to a place is: as read, or where its stroke begins."""
+        tail = self.tail_of(arrow)
+        if arrow.tail is not None and self.is_known(Leading(arrow.tail)):
+            return [tail]
+        return [line.start for line in self.ink.lines(tail, place, STRAYS, PASSES)]
+
+    def is_met(self, number: int, best: LinesCrossing, weighed: complex) -> bool:
         """Whether a point is surely at a crossing, however vaguely it was expected.
 
         More than MEET lines cross there, or two vectors from points that were read end there.
+        ``weighed`` is the place between the crossing and the expected place.
         """
         place = best.place
         wholly = min(best.cover, self.agreement(number, place)) >= FULLY
         if best.count > MEET and wholly:
             return True
-        tails = [
-            self.tail_of(arrow)
+        ways = [
+            tail
             for arrow in self.sheet.arrows
-            if arrow.tip == number and arrow.tail is not None
-            if self.is_known(Leading(arrow.tail)) and arrow.tail not in self.unread
+            if arrow.tip == number and arrow.tail is not None and arrow.tail not in self.unread
+            for tail in self.tails_of(arrow, place)
+            if any(is_headed(self.ink, tail, each) for each in (place, weighed))
         ]
-        ways = [tail for tail in tails if is_headed(self.ink, tail, place)]
         return are_crossing(ways, place)
 
     def end_of(self, arrow: Arrow, begin: complex) -> VectorEnd:
@@ -518,7 +529,7 @@ class PointReader(PointSearch):
             stray = away <= FITS and not near and best.count < MEET
             # untried: depends on an auxiliary plan that was not read
             vague = not there and ((own.radius > VAGUE and not met) or untried)
-            loose = (vague or stray) and (bool(self.bad) or not self.is_met(number, best))
+            loose = (vague or stray) and (bool(self.bad) or not self.is_met(number, best, place))
             odd = any(e.far in self.bad - behind for e in self.sheet.leading[number] if not e.after)
             doubts |= {
                 "off": self.is_off(away, abs(best.place - own.middle)),

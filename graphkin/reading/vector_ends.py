@@ -239,7 +239,7 @@ def heads_at(ink: DrawnInk, tail: complex, tip: complex) -> float:
     """The drawn share of the head of a vector at its tip."""
     way = (tip - tail) / abs(tip - tail)
     near = np.arange(-NEAR, NEAR + PITCH / 2, PITCH)
-    return float(heads(ink, tip + near * way, way).max())
+    return float(heads(ink, on_shaft(ink, tip + near * way, way), way).max())
 
 
 def bar_runs_on(ink: DrawnInk, tail: complex, tip: complex, others: list[complex]) -> bool:
