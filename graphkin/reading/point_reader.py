@@ -259,7 +259,7 @@ class PointReader(PointSearch):
         tail = self.tail_of(arrow)
         if arrow.tail is not None and self.is_known(Leading(arrow.tail)):
             return [tail]
-        return [line.start for line in self.ink.lines(tail, place, STRAYS, PASSES)]
+        return [line.start for line in self.lines(tail, place, STRAYS, PASSES)]
 
     def is_met(self, number: int, best: LinesCrossing, weighed: complex) -> bool:
         """Whether a point is surely at a crossing, however vaguely it was expected.
