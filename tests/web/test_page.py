@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import gc
+import json
 import re
 from base64 import b64encode
 from functools import cache
@@ -488,8 +489,11 @@ def test_names_and_notes_are_only_text(make):
 
 
 def test_data_never_end_their_block():
-    block = data_block("run", {"a": "</script><!--&"})
-    assert block.count("<") == 2
+    value = {"a": "</script><!--<script>&", "b": "</SCRIPT ><!DOCTYPE"}
+    block = data_block("run", value)
+    assert re.findall("</script|<!", block, re.IGNORECASE) == ["</script"]
+    assert block.endswith("</script>")
+    assert json.loads(block[block.index(">") + 1 : block.rindex("<")]) == value
 
 
 @pytest.mark.parametrize("bad", ["</SCRIPT>", "</style >", "<!--"])
