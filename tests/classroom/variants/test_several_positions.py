@@ -11,6 +11,7 @@ import pytest
 
 from graphkin.classroom.grading.answers import packed_feedback
 from graphkin.classroom.grading.class_marking import graded_class
+from graphkin.classroom.grading.class_report import summary
 from graphkin.classroom.grading.graded import Answer
 from graphkin.classroom.grading.grading_files import points_by_id, students_table
 from graphkin.classroom.lab.fair_ranges import fair_ranges
@@ -131,6 +132,7 @@ def test_each_sheet_is_marked_by_its_own_position_and_the_points_are_added(drawn
     answers["0001-2"] = {name: Answer("9e9", 9e9) for name in answers["0001-2"]}
     del answers["0002-3"]
     found = graded_class(edition.book, edition.takers, answers, as_it_is=True)
+    assert summary(found.graded, words("en")).startswith("29 of 30 sheets handed in")
     points = points_by_id(found)
     assert points == {"0001": 6, "0002": 6} | {f"{n:04d}": 9 for n in range(3, 11)}
     assert points_by_id(found, Fraction(10))["0001"] == Fraction(20, 3)
