@@ -174,7 +174,8 @@ def variants(name: str, roster: Path, folder: Path, lang: str | None, force: boo
     Reports how fair the data are. Writes variants.csv, manifest.json, from which every sheet can be
     derived again, and a copy of the lab with its house.toml. Unfair data from a formula are
     reported and still written, and the exit status is 1. Unfair data from ranges are drawn again
-    until they are fair.
+    until they are fair. If lab.toml gives each student several positions, each has an id of its
+    own, such as 0042-1.
 
     \b
     Example:

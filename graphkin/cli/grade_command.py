@@ -152,6 +152,7 @@ def grade(  # noqa: PLR0915
     cause that is known by name costs once, and everything that agrees with it is right. Any other
     wrong value is compared with what follows from the student's own earlier values. Writes
     marks.csv, a feedback page for each student and a report on the class, and fills in gradebooks.
+    Where students have several sheets, students.csv and gradebooks have the sum of their points.
 
     You have the last word: REPORT/decisions.csv is yours and is never overwritten. Its columns are
     id;field;points;reason. A row sets the points of a field, or of the whole form (total). Without

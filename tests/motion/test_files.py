@@ -19,7 +19,7 @@ from graphkin.construction.higher_class.following import FollowedClosure
 from graphkin.construction.links.link_shapes import hull
 from graphkin.drawing.marks import Polyline, Text
 from graphkin.mechanism import Mechanism, load
-from graphkin.motion.curves.charts import cut, ticks_of
+from graphkin.motion.curves.charts import cut, numeral, ticks_of
 from graphkin.motion.curves.curve_files import figures, picture_files
 from graphkin.motion.curves.over_driver import pictures, sampled, span_of
 from graphkin.motion.curves.plane_paths import box_of, dotted, near_box
@@ -236,6 +236,15 @@ def test_numbers_along_an_axis_are_few_and_round(low, size):
     found = ticks_of(low, low + size)
     assert 1 <= len(found) <= 7
     assert all(low - 1e-6 * size <= value <= low + size * (1 + 1e-6) for value in found)
+
+
+def test_numbers_along_an_axis_have_one_zero_and_a_true_minus():
+    assert [numeral(value) for value in (-0.0, 0.0, -2.5, 1e-7)] == ["0", "0", "−2.5", "1e−07"]
+    for name in ("cam-roller", "gears-planet"):
+        found = sampled(cycle(load(f"{SCENES}/{name}.toml"), steps=24), 90)
+        for _, drawn in figures(found):
+            ticks = [m.markup for m in drawn().marks if isinstance(m, Text) and m.name == "tick"]
+            assert ticks and "−0" not in ticks
 
 
 def test_an_area_is_cut_at_an_edge():

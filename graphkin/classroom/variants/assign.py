@@ -148,8 +148,9 @@ def spaced(lab: Lab, every: list[Assigned]) -> list[Assigned]:
         since = [found[i].attempt + 1 for i in again]
         redrawn = fairest(lab, [found[i].student for i in again], since)
         waiting = []
+        spoilt = {each.student.whose for each in redrawn if not each.fair}
         for i, each in zip(again, redrawn, strict=True):
-            if each.fair:
+            if each.student.whose not in spoilt:
                 found[i] = each
                 waiting.append(i)
             elif i in near:

@@ -93,7 +93,7 @@ def ticks_of(low: float, high: float, most: int = TICKS) -> list[float]:
 
 def numeral(value: float) -> str:
     """A number along an axis, with a true minus sign."""
-    return f"{value:.6g}".replace("-", "−")
+    return f"{value + 0.0:.6g}".replace("-", "−")
 
 
 def limits_of(curves: Sequence[ChartCurve]) -> tuple[float, float]:

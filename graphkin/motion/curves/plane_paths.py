@@ -391,7 +391,7 @@ def dead_marks(plane: PlaneChart, found: Sampled, loop: Loop) -> Iterator[Mark]:
             sign = "φ" if cycle.sweep.what == "turn" else "s"
             value = end.at if cycle.sweep.what == "turn" else end.at * found.per_length
             unit = "°" if cycle.sweep.what == "turn" else f" {found.length_unit}"
-            words = f"*{sign}* = {value:.2f}{unit}"
+            words = f"*{sign}* = {value:.2f}{unit}".replace("-", "−")
             yield from noted(plane, place * found.per_length, words, RED)
 
 

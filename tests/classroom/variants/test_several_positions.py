@@ -11,6 +11,7 @@ import pytest
 
 from graphkin.classroom.grading.answers import packed_feedback
 from graphkin.classroom.grading.class_marking import graded_class
+from graphkin.classroom.grading.class_report import summary
 from graphkin.classroom.grading.graded import Answer
 from graphkin.classroom.grading.grading_files import points_by_id, students_table
 from graphkin.classroom.lab.fair_ranges import fair_ranges
@@ -131,6 +132,7 @@ def test_each_sheet_is_marked_by_its_own_position_and_the_points_are_added(drawn
     answers["0001-2"] = {name: Answer("9e9", 9e9) for name in answers["0001-2"]}
     del answers["0002-3"]
     found = graded_class(edition.book, edition.takers, answers, as_it_is=True)
+    assert summary(found.graded, words("en")).startswith("29 of 30 sheets handed in")
     points = points_by_id(found)
     assert points == {"0001": 6, "0002": 6} | {f"{n:04d}": 9 for n in range(3, 11)}
     assert points_by_id(found, Fraction(10))["0001"] == Fraction(20, 3)
@@ -225,3 +227,20 @@ def test_proposed_ranges_leave_the_students_their_positions(tmp_path, rule):
     again = lab_with(tmp_path, text.removeprefix("[variants]\n"), scene)
     assert again.rule.positions == lab.rule.positions
     assert again.rule.draws.keys() == {"r"}
+
+
+def test_sheets_too_near_to_another_students_are_drawn_again_together(tmp_path):
+    scene = scene_text("motion/own-position").replace(
+        "[frame]", "r = { value = 60, min = 40, max = 80, step = 1 }\n[frame]"
+    )
+    rule = f"{DRAWN}\ntries = 8\ndraw = {{ r = {{ min = 40, max = 80, step = 1 }} }}"
+    lab = lab_with(tmp_path, rule, scene.replace("O-A = 60", 'O-A = "r"'))
+    text = (tmp_path / "lab.toml").read_text(encoding="utf-8")
+    (tmp_path / "lab.toml").write_text(text.replace("[marks]", "apart = 0.6\n[marks]"), "utf-8")
+    found = assigned(read_lab(tmp_path), STUDENTS)
+    assert [each.settings for each in found] != [e.settings for e in assigned(lab, STUDENTS)]
+    for student in STUDENTS:
+        own = [each for each in found if each.student.owner == student.id]
+        assert len({each.attempt for each in own}) == 1
+        assert len({each.settings["r"] for each in own}) == 1
+        assert len({each.settings["p"] for each in own}) == 3
