@@ -21,8 +21,8 @@ from tests.laws.exact_forces import (
     exact_forces,
     far_from_exact,
 )
-from tests.laws.force_routes import loaded
-from tests.mechanisms import mechanism_of
+from tests.laws.force_routes import differences, loaded
+from tests.mechanisms import HEAD, mechanism_of
 from tests.running import ran
 
 ROUNDING = 1e-12
@@ -98,6 +98,51 @@ def test_a_driven_link_on_another_passes_its_pin_s_force_to_the_link_that_carrie
     """Each angle is driven against the frame, while the pin is on the link before."""
     mechanism = with_loads(name)
     assert far_from_exact(mechanism) < ROUNDING
+    assert max(differences(mechanism)) < ROUNDING
+
+
+PAIR_OF_DRIVERS = """
+gravity = true
+[frame]
+O = [0, 0]
+[links.1]
+O-A = 0.7
+mass = 3
+centre = "A"
+[links.2]
+A-B = 0.4
+mass = 2
+centre = "B"
+[[drivers]]
+turn = 1
+angle = 20
+speed = 3
+[[drivers]]
+turn = 1
+against = 2
+angle = -50
+speed = 7
+[ask]
+balance = true
+"""
+
+
+def test_two_drivers_of_one_link_have_a_balance_each(tmp_path):
+    """Link 1 is driven against the frame and against link 2: balance.1-0 and balance.1-2."""
+    mechanism = mechanism_of(PAIR_OF_DRIVERS)
+    assert far_from_exact(mechanism) < ROUNDING
+    turned = PAIR_OF_DRIVERS.replace("turn = 1\nagainst = 2", "turn = 2\nagainst = 1")
+    other = exact_forces(mechanism_of(turned.replace("-50", "50").replace("= 7", "= -7")))
+    exact = exact_forces(mechanism)
+    assert math.isclose(exact.drivers["1-0"], other.drivers["1"], rel_tol=1e-15)
+    assert math.isclose(exact.drivers["1-2"], -other.drivers["2"], rel_tol=1e-15)
+    scene = tmp_path / "two.toml"
+    scene.write_text(HEAD + PAIR_OF_DRIVERS, encoding="utf-8")
+    printed = json.loads(ran("solve", scene, "--json").stdout)["balance"]
+    assert printed.keys() == {"1-0", "1-2"}
+    for name, each in printed.items():
+        assert math.isclose(each["moment"], exact.drivers[name], rel_tol=1e-12)
+    assert "moment on link 1 against 2: " in ran("solve", scene).stdout
 
 
 def test_a_wheel_touches_its_track_whatever_point_the_frame_lists_first():

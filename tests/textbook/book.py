@@ -6,8 +6,8 @@ that the test states (``within``). The exact one comes from a closed form or fro
 40 digits.
 
 What a book prints we know from quotations of it and from FOSSEE's Python Textbook Companions
-(Khurmi, Bevan, Meriam, Hibbeler, McLean, Tayal), "our source" where a test says so; most of the
-figures we have not seen.
+(Khurmi, Bevan, Sarkar, Meriam, Hibbeler, McLean, Beer, Tayal), "our source" where a test says so;
+most of the figures we have not seen.
 """
 
 from __future__ import annotations
