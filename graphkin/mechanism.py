@@ -235,7 +235,17 @@ class Mechanism(Struct, frozen=True, dict=True):
             for quantity in some
         ]
         wanted = wanted or self.for_forces() or list(self.program.answers)
+        wanted += self.forces_asked()
         return tuple(target for target in wanted if self.gives(target))
+
+    def forces_asked(self) -> list[Target]:
+        """The reactions and balances that the scene asks for, where the program draws them."""
+        given = self.scene.forces
+        if given is None or not given.asked or not self.program.reactions:
+            return []
+        from graphkin.construction.forces.force_words import is_asked
+
+        return [target for target in self.program.targets if is_asked(self.scene, given, target)]
 
     def for_forces(self) -> list[Target]:
         """The motions from which the asked forces follow; none where no force is asked."""
@@ -329,8 +339,7 @@ class Mechanism(Struct, frozen=True, dict=True):
         given = self.scene.forces
         if given is None:
             return None
-        from graphkin.construction.core.link_poses import LinkPoses
-        from graphkin.construction.reactions import NotConstructedError, construct
+        from graphkin.construction.reactions import reactions_of
         from graphkin.loops.equilibrium import (
             by_equations,
             by_power_alone,
@@ -338,16 +347,14 @@ class Mechanism(Struct, frozen=True, dict=True):
             equilibrium,
         )
 
-        trace = self.trace()
+        trace, whole = self.trace(), self.with_forces
         solution = gathered(trace, self.scene.links)
         motion = self.check.examine(solution, numbered=0).solved.motion
         here = equilibrium(self.scene, given, motion)
-        poses = LinkPoses(self.scene, trace)
-        try:
-            found = construct(self.scene, given, self.groups, solution, poses)
-        except NotConstructedError:
+        if whole is self:
             verdict = by_power_alone(self.scene, given, motion, here)
             return by_equations(self.scene, motion, here), verdict
+        found = reactions_of(whole.program, self.scene.values, trace)
         return found, compare_forces(self.scene, given, motion, here, found)
 
     def batch(

@@ -28,7 +28,7 @@ from graphkin.construction.core.palette import (
 )
 from graphkin.construction.core.relation import Relation
 from graphkin.construction.coriolis import CoriolisComponent
-from graphkin.construction.forces.loads import InertiaForce, InertiaMoment, Weight
+from graphkin.construction.forces.loads import InertiaForce, InertiaMoment, PassedReaction, Weight
 from graphkin.construction.forces.moments import ForceArm, TangentialPart
 from graphkin.construction.forces.polygon import ClosedByLines
 from graphkin.construction.higher_class.two_trials import with_trials_together
@@ -75,6 +75,7 @@ BOARD: Mapping[str, PaletteAction] = {
 SLIPPING: tuple[type[Construction], ...] = (
     ClosedByLines,
     TangentialPart,
+    PassedReaction,
     ForceArm,
     Weight,
     InertiaMoment,

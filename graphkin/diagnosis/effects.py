@@ -19,18 +19,20 @@ from graphkin.construction.core.timing import Stopwatch, Timing, one_position, w
 from graphkin.construction.registry import CAUSES, LIMITED
 from graphkin.mechanism import Mechanism
 from graphkin.scene.expression import TIME
-from graphkin.scene.model import Scene
+from graphkin.scene.model import Scene, joined_words
 
 BY_HAND = "by-hand marks"
 PENCIL = "pencil"
 CERTIFICATION = "certification"
+LEVER = "Zhukovsky's lever"
 EFFECTS: tuple[Effect, ...] = get_args(Effect)
 """The effects whose steps add up to the requested ones."""
 BY_COMMAND = {
     PENCIL: "only `solve --pencil MM` asks what a pencil makes of each step",
+    LEVER: "only the sheet of forces draws it, where it checks the balance",
     CERTIFICATION: "only `solve --digits N` asks for digits that are proved",
 }
-"""Effects that no scene requests: they run the same steps on other numbers."""
+"""Effects that no scene requests: checks, and the same steps on other numbers."""
 
 
 class EffectRow(Struct, frozen=True):
@@ -171,6 +173,10 @@ def cause_of(scene: Scene, effect: Effect) -> str:
             return "links that no driver turns at a given rate speed up or slow down"
         case "data and shapes":
             return "numbers that the scene states, and the shapes of its links"
+        case "loads":
+            return f"{masses_words(scene)}-m·a and -J·ε are loads too (d'Alembert)"
+        case "reactions and balance":
+            return "moments and polygons of the groups, from the last to the first"
         case "centrodes":
             return "the centres of a whole motion, which only the sheet and the cycle follow"
     return next((kind.cause(scene) for kind in CAUSES if kind.effect == effect), "")
@@ -187,9 +193,27 @@ def absence_of(scene: Scene, effect: Effect) -> str:
             return "[ask] names no centres"
         case "centrodes" if not scene.ask.centrodes:
             return "[ask] names no centrodes"
+        case "loads" | "reactions and balance":
+            return forces_absent(scene)
         case "acceleration poles" if not centres_asked(scene, "acceleration"):
             return "[ask] names no poles"
     return next((kind.absence(scene) for kind in CAUSES if kind.effect == effect), "")
+
+
+def masses_words(scene: Scene) -> str:
+    """The links with masses, before what follows from them; empty without one."""
+    forces = scene.forces
+    links = [] if forces is None else [k for k, e in forces.masses.items() if not e.mass.is_zero()]
+    return f"{joined_words(links)} have masses, so that " if links else "given loads; "
+
+
+def forces_absent(scene: Scene) -> str:
+    """Why no force is constructed."""
+    if scene.forces is None:
+        return "the scene states no masses and no loads"
+    if not scene.forces.asked:
+        return "[ask] names no reactions and no balance"
+    return "a group has no construction of forces: all equations of equilibrium give them"
 
 
 def centres_asked(scene: Scene, kind: str) -> bool:

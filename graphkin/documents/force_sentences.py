@@ -2,18 +2,24 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator
 
 from graphkin.construction.core.drawn_scene import Drawing
 from graphkin.construction.core.given_data import Datum, of_driver
 from graphkin.construction.core.kind import Sentence, construction
 from graphkin.construction.core.program import Part
 from graphkin.construction.core.quantities import number_of, quantity_text
-from graphkin.construction.core.relation import Relation
+from graphkin.construction.core.relation import Relation, answer
 from graphkin.construction.forces.force_drawing import ForceDrawing
-from graphkin.construction.forces.loads import InertiaForce, InertiaMoment, Weight
-from graphkin.drawing.symbol_markup import escape, symbol
-from graphkin.scene.forces import Load
+from graphkin.construction.forces.loads import (
+    InertiaForce,
+    InertiaMoment,
+    Weight,
+    load_names,
+    moment_name,
+)
+from graphkin.drawing.symbol_markup import bar, escape, symbol
+from graphkin.scene.forces import ByDriver, Directed, Load, Size
 from graphkin.scene.link_points import lettered
 
 
@@ -63,23 +69,46 @@ def force_data(drawing: Drawing, *, solved: bool) -> list[Datum]:
     if forces.gravity is not None:
         pair = (number_of(scene, words, each) for each in forces.gravity)
         found.append(Datum(name="*g*", value=f"{words.place(*pair)} m/s^2"))
-    names = load_names(forces.loads)
-    for load, name in zip(forces.loads, names, strict=True):
+    for load, name in zip(forces.loads, load_names(forces.loads), strict=True):
         if load.force is not None:
-            x, y = (number_of(scene, words, each) for each in load.force)
-            found.append(valued(f"P_{name}", f"{words.place(x, y)} N"))
+            found += force_datum(drawing, load, name)
         if load.moment is not None:
-            found.append(valued(f"M_{name}", quantity_text(scene, words, load.moment)))
+            size = given_size(drawing, load.moment, moment_name(load, name), "N·m")
+            found.append(valued(moment_name(load, name), size))
+    for number, spring in enumerate(forces.springs, 1):
+        own = str(number) if len(forces.springs) > 1 else ""
+        ends = bar(*map(lettered, spring.ends))
+        found.append(
+            valued(f"c_{own}" if own else "c", quantity_text(scene, words, spring.stiffness))
+        )
+        found.append(valued(f"l_0{own}", quantity_text(scene, words, spring.free)))
+        remarks.append(Datum(words("page.spring", bar=ends, c=symbol(f"c_{own}" if own else "c"))))
     return [*found, *remarks]
 
 
-def load_names(loads: Sequence[Load]) -> Iterator[str]:
-    """The index of each load: its point, or its link for a moment alone."""
-    counts: dict[str, int] = {}
-    for load in loads:
-        number = counts[load.at or load.link] = counts.get(load.at or load.link, 0) + 1
-        tail = f",{number}" if number > 1 else ""
-        yield (lettered(load.at) if load.force is not None else load.link) + tail
+def force_datum(drawing: Drawing, load: Load, name: str) -> Iterator[Datum]:
+    """A given force: its components, or its size with its direction."""
+    scene, words, force = drawing.scene, drawing.words, load.force
+    assert force is not None
+    if not isinstance(force, Directed):
+        x, y = (number_of(scene, words, each) for each in force)
+        yield valued(f"P_{name}", f"{words.place(x, y)} N")
+        return
+    size = given_size(drawing, force.size, f"P_{name}", "N")
+    if not force.sense:
+        yield valued(f"P_{name}", f"{size}, {quantity_text(scene, words, force.angle)}")
+        return
+    key = "step.force-along" if force.sense > 0 else "step.force-against"
+    v = symbol(f"v_{lettered(load.at)}")
+    yield Datum(words(key, p=symbol(f"P_{name}"), size=size, v=v))
+
+
+def given_size(drawing: Drawing, size: Size, name: str, unit: str) -> str:
+    """A given number with its unit; one of a table as it is in this position."""
+    if not isinstance(size, ByDriver):
+        return quantity_text(drawing.scene, drawing.words, size)
+    assert isinstance(drawing, ForceDrawing)
+    return f"{answer(drawing, drawing.by_table[name])} {unit}"
 
 
 def valued(name: str, value: str) -> Datum:

@@ -15,7 +15,6 @@ from graphkin.construction.core.run import Trace, run
 from graphkin.construction.core.solution import UNPROVED
 from graphkin.construction.forces.force_drawing import ForceDrawing
 from graphkin.construction.forces.force_plan import undrawn
-from graphkin.construction.forces.force_words import is_asked
 from graphkin.construction.forces.loads import AppliedForce
 from graphkin.construction.reactions import ForceSolution
 from graphkin.documents.force_fields import laid_out
@@ -92,8 +91,7 @@ def with_force_plan(
     forces, whole, asked = mechanism.scene.forces, mechanism.with_forces, mechanism.asked()
     if forces is None or not forces.asked or whole is mechanism:
         return mechanism, chosen, asked
-    own = [target for target in whole.program.targets if is_asked(mechanism.scene, forces, target)]
-    return whole, force_scales(mechanism, chosen), (*asked, *own)
+    return whole, force_scales(mechanism, chosen), whole.asked()
 
 
 def not_drawn(mechanism: Mechanism, group: Group) -> Problem:
@@ -111,7 +109,9 @@ def not_drawn(mechanism: Mechanism, group: Group) -> Problem:
             links=links,
             what=group.title,
         ),
-        message("dyads of pins and slides, wheels on fixed pivots, driven cranks and blocks"),
+        message(
+            "dyads, cylinders, cams, wheels on pivots, racks, groups of class III, driven links"
+        ),
         hint,
     )
 

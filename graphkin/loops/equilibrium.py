@@ -19,9 +19,11 @@ from msgspec.structs import replace
 from graphkin.construction.reactions import Balance, ForceSolution, PairReaction
 from graphkin.loops.loop_motion import Motion
 from graphkin.loops.rigid_bodies import Reals
-from graphkin.scene.forces import Forces
+from graphkin.numbers.plane import Line
+from graphkin.scene.forces import ByDriver, Directed, Forces, Size
 from graphkin.scene.model import FRAME, Driver, Scene, joined_words
-from graphkin.structure.pairs import contacts
+from graphkin.structure.link_axes import body
+from graphkin.structure.pairs import Contact, contacts
 from graphkin.structure.touching_wheels import radius, track_line
 from graphkin.text.errors import Problem, StructureError, joined, message
 
@@ -41,7 +43,8 @@ class Equilibrium(Struct, frozen=True):
     """Forces by pair and link, and by driver, from all equations at once.
 
     ``pairs`` holds for each (name, link) the force and its moment about the pin or the block's
-    first point. ``drivers`` holds forces along guides as vectors, and moments as numbers, by link.
+    first point. ``drivers`` holds forces along guides as vectors, and moments as numbers, by the
+    names of drivers.
     ``size`` (m) is the longest length, by which moments are compared with forces.
     """
 
@@ -104,24 +107,53 @@ def known_forces(scene: Scene, forces: Forces, motion: Motion) -> Iterator[Actin
         force = mass * (falls - complex(here.acceleration[0]))
         yield Acting(link, complex(here.place[0]), complex(here.velocity[0]), force, spun)
     for load in forces.loads:
-        couple = 0.0 if load.moment is None else si(load.moment, scene)
+        couple = 0.0 if load.moment is None else number_here(scene, load.moment)
         if load.force is None:
             yield Acting(load.link, 0j, 0j, 0j, couple)
             continue
         here = motion.point(load.at)
-        force = complex(si(load.force[0], scene), si(load.force[1], scene))
-        yield Acting(load.link, complex(here.place[0]), complex(here.velocity[0]), force, couple)
+        place, velocity = complex(here.place[0]), complex(here.velocity[0])
+        if not isinstance(load.force, Directed):
+            force = complex(si(load.force[0], scene), si(load.force[1], scene))
+        else:
+            size, way = number_here(scene, load.force.size), load.force.sense * velocity
+            angle = float(load.force.angle.si(scene.values))
+            unit = way / abs(way) if way else 0j
+            force = size * (unit if load.force.sense else complex(np.exp(1j * angle)))
+        yield Acting(load.link, place, velocity, force, couple)
+    for spring in forces.springs:
+        one, other = (motion.point(end) for end in spring.ends)
+        way = complex(other.place[0] - one.place[0])
+        pull = si(spring.stiffness, scene) * (1 - si(spring.free, scene) / abs(way)) * way
+        for link, here, force in zip(spring.links, (one, other), (pull, -pull), strict=True):
+            if link != FRAME:
+                place, velocity = complex(here.place[0]), complex(here.velocity[0])
+                yield Acting(link, place, velocity, force, 0.0)
+
+
+def number_here(scene: Scene, size: Size) -> float:
+    """A given number, or one from a table of a driver's coordinate."""
+    if not isinstance(size, ByDriver):
+        return si(size, scene)
+    knots, period = size.knots
+    at = si(scene.drivers[size.driver].position, scene)
+    if period:
+        at = knots[0] + (at - knots[0]) % period
+    return float(np.interp(at, knots, [si(each, scene) for each in size.ends]))
 
 
 class Column(Struct, frozen=True):
-    """One unknown of a pair or driver: a unit force at a place or a unit couple, on two links."""
+    """One unknown of a pair or driver: a unit force at a place or a unit couple, on two links.
+
+    ``drives`` is the name of the driver.
+    """
 
     name: str
     links: tuple[str, str]
     place: complex
     force: complex
     couple: float
-    drives: bool = False
+    drives: str = ""
 
 
 def columns_of(scene: Scene, motion: Motion) -> Iterator[Column]:
@@ -142,13 +174,14 @@ def columns_of(scene: Scene, motion: Motion) -> Iterator[Column]:
         yield Column(name, ends, pin_of(motion, guide.point), way, 0.0)
         yield Column(name, ends, 0j, 0j, 1.0)
     for driver in scene.drivers:
-        name, ends = f"driver {driver.link}", (driver.link, driver.against)
+        moved, ends = scene.driver_name(driver), (driver.link, driver.against)
+        name = f"driver {moved}"
         if driver.kind == "turn":
-            yield Column(name, ends, 0j, 0j, 1.0, drives=True)
+            yield Column(name, ends, 0j, 0j, 1.0, drives=moved)
             continue
         number = guide_of(motion, driver)
         place = pin_of(motion, motion.loops.guides[number].point)
-        yield Column(name, ends, place, along_guide(motion, number), 0.0, drives=True)
+        yield Column(name, ends, place, along_guide(motion, number), 0.0, drives=moved)
 
 
 class Touching(Struct, frozen=True):
@@ -185,10 +218,8 @@ def touching_of(scene: Scene, motion: Motion) -> Iterator[Touching]:
             raise StructureError(Problem("loads", found, message("wheels that touch"), hint))
         centre, track = pin_of(motion, each.wheel.centre), each.track
         if track is None:
-            line, k = track_line(scene, each.rolling), motion.index[each.links[1]]
-            turned = complex(motion.heading[0, k])
-            start = complex(motion.origin.place[0, k]) + turned * line.point
-            way = turned * line.along
+            line = line_of(scene, motion, each)
+            start, way = line.point, line.along
             place = start + ((centre - start) * way.conjugate()).real * way
             away = centre - place
         else:
@@ -201,6 +232,16 @@ def touching_of(scene: Scene, motion: Motion) -> Iterator[Touching]:
         name, pressure = "-".join(each.links), PRESSURE if teeth else 0.0
         kept = each.arm is not None
         yield Touching(name, each.links, place, 1j * away, away, kept, pressure)
+
+
+def line_of(scene: Scene, motion: Motion, contact: Contact) -> Line:
+    """The straight track of a contact in the plane."""
+    on = contact.links[1]
+    line, turned = track_line(scene, contact.rolling), complex(motion.heading[0, motion.index[on]])
+    point = next(iter(scene.link(on).points), None)
+    shift = line.point if point is None else line.point - body(scene, on)[point]
+    start = complex(motion.origin.place[0, motion.index[on]])
+    return Line(start + turned * shift, turned * line.along)
 
 
 def cams_of(scene: Scene, motion: Motion) -> Iterator[Touching]:
@@ -365,7 +406,7 @@ def gathered(columns: list[Column], values: list[float], size: float) -> Equilib
         couple = float(value) * column.couple * size
         if column.drives:
             is_force = column.force != 0
-            drivers[column.links[0]] = complex(value * column.force) if is_force else couple + 0j
+            drivers[column.drives] = complex(value * column.force) if is_force else couple + 0j
             continue
         for link, sign in zip(column.links, (1, -1), strict=True):
             force, turned = pairs.get((column.name, link), (0j, 0.0))
@@ -389,7 +430,7 @@ def power(
         omega = float(motion.omega[0, motion.index[each.link]])
         terms += [(each.force.conjugate() * each.velocity).real, each.couple * omega]
     for driver in scene.drivers:
-        given = drivers[driver.link]
+        given = drivers[scene.driver_name(driver)]
         if driver.kind == "turn":
             one, other = (motion.omega[0, motion.index[e]] for e in (driver.link, driver.against))
             terms.append(complex(given).real * float(one - other))
@@ -422,12 +463,12 @@ def by_equations(scene: Scene, motion: Motion, here: Equilibrium) -> ForceSoluti
         place, normal = pin_of(motion, guide.point), moment(along, force)
         at = place + turned / normal * along if normal else None
         reactions.append(PairReaction(name, link, force, turned, at, guide.block))
-    balance = [
-        Balance(driver.link, moment=here.drivers[driver.link].real)
-        if driver.kind == "turn"
-        else Balance(driver.link, force=here.drivers[driver.link])
-        for driver in scene.drivers
-    ]
+    balance = []
+    for driver in scene.drivers:
+        name = scene.driver_name(driver)
+        given = here.drivers[name]
+        turns = driver.kind == "turn"
+        balance.append(Balance(name, moment=given.real) if turns else Balance(name, force=given))
     return ForceSolution(tuple(reactions), tuple(balance))
 
 

@@ -208,6 +208,13 @@ def pick(condition: Any, yes: Any, no: Any) -> Any:
     return np.where(condition, yes, no)
 
 
+def modulo(x: Real, period: Any) -> Real:
+    """A number less whole periods, from 0 to below the period."""
+    if is_ball(x):
+        return x - period * (x / period).floor()
+    return x % period
+
+
 def below(a: Real, b: Real) -> Any:
     """Whether a number is smaller than another. Raises ValueError where a ball leaves that open."""
     if is_dual(a):

@@ -53,7 +53,7 @@ def si_factors() -> dict[str, tuple[Fraction, bool]]:
     for base, metres in LENGTHS.items():
         bases |= {f"{unit}{IN}{base}": (each / metres, False) for unit, each in LENGTHS.items()}
     rates = {f"{unit}/{s}": each for s in ("s", "s²", "s³") for unit, each in bases.items()}
-    others = dict.fromkeys(("", "s", "kg", "kg·m²", "N", "N·m"), (Fraction(1), False))
+    others = dict.fromkeys(("", "s", "kg", "kg·m²", "N", "N·m", "N/m"), (Fraction(1), False))
     return bases | rates | others | {"rev/min": (Fraction(1, 30), True)}
 
 
@@ -235,6 +235,12 @@ def expression(text: str, unit: str = "", place: str = "", *, counting: bool = F
     ``counting`` allows remainders: ``number mod 30``.
     """
     return Quantity(text, parse(text, counting=counting), unit, place)
+
+
+def combined(sign: str, one: Quantity, other: Quantity) -> Quantity:
+    """Two quantities joined by an operation, in the unit of the first."""
+    text = f"({one.text}) {sign} ({other.text})"
+    return Quantity(text, Pair(sign, one.tree, other.tree), one.unit, one.place)
 
 
 def shortest(value: Real) -> str:

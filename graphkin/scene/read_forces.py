@@ -3,19 +3,32 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
+from itertools import pairwise
+from math import ceil, pi
 
-from graphkin.scene.findings import Table, listed, nearest, shown
-from graphkin.scene.forces import Components, Forces, Load, Mass
+from graphkin.scene.findings import Findings, Table, listed, nearest, shown
+from graphkin.scene.forces import (
+    ByDriver,
+    Components,
+    Directed,
+    Forces,
+    Load,
+    Mass,
+    Size,
+    Spring,
+)
 from graphkin.scene.known_names import THE_MECHANISM, known_link, known_point
 from graphkin.scene.measures import Measures
 from graphkin.scene.model import FRAME, MASS_KEYS, Scene, link_words
 from graphkin.scene.phrases import FRAME_WORD, link_name, point_name
 from graphkin.scene.quantity import Quantity, exact
-from graphkin.text.errors import message
+from graphkin.text.errors import Message, message
 
 GRAVITY = "9.81"
 """The acceleration of ``gravity = true``, m/s² downwards."""
 MOST = 500
+SENSES = {"along": 1, "against": -1}
+"""The sense of a force beside the velocity of its point, by its word."""
 
 
 def read_forces(top: Table, asked: Table, scene: Scene, measures: Measures) -> Forces | None:
@@ -29,6 +42,7 @@ def read_forces(top: Table, asked: Table, scene: Scene, measures: Measures) -> F
         loads=tuple(loads(top, scene, measures)),
         reactions=reactions(asked, scene),
         balance=asked.flag("balance"),
+        springs=tuple(springs(top, scene, measures)),
     )
     nothing = Forces(masses={}, gravity=None, loads=())
     return None if read == nothing else read
@@ -100,28 +114,82 @@ def components(
     return x, y
 
 
-def loads(top: Table, scene: Scene, measures: Measures) -> Iterator[Load]:
-    """The loads, from ``[[loads]]``."""
-    raw = top.take("loads")
+def tables_of(top: Table, key: str, expected: Message, findings: Findings) -> Iterator[Table]:
+    """The tables of ``[[key]]``, whose other entries are noted as problems."""
+    raw = top.take(key)
     if raw is None:
         return
     if not isinstance(raw, list) or len(raw) > MOST:
-        expected = message("[[loads]] in double brackets, at most {most}", most=MOST)
-        measures.findings.add("loads", shown(raw), expected)
+        many = message("[[{key}]] in double brackets, at most {most}", key=key, most=MOST)
+        findings.add(key, shown(raw), many)
         return
     for index, each in enumerate(raw):
-        place = f"loads[{index}]"
+        place = f"{key}[{index}]"
         if not isinstance(each, dict):
-            expected = message("a table with force and at, or moment and link")
-            measures.findings.add(place, shown(each), expected)
-        elif load := read_load(Table(place, each, measures.findings), scene, measures):
+            findings.add(place, shown(each), expected)
+            continue
+        yield Table(place, each, findings)
+
+
+def loads(top: Table, scene: Scene, measures: Measures) -> Iterator[Load]:
+    """The loads, from ``[[loads]]``."""
+    expected = message("a table with force and at, or moment and link")
+    for table in tables_of(top, "loads", expected, measures.findings):
+        if load := read_load(table, scene, measures):
             yield load
+
+
+def springs(top: Table, scene: Scene, measures: Measures) -> Iterator[Spring]:
+    """The springs, from ``[[springs]]``."""
+    findings = measures.findings
+    expected = message("a table with between, stiffness and free")
+    for table in tables_of(top, "springs", expected, findings):
+        between, on = table.take("between"), table.take("links")
+        stiffness = measures.number(table.at("stiffness"), table.take("stiffness"), "N/m")
+        free = measures.length(table.at("free"), table.take("free"))
+        not_below_zero(stiffness, measures)
+        not_below_zero(free, measures)
+        table.finish()
+        ends = between.split("-") if isinstance(between, str) else []
+        known = [point for link in scene.every_link for point in link.points]
+        if len(ends) != 2 or ends[0] == ends[1]:
+            expected = message('two points, such as "A-B"')
+            findings.add(table.at("between"), shown(between), expected)
+            continue
+        for end in ends:
+            known_point(end, known, THE_MECHANISM, table.at("between"), findings)
+        if not {*ends} <= {*known}:
+            continue
+        owners = [owner_of(scene, end) for end in ends]
+        if on is not None:
+            given = on if isinstance(on, list) and len(on) == 2 else []
+            owners = [link_name(table.at("links"), e, findings) or "" for e in given]
+            if len(owners) != 2 or any(known_link_or_frame(scene, e) is None for e in owners):
+                expected = message("the links of both ends, such as [2, 0]")
+                findings.add(table.at("links"), shown(on), expected)
+                continue
+        for end, owner in zip(ends, owners, strict=True):
+            link = scene.frame if owner == FRAME else scene.link(owner)
+            known_point(end, link.points, link_words(owner), table.at("between"), findings)
+        yield Spring((ends[0], ends[1]), (owners[0], owners[1]), stiffness, free)
+
+
+def known_link_or_frame(scene: Scene, name: str) -> str | None:
+    """A link by its name, the frame included; None for another name."""
+    return name if name == FRAME or name in scene.links else None
+
+
+def owner_of(scene: Scene, point: str) -> str:
+    """The frame if it has a point, else the first link that has it."""
+    if point in scene.frame.points:
+        return FRAME
+    return next(link.name for link in scene.links.values() if point in link.points)
 
 
 def read_load(table: Table, scene: Scene, measures: Measures) -> Load | None:
     """One load; a force without ``link`` acts on the first moving link that has its point."""
     findings = table.findings
-    at, link, force, moment = (table.take(key) for key in ("at", "link", "force", "moment"))
+    at, link, force, moment, over = map(table.take, ("at", "link", "force", "moment", "over"))
     table.finish()
     if force is None and moment is None:
         expected = message("a table with force and at, or moment and link")
@@ -143,11 +211,76 @@ def read_load(table: Table, scene: Scene, measures: Measures) -> Load | None:
             known_point(point, moving, THE_MECHANISM, table.at("at"), findings)
     elif at is None:
         findings.add(table.place, message("no link"), message("the link on which the moment acts"))
-    read = None if force is None else components(table, "force", force, "N", measures)
-    couple = None if moment is None else measures.number(table.at("moment"), moment, "N·m")
+    read = None if force is None else force_of(table, force, over, scene, measures)
+    couple = None
+    if moment is not None:
+        couple = size_of(table.at("moment"), moment, "N·m", (table, over), scene, measures)
     if point and name:
         known_point(point, scene.link(name).points, link_words(name), table.at("at"), findings)
     return Load(name, point, read, couple) if name and point is not None else None
+
+
+def force_of(
+    table: Table, raw: object, over: object, scene: Scene, measures: Measures
+) -> Components | Directed | None:
+    """A force: two components, or a table with its size and its direction."""
+    if not isinstance(raw, dict):
+        return components(table, "force", raw, "N", measures)
+    own = Table(table.at("force"), raw, measures.findings)
+    size, angle, motion = own.take("size"), own.take("angle"), own.take("motion")
+    own.finish()
+    read = size_of(own.at("size"), size, "N", (table, over), scene, measures)
+    if motion is None:
+        return Directed(read, measures.angle(own.at("angle"), angle))
+    if motion not in SENSES or angle is not None:
+        expected = message('an angle, or motion = "along" or "against"')
+        measures.findings.add(own.at("motion"), shown(motion), expected)
+        return None
+    return Directed(read, exact(0, "deg"), SENSES[str(motion)])
+
+
+def size_of(
+    place: str,
+    raw: object,
+    unit: str,
+    beside: tuple[Table, object],
+    scene: Scene,
+    measures: Measures,
+) -> Size:
+    """A number, or a table ``[[coordinate, number], …]`` over a driver's coordinate."""
+    if not isinstance(raw, list):
+        return measures.number(place, raw, unit)
+    table, over = beside
+    findings, nothing = measures.findings, exact(0, unit, place)
+    if not 2 <= len(raw) <= MOST or not all(isinstance(e, list) and len(e) == 2 for e in raw):
+        expected = message("at least two points [coordinate, number], at most {most}", most=MOST)
+        findings.add(place, shown(raw), expected)
+        return nothing
+    links = [driver.link for driver in scene.drivers]
+    name = links[0] if over is None and links else link_name(table.at("over"), over, findings)
+    if name not in links or (over is None and len(links) > 1):
+        expected = message("over = the link of a driver, {names}", names=listed(links))
+        findings.add(table.at("over"), shown(over), expected)
+        return nothing
+    number = links.index(name)
+    turns = scene.drivers[number].kind == "turn"
+    read = measures.angle if turns else measures.length
+    places = tuple(read(f"{place}[{k}][0]", each[0]) for k, each in enumerate(raw))
+    numbers = tuple(
+        measures.number(f"{place}[{k}][1]", each[1], unit) for k, each in enumerate(raw)
+    )
+    known = [each.si({}) for each in places if not each.uses()]
+    if len(known) < len(places) or any(a >= b for a, b in pairwise(known)):
+        expected = message("numbers without parameters, each above the one before")
+        findings.add(place, shown([each[0] for each in raw]), expected)
+        return nothing
+    if not turns:
+        return ByDriver(number, places, numbers, None)
+    wide = float(known[-1] - known[0]) / (2 * pi)
+    turn = 360 if measures.units["angle"] == "deg" else None
+    period = max(1, ceil(wide - 1e-9))
+    whole = measures.angle(place, f"{2 * period}*pi" if turn is None else turn * period)
+    return ByDriver(number, places, numbers, whole)
 
 
 def reactions(asked: Table, scene: Scene) -> tuple[str, ...]:

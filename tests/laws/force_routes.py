@@ -9,28 +9,37 @@ from msgspec.structs import replace
 
 from graphkin.construction.core.kind import constructions
 from graphkin.construction.core.run import Trace
+from graphkin.construction.forces.force_words import link_pair
 from graphkin.construction.forces.lever import LeverBalance
 from graphkin.construction.forces.polygon import ClosedByLines, ClosingReaction
 from graphkin.construction.reactions import ForceSolution
 from graphkin.documents.force_sheets import traced
-from graphkin.mechanism import Mechanism
+from graphkin.loops.equilibrium import by_equations, equilibrium
+from graphkin.mechanism import Mechanism, gathered
 from graphkin.scene.forces import Forces, Load, Mass
 from graphkin.scene.quantity import Quantity, exact
 
 
 def loaded(mechanism: Mechanism, rng: random.Random) -> Mechanism:
-    """The mechanism with a mass on most links, gravity, a force and a moment."""
+    """The mechanism with a mass on most links, gravity, a force and a moment.
+
+    They are on links and points of the scene, not on those that stand for a cam.
+    """
     scene = mechanism.scene
+    links = {
+        name: [point for point in link.points if point not in scene.cam_centres]
+        for name, link in scene.links.items()
+        if name not in scene.cam_links
+    }
     masses = {}
-    for name, link in scene.links.items():
+    for name, points in links.items():
         if rng.random() < 0.8:
             inertia = number(rng, 0.01, 2, "kg·m²") if rng.random() < 0.8 else None
-            centre = rng.choice(link.points)
-            masses[name] = Mass(number(rng, 0.1, 9, "kg"), centre, inertia)
-    on, turned = rng.choice([*scene.links.values()]), rng.choice([*scene.links])
+            masses[name] = Mass(number(rng, 0.1, 9, "kg"), rng.choice(points), inertia)
+    on, turned = rng.choice([*links]), rng.choice([*links])
     force = number(rng, -900, 900, "N"), number(rng, -900, 900, "N")
     loads = (
-        Load(on.name, rng.choice(on.points), force, None),
+        Load(on, rng.choice(links[on]), force, None),
         Load(turned, "", None, number(rng, -90, 90, "N·m")),
     )
     gravity = exact(0, "m/s²"), exact("-9.81", "m/s²")
@@ -61,14 +70,26 @@ def on_links(found: ForceSolution) -> dict[str, complex]:
     for some in pairs.values():
         if len(some) == 2:
             (one, force), (other, back) = some
-            named |= {f"R_{other}{one}": force, f"R_{one}{other}": back}
+            named |= {f"R_{link_pair(other, one)}": force, f"R_{link_pair(one, other)}": back}
     return named
 
 
+def of_equations(mechanism: Mechanism) -> ForceSolution:
+    """The forces by all equations of equilibrium at once."""
+    scene = mechanism.scene
+    solution = gathered(mechanism.trace(), scene.links)
+    motion = mechanism.check.examine(solution, numbered=0).solved.motion
+    return by_equations(scene, motion, equilibrium(scene, scene.forces, motion))
+
+
 def differences(mechanism: Mechanism) -> Iterator[float]:
-    """How far polygons and lever are from the solution, as shares of the largest force."""
-    found, verdict = mechanism.forces()
-    assert verdict.agrees
+    """How far polygons are from the equations of equilibrium, and the lever from the polygons.
+
+    As shares of the largest force.
+    """
+    own, verdict = mechanism.forces()
+    assert verdict.agrees and verdict.constructed
+    found = of_equations(mechanism)
     trace, expected = traced(mechanism), on_links(found)
     largest = max(abs(each.force) for each in found.reactions)
     compared = [abs(force - expected[n]) for n, force in drawn(trace) if n in expected]
@@ -77,6 +98,6 @@ def differences(mechanism: Mechanism) -> Iterator[float]:
     values = trace.values
     for lever in constructions(trace.program, LeverBalance):
         balance = values[lever.force if lever.moment is None else lever.moment]
-        other = next(each for each in found.balance if each.link in lever.moment_name)
+        other = next(each for each in own.balance if each.link in lever.moment_name)
         size = other.force if other.moment is None else other.moment
         yield abs(balance - size) / max(abs(size), 1e-6 * largest)

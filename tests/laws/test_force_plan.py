@@ -11,6 +11,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from graphkin.construction.core.kind import constructions
+from graphkin.construction.forces.force_plan import undrawn
 from graphkin.construction.forces.lever import LeverBalance
 from graphkin.construction.forces.loads import AppliedForce, InertiaForce
 from graphkin.construction.reactions import by_name
@@ -19,7 +20,9 @@ from graphkin.loops.equilibrium import by_equations, equilibrium
 from graphkin.mechanism import Mechanism
 from graphkin.numbers.plane import cross
 from graphkin.scene.model import FRAME
+from graphkin.scene.read_scene import read_text
 from tests.chance.forces import dyads
+from tests.chosen import FOLDER
 from tests.laws.force_routes import differences, loaded
 from tests.laws.test_forces import (
     CROSSED,
@@ -60,6 +63,29 @@ def test_they_do_for_random_loads_in_every_group(text, seed):
     for key, low, high in (("angle = 50\n", 35, 85), ("angle = 25\n", 0, 60)):
         text = text.replace(key, f"angle = {rng.uniform(low, high)}\n")
     assert max(differences(mechanism_of(text))) < 1e-9
+
+
+OTHERS = {
+    "cylinder": ("cylinders-two",),
+    "cam": ("cam-roller", "cam-knife", "cam-flat", "cam-plate", "cam-fixed", "cam-carried"),
+    "lever of a cam": ("cam-rocker", "cam-lever", "cam-plate-lever", "cam-fixed-lever"),
+    "wheel on an arm": ("gears-planet", "gears-ring", "gears-lever", "gears-sun-and-planet"),
+    "rack": ("gears-rack", "bar-on-roller"),
+    "class III": ("stephenson-3-crank", "stephenson-2-ternary", "link-motion"),
+    "arm driven against an arm": ("excavator-absolute", "excavator-relative"),
+}
+"""Scenes of the gallery by the kind of group whose forces they have."""
+
+
+@pytest.mark.parametrize("seed", range(4))
+@pytest.mark.parametrize("name", [name for some in OTHERS.values() for name in some])
+def test_every_other_group_gives_the_forces_of_the_equations(name, seed):
+    """Cylinders, cams, wheels on arms, racks and groups of class III, at random loads."""
+    text = (FOLDER / f"{name}.toml").read_text(encoding="utf-8")
+    made = loaded(Mechanism(read_text(text, name, None, {})), random.Random(seed))
+    if undrawn(made.scene, made.laid[0]) is not None:
+        pytest.fail(f"{name} is not drawn")
+    assert max(differences(made)) < 1e-9
 
 
 def test_the_place_of_a_guide_s_reaction_is_that_of_the_solution():

@@ -39,6 +39,7 @@ MADE = {"Line": (Line, 2, "pp"), "Circle": (Circle, 2, "pr"), "Ratio": (Ratio, 3
 """How what a step takes is put together: of points (p) and positive numbers (r)."""
 PARTS = {Line: 2, Circle: 2, Ratio: 3, Vector: 2}
 EXTRA = {"way": 1, "side": -1, "sense": -1, "place": 1, "size": 1.0, "inside": 1, "ring": 1}
+EXTRA["slant"] = 0.36
 """What a step is told beside its arguments."""
 MANY = {f"higher.{name}": ("rrpp", (2,)) for name in ("reach", "span")} | {
     f"cam_centre.{name}": ("rrrr", (-1.0, 3.0, 4.0))
@@ -50,12 +51,14 @@ MANY |= {
     for name in ("table_lift", "table_rate", "table_bend")
 }
 MANY["two_trials.pace"] = ("rrr", (2,))
+MANY["loads.by_table"] = ("rrr", (0.5, 1.5, 4.0, 9.0))
 MANY["lever.lever_balance"] = ("ppppr", (2,))
 MANY |= {
     f"moments.{name}": ("ppppr", (2,))
     for name in ("tangential_part", "balancing_moment", "place_by_moments", "left_couple")
 }
 MANY["slide_pressure.slide_pressure"] = ("pprppr", (1, 1, 3))
+MANY["line_force.line_force"] = ("ppr", (1,))
 MANY["tooth_force.tooth_force"] = ("ppr", (1, 0.36))
 """What steps take any number of, and what these are told; two points where nothing is said."""
 

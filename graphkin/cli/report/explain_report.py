@@ -15,7 +15,7 @@ from graphkin.construction.core.timing import Stopwatch, Timing
 from graphkin.diagnosis.effects import EFFECTS, EffectRow, effects, measured
 from graphkin.scene.model import Scene
 from graphkin.text.errors import ClosureError
-from graphkin.text.tables import table
+from graphkin.text.tables import listed, table
 
 if TYPE_CHECKING:
     from graphkin.mechanism import Mechanism
@@ -42,6 +42,8 @@ def explained(new: Callable[[], Mechanism]) -> Explanation:
     ``new`` reads the mechanism.
     """
     mechanism = new()
+    if (forces := mechanism.scene.forces) is not None and forces.asked:
+        mechanism = mechanism.with_forces
     program, asked, scene = mechanism.program, mechanism.asked(), mechanism.scene
     less, more = (len(program.needed(targets)) for targets in (asked, program.answers))
     unmeasured = undrawn(mechanism, program.answers)
@@ -68,7 +70,7 @@ def explain_lines(found: Explanation) -> Iterator[str]:
     """The table of effects, each in or out, and the sums below it."""
     scene = found.scene
     yield heading(scene)
-    yield f"asked: {ask_words(scene.ask)}"
+    yield f"asked: {all_words(scene)}"
     yield ""
     heads = ("effect", "", "steps", "time, µs", "quartiles", "why")
     yield from table(heads, [cells(row) for row in found.rows])
@@ -91,6 +93,16 @@ def explain_lines(found: Explanation) -> Iterator[str]:
     if found.waits is not None:
         yield ""
         yield from waits_lines(found.waits)
+
+
+def all_words(scene: Scene) -> str:
+    """What a scene asks for, in words, its forces included."""
+    forces, motions = scene.forces, ask_words(scene.ask)
+    if forces is None or not forces.asked:
+        return motions
+    said = [] if motions == "nothing" else [motions]
+    said += [f"reactions {listed(forces.reactions)}"] if forces.reactions else []
+    return "; ".join([*said, *(["balance"] if forces.balance else [])])
 
 
 def cells(row: EffectRow) -> tuple[str, ...]:
@@ -128,7 +140,7 @@ def explain_record(found: Explanation) -> dict[str, Any]:
     """The explanation as plain data, times in seconds."""
     return {
         "name": found.scene.name,
-        "asked": ask_words(found.scene.ask),
+        "asked": all_words(found.scene),
         "effects": [
             {
                 "effect": row.name,

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Container, Iterable, Iterator, Mapping, Sequence
 from enum import Enum
-from typing import Any, ClassVar, Literal
+from typing import Any, ClassVar, Literal, NamedTuple
 
 from msgspec import Struct
 
@@ -28,6 +28,8 @@ Effect = Literal[
     "instantaneous centres",
     "centrodes",
     "acceleration poles",
+    "loads",
+    "reactions and balance",
 ]
 """The purpose of a step in the motion, in the order of the work."""
 
@@ -55,6 +57,7 @@ OF_PART: Mapping[Part, Effect] = {
     Part.CENTRE: "instantaneous centres",
     Part.POLE: "acceleration poles",
     Part.RESULT: "rates of links and slides",
+    Part.FORCE: "reactions and balance",
 }
 """The effect of a step that names none itself."""
 
@@ -195,17 +198,57 @@ class Drive(Roles, frozen=True):
     angle: int | None = None
 
 
+class PairForce(NamedTuple):
+    """The force of one link of a pair on the other: the steps that hold it.
+
+    ``name`` is that of the pair, ``links`` the link on which the force acts and the other one.
+    ``block`` is the block or wheel of a guide or contact, None for a pin. ``about`` is the point
+    about which the moment counts, None where it is zero, ``couple`` the couple of a guide.
+    """
+
+    name: str
+    links: tuple[str, str]
+    block: str | None
+    force: int
+    place: int
+    about: int | None = None
+    couple: int | None = None
+
+    @property
+    def steps(self) -> tuple[int, ...]:
+        """The steps from which it follows."""
+        every = (self.force, self.place, self.about, self.couple)
+        return tuple(number for number in every if number is not None)
+
+
+class DriverForce(NamedTuple):
+    """The balance of a driver on a ``link``: the step of its force or of its moment.
+
+    ``sense`` is -1 where the link is not the driver's own.
+    """
+
+    driver: str
+    link: str
+    name: str
+    step: int
+    turns: bool
+    sense: int
+
+
 class Program(Struct, frozen=True):
     """Steps in drawing order, and the step that holds each quantity.
 
     ``seconds`` is the step that holds kL/kv, where velocities are set on the mechanism. ``drives``
-    are the given motions, in the order of the scene's drivers.
+    are the given motions, in the order of the scene's drivers. ``reactions`` and ``balances`` are
+    those of a plan of forces.
     """
 
     steps: tuple[Step, ...]
     targets: Mapping[Target, int]
     seconds: int | None = None
     drives: tuple[Drive, ...] = ()
+    reactions: tuple[PairForce, ...] = ()
+    balances: tuple[DriverForce, ...] = ()
 
     @property
     def answers(self) -> tuple[Target, ...]:

@@ -15,11 +15,12 @@ from graphkin.construction.core.run import Trace
 from graphkin.construction.forces.balance import BalancingMoment
 from graphkin.construction.forces.force_words import sub
 from graphkin.construction.forces.lever import LeverBalance
-from graphkin.construction.forces.loads import InertiaMoment
+from graphkin.construction.forces.loads import ByTable, InertiaMoment, load_names, moment_name
 from graphkin.construction.forces.polygon import InPolygon
 from graphkin.drawing.field import Field
 from graphkin.drawing.scale import Extent, extent_of
 from graphkin.numbers.arithmetic import np
+from graphkin.scene.forces import ByDriver
 
 
 class ForceLayout(Layout, frozen=True):
@@ -102,13 +103,29 @@ class ForceDrawing(Drawing, frozen=True):
             if size := each.size(self):
                 found.setdefault(each.link, {})[each.name] = size
         forces, values = self.scene.forces, self.scene.values
-        for load in forces.loads if forces is not None else ():
-            if load.moment is not None and (size := float(load.moment.si(values))):
-                found.setdefault(load.link, {})[f"M_{load.link}"] = size
+        loads = () if forces is None else forces.loads
+        for load, index in zip(loads, load_names(loads), strict=True):
+            if load.moment is None:
+                continue
+            name = moment_name(load, index)
+            size = (
+                self.by_table[name]
+                if isinstance(load.moment, ByDriver)
+                else float(load.moment.si(values))
+            )
+            if size:
+                found.setdefault(load.link, {})[name] = size
         for inertia in constructions(self.trace.program, InertiaMoment):
             if couple := float(self.trace.values[inertia.couple]):
                 found.setdefault(inertia.link, {})["M_" + sub("i", inertia.link)] = couple
         return found
+
+    @cached_property
+    def by_table(self) -> Mapping[str, float]:
+        """The loads that follow from tables, by their symbols, in N or N·m."""
+        values = self.trace.values
+        tables = constructions(self.trace.program, ByTable)
+        return {each.name: float(values[each.number]) for each in tables}
 
     @cached_property
     def on_mechanism(self) -> tuple[tuple[int, Step, Any], ...]:

@@ -6,23 +6,36 @@ Norton, Design of Machinery, chapter 11.
 
 from __future__ import annotations
 
+from collections import Counter
 from collections.abc import Sequence
 from itertools import count
+from typing import NamedTuple
+
+from msgspec.structs import replace
 
 from graphkin.construction.core.bases import crank_tip
 from graphkin.construction.core.pen import Pen
-from graphkin.construction.core.program import Part, Plane, Program
+from graphkin.construction.core.program import DriverForce, PairForce, Part, Plane, Program
 from graphkin.construction.core.quantities import (
     BALANCING_FORCE,
     BALANCING_MOMENT,
     PAIR_REACTION,
 )
+from graphkin.construction.core.vocabulary import along_bar
 from graphkin.construction.forces.balance import balance_of
 from graphkin.construction.forces.force_words import link_pair, sub
 from graphkin.construction.forces.lever import LeverPlan
-from graphkin.construction.forces.loads import LinkForce, applied, loads_of, opposite
+from graphkin.construction.forces.line_force import along_line, foot_on_line, in_order, meeting
+from graphkin.construction.forces.loads import (
+    LinkForce,
+    PassedReaction,
+    applied,
+    loads_of,
+    opposite,
+)
 from graphkin.construction.forces.moments import (
     Moments,
+    balancing_moment,
     couple_on_guide,
     moments_about,
     place_on_guide,
@@ -33,14 +46,26 @@ from graphkin.construction.forces.polygon import (
     REACTION,
     Polygon,
     SideDirection,
+    normal_to_guide,
     side_between,
 )
 from graphkin.construction.forces.slide_pressure import pressure
-from graphkin.construction.forces.tooth_force import tooth
-from graphkin.scene.model import FRAME, Scene
-from graphkin.structure.groups import Crank, Driven, Dyad, Group
-from graphkin.structure.pairs import Joint, Pin, PinLine, Sliding
-from graphkin.structure.wheel_groups import Geared, other_of
+from graphkin.construction.forces.tooth_force import pitch_of, pitch_on, pressure_angle, rack, tooth
+from graphkin.scene.findings import natural
+from graphkin.scene.model import FRAME, Driver, Scene
+from graphkin.structure.groups import (
+    CamFollower,
+    Crank,
+    Cylinder,
+    Driven,
+    Dyad,
+    Geared,
+    Group,
+    Higher,
+    Stretched,
+    other_of,
+)
+from graphkin.structure.pairs import Joint, Pin, PinLine, Sliding, pairs
 
 
 def undrawn(scene: Scene, groups: Sequence[Group]) -> Group | None:
@@ -54,15 +79,56 @@ def is_drawn(scene: Scene, group: Group) -> bool:
         case Dyad():
             pairs = (*group.outer, group.inner)
             return all(is_plain(scene, pair) for pair in pairs)
-        case Crank(driver=driver, link=link):
-            return other_of(driver, link) == FRAME
-        case Geared(link=link, pair=Pin() as pin, contact=contact):
-            on_frame = FRAME in pin.links and contact.arm == FRAME
-            both = contact.track is not None and contact.rolling.belt is None
-            return on_frame and both and contact.wheel_of(link).centre == pin.place
-        case Driven(driver=driver, link=link, pair=pair):
-            return other_of(driver, link) == FRAME and is_plain(scene, pair)
+        case Crank():
+            return True
+        case CamFollower(dyad=dyad):
+            follower = follower_of(scene, dyad)
+            single = scene.cams[follower].conjugate is None
+            return single and is_plain(scene, outer_of(dyad, follower))
+        case Stretched(cylinders=cylinders, dyad=dyad):
+            slides = (each.slide for each in cylinders)
+            return isinstance(dyad.inner, Pin) and all(
+                is_plain(scene, pair) for pair in (*slides, *group.outer)
+            )
+        case Geared(link=link, pair=pair, contact=contact) if contact.rolling.belt is None:
+            if isinstance(pair, Pin):
+                wheel = contact.track if contact.links[0] != link else contact.wheel
+                return wheel is not None and wheel.centre == pair.place
+            return contact.track is None and contact.links[1] == link and is_plain(scene, pair)
+        case Higher():
+            return coupled(scene, group) is not None
+        case Driven(pair=pair):
+            return is_plain(scene, pair)
     return False
+
+
+class Arm(NamedTuple):
+    """An arm of the coupler of a group of class III: its link, its outer pair and its inner pin."""
+
+    link: str
+    outer: Pin | Sliding
+    inner: Pin
+
+
+def coupled(scene: Scene, group: Higher) -> tuple[str, tuple[Arm, Arm, Arm]] | None:
+    """The coupler of a group of class III and order 3 with its arms; None for any other group."""
+    if group.order != (3, 3) or len(group.links) != 4 or group.wheels:
+        return None
+    joints = [pair for pair in pairs(scene) if any(link in group.links for link in pair.links)]
+    inside = [pair for pair in joints if all(link in group.links for link in pair.links)]
+    count = Counter(link for pair in inside for link in pair.links)
+    coupler = next((link for link in group.links if count[link] == len(inside) == 3), None)
+    if coupler is None or not all(isinstance(pair, Pin) for pair in inside):
+        return None
+    arms = []
+    for pair in inside:
+        assert isinstance(pair, Pin)
+        (link,) = (each for each in pair.links if each != coupler)
+        outer = [e for e in joints if link in e.links and e not in inside]
+        if len(outer) != 1 or not is_plain(scene, outer[0]):
+            return None
+        arms.append(Arm(link, outer[0], pair))
+    return coupler, (arms[0], arms[1], arms[2])
 
 
 def is_plain(scene: Scene, pair: Joint) -> bool:
@@ -77,8 +143,41 @@ def is_plain(scene: Scene, pair: Joint) -> bool:
 def force_program(scene: Scene, motion: Program, groups: Sequence[Group]) -> Program:
     """The program of a motion with the plan of forces after it. All groups are drawn ones."""
     pen = Pen.resumed(scene, motion)
-    ForcePlan(pen).write(groups)
-    return pen.program()
+    plan = ForcePlan(pen)
+    plan.write(groups)
+    return replace(pen.program(), reactions=tuple(plan.reactions), balances=tuple(plan.balances))
+
+
+class DyadSide(NamedTuple):
+    """One side of a dyad: a link, or a cylinder of two, between an outer pair and the inner pin.
+
+    The reaction in the outer pair acts on link ``near``, that in the inner pin on link ``far``.
+    """
+
+    near: str
+    far: str
+    outer: Joint
+
+    @property
+    def links(self) -> tuple[str, ...]:
+        """Its links."""
+        return tuple(dict.fromkeys((self.near, self.far)))
+
+    @property
+    def words(self) -> str:
+        """Its links in a sentence about one link."""
+        return " + ".join(self.links)
+
+
+class CamPair(NamedTuple):
+    """A follower with its cam, and the normal of their contact."""
+
+    links: tuple[str, str]
+
+    @property
+    def name(self) -> str:
+        """The name of its reaction."""
+        return "-".join(self.links)
 
 
 class ForcePlan:
@@ -88,27 +187,39 @@ class ForcePlan:
         assert pen.scene.forces is not None
         self.pen = pen
         self.arms = (f"h_{number}" for number in count(1))
-        self.acting = loads_of(pen, pen.scene.forces, self.arms)
+        with pen.calls_for("loads"):
+            self.acting = loads_of(pen, pen.scene.forces, self.arms)
+        self.acting[FRAME] = []
         self.loads = {link: tuple(some) for link, some in self.acting.items()}
         self.polygons = count(1)
+        self.reactions: list[PairForce] = []
+        self.balances: list[DriverForce] = []
 
     def write(self, groups: Sequence[Group]) -> None:
         """Draw every group, then the lever of a mechanism with one driver."""
-        balances: list[tuple[Crank | Driven, int]] = []
+        driving: list[tuple[Crank | Driven | Cylinder, int]] = []
         for group in reversed(groups):
             match group:
                 case Dyad(inner=Pin()):
-                    self.by_inner_pin(group)
+                    self.by_inner_pin(group.type, group.inner, *self.sides_of(group))
                 case Dyad():
                     self.by_inner_slide(group)
-                case Geared():
+                case CamFollower():
+                    self.lifted(group)
+                case Stretched():
+                    driving += self.stretched(group)
+                case Higher():
+                    self.class_three(group)
+                case Geared(pair=Pin()):
                     self.geared(group)
+                case Geared():
+                    self.on_rack(group)
                 case Crank():
-                    balances.append((group, self.crank(group)))
+                    driving.append((group, self.crank(group)))
                 case Driven():
-                    balances.append((group, self.driven(group)))
-        if len(balances) == 1:
-            self.lever(*balances[0])
+                    driving.append((group, self.driven(group)))
+        if len(driving) == 1:
+            self.lever(*driving[0])
 
     # --- names and reactions ---------------------------------------------------------------------
 
@@ -116,12 +227,12 @@ class ForcePlan:
         """The next polygon."""
         return Polygon(self.pen, next(self.polygons), links, kind)
 
-    def partner(self, pair: Joint, link: str) -> str:
+    def partner(self, pair: Joint | CamPair, link: str) -> str:
         """The other link of a pair."""
         first, second = pair.links
         return second if link == first else first
 
-    def name(self, pair: Joint, link: str, part: str = "") -> str:
+    def name(self, pair: Joint | CamPair, link: str, part: str = "") -> str:
         """The symbol of the reaction on a link in a pair, and of its part."""
         index = link_pair(self.partner(pair, link), link)
         return f"R_{index}" + (f"^{part}" if part else "")
@@ -131,65 +242,108 @@ class ForcePlan:
         assert isinstance(pair, Sliding)
         return self.pen.the("guide", pair.block)
 
-    def give(self, pair: Joint, link: str, force: int, place: int, at: str = "") -> None:
+    def enter(
+        self, pair: Joint | CamPair, link: str, force: int, place: int, couple: int | None = None
+    ) -> None:
+        """Enter the reaction on a link among the results."""
+        links = link, self.partner(pair, link)
+        if isinstance(pair, Pin):
+            found = PairForce(pair.place, links, None, force, place)
+        elif isinstance(pair, Sliding):
+            about = self.pen.the("position", self.pen.scene.link(pair.block).points[0])
+            name = "-".join(pair.links)
+            found = PairForce(name, links, pair.block, force, place, about, couple)
+        else:
+            found = PairForce("-".join(pair.links), links, pair.links[0], force, place)
+        self.reactions.append(found)
+
+    def give(
+        self,
+        pair: Joint | CamPair,
+        link: str,
+        force: int,
+        place: int,
+        at: str = "",
+        couple: int | None = None,
+    ) -> None:
         """Enter the reaction on a link, drawn on the mechanism, and pass its opposite on."""
         pen, other = self.pen, self.partner(pair, link)
+        self.enter(pair, link, force, place, couple)
         if other == FRAME:
             applied(pen, LinkForce(self.name(pair, link), REACTION, force, place, at=at))
             return
-        with pen.on(Part.FORCE, Plane.NUMBERS):
-            back = pen.draw(opposite, force)
+        back = pen.make(PassedReaction(name=self.name(pair, other), force=self.back(force))).force
         passed = LinkForce(self.name(pair, other), REACTION, back, place, at=at)
         self.acting[other].append(applied(pen, passed))
 
+    def back(self, step: int) -> int:
+        """The opposite of a force or a couple."""
+        with self.pen.on(Part.FORCE, Plane.NUMBERS):
+            return self.pen.draw(opposite, step)
+
+    def about(self, point: str, *links: str) -> Moments:
+        """The moments of all forces on some links about a point."""
+        acting = [each for link in links for each in self.acting[link]]
+        return moments_about(self.pen, self.pen.the("position", point), point, acting, self.arms)
+
     # --- dyads -----------------------------------------------------------------------------------
 
-    def by_inner_pin(self, group: Dyad) -> None:
-        """RRR, RRP, PRP: parts across bars, the polygon of both links, places on guides."""
-        pen, inner = self.pen, group.inner
+    def sides_of(self, group: Dyad) -> tuple[DyadSide, DyadSide]:
+        """The sides of a dyad; a side with a pin comes first."""
+        one, other = (DyadSide(link, link, outer_of(group, link)) for link in group.links)
+        swapped = isinstance(one.outer, Sliding) and not isinstance(other.outer, Sliding)
+        return (other, one) if swapped else (one, other)
+
+    def by_inner_pin(
+        self, kind: str, inner: Joint, one: DyadSide, other: DyadSide
+    ) -> tuple[int, int]:
+        """RRR, RRP, PRP: parts across bars, the polygon of both links, places on guides.
+
+        Gives the forces of both sides in the inner pin, each on its own side.
+        """
+        pen = self.pen
         assert isinstance(inner, Pin)
-        one, other = group.links
-        outer = {link: outer_of(group, link) for link in group.links}
-        if isinstance(outer[one], Sliding) and not isinstance(outer[other], Sliding):
-            one, other = other, one
-        pin = pen.the("position", inner.place)
-        moments = {
-            link: moments_about(pen, pin, inner.place, self.acting[link], self.arms)
-            for link in (one, other)
-        }
-        across = {}
-        for link in (one, other):
-            pair = outer[link]
-            if isinstance(pair, Pin) and moments[link].terms:
-                name, ends = self.name(pair, link, "t"), (pair.place, inner.place)
-                across[link] = tangential(pen, name, link, ends, moments[link])
-        polygon = self.new_polygon((one, other), group.type)
+        moments = {side: self.about(inner.place, *side.links) for side in (one, other)}
+        across = {side: self.across(side, inner, moments[side]) for side in (one, other)}
+        polygon = self.new_polygon((*one.links, *other.links), kind)
         first = polygon.start
-        if one in across:
-            first = polygon.lay(self.name(outer[one], one, "t"), PART, across[one])
-        middle = polygon.lay_all(self.acting[one])
-        second = polygon.lay_all(self.acting[other])
-        if other in across:
-            polygon.lay(self.name(outer[other], other, "t"), PART, across[other])
-        parts = {
-            link: self.name(outer[link], link, "n" if link in across else "")
-            for link in (one, other)
-        }
-        looks = {link: PART if link in across else REACTION for link in (one, other)}
+        name, far = (self.name(side.outer, side.near) for side in (one, other))
+        if (step := across[one]) is not None:
+            first = polygon.lay(f"{name}^t", PART, step)
+        for link in one.links:
+            polygon.lay_all(self.acting[link])
+        middle = polygon.last
+        for link in other.links:
+            polygon.lay_all(self.acting[link])
+        second = polygon.last
+        if (step := across[other]) is not None:
+            polygon.lay(f"{far}^t", PART, step)
+        parts = [across[side] is not None for side in (one, other)]
         closed = polygon.close(
-            (parts[one], parts[other]),
-            (self.way(outer[one], inner), self.way(outer[other], inner)),
-            (looks[one], looks[other]),
+            (f"{name}^n" if parts[0] else name, f"{far}^n" if parts[1] else far),
+            (self.way(one.outer, inner), self.way(other.outer, inner)),
+            (PART if parts[0] else REACTION, PART if parts[1] else REACTION),
+            (one.words, other.words),
         )
         corner = closed.corner
         forces = {}
-        for link, tail, tip in ((one, corner, first), (other, second, corner)):
-            name = self.name(outer[link], link)
-            whole = (f"{name}^n", f"{name}^t") if link in across else ()
-            forces[link] = polygon.reaction(name, tail, tip, whole=whole, drawn=bool(whole))
-        polygon.reaction(self.name(inner, one), middle, corner)
-        for link in (one, other):
-            self.settle(outer[link], link, forces[link], moments[link])
+        for side, tail, tip in ((one, corner, first), (other, second, corner)):
+            whole = self.name(side.outer, side.near)
+            names = () if across[side] is None else (f"{whole}^n", f"{whole}^t")
+            forces[side] = polygon.reaction(whole, tail, tip, whole=names, drawn=bool(names))
+        met = Pin(inner.point, (one.far, other.far))
+        between = polygon.reaction(self.name(met, one.far), middle, corner, first=one.far)
+        self.enter(met, one.far, between, pen.the("position", inner.place))
+        for side in (one, other):
+            self.settle(side.outer, side.near, forces[side], moments[side])
+        return between, self.back(between)
+
+    def across(self, side: DyadSide, inner: Pin, moments: Moments) -> int | None:
+        """The part of an outer reaction across the bar; None where there is none."""
+        if not isinstance(side.outer, Pin) or not moments.terms:
+            return None
+        name, ends = self.name(side.outer, side.near, "t"), (side.outer.place, inner.place)
+        return tangential(self.pen, name, side.words, ends, moments)
 
     def settle(self, pair: Joint, link: str, force: int, moments: Moments) -> None:
         """Enter an outer reaction at its pin, or at its place on a guide by moments."""
@@ -198,8 +352,9 @@ class ForcePlan:
             return
         name, guide = self.name(pair, link), self.guide(pair)
         place = place_on_guide(self.pen, name, f"x_{link}", link, guide, force, moments)
-        self.give(pair, link, force, place)
-        self.turn(pair, link, couple_on_guide(self.pen, guide, force, moments))
+        couple = couple_on_guide(self.pen, guide, force, moments)
+        self.give(pair, link, force, place, couple=couple)
+        self.turn(pair, link, couple)
 
     def turn(self, pair: Joint, link: str, couple: int | None, *, both: bool = False) -> None:
         """Pass the couple of a guide on a link to the other one, and enter it on ``both``."""
@@ -210,9 +365,7 @@ class ForcePlan:
         if both:
             self.acting[link].append(LinkForce(f"M_{index}", REACTION, couple=couple))
         if other != FRAME:
-            with self.pen.on(Part.FORCE, Plane.NUMBERS):
-                back = self.pen.draw(opposite, couple)
-            passed = LinkForce(f"M_{link_pair(link, other)}", REACTION, couple=back)
+            passed = LinkForce(f"M_{link_pair(link, other)}", REACTION, couple=self.back(couple))
             self.acting[other].append(passed)
 
     def at_pin(self, pair: Pin, link: str, force: int) -> None:
@@ -249,22 +402,23 @@ class ForcePlan:
         pen = self.pen
         if self.has_moments(*near) and not self.has_moments(*far):
             near, far = far, near
-        others, own = (
-            moments_about(
-                pen, pen.the("position", pin.place), pin.place, self.acting[link], self.arms
-            )
-            for link, pin in (near, far)
-        )
+        others, own = (self.about(pin.place, link) for link, pin in (near, far))
         one, other = near[0], far[0]
         name, guide = self.name(inner, one), self.guide(inner)
         force = pressure(pen, name, next(self.arms), (other, inner.block), guide, own, others)
         place = place_on_guide(pen, name, f"x_{one}", one, guide, force, others)
-        self.pressed(inner, one, other, force, place)
-        self.turn(inner, one, couple_on_guide(pen, guide, force, others), both=True)
+        couple = couple_on_guide(pen, guide, force, others)
+        self.pressed(inner, one, force, place, couple)
+        self.turn(inner, one, couple, both=True)
         for link, pin in (far, near):
             polygon = self.closed_at(group.type, link, pin)
-        with pen.on(Part.FORCE, Plane.NUMBERS):
-            pen.want(PAIR_REACTION.target, name, pen.draw(side_between, *polygon.ends[name]))
+        self.read_off(name, polygon)
+
+    def read_off(self, name: str, polygon: Polygon) -> None:
+        """Let a force that moments gave be read off as a side of a polygon."""
+        with self.pen.on(Part.FORCE, Plane.NUMBERS):
+            side = self.pen.draw(side_between, *polygon.ends[name])
+        self.pen.want(PAIR_REACTION.target, name, side)
 
     def closed_at(self, kind: str, link: str, pin: Pin) -> Polygon:
         """The polygon of one link, which the reaction in its pin closes."""
@@ -279,14 +433,12 @@ class ForcePlan:
         place = self.pen.the("position", pin.place)
         return any(each.couple is not None or each.place != place for each in self.acting[link])
 
-    def pressed(self, inner: Joint, one: str, other: str, force: int, place: int) -> None:
-        """Enter the force of a guide or wheel on one link, and its opposite on the other."""
-        pen = self.pen
-        with pen.on(Part.FORCE, Plane.NUMBERS):
-            back = pen.draw(opposite, force)
-        self.acting[one].append(LinkForce(self.name(inner, one), REACTION, force, place))
-        passed = LinkForce(self.name(inner, other), REACTION, back, place)
-        self.acting[other].append(applied(pen, passed))
+    def pressed(
+        self, pair: Joint | CamPair, link: str, force: int, place: int, couple: int | None = None
+    ) -> None:
+        """Enter the force of a guide, wheel or cam on one link, and its opposite on the other."""
+        self.acting[link].append(LinkForce(self.name(pair, link), REACTION, force, place))
+        self.give(pair, link, force, place, couple=couple)
 
     def on_two_guides(
         self, group: Dyad, inner: Sliding, near: tuple[str, Pin], far: tuple[str, Sliding]
@@ -304,56 +456,69 @@ class ForcePlan:
         closed = polygon.close(names, ways, (REACTION, REACTION))
         pushed = polygon.reaction(names[0], closed.corner, polygon.start, drawn=False)
         outward = polygon.reaction(names[1], last, closed.corner, drawn=False)
-        with pen.on(Part.FORCE, Plane.NUMBERS):
-            back = pen.draw(opposite, pushed)
-        pin = pen.the("position", pair.place)
-        moments = moments_about(pen, pin, pair.place, self.acting[one], self.arms)
+        back, moments = self.back(pushed), self.about(pair.place, one)
         name = self.name(inner, one)
         place = place_on_guide(pen, name, f"x_{one}", one, guides[0], back, moments)
-        self.pressed(inner, one, other, back, place)
-        self.turn(inner, one, couple_on_guide(pen, guides[0], back, moments), both=True)
+        couple = couple_on_guide(pen, guides[0], back, moments)
+        self.pressed(inner, one, back, place, couple)
+        self.turn(inner, one, couple, both=True)
         rest = moments_about(pen, place, pair.place, self.acting[other], self.arms)
         self.settle(outer, other, outward, rest)
         self.closed_at(group.type, one, pair)
 
-    # --- wheels ----------------------------------------------------------------------------------
+    # --- cylinders -------------------------------------------------------------------------------
 
-    def geared(self, group: Geared) -> None:
-        """A wheel on a fixed pivot: the force of the other wheel by moments, then its polygon."""
-        pen, link, contact, pin = self.pen, group.link, group.contact, group.pair
-        assert isinstance(pin, Pin)
-        other = self.partner(contact, link)
-        pivot = pen.the("position", pin.place)
-        moments = moments_about(pen, pivot, pin.place, self.acting[link], self.arms)
-        wheels = contact.wheel_of(link), contact.wheel_of(other)
-        found = tooth(pen, self.name(contact, link), link, wheels, moments)
-        self.pressed(contact, link, other, found.force, found.pitch)
-        polygon = self.closed_at("", link, pin)
-        with pen.on(Part.FORCE, Plane.NUMBERS):
-            side = pen.draw(side_between, *polygon.ends[found.name])
-        pen.want(PAIR_REACTION.target, found.name, side)
+    def stretched(self, group: Stretched) -> list[tuple[Cylinder, int]]:
+        """A dyad with cylinders, each as one bar; then the force of the driver in each cylinder."""
+        dyad, cylinders = group.dyad, {each.far: each for each in group.cylinders}
+        sides = []
+        for link in dyad.links:
+            cylinder = cylinders.get(link)
+            sides.append(
+                DyadSide(link, link, outer_of(dyad, link))
+                if cylinder is None
+                else DyadSide(cylinder.near, link, cylinder.pin)
+            )
+        one, other = sides
+        between = self.by_inner_pin(dyad.type, dyad.inner, one, other)
+        found = []
+        for side, force in zip(sides, between, strict=True):
+            if (cylinder := cylinders.get(side.far)) is not None:
+                found.append((cylinder, self.pushing(cylinder, dyad.inner, force)))
+        return found
 
-    # --- drivers ---------------------------------------------------------------------------------
+    def pushing(self, cylinder: Cylinder, inner: Joint, between: int) -> int:
+        """The driver's force along a cylinder and the normal one, from the polygon of the rod."""
+        pen, pair, rod = self.pen, cylinder.slide, cylinder.far
+        assert isinstance(inner, Pin)
+        met = Pin(inner.point, (rod, self.rod_of(inner, rod)))
+        pin = LinkForce(
+            self.name(met, rod), REACTION, between, pen.the("position", inner.place), at=inner.place
+        )
+        self.acting[rod].append(pin)
+        push, force, moments = self.along_and_across(rod, pair, "cylinder")
+        name = self.name(pair, rod)
+        guide = self.guide(pair)
+        place = place_on_guide(pen, name, f"x_{rod}", rod, guide, force, moments)
+        couple = couple_on_guide(pen, guide, force, moments)
+        self.enter(pair, rod, force, place, couple)
+        self.drive(cylinder.driver, rod, push, turns=False)
+        return push
 
-    def crank(self, group: Crank) -> int:
-        """The balancing moment of a crank, and the reaction in its pivot."""
-        pen, link = self.pen, group.link
-        pivot = pen.the("position", group.pivot)
-        moments = moments_about(pen, pivot, group.pivot, self.acting[link], self.arms)
-        name = "M_" + sub("b", link)
-        moment = balance_of(pen, name, link, moments)
-        pen.want(BALANCING_MOMENT.target, name, moment)
-        self.closed_at("crank", link, Pin(group.pivot, (FRAME, link)))
-        return moment
+    def rod_of(self, inner: Pin, rod: str) -> str:
+        """The other link at the inner pin of a cylinder's rod."""
+        return self.partner(inner, rod)
 
-    def driven(self, group: Driven) -> int:
-        """The balancing force of a driven block along its guide, and the reaction of the guide."""
-        pen, link, pair = self.pen, group.link, group.pair
+    def along_and_across(self, link: str, pair: Joint, kind: str) -> tuple[int, int, Moments]:
+        """The polygon of a driven link: its driver's force along the guide, and the normal one.
+
+        The moments are those of its loads about its block's first point.
+        """
+        pen = self.pen
         assert isinstance(pair, Sliding)
         guide, point = self.guide(pair), pen.scene.link(pair.block).points[0]
-        pin = pen.the("position", point)
-        moments = moments_about(pen, pin, point, self.acting[link], self.arms)
-        polygon = self.new_polygon((link,), "slide")
+        moments = self.about(point, link)
+        polygon = self.new_polygon((link,), kind)
         last = polygon.lay_all(self.acting[link])
         ways = (
             SideDirection(guide=guide, block=pair.block, along=True),
@@ -369,16 +534,230 @@ class ForcePlan:
             quantity=BALANCING_FORCE.target,
         )
         force = polygon.reaction(names[1], last, closed.corner, drawn=False)
-        applied(pen, LinkForce(names[0], "balance", push, pin, at=point))
+        where = pen.the("position", point)
+        applied(pen, LinkForce(names[0], "balance", push, where, at=point))
+        return push, force, moments
+
+    # --- cams ------------------------------------------------------------------------------------
+
+    def lifted(self, group: CamFollower) -> None:
+        """A follower: the force of the cam along the normal, and that of its guide or pin."""
+        pen, dyad = self.pen, group.dyad
+        link = follower_of(pen.scene, dyad)
+        cam = pen.scene.cams[link]
+        pair = CamPair((link, cam.on))
+        centre = pen.the("position", cam.centre)
+        if isinstance(dyad.inner, Pin):
+            place, way = pen.the("position", cam.point), SideDirection((cam.centre, cam.point))
+        else:
+            assert isinstance(dyad.inner, Sliding)
+            guide = self.guide(dyad.inner)
+            way = SideDirection(guide=guide, block=dyad.inner.block)
+            with pen.on(Part.FORCE, Plane.MECHANISM):
+                place = pen.draw(foot_on_line, centre, guide)
+        name, outer = self.name(pair, link), outer_of(dyad, link)
+        if isinstance(outer, Pin):
+            with pen.on(Part.FORCE, Plane.MECHANISM):
+                line = (
+                    pen.draw(along_bar, place, centre, place)
+                    if way.guide is None
+                    else pen.draw(normal_to_guide, place, way.guide)
+                )
+            moments = self.about(outer.place, link)
+            links = (link,)
+            force = along_line(
+                pen, name, next(self.arms), links, line, place, moments, way, cam=True
+            )
+            self.pressed(pair, link, force, place)
+            self.read_off(name, self.closed_at("", link, outer))
+            return
+        polygon = self.new_polygon((link,), "")
+        last = polygon.lay_all(self.acting[link])
+        names = name, self.name(outer, link)
+        assert isinstance(outer, Sliding)
+        across = SideDirection(guide=self.guide(outer), block=outer.block)
+        closed = polygon.close(names, (way, across), (REACTION, REACTION), cam=True)
+        force = polygon.reaction(name, closed.corner, polygon.start, drawn=False)
+        held = polygon.reaction(names[1], last, closed.corner, drawn=False)
+        self.pressed(pair, link, force, place)
+        point = pen.scene.link(outer.block).points[0]
+        self.settle(outer, link, held, self.about(point, link))
+
+    # --- wheels ----------------------------------------------------------------------------------
+
+    def geared(self, group: Geared) -> None:
+        """A wheel on a pivot: the force of the other wheel or rack by moments, then its polygon."""
+        pen, link, contact, pin = self.pen, group.link, group.contact, group.pair
+        assert isinstance(pin, Pin)
+        other = self.partner(contact, link)
+        moments = self.about(pin.place, link)
+        if contact.track is None:
+            inside, angle = False, pressure_angle(contact.wheel)
+            pitch = pitch_on(pen, moments.about, pen.the("track", contact.links[0]))
+        else:
+            wheels = contact.wheel_of(link), contact.wheel_of(other)
+            inside, angle = wheels[0].inside, pressure_angle(*wheels)
+            pitch = pitch_of(pen, moments.about, wheels)
+        name = self.name(contact, link)
+        found = tooth(pen, name, link, pitch, angle, moments, inside=inside)
+        self.pressed(contact, link, found.force, pitch)
+        self.read_off(name, self.closed_at("", link, pin))
+
+    def on_rack(self, group: Geared) -> None:
+        """A rack on a guide: the line of action and the guide's normal close its polygon."""
+        pen, link, contact, pair = self.pen, group.link, group.contact, group.pair
+        polygon = self.new_polygon((link,), "")
+        polygon.lay_all(self.acting[link])
+        centre = pen.the("position", contact.wheel.centre)
+        angle, name = pressure_angle(contact.wheel), self.name(contact, link)
+        assert isinstance(pair, Sliding)
+        track, guide = pen.the("track", contact.links[0]), (self.guide(pair), pair.block)
+        found = rack(pen, polygon, name, link, angle, centre, track, guide)
+        pen.want(PAIR_REACTION.target, name, found.force)
+        held = polygon.reaction(self.name(pair, link), polygon.last, polygon.start, closes=True)
+        self.pressed(contact, link, found.force, found.pitch)
+        point = pen.scene.link(pair.block).points[0]
+        self.settle(pair, link, held, self.about(point, link))
+
+    # --- class III -------------------------------------------------------------------------------
+
+    def class_three(self, group: Higher) -> None:
+        """A coupler with three arms: parts across them, one along by moments, then the polygon.
+
+        The moments of the whole group are taken about the point in which the lines of two arms meet
+        (Assur's point), so that only the part along the third arm is unknown.
+        """
+        pen = self.pen
+        found = coupled(pen.scene, group)
+        assert found is not None
+        coupler, arms = found
+        moments = {arm: self.about(arm.inner.place, arm.link) for arm in arms}
+        lines = {arm: self.line_of(arm) for arm in arms}
+        one, other, third = (arms[k] for k in in_order(pen, [lines[arm] for arm in arms]))
+        across = {
+            arm: self.across(DyadSide(arm.link, arm.link, arm.outer), arm.inner, moments[arm])
+            for arm in arms
+        }
+        first, second = (pen.the("position", arm.inner.place) for arm in (one, other))
+        special = meeting(pen, lines[one], lines[other], (first, second))
+        acting = [each for link in (coupler, *(a.link for a in arms)) for each in self.acting[link]]
+        for arm in arms:
+            if (step := across[arm]) is not None:
+                assert isinstance(arm.outer, Pin)
+                place = pen.the("position", arm.outer.place)
+                acting.append(LinkForce(self.name(arm.outer, arm.link, "t"), PART, step, place))
+            elif isinstance(arm.outer, Sliding) and moments[arm].terms:
+                with pen.on(Part.FORCE, Plane.NUMBERS):
+                    own = moments[arm]
+                    couple = pen.draw(balancing_moment, own.about, *own.steps, extra=own.extra)
+                index = link_pair(self.partner(arm.outer, arm.link), arm.link)
+                acting.append(LinkForce(f"M_{index}", REACTION, couple=couple))
+        letter = pen.steps[special].name
+        every = moments_about(pen, special, letter, acting, self.arms)
+        names = {
+            arm: self.name(arm.outer, arm.link, "n" if across[arm] is not None else "")
+            for arm in arms
+        }
+        looks = {arm: PART if across[arm] is not None else REACTION for arm in arms}
+        through = pen.the("position", third.inner.place)
+        links = tuple(sorted(group.links, key=natural))
+        along = along_line(
+            pen,
+            names[third],
+            next(self.arms),
+            links,
+            lines[third],
+            through,
+            every,
+            self.way(third.outer, third.inner),
+        )
+        polygon = self.new_polygon(links, "III")
+        first = polygon.start
+        if (step := across[one]) is not None:
+            first = polygon.lay(self.name(one.outer, one.link, "t"), PART, step)
+        for link in (one.link, coupler, third.link):
+            polygon.lay_all(self.acting[link])
+        before = polygon.last
+        if (step := across[third]) is not None:
+            polygon.lay(self.name(third.outer, third.link, "t"), PART, step)
+        after = polygon.lay(names[third], looks[third], along)
+        second = polygon.lay_all(self.acting[other.link])
+        if (step := across[other]) is not None:
+            polygon.lay(self.name(other.outer, other.link, "t"), PART, step)
+        closed = polygon.close(
+            (names[one], names[other]),
+            (self.way(one.outer, one.inner), self.way(other.outer, other.inner)),
+            (looks[one], looks[other]),
+            (one.link, other.link),
+        )
+        corner = closed.corner
+        ends = {one: (corner, first), other: (second, corner), third: (before, after)}
+        for arm in (one, other, third):
+            whole = self.name(arm.outer, arm.link)
+            parts = () if across[arm] is None else (f"{whole}^n", f"{whole}^t")
+            force = polygon.reaction(whole, *ends[arm], whole=parts, drawn=bool(parts))
+            self.settle(arm.outer, arm.link, force, moments[arm])
+            self.held_at(arm, whole, force)
+
+    def held_at(self, arm: Arm, name: str, force: int) -> None:
+        """The polygon of an arm, which the reaction in its inner pin closes."""
+        polygon = self.new_polygon((arm.link,), "")
+        polygon.lay_all(self.acting[arm.link])
+        last = polygon.lay(name, REACTION, force)
+        inner = polygon.reaction(self.name(arm.inner, arm.link), last, polygon.start, closes=True)
+        self.enter(arm.inner, arm.link, inner, self.pen.the("position", arm.inner.place))
+
+    def line_of(self, arm: Arm) -> int:
+        """The line of the force in an arm: along the bar, or normal to the guide of a block."""
+        pen, start = self.pen, self.pen.the("position", arm.inner.place)
+        with pen.on(Part.FORCE, Plane.MECHANISM):
+            if isinstance(arm.outer, Pin):
+                return pen.draw(along_bar, start, start, pen.the("position", arm.outer.place))
+            return pen.draw(normal_to_guide, start, self.guide(arm.outer))
+
+    # --- drivers ---------------------------------------------------------------------------------
+
+    def drive(self, driver: Driver, link: str, step: int, *, turns: bool) -> None:
+        """Enter the balance of a driver on a link, and pass its opposite to the link it turns."""
+        sense = 1 if driver.link == link else -1
+        name = ("M_" if turns else "F_") + sub("b", link)
+        self.balances.append(
+            DriverForce(self.pen.scene.driver_name(driver), link, name, step, turns, sense)
+        )
+
+    def crank(self, group: Crank) -> int:
+        """The balancing moment of a crank, and the reaction in its pivot."""
+        pen, link, against = self.pen, group.link, other_of(group.driver, group.link)
+        moments = self.about(group.pivot, link)
+        name = "M_" + sub("b", link)
+        moment = balance_of(pen, name, link, moments)
+        pen.want(BALANCING_MOMENT.target, name, moment)
+        self.drive(group.driver, link, moment, turns=True)
+        if against != FRAME:
+            passed = LinkForce(f"{name},{against}", "balance", couple=self.back(moment))
+            self.acting[against].append(passed)
+        self.closed_at("crank", link, Pin(group.pivot, (group.base, link)))
+        return moment
+
+    def driven(self, group: Driven) -> int:
+        """The balancing force of a driven block along its guide, and the reaction of the guide."""
+        link, pair = group.link, group.pair
+        push, force, moments = self.along_and_across(link, pair, "slide")
+        self.drive(group.driver, link, push, turns=False)
+        against = other_of(group.driver, link)
+        if against != FRAME:
+            name = f"F_{sub('b', link)},{against}"
+            passed = LinkForce(name, "balance", self.back(push), moments.about, at=moments.letter)
+            self.acting[against].append(passed)
         self.settle(pair, link, force, moments)
         return push
 
     # --- the lever -------------------------------------------------------------------------------
 
-    def lever(self, group: Crank | Driven, other: int) -> None:
+    def lever(self, group: Crank | Driven | Cylinder, other: int) -> None:
         """The lever with every load; none where the driven point is at rest for all parameters."""
         pen, numbers = self.pen, (f"H_{number}" for number in count(1))
-        tip = crank_tip(pen.scene, group) if isinstance(group, Crank) else group_point(pen, group)
+        tip = self.driven_point(group)
         if tip is None or group.driver.speed.is_zero():
             return
         plan = LeverPlan(pen)
@@ -397,15 +776,29 @@ class ForcePlan:
                 if turned != plan.pole:
                     forces.append(plan.put(each, turned, next(numbers)))
         turns = isinstance(group, Crank)
+        link = group.far if isinstance(group, Cylinder) else group.link
         ends = (group.pivot, tip) if isinstance(group, Crank) else (tip, tip)
-        names = "F_b" if turns else "F_" + sub("b", group.link), "M_" + sub("b", group.link)
+        names = "F_b" if turns else "F_" + sub("b", link), "M_" + sub("b", link)
         plan.balance(names, ends, forces, couples, other, turns=turns)
 
+    def driven_point(self, group: Crank | Driven | Cylinder) -> str | None:
+        """The point whose velocity against the frame is that of the driver; None without one."""
+        pen = self.pen
+        if isinstance(group, Cylinder):
+            foot, (_, on) = group.foot.point, group.pin.links
+            rests = on == FRAME or group.pin.place in pen.scene.frame.points
+            return foot if rests and pen.has("velocity", foot) else None
+        if other_of(group.driver, group.link) != FRAME:
+            return None
+        if isinstance(group, Crank):
+            return crank_tip(pen.scene, group)
+        assert isinstance(group.pair, Sliding)
+        return pen.scene.link(group.pair.block).points[0]
 
-def group_point(pen: Pen, group: Driven) -> str:
-    """The point of a driven block."""
-    assert isinstance(group.pair, Sliding)
-    return pen.scene.link(group.pair.block).points[0]
+
+def follower_of(scene: Scene, dyad: Dyad) -> str:
+    """The follower of a cam among the links of its dyad."""
+    return next(link for link in dyad.links if link in scene.cams)
 
 
 def outer_of(group: Dyad, link: str) -> Joint:

@@ -13,11 +13,15 @@ from graphkin.construction.core.relation import Relation, answer, value_of
 from graphkin.construction.forces.balance import BalancingMoment
 from graphkin.construction.forces.force_drawing import ForceDrawing
 from graphkin.construction.forces.force_words import drawn_force, reaction_names
+from graphkin.construction.forces.line_force import LineForce
 from graphkin.construction.forces.polygon import ClosedByLines, ClosingReaction, side_size
 from graphkin.construction.forces.slide_pressure import SlidePressure
-from graphkin.construction.forces.tooth_force import ToothForce
+from graphkin.construction.forces.tooth_force import RackForce, ToothForce
 from graphkin.drawing.symbol_markup import symbol
 from graphkin.text.tables import CellTable, Row
+
+FOUND = SlidePressure, ToothForce, RackForce, LineForce
+"""The kinds of reactions that other constructions than polygons give."""
 
 
 def force_tables(drawing: Drawing, *, empty: bool) -> list[CellTable]:
@@ -66,7 +70,7 @@ def sorted_sides(drawing: ForceDrawing) -> list[tuple[str, float]]:
                     found[name] = side_size(drawing, tail, tip)
         elif isinstance(kind, ClosingReaction) and step.role == "arrow":
             found[kind.name] = side_size(drawing, kind.tail, kind.tip)
-        elif isinstance(kind, SlidePressure | ToothForce) and step.role == "force":
+        elif isinstance(kind, FOUND) and step.role == "force" and "^" not in kind.name:
             found[kind.name] = drawing.settled(abs(drawing.trace.values[kind.force]))
     return list(found.items())
 
@@ -89,10 +93,12 @@ def balances(drawing: ForceDrawing) -> Iterator[DriverBalance]:
         other = answer(drawing, abs(lever.size(drawing))) if lever is not None else "–"
         way = sense(drawing.words, size)
         yield DriverBalance(each.name, "N·m", answer(drawing, abs(size)), way, other)
-    for number, lever in levers.items():
-        if lever.moment is None:
-            force = answer(drawing, abs(drawing.trace.values[number]))
-            yield DriverBalance(lever.name, "N", force, "", answer(drawing, lever.size(drawing)))
+    for driver in drawing.trace.program.balances:
+        if not driver.turns:
+            lever = levers.get(driver.step)
+            other = answer(drawing, lever.size(drawing)) if lever is not None else "–"
+            force = answer(drawing, drawing.settled(abs(drawing.trace.values[driver.step])))
+            yield DriverBalance(driver.name, "N", force, "", other)
 
 
 def balance_rows(drawing: ForceDrawing, *, empty: bool) -> list[Row]:

@@ -368,7 +368,7 @@ class LeverPlan:
     ) -> None:
         """The balance at the image of the second of two points, ``other`` being the polygons'."""
         pen = self.pen
-        start, end = (pen.the("position", point) for point in ends)
+        start, end = (pen.the("position", e) for e in ends) if turns else (None, None)
         turned = self.image(ends[1])
         pairs = [n for _, _, foot, force in forces for n in (foot, force)]
         with pen.on(Part.FORCE, Plane.LEVER):
@@ -380,7 +380,7 @@ class LeverPlan:
                 extra=(float(len(forces)),),
             )
         moment = None
-        if turns:
+        if start is not None and end is not None:
             with pen.on(Part.FORCE, Plane.NUMBERS):
                 moment = pen.draw(lever_moment, start, end, force)
         pen.make(

@@ -6,7 +6,8 @@ moves it sideways by h = J·ε/(m·a_S), so that one force replaces both.
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
+from itertools import pairwise
 from typing import Any, ClassVar, NamedTuple
 
 from graphkin.construction.core.canvas import Canvas
@@ -15,22 +16,25 @@ from graphkin.construction.core.kind import Construction, Slip, constructions
 from graphkin.construction.core.naming import sense
 from graphkin.construction.core.pen import Pen
 from graphkin.construction.core.program import Part, Plane
-from graphkin.construction.core.quantities import EPSILON, in_mm
+from graphkin.construction.core.quantities import EPSILON, in_mm, quantity_text
 from graphkin.construction.core.relation import Relation, answer, put_in
 from graphkin.construction.core.vocabulary import action, distance
 from graphkin.construction.forces.force_words import newtons, sub
 from graphkin.construction.plan import omega_of
-from graphkin.drawing.symbol_markup import escape, symbol
-from graphkin.numbers.arithmetic import Point, Real, pick
+from graphkin.drawing.symbol_markup import bar, escape, symbol
+from graphkin.numbers.arithmetic import Point, Real, modulo, pick
 from graphkin.numbers.plane import dot
-from graphkin.scene.forces import Forces, Mass
+from graphkin.scene.forces import ByDriver, Directed, Forces, Load, Mass, Size, Spring
 from graphkin.scene.link_points import lettered
+from graphkin.scene.model import FRAME
 from graphkin.text.markup import COMMA, saying
 
 LENGTH = 13.0
 """Length in mm of the arrows of forces on the mechanism, which show sense and direction alone."""
 MOST = 2.0
 """An inertia force is moved out by less than this many sizes of its link."""
+COIL, TURNS, END = 2.5, 9, 0.1
+"""Half the width of a spring in mm, its strokes, and the share of its straight ends."""
 SEEN = 0.4
 """A displacement of an inertia force below this, in mm, is not dimensioned."""
 
@@ -72,6 +76,47 @@ def is_far(force: Point, moment: Real, reach: Real) -> Any:
 def weight(mass: Real, gravity: Point) -> Point:
     """The weight m·g."""
     return mass * gravity
+
+
+@action("directed")
+def directed(size: Real, way: Point) -> Point:
+    """A force of some size in a direction."""
+    return size * way
+
+
+@action("along-velocity")
+def along_velocity(size: Real, pole: Point, image: Point, sense: int) -> Point:
+    """A force along the velocity of its point, or against it; zero for a point at rest."""
+    speed = abs(image - pole)
+    return sense * size / pick(speed == 0, 1.0, speed) * (image - pole)
+
+
+@action("by-table")
+def by_table(coordinate: Real, *rest: Any) -> Real:
+    """The number of a table at a coordinate, on the straight lines between its points.
+
+    ``rest`` holds the numbers, then their coordinates, then the period; 0 without one.
+    """
+    *both, period = rest
+    numbers, knots = both[: len(both) // 2], both[len(both) // 2 :]
+    beyond = coordinate - knots[0]
+    if period:
+        beyond = modulo(beyond, period)
+    total = numbers[0] + 0 * beyond
+    for k in range(1, len(knots)):
+        start, wide = knots[k - 1] - knots[0], knots[k] - knots[k - 1]
+        share = (beyond - start) / wide
+        share = pick(share > 0, share, 0 * share)
+        share = pick(share < 1, share, 0 * share + 1)
+        total = total + share * (numbers[k] - numbers[k - 1])
+    return total
+
+
+@action("spring-force")
+def spring_force(one: Point, other: Point, stiffness: Real, free: Real) -> Point:
+    """The force of a spring on its first end: towards the other one where it is stretched."""
+    length = abs(other - one)
+    return stiffness * (length - free) / pick(length == 0, 1.0, length) * (other - one)
 
 
 @action("opposite")
@@ -125,6 +170,18 @@ class AppliedForce(Construction, frozen=True, kw_only=True):
             return
         way = force / abs(force) * LENGTH / canvas.mm
         canvas.vector(self.name, self.look, place, place + way)
+
+
+class PassedReaction(Construction, frozen=True, kw_only=True):
+    """The opposite of a reaction, which acts on the other link of the pair."""
+
+    gives: ClassVar[tuple[str, ...]] = ("force",)
+    slips: ClassVar[Mapping[str, Slip]] = {
+        "reaction_reversed": Slip(-1, "moderate", ("force",)),
+    }
+
+    name: str
+    force: int
 
 
 def moment_slips(role: str) -> Mapping[str, Slip]:
@@ -336,6 +393,122 @@ class Weight(Construction, frozen=True, kw_only=True):
         yield Relation(symbol(self.name), symbols, "·".join(figures), result, "N")
 
 
+class ByTable(Construction, frozen=True, kw_only=True):
+    """A given force or moment ``name`` from a table of a driver's coordinate."""
+
+    gives: ClassVar[tuple[str, ...]] = ("number",)
+
+    name: str
+    unit: str
+    driver: int
+    coordinate: int
+    number: int
+
+    def sentence_alone(self, drawing: Drawing, role: str) -> str:
+        """The number, and the place in the table."""
+        values, words = drawing.trace.values, drawing.words
+        driver, number = drawing.scene.drivers[self.driver], values[self.number]
+        return words(
+            "step.force-table",
+            p=symbol(self.name),
+            size=f"{answer(drawing, float(number))} {self.unit}",
+            at=quantity_text(drawing.scene, words, driver.position),
+        )
+
+
+class ForceAlong(Construction, frozen=True, kw_only=True):
+    """A given force ``name`` along (``sense`` +1) or against the velocity of its point."""
+
+    gives: ClassVar[tuple[str, ...]] = ("force",)
+
+    name: str
+    point: str
+    sense: int
+    pole: int
+    image: int
+    force: int
+
+    def sentence_alone(self, drawing: Drawing, role: str) -> str:
+        """Its size and its sense."""
+        return drawing.words(
+            "step.force-along" if self.sense > 0 else "step.force-against",
+            p=symbol(self.name),
+            size=newtons(drawing, drawing.settled(abs(drawing.trace.values[self.force]))),
+            v=symbol(f"v_{lettered(self.point)}"),
+        )
+
+
+class SpringForce(Construction, frozen=True, kw_only=True):
+    """The force of a spring on the link at its first end, towards the other end or away from it."""
+
+    gives: ClassVar[tuple[str, ...]] = ("force", "coil")
+    reasons: ClassVar[Mapping[str, str]] = {"force": "why.force_spring"}
+
+    name: str
+    ends: tuple[str, str]
+    one: int
+    other: int
+    stiffness: int
+    free: int
+    force: int
+    coil: int
+
+    def marks(self, canvas: Canvas, role: str) -> None:
+        """Draw the spring as a zigzag between its ends."""
+        one, other = canvas.value(self.one), canvas.value(self.other)
+        length = canvas.size(other - one)
+        if role != "coil" or length <= 2 * COIL:
+            return
+        along, across = other - one, 1j * (other - one) * (COIL / length)
+        corners = [one, one + END * along]
+        for k in range(TURNS):
+            share = END + (1 - 2 * END) * (2 * k + 1) / (2 * TURNS)
+            corners.append(one + share * along + (across if k % 2 else -across))
+        corners += [other - END * along, other]
+        for start, end in pairwise(corners):
+            canvas.leg(self.name, "construction", start, end)
+
+    @property
+    def letters(self) -> tuple[str, str]:
+        """The symbols of its stiffness and of its free length."""
+        stiff, free = spring_letters(self.name.removeprefix("F_s"))
+        return symbol(stiff), symbol(free)
+
+    def lengths(self, drawing: Drawing) -> tuple[float, float]:
+        """The length of the spring and its free length in m."""
+        values = drawing.trace.values
+        return float(abs(values[self.other] - values[self.one])), float(values[self.free])
+
+    def sentence_alone(self, drawing: Drawing, role: str) -> str:
+        """Stiffness times elongation, and whether it pulls."""
+        if role != "force":
+            return ""
+        long, free = self.lengths(drawing)
+        return drawing.words(
+            "step.force-spring-pull" if long >= free else "step.force-spring-push",
+            f=symbol(self.name),
+            c=self.letters[0],
+            l=self.letters[1],
+            bar=bar(*map(lettered, self.ends)),
+            size=newtons(drawing, drawing.settled(abs(drawing.trace.values[self.force]))),
+        )
+
+    def equations(self, drawing: Drawing, role: str) -> Iterator[Relation]:
+        """Stiffness times elongation."""
+        if role != "force":
+            return
+        long, free = self.lengths(drawing)
+        stiffness = float(drawing.trace.values[self.stiffness])
+        result = answer(drawing, stiffness * abs(long - free))
+        some = put_in(drawing, result, lambda c, a, b: c * abs(a - b), stiffness, long, free)
+        c, length, rest = some
+        stiff, other = self.letters
+        terms = [(bar(*map(lettered, self.ends)), length), (other, rest)]
+        (one, put), (other, less) = terms if long >= free else reversed(terms)
+        left, figures = symbol(self.name), f"{c}·({put} − {less})"
+        yield Relation(left, f"{stiff}·({one} − {other})", figures, result, "N")
+
+
 # --- writing their steps -------------------------------------------------------------------------
 
 
@@ -348,22 +521,110 @@ def loads_of(pen: Pen, forces: Forces, numbers: Iterator[str]) -> dict[str, list
     for link, mass in forces.masses.items():
         if not mass.mass.is_zero():
             found[link] += of_mass(pen, forces, link, mass, numbers)
+    for load, index in zip(forces.loads, load_names(forces.loads), strict=True):
+        if load.force is not None:
+            force = force_step(pen, load, index)
+            place = pen.the("position", load.at)
+            acting = LinkForce(f"P_{index}", "load", force, place, at=load.at)
+            found[load.link].append(applied(pen, acting))
+        if load.moment is not None:
+            name = moment_name(load, index)
+            couple = size_step(pen, load.moment, name, "N·m")
+            found[load.link].append(LinkForce(name, "load", couple=couple))
+    for number, spring in enumerate(forces.springs, 1):
+        name = "F_s" + (str(number) if len(forces.springs) > 1 else "")
+        for link, acting in of_spring(pen, spring, name):
+            found[link].append(acting)
+    return found
+
+
+def load_names(loads: Sequence[Load]) -> Iterator[str]:
+    """The index of each load: its point, or its link for a moment alone."""
     counts: dict[str, int] = {}
-    for load in forces.loads:
+    for load in loads:
         number = counts[load.at or load.link] = counts.get(load.at or load.link, 0) + 1
         tail = f",{number}" if number > 1 else ""
+        yield (lettered(load.at) if load.force is not None else load.link) + tail
+
+
+def spring_letters(number: str) -> tuple[str, str]:
+    """The stiffness and the free length of a spring by its number, empty for a single one."""
+    return (f"c_{number}" if number else "c"), f"l_0{number}"
+
+
+def moment_name(load: Load, index: str) -> str:
+    """The symbol of a given moment, from the index of its load."""
+    _, comma, number = index.rpartition(",")
+    return f"M_{load.link}" + (comma + number if comma else "")
+
+
+def force_step(pen: Pen, load: Load, index: str) -> int:
+    """The step of a given force: by its components, or by its size and direction."""
+    given = load.force
+    if not isinstance(given, Directed):
         with pen.on(Part.FORCE, Plane.NUMBERS):
-            if load.force is not None:
-                force = pen.given("point", *load.force, name=f"load {load.at}{tail}")
-                place = pen.the("position", load.at)
-                name = f"P_{lettered(load.at)}{tail}"
-                found[load.link].append(
-                    applied(pen, LinkForce(name, "load", force, place, at=load.at))
-                )
-            if load.moment is not None:
-                couple = pen.given("number", load.moment, name=f"moment {load.link}{tail}")
-                found[load.link].append(LinkForce(f"M_{load.link}{tail}", "load", couple=couple))
-    return found
+            return pen.given("point", *(given or ()), name=f"load {index}")
+    name = f"P_{index}"
+    size = size_step(pen, given.size, name, "N")
+    if not given.sense:
+        with pen.on(Part.FORCE, Plane.NUMBERS):
+            way = pen.given("direction", given.angle, name=f"direction {index}")
+            return pen.draw(directed, size, way)
+    pole, image = pen.pole(Plane.VELOCITIES), pen.the("velocity", load.at)
+    with pen.on(Part.FORCE, Plane.NUMBERS):
+        force = pen.draw(along_velocity, size, pole, image, extra=(given.sense,))
+    kind = ForceAlong(
+        name=name, point=load.at, sense=given.sense, pole=pole, image=image, force=force
+    )
+    return pen.make(kind).force
+
+
+def size_step(pen: Pen, size: Size, name: str, unit: str) -> int:
+    """The step of a given number, or of one from a table of a driver's coordinate."""
+    with pen.on(Part.FORCE, Plane.NUMBERS):
+        if not isinstance(size, ByDriver):
+            return pen.given("number", size, name=f"size {name}")
+        driver = pen.scene.drivers[size.driver]
+        coordinate = pen.given("number", driver.position, name="coordinate", of=size.driver)
+        numbers = [
+            pen.given("number", each, name=f"{name} {k}") for k, each in enumerate(size.ends)
+        ]
+        knots, period = size.knots
+        number = pen.draw(by_table, coordinate, *numbers, extra=(*knots, period))
+    kind = ByTable(name=name, unit=unit, driver=size.driver, coordinate=coordinate, number=number)
+    return pen.make(kind).number
+
+
+def of_spring(pen: Pen, spring: Spring, name: str) -> Iterator[tuple[str, LinkForce]]:
+    """The forces of a spring on the links at its ends; none on the frame."""
+    one, other = (pen.the("position", end) for end in spring.ends)
+    with pen.on(Part.FORCE, Plane.NUMBERS):
+        stiffness = pen.given("number", spring.stiffness, name=f"stiffness {name}")
+        free = pen.given("number", spring.free, name=f"free length {name}")
+        force = pen.draw(spring_force, one, other, stiffness, free)
+    with pen.on(Part.FORCE, Plane.MECHANISM):
+        coil = pen.draw(acts_at, one, force)
+    kind = SpringForce(
+        name=name,
+        ends=spring.ends,
+        one=one,
+        other=other,
+        free=free,
+        stiffness=stiffness,
+        force=force,
+        coil=coil,
+    )
+    pen.make(kind)
+    for link, end, place, sign in zip(
+        spring.links, spring.ends, (one, other), (1, -1), strict=True
+    ):
+        if link == FRAME:
+            continue
+        own = force
+        if sign < 0:
+            with pen.on(Part.FORCE, Plane.NUMBERS):
+                own = pen.draw(opposite, force)
+        yield link, applied(pen, LinkForce(name, "load", own, place, at=end))
 
 
 def of_mass(

@@ -212,6 +212,11 @@ class Moments(Struct, frozen=True):
 
         return signed(((e[1] > 0) is not turned, of(*e)) for e in some)
 
+    def positive(self, drawing: Drawing, *, figures: bool = False) -> str:
+        """The sum in symbols or in figures, with the signs that make it positive as a whole."""
+        turned = sum(moment for _, moment, _, _ in self.values(drawing)) < 0
+        return (self.figures if figures else self.symbols)(drawing, turned=turned)
+
     def in_metres(self, drawing: Drawing) -> bool:
         """Whether a couple among the terms needs arms in metres."""
         return any(term.foot is None for term, *_ in self.shown(drawing))
@@ -339,21 +344,19 @@ class PlaceOnGuide(Construction, frozen=True, kw_only=True):
 
     def sum(self, drawing: Drawing) -> str:
         """The sum of moments in symbols, positive as a whole."""
-        total = sum(moment for _, moment, _, _ in self.moments.values(drawing))
-        return self.moments.symbols(drawing, turned=total < 0)
+        return self.moments.positive(drawing)
 
     def equations(self, drawing: Drawing, role: str) -> Iterator[Relation]:
         """The sum of moments divided by the reaction."""
         size = drawing.settled(abs(drawing.trace.values[self.reaction]))
         if not size or not self.moments.shown(drawing):
             return
-        total = sum(moment for _, moment, _, _ in self.moments.values(drawing))
         below: str = symbol(self.name)
         put = figure(drawing, size)
         if self.moments.in_metres(drawing):
             below = f"({below}·*k*_L)"
             put = f"({put}·{figure(drawing, drawing.scales.kL / 1000)})"
-        sums = self.sum(drawing), self.moments.figures(drawing, turned=total < 0)
+        sums = self.sum(drawing), self.moments.positive(drawing, figures=True)
         shift = drawing.words.fixed(drawing.on_paper(self.shift(drawing)), 2)
         yield of_moments(
             (symbol(self.number), shift, "mm"),

@@ -127,6 +127,9 @@ class PolygonSide(InPolygon, frozen=True, kw_only=True):
 class ClosedByLines(InPolygon, frozen=True, kw_only=True):
     """A polygon closed by two sides of known direction, whose lines meet.
 
+    ``bars`` are the links, or cylinders, along which both sides act where they carry no loads.
+    ``cam`` says that the first side is the force of a cam.
+
     ``first`` is the symbol of the side along the line through the polygon's start, ``last`` that of
     the side along the line through its end. ``sides`` are all known sides, in order. ``looks`` are
     the styles of both closing sides.
@@ -158,6 +161,8 @@ class ClosedByLines(InPolygon, frozen=True, kw_only=True):
     one: int
     other: int
     corner: int
+    bars: tuple[str, str] = ("", "")
+    cam: bool = False
 
     def marks(self, canvas: Canvas, role: str) -> None:
         """Draw both lines, and where they meet both closing sides."""
@@ -183,13 +188,17 @@ class ClosedByLines(InPolygon, frozen=True, kw_only=True):
             first=read_side(drawing, self.first, self.start, self.corner),
             last=read_side(drawing, self.last, self.end, self.corner),
         )
-        return AND.join([*self.two_force(drawing), said])
+        before = [*self.two_force(drawing)]
+        if self.cam:
+            fields = {"r": symbol(self.first), "way": self.ways[0].words(drawing)}
+            before.append(drawing.words("step.force-cam", **fields))
+        return AND.join([*before, said])
 
     def two_force(self, drawing: Drawing) -> Iterator[str]:
         """The links without loads between their pins, whose reactions lie along them."""
-        both = zip((self.first, self.last), self.ways, self.links, strict=False)
+        both = zip((self.first, self.last), self.ways, self.bars, strict=True)
         for name, way, link in both:
-            if way.guide is None and "^" not in name and self.sides:
+            if link and way.guide is None and "^" not in name and self.sides:
                 b = symbol(way.ends[1])
                 fields = {"k": escape(link), "b": b, "r": symbol(name), "bar": bar(*way.ends)}
                 yield drawing.words("step.force-two", **fields)
@@ -205,7 +214,8 @@ class ClosingReaction(InPolygon, frozen=True, kw_only=True):
     """A reaction that leads from one point of a polygon to another: ``force``, and its arrow.
 
     ``whole`` are the symbols of its two parts where it is their sum. ``sides`` are the known sides
-    of a polygon that it closes alone.
+    of a polygon that it closes alone. An inner reaction begins where the loads of the link
+    ``first`` end, by default the first of the polygon.
     """
 
     gives: ClassVar[tuple[str, ...]] = ("force", "arrow")
@@ -220,6 +230,7 @@ class ClosingReaction(InPolygon, frozen=True, kw_only=True):
     whole: tuple[str, ...] = ()
     sides: tuple[KnownSide, ...] = ()
     closes: bool = False
+    first: str = ""
 
     def marks(self, canvas: Canvas, role: str) -> None:
         """Draw the reaction."""
@@ -232,7 +243,7 @@ class ClosingReaction(InPolygon, frozen=True, kw_only=True):
             return ""
         fields = {
             "n": str(self.polygon),
-            "one": escape(self.links[0]),
+            "one": escape(self.first or self.links[0]),
             "k": links_words(drawing, self.links),
             "r": symbol(self.name),
             "read": read_side(drawing, self.name, self.tail, self.tip),
@@ -312,19 +323,25 @@ class Polygon:
         self.sides: list[KnownSide] = []
         self.ends: dict[str, tuple[int, int]] = {}
 
-    def lay(self, name: str, look: str, force: int) -> int:
-        """Lay off a force; its end."""
+    def put(self, name: str, force: int) -> int:
+        """Lay off a force that a construction of its own marks; its end."""
         start = self.last
         with self.pen.on(Part.FORCE, Plane.FORCES):
             corner = self.pen.draw(lay_off, start, force)
+        self.sides.append(KnownSide(name, force))
+        self.ends[name] = start, corner
+        self.last = corner
+        return corner
+
+    def lay(self, name: str, look: str, force: int) -> int:
+        """Lay off a force; its end."""
+        start = self.last
+        corner = self.put(name, force)
         self.pen.make(
             PolygonSide(
                 polygon=self.number, name=name, look=look, start=start, force=force, corner=corner
             )
         )
-        self.sides.append(KnownSide(name, force))
-        self.ends[name] = start, corner
-        self.last = corner
         return corner
 
     def lay_all(self, acting: Sequence[LinkForce]) -> int:
@@ -348,6 +365,9 @@ class Polygon:
         names: tuple[str, str],
         ways: tuple[SideDirection, SideDirection],
         looks: tuple[str, str],
+        bars: tuple[str, str] = ("", ""),
+        *,
+        cam: bool = False,
     ) -> ClosedByLines:
         """Close the polygon by two sides: one through its start, and one through its end."""
         one, other = self.line(self.start, ways[0]), self.line(self.last, ways[1])
@@ -368,6 +388,8 @@ class Polygon:
                 one=one,
                 other=other,
                 corner=corner,
+                bars=bars,
+                cam=cam,
             )
         )
 
@@ -380,6 +402,7 @@ class Polygon:
         whole: tuple[str, ...] = (),
         closes: bool = False,
         drawn: bool = True,
+        first: str = "",
         quantity: str = PAIR_REACTION.target,
     ) -> int:
         """The force from one point of the polygon to another, with its arrow: a ``quantity``."""
@@ -402,5 +425,6 @@ class Polygon:
             whole=whole,
             sides=tuple(self.sides) if closes else (),
             closes=closes,
+            first=first,
         )
         return pen.make(record).force

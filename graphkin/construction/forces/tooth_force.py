@@ -1,4 +1,4 @@
-"""The force between two wheels on fixed pivots: along the line of action, by moments of one wheel.
+"""The force between two wheels, or a wheel and its rack, along the line of action.
 
 Teeth push along a line at the pressure angle to the common tangent, so that they also push the
 wheels apart. Plain wheels carry a force along the tangent alone.
@@ -18,9 +18,21 @@ from graphkin.construction.core.program import Part, Plane
 from graphkin.construction.core.relation import Relation, answer, figure
 from graphkin.construction.core.vocabulary import action
 from graphkin.construction.forces.force_words import force_amount, newtons
-from graphkin.construction.forces.moments import Moments, moment_sum, of_moments
+from graphkin.construction.forces.moments import Moments, arm, moment_sum, of_moments
+from graphkin.construction.forces.polygon import (
+    REACTION,
+    InPolygon,
+    KnownSide,
+    Polygon,
+    SideDirection,
+    draw_force,
+    of_side,
+    read_side,
+    sides_words,
+)
 from graphkin.drawing.symbol_markup import escape, symbol
 from graphkin.numbers.arithmetic import Point, Real, pick
+from graphkin.numbers.plane import Line, dot
 from graphkin.scene.model import Wheel
 
 PRESSURE = 20
@@ -45,6 +57,79 @@ def tooth_force(centre: Point, pitch: Point, *rest: Any) -> Point:
     inward = (centre - pitch) / radius
     along = moment_sum(centre, (*terms, pairs)) / radius
     return along * (1j * inward) + pick(along < 0, -along, along) * (slant * inward)
+
+
+@action("track-pitch-point")
+def track_pitch_point(centre: Point, track: Line) -> Point:
+    """The point at which a wheel touches a straight track."""
+    return arm.value(centre, track.point, track.along)
+
+
+@action("rack-force")
+def rack_force(centre: Point, pitch: Point, guide: Line, end: Point, slant: float) -> Point:
+    """The force at the pitch point that holds a rack against loads, whose polygon has an ``end``.
+
+    ``slant`` is the tangent of the pressure angle. Teeth push the rack away from the wheel.
+    """
+    away = (pitch - centre) / abs(pitch - centre)
+    load, along = dot(end, guide.along), 1j * away
+    first = -load / dot(along, guide.along)
+    one = first * 0 + 1
+    way = along + pick(first < 0, -one, one) * (slant * away)
+    return -load / dot(way, guide.along) * way
+
+
+class RackForce(InPolygon, frozen=True, kw_only=True):
+    """The force ``name`` on a rack from its wheel: its line of action meets the guide's normal.
+
+    ``pitch`` is the point of contact, ``sides`` are the loads of the rack.
+    """
+
+    gives: ClassVar[tuple[str, ...]] = ("pitch", "force", "corner")
+    reasons: ClassVar[Mapping[str, str]] = {"force": "why.force_closing"}
+
+    name: str
+    link: str
+    angle: int
+    way: SideDirection
+    sides: tuple[KnownSide, ...]
+    centre: int
+    start: int
+    pitch: int
+    force: int
+    corner: int
+
+    def marks(self, canvas: Canvas, role: str) -> None:
+        """Draw the radius of the pitch point, and the force in the polygon."""
+        if role == "pitch":
+            canvas.leg(self.name, "ray", canvas.value(self.centre), canvas.value(self.pitch))
+        elif role == "corner":
+            ends = canvas.value(self.start), canvas.value(self.corner)
+            draw_force(canvas, self.name, REACTION, *ends)
+
+    def sentence_alone(self, drawing: Drawing, role: str) -> str:
+        """The sides in order, and the line of action that closes the polygon with the normal."""
+        if role != "corner":
+            return ""
+        sides = sides_words(drawing, self.sides)
+        size = drawing.settled(abs(drawing.trace.values[self.force]))
+        return drawing.words(
+            ("step.force-rack" if self.angle else "step.force-rack-rim")
+            if sides and size
+            else "step.force-rack-none",
+            n=str(self.polygon),
+            k=escape(self.link),
+            sides=sides,
+            angle=f"{self.angle}°",
+            guide=self.way.words(drawing),
+            r=symbol(self.name),
+            read=read_side(drawing, self.name, self.start, self.corner),
+        )
+
+    def equations(self, drawing: Drawing, role: str) -> Iterator[Relation]:
+        """The force read off."""
+        if role == "corner":
+            yield of_side(drawing, self.name, self.start, self.corner)
 
 
 class ToothForce(Construction, frozen=True, kw_only=True):
@@ -83,7 +168,7 @@ class ToothForce(Construction, frozen=True, kw_only=True):
             "r": symbol(self.name),
             "angle": f"{self.angle}°",
             "below": self.below(drawing),
-            "sum": self.joined(drawing),
+            "sum": self.moments.positive(drawing),
             "size": newtons(drawing, size),
             "drawn": force_amount(drawing, size),
         }
@@ -96,12 +181,6 @@ class ToothForce(Construction, frozen=True, kw_only=True):
         if not drawing.settled(abs(drawing.trace.values[self.force])):
             key = "step.force-tooth-none"
         return drawing.words(key, **self.fields(drawing))
-
-    def joined(self, drawing: Drawing, *, figures: bool = False) -> str:
-        """The sum of moments, positive as a whole."""
-        total = sum(moment for _, moment, _, _ in self.moments.values(drawing))
-        said = self.moments.figures if figures else self.moments.symbols
-        return said(drawing, turned=total < 0)
 
     def below(self, drawing: Drawing) -> str:
         """The arm of the force in symbols: the base radius, in metres beside couples."""
@@ -124,28 +203,74 @@ class ToothForce(Construction, frozen=True, kw_only=True):
         yield of_moments(
             (symbol(self.name), answer(drawing, size), "N"),
             symbol(self.moments.letter),
-            (self.joined(drawing), self.joined(drawing, figures=True)),
+            (self.moments.positive(drawing), self.moments.positive(drawing, figures=True)),
             (self.below(drawing), f"({'·'.join(put)})" if len(put) > 1 else put[0]),
             by=self.below(drawing),
         )
 
 
-def tooth(
-    pen: Pen, name: str, link: str, wheels: tuple[Wheel, Wheel], moments: Moments
-) -> ToothForce:
-    """The force between two wheels: on the first, which turns on a link's pivot."""
-    own, other = wheels
-    angle = PRESSURE if own.teeth is not None or other.teeth is not None else 0
+def pressure_angle(*wheels: Wheel | None) -> int:
+    """The pressure angle of two wheels, or of a wheel and its rack; 0 without teeth."""
+    return PRESSURE if any(w is not None and w.teeth is not None for w in wheels) else 0
+
+
+def pitch_of(pen: Pen, about: int, wheels: tuple[Wheel, Wheel]) -> int:
+    """The point of contact of a wheel about a point with another one."""
     with pen.on(Part.FORCE, Plane.NUMBERS):
         radii = [pen.given("number", each.radius, name=f"radius {each.centre}") for each in wheels]
     inside, ring = (-1 if each.inside else 1 for each in wheels)
-    far = pen.the("position", other.centre)
+    far = pen.the("position", wheels[1].centre)
     with pen.on(Part.FORCE, Plane.MECHANISM):
-        pitch = pen.draw(pitch_point, moments.about, far, *radii, extra=(inside, ring))
-    slant = inside * math.tan(math.radians(angle))
+        return pen.draw(pitch_point, about, far, *radii, extra=(inside, ring))
+
+
+def pitch_on(pen: Pen, about: int, track: int) -> int:
+    """The point of contact of a wheel about a point with a straight track."""
+    with pen.on(Part.FORCE, Plane.MECHANISM):
+        return pen.draw(track_pitch_point, about, track)
+
+
+def tooth(
+    pen: Pen, name: str, link: str, pitch: int, angle: int, moments: Moments, *, inside: bool
+) -> ToothForce:
+    """The force on a wheel at its ``pitch`` point from its moments about its centre."""
+    slant = (-1 if inside else 1) * math.tan(math.radians(angle))
     with pen.on(Part.FORCE, Plane.NUMBERS):
         force = pen.draw(
             tooth_force, moments.about, pitch, *moments.steps, extra=(*moments.extra, slant)
         )
     found = ToothForce(name=name, link=link, angle=angle, moments=moments, pitch=pitch, force=force)
+    return pen.make(found)
+
+
+def rack(
+    pen: Pen,
+    polygon: Polygon,
+    name: str,
+    link: str,
+    angle: int,
+    centre: int,
+    track: int,
+    guide: tuple[int, str],
+) -> RackForce:
+    """The force on a rack, laid off at the end of the polygon of its loads."""
+    pitch, end = pitch_on(pen, centre, track), polygon.last
+    sides = tuple(polygon.sides)
+    with pen.on(Part.FORCE, Plane.NUMBERS):
+        inputs = centre, pitch, guide[0], end
+        force = pen.draw(rack_force, *inputs, extra=(math.tan(math.radians(angle)),))
+    corner = polygon.put(name, force)
+    found = RackForce(
+        polygon=polygon.number,
+        name=name,
+        link=link,
+        angle=angle,
+        way=SideDirection(guide=guide[0], block=guide[1]),
+        sides=sides,
+        centre=centre,
+        start=end,
+        pitch=pitch,
+        force=force,
+        corner=corner,
+    )
     return pen.make(found)

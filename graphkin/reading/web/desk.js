@@ -31,6 +31,9 @@ const waits = item => item.state !== "decided";
 const tell = text => {
   find("said").textContent = text;
 };
+// A request that never arrived is a TypeError; any other was refused with a reason.
+const why = (error, saidFirst) =>
+  error instanceof TypeError ? said.gone : `${saidFirst} ${error.message}`.trim();
 
 async function post(path, body) {
   try {
@@ -42,7 +45,7 @@ async function post(path, body) {
     if (!answer.ok) throw new Error(await answer.text());
     return await answer.json();
   } catch (error) {
-    tell(`${said.failed} ${error.message ?? ""}`);
+    tell(why(error, said.failed));
     return null;
   }
 }
@@ -202,7 +205,7 @@ async function get(path) {
     if (!answer.ok) throw new Error(await answer.text());
     return await answer.json();
   } catch (error) {
-    tell(`${said.failed} ${error.message ?? ""}`);
+    tell(why(error, ""));
     return null;
   }
 }
@@ -237,6 +240,7 @@ function card(found) {
   panels();
   find("card-title").textContent = `${said[`kind_${found.kind}`]}: ${found.title}`;
   find("told").textContent = found.told;
+  find("sums").replaceChildren(...found.sums.map(each => element("li", each)));
   find("causes").replaceChildren(...found.causes.map(each => marked("li", each)));
   const who = new Set(found.rows.map(each => each.who)).size > 1;
   const heads = element("tr");
@@ -526,17 +530,21 @@ paper.addEventListener(
   { passive: false },
 );
 
+const write = field => {
+  find(field).focus();
+  find(field).select();
+};
 const choose = i => () => {
   if (i < held.choices.length) rule({ choice: i });
 };
 const everywhere = { n: () => next(), u: undo, PageDown: () => turn(1), PageUp: () => turn(-1) };
 const onMarks = {
   r: () => {
-    if (held.reads !== null) find("reading").focus();
+    if (held.reads !== null) write("reading");
   },
-  p: () => find("own-points").focus(),
-  m: () => find("reason").focus(),
-  c: () => find("remark").focus(),
+  p: () => write("own-points"),
+  m: () => write("reason"),
+  c: () => write("remark"),
   ArrowUp: () => holdRow(row - 1),
   ArrowDown: () => holdRow(row + 1),
   ...Object.fromEntries([...Array(9).keys()].map(i => [i + 1, choose(i)])),

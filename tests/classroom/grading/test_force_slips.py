@@ -74,6 +74,7 @@ def test_what_is_forgotten_is_as_if_it_were_not_there(slip, before, after):
         *(("four-bar", f"inertia_moment_{way}") for way in ("missing", "reversed")),
         *(("four-bar", slip) for slip in ("weight_missing", "mass_for_weight", "arm_slanted")),
         *(("four-bar", slip) for slip in ("tangential_reversed", "arms_about_outer")),
+        ("shaper", "reaction_reversed"),
         *(("shaper", slip) for slip in ("weight_missing", "arm_slanted", "reaction_along_guide")),
         *(("ram", slip) for slip in ("weight_missing",)),
     ],
