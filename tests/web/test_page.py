@@ -45,7 +45,7 @@ LABS = ("pump", "offset-slider-crank", "slotted-lever")
 FEW = (*LABS, "oldham", "gears-ring", "rapid-return", "centrodes-cardan", "eight-link-1")
 """Scenes of different kinds: dyads, slots, gears, trial plans, centrodes, many links."""
 TAG = re.compile(r"<[a-z][^>]*>")
-ALLOWED = 436_000
+ALLOWED = 380_000
 """Most letters of a page."""
 
 HOSTILE = "</title><script>alert(1)</script>\"'&"

@@ -42,10 +42,9 @@ import { forget_typed, typed_form } from "./typing.js";
  * @param {Result} [_other] any result may be drawn
  */
 export function check_move(action, given, found, plane, _other) {
-  const beside = turning.beside[action],
+  const why = why_nothing(action, given),
     [value] = found;
-  if (!value || (beside && picks[given[beside]].plane !== picks[given[beside - 1]].plane))
-    return refuse(worded("nothing", { action: action_name(action), list: names_of(given) }));
+  if (!value || why === "apart") return refuse_nothing(action, given, why);
   const same = Object.keys(picks).find(
     key => key.startsWith("own") && is_same(picks[key], action, plane, value),
   );
@@ -61,6 +60,28 @@ export function check_move(action, given, found, plane, _other) {
     given,
     all.findIndex(one => same_value(action, one, value, plane)),
   );
+}
+
+/**
+ * The key of the reason why nothing can be drawn; empty where there is none to be told.
+ * @param {string} action
+ * @param {string[]} given
+ */
+function why_nothing(action, given) {
+  const beside = turning.beside[action];
+  if (beside && picks[given[beside]].plane !== picks[given[beside - 1]].plane) return "apart";
+  if (action === "cut" && given[0] !== given[1]) {
+    return given.some(key => picks[key].kind === "circle") ? "unmet" : "parallel";
+  }
+  const named = key => turning.places[key]?.length;
+  if (action === "similar" && !given.slice(0, 2).every(named)) return "unlettered";
+  return action === "triangle" ? "askew" : "";
+}
+
+/** Say that nothing can be drawn, and why. */
+function refuse_nothing(action, given, why) {
+  const said = worded("nothing", { action: action_name(action), list: names_of(given) });
+  refuse(why ? `${said} ${worded(why)}` : said);
 }
 
 /** Whether a thing is what an action would draw. */

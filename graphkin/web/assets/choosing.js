@@ -3,6 +3,7 @@ import { byId } from "#page";
 import {
   check_move,
   CHOICE,
+  picks,
   plane_of,
   results_of,
   same_value,
@@ -18,7 +19,9 @@ export function draw_move() {
     given = turn.inputs.slice(0, slots_of(action).length),
     plane = plane_of(action, given);
   const found = results_of(action, given);
-  if (CHOICE.includes(action) && found.length > 1 && !all_alike(action, found, plane)) {
+  const apart = action === "cut" && picks[given[0]].plane !== picks[given[1]].plane;
+  const is_choice = CHOICE.includes(action) && found.length > 1 && !apart;
+  if (is_choice && !all_alike(action, found, plane)) {
     const at_keys = keys_within();
     turn.asked = Object.assign(different(action, found, plane), { plane, given });
     tell_turn(worded("which"));

@@ -49,8 +49,14 @@ function split_action(text) {
   return [null, text];
 }
 
-/** All that a typed text may name for an action: complete inputs, those that are drawn last first. */
-function readings(action, text, in_order) {
+/**
+ * All that a typed text may name for an action: complete inputs, those that are drawn last first.
+ * @param {string} action
+ * @param {string} text
+ * @param {boolean} in_order whether the inputs are named in the order of their words
+ * @param {boolean} also_empty whether inputs count from which nothing can be drawn
+ */
+function readings(action, text, in_order, also_empty) {
   const found = [],
     slots = slots_of(action);
   const keys = Object.keys(picks)
@@ -72,11 +78,10 @@ function readings(action, text, in_order) {
     }
   };
   read(text, []);
-  return found.filter(
-    inputs =>
-      results_of(action, inputs).length &&
-      (action !== "cut" || picks[inputs[0]].plane === picks[inputs[1]].plane),
-  );
+  const is_drawn = inputs =>
+    results_of(action, inputs).length > 0 &&
+    (action !== "cut" || picks[inputs[0]].plane === picks[inputs[1]].plane);
+  return [...found.filter(is_drawn), ...found.filter(inputs => also_empty && !is_drawn(inputs))];
 }
 
 /** How much of a text a form of a name takes, blanks left out; 0 where the text begins otherwise. */
@@ -126,7 +131,7 @@ function typed_ways(line) {
   }
   if (!rest.trim()) return [];
   const of = (one, in_order) =>
-    readings(one, rest, in_order)
+    readings(one, rest, in_order, action !== null)
       .slice(0, 1)
       .map(inputs => ({ action: one, inputs }));
   if (action) return of(action, false);
