@@ -140,16 +140,6 @@ class Trying(Trial, frozen=True, dict=True):
 
         return roots_beside(missed, tried)
 
-    def closed_over_flat(
-        self, known: Sequence[Any], tried: Any, signs: Any, room: float
-    ) -> tuple[Any, Any] | None:
-        """The trial values and signs that close near given ones where a dyad is flat.
-
-        None where nothing closes within ``room``, and where one link alone is tried: the search for
-        all closures is quick there.
-        """
-        return None
-
     def closures_of(self, known: Sequence[Any]) -> Closures:
         """Every closure on known scalars, in the order of their numbers; the last results are kept.
 

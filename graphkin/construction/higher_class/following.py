@@ -16,6 +16,7 @@ from msgspec import Struct
 from msgspec.structs import replace
 
 from graphkin.construction.higher_class.closure_solver import HIDDEN, Closures, Trying
+from graphkin.construction.higher_class.several_trials import SeveralTrials
 from graphkin.numbers.arithmetic import np, phase
 from graphkin.numbers.common_roots import roots_beside
 
@@ -334,21 +335,20 @@ class GroupOnWay(Struct, frozen=True, dict=True):
     def paired_at(self, low: float, high: float) -> PairedClosures | None:
         """All closures at two u, each of the first (M, n) paired with the nearest of the second.
 
-        None where they do not match one to one. The signs of a pair differ where a dyad is
-        stretched flat in between.
+        None where they do not match one to one with the same signs.
         """
         first, second = self.every(np.array([low, high]))
         if len(first) != len(second) or not len(first):
             return None
-        away = np.array([self.away(second, row) for row in first])
+        away = np.array([self.apart(second, row) for row in first])
         nearest = away.argmin(axis=1)
         if sorted(nearest) != [*range(len(first))] or not (away.min(axis=1) < MOST).all():
             return None
-        (before, signs, _), (after, turned, _) = self.trying.split(first), self.trying.split(second)
+        (before, signs, _), (after, _, _) = self.trying.split(first), self.trying.split(second)
         after = after[nearest]
         turning = np.array([one.turns for one in self.trying.unknowns])
         after = np.where(turning, before + wrapped(after - before), after)
-        return PairedClosures((low, high), before, after, signs, turned[nearest])
+        return PairedClosures((low, high), before, after, signs)
 
     def numbers_led(self, pairs: PairedClosures, way: FollowedClosure, at: Reals) -> Reals | None:
         """As ``numbers``, from closures interpolated between two places; None if uncertain."""
@@ -356,64 +356,35 @@ class GroupOnWay(Struct, frozen=True, dict=True):
         share = np.tile((at - pairs.at[0]) / (pairs.at[1] - pairs.at[0]), count)[:, None]
         owner, which = np.tile(np.arange(places), count), np.repeat(np.arange(count), places)
         step = pairs.last[which] - pairs.first[which]
-        start, signs = pairs.first[which] + step * share, pairs.signs[which].copy()
-        room = BETWEEN * abs(step).max(axis=1) + SURE
+        start, signs = pairs.first[which] + step * share, pairs.signs[which]
         known = self.known(at)
         with np.errstate(all="ignore"):
             tried = self.trying.closed_beside([array[owner] for array in known], start, signs)
-            for n in np.flatnonzero(~(abs(tried - start).max(axis=1) <= room)):
-                here, both = [array[owner[n], None] for array in known], pairs.both(which[n])
-                found = self.closed_about(here, start[n], both, float(room[n]))
-                if found is None:
-                    return None
-                tried[n], signs[n] = found
+            sure = abs(tried - start).max(axis=1) <= BETWEEN * abs(step).max(axis=1) + SURE
+            if not sure.all():
+                return None
             touching = np.zeros(len(tried), dtype=bool)
             every = self.trying.ordered(known, places, owner, tried, signs, touching)
         rows = way.rows(self, at)
         return np.array([self.number(every.of(n), row) for n, row in enumerate(rows)])
 
-    def closed_about(
-        self, known: Sequence[Reals], start: Reals, both: tuple[Reals, Reals], room: float
-    ) -> tuple[Reals, Reals] | None:
-        """The closure near one whose signs turn between two places: trial values and signs.
-
-        None where it is not certain: nothing closes within ``room``, or the signs do not turn.
-        """
-        signs, turned = both
-        if (signs == turned).all():
-            return None
-        tried = self.trying.closed_beside(known, start[None], turned[None])[0]
-        if abs(tried - start).max() <= room:
-            return tried, turned
-        return self.trying.closed_over_flat(known, start, signs, room)
-
     def apart(self, every: Reals, row: Reals) -> Reals:
         """The distances of closures (M, ...) from another, in trial values and signs."""
-        (_, signs, _), (_, turned, _) = self.trying.split(every), self.trying.split(row)
-        return self.away(every, row) + np.where((signs != turned).any(axis=-1), 1.0, 0.0)
-
-    def away(self, every: Reals, row: Reals) -> Reals:
-        """The distances of closures (M, ...) from another, in trial values."""
-        (tried, _, _), (other, _, _) = self.trying.split(every), self.trying.split(row)
+        (tried, signs, _), (other, turned, _) = self.trying.split(every), self.trying.split(row)
         way = abs(tried - other)
         turning = np.array([one.turns for one in self.trying.unknowns])
         round_ = np.minimum(way % (2 * np.pi), -way % (2 * np.pi))
-        found: Reals = np.where(turning, round_, way).max(axis=-1)
-        return found
+        far = np.where(turning, round_, way).max(axis=-1)
+        return far + np.where((signs != turned).any(axis=-1), 1.0, 0.0)
 
 
 class PairedClosures(NamedTuple):
-    """All closures of a group at two u: trial values (M, n) and signs (M, k) at both."""
+    """All closures of a group at two u: trial values (M, n) at both, and common signs (M, k)."""
 
     at: tuple[float, float]
     first: Reals
     last: Reals
     signs: Reals
-    turned: Reals
-
-    def both(self, n: int) -> tuple[Reals, Reals]:
-        """The signs of one closure at both places."""
-        return self.signs[n], self.turned[n]
 
 
 class FollowedClosure(Struct, frozen=True, eq=False):
@@ -568,7 +539,7 @@ class FollowedClosure(Struct, frozen=True, eq=False):
         None where none of their signs differ, or where nothing closes nearby.
         """
         signs, trying = self.signs[after - 1], group.trying
-        if (signs == self.signs[after]).all():
+        if not isinstance(trying, SeveralTrials) or (signs == self.signs[after]).all():
             return None
         room = abs(self.tried[after] - self.tried[after - 1]).max() * BETWEEN + SURE
         known = group.known(np.array([at]))
