@@ -42,6 +42,7 @@ from graphkin.drawing.scale import Scales
 from graphkin.mechanism import Mechanism
 from graphkin.motion.course import Reals
 from graphkin.text.errors import GraphkinError
+from graphkin.text.tables import Say
 
 # --- errors while a crossing grows flat -----------------------------------------------------------
 
@@ -222,9 +223,6 @@ def pencilled(
 
 
 # --- the whole comparison ------------------------------------------------------------------------
-
-
-Say = Callable[[str], None]
 
 
 class Study(Struct, frozen=True, eq=False):

@@ -29,6 +29,7 @@ from graphkin.cli.options import (
     output_option,
     say,
     tell,
+    working,
 )
 
 if TYPE_CHECKING:
@@ -87,7 +88,8 @@ def new_lab(name: str, folder: Path, scene: str | None, force: bool) -> None:
 
     path = scene_files.find(scene)
     current().meta[READING] = path
-    lab = lab_from(Path(path), name, folder, force=force)
+    with working() as step:
+        lab = lab_from(Path(path), name, folder, force=force, say=step)
     tell(map(str, lab.files))
     if lab.proposed is None:
         complain(f"{NO_RANGES}: graphkin ranges {folder / name} lists the limits that are broken")
@@ -187,7 +189,8 @@ def variants(name: str, roster: Path, folder: Path, lang: str | None, force: boo
 
     lab = lab_of_command(name)
     students = read_roster(roster, numbered=lab.rule.counts, check=check_of(lab), tell=complain)
-    found = assigned(lab, students, roster.name)
+    with working() as step:
+        found = assigned(lab, students, roster.name, step)
     written = write_class(folder, lab, found, roster, force=force, language=lang)
     tell(class_lines(lab, found))
     tell(["", *(str(path) for path in written)])
@@ -368,7 +371,8 @@ def ranges(name: str, folder: Path | None, force: bool) -> None:
     lab = lab_of_command(name)
     if folder is not None:
         refuse_folder(folder)
-    found = fair_ranges(lab)
+    with working() as step:
+        found = fair_ranges(lab, step)
     tell(range_lines(lab, found))
     if not lab.rule.is_drawn:
         tell(labelled("formula", formula_lines(lab)))

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -23,6 +22,7 @@ from graphkin.cli.options import (
     scales_of,
     scene_argument,
     tell,
+    working,
 )
 from graphkin.documents.view_names import VIEWS
 
@@ -219,16 +219,16 @@ def cycle(
     stem = file_stem(mechanism.scene.name, pairs_of(settings))
     refuse_folder(folder, [f"{stem}-cycle.csv"], force=force)
     first, last = bounds_in_si(mechanism.scene, driver, low, high)
-    say = progress()
-    say("following the motion")
-    found = moved(mechanism, driver=driver, steps=steps, low=first, high=last)
-    say("checking every row")
-    leaps = jumps(found)
-    say("looking for extremes")
-    reached = () if leaps else all_extremes(found, ratios=advantage)
-    few = equal_positions(found, positions, begin) if positions else None
-    lines = [*cycle_lines(found, leaps, reached)]
-    say("")
+    with working() as step:
+        step("following the motion")
+        found = moved(mechanism, driver=driver, steps=steps, low=first, high=last)
+        step(f"checking {len(found.at)} rows")
+        leaps = jumps(found)
+        step(f"looking for extremes in {len(found.at)} rows")
+        reached = () if leaps else all_extremes(found, ratios=advantage)
+        few = equal_positions(found, positions, begin) if positions else None
+        step(f"holding {len(found.at)} rows to the vector loops")
+        lines = [*cycle_lines(found, leaps, reached)]
     tell(lines)
     tell(positions_lines(few) if few is not None else ())
     if leaps:
@@ -242,14 +242,16 @@ def cycle(
         from graphkin.writers.workbook import workbook
 
         files[f"{stem}-cycle.xlsx"] = workbook(tables)
-    if curves := [kind for kind in kinds if kind in ("svg", "png")]:
-        from graphkin.motion.curves.curve_files import picture_files
+    with working() as step:
+        if curves := [kind for kind in kinds if kind in ("svg", "png")]:
+            from graphkin.motion.curves.curve_files import picture_files
 
-        files |= picture_files(found, stem, curves)
-    if {"gif", "html"} & {*kinds}:
-        from graphkin.web.animation import animation_files
+            step("drawing the curves")
+            files |= picture_files(found, stem, curves)
+        if {"gif", "html"} & {*kinds}:
+            from graphkin.web.animation import animation_files
 
-        files |= animation_files(found, stem, kinds, lang)
+            files |= animation_files(found, stem, kinds, lang, step)
     tell(["", *(str(path) for path in write_all(folder, files, force))])
     if not agrees(found):
         complain("the independent route does not agree with the construction")
@@ -303,9 +305,8 @@ def accuracy(
     stem = file_stem(mechanism.scene.name, pairs_of(settings))
     refuse_folder(folder, [f"{stem}-accuracy.csv"], force=force)
     effort = QUICK if quick else Effort()
-    say = progress()
-    found = study(mechanism, scales_if_any(mechanism), effort, say=say)
-    say("")
+    with working() as step:
+        found = study(mechanism, scales_if_any(mechanism), effort, say=step)
     tell(accuracy_lines(found))
     tell(["", *waits_lines(waits_of(lambda: mechanism_of(name, settings)))])
     files = {f"{stem}-accuracy.csv": accuracy_table(found).encode()}
@@ -323,16 +324,3 @@ def scales_if_any(mechanism: Mechanism) -> Scales | None:
         for problem in error.problems:
             complain(f"the pencil is left out: {problem}")
         return None
-
-
-def progress() -> Callable[[str], None]:
-    """A function that shows the current task on one line of a terminal, and is silent elsewhere."""
-    import sys
-
-    def say(words: str) -> None:
-        click.echo(f"\r\x1b[K{words}{' …' if words else ''}", nl=False, err=True)
-
-    def silent(words: str) -> None:
-        return
-
-    return say if sys.stderr is not None and sys.stderr.isatty() else silent

@@ -7,8 +7,8 @@ import os
 import re
 import sys
 import threading
-from collections.abc import Callable, Iterable, Mapping
-from contextlib import suppress
+from collections.abc import Callable, Iterable, Iterator, Mapping
+from contextlib import contextmanager, suppress
 from importlib import import_module
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, ClassVar, NoReturn, Protocol, TypeVar
@@ -39,6 +39,7 @@ if TYPE_CHECKING:
     from graphkin.drawing.scale import Scales
     from graphkin.mechanism import Mechanism
     from graphkin.scene.house import House
+    from graphkin.text.tables import Say
 
 FAILED = 1
 """The exit status when the independent check disagrees or something asked is unfair."""
@@ -233,6 +234,22 @@ def say_aside(text: str) -> None:
     """Print a line on standard error; ignore a closed stream."""
     with suppress(OSError):
         say(text, err=True)
+
+
+@contextmanager
+def working() -> Iterator[Say]:
+    """A function that shows on one line of a terminal how far a work is; silent elsewhere."""
+
+    def shown(words: str) -> None:
+        click.echo(f"\r\x1b[K{words}{' …' if words else ''}", nl=False, err=True)
+
+    if sys.stderr is None or not sys.stderr.isatty():
+        yield lambda words: None
+        return
+    try:
+        yield shown
+    finally:
+        shown("")
 
 
 def say(text: str, *, err: bool = False) -> None:

@@ -274,15 +274,21 @@ def range_reached(course: Course, start: float | None = None) -> list[Range]:
 
 
 def swept(scene: Scene, number: int) -> Sweep:
-    """One turn of a driver, or a slide on both sides of zero as far as all lengths reach."""
+    """One turn of a driver, or a slide on both sides of zero as far as all lengths reach.
+
+    A cylinder stays on the side of zero on which the scene has it.
+    """
     from graphkin.motion.driving import reach_of, stated_motion
     from graphkin.motion.sweep import sweep_of
+    from graphkin.motion.window import on_one_side
 
     driver = scene.drivers[number - 1]
     if driver.kind == "turn":
         return sweep_of(scene, driver=number)
-    far = 2 * reach_of(scene) + abs(stated_motion(driver, scene)[0])
-    return sweep_of(scene, driver=number, low=-far, high=far)
+    start = float(stated_motion(driver, scene)[0])
+    far = 2 * reach_of(scene) + abs(start)
+    low, high = on_one_side(scene, driver, start, -far, far)
+    return sweep_of(scene, driver=number, low=low, high=high)
 
 
 def refined(course: Course, at: Any, steps: Any) -> Any:

@@ -55,8 +55,8 @@ def window(
             way = wheel_turn(scene.links[scene.drivers[number - 1].link], scene) or ahead
             start, back, ahead = start - way / 2, 0.0, way
         least, most = start - back, start + ahead
-        if start and number is not None and is_cylinder(scene, scene.drivers[number - 1]):
-            least, most = (max(least, 0.0), most) if start > 0 else (least, min(most, 0.0))
+        if number is not None:
+            least, most = on_one_side(scene, scene.drivers[number - 1], start, least, most)
         first = least if low is None else low
         last = most if high is None else high
     if not first < last:
@@ -68,6 +68,15 @@ def window(
         )
         raise SceneError(Problem("--from, --to", found, message("a window that grows")))
     return first, last, False
+
+
+def on_one_side(
+    scene: Scene, driver: Driver, start: float, low: float, high: float
+) -> tuple[float, float]:
+    """Two positions of a driver, cut at zero for a cylinder: its length keeps its sign."""
+    if not start or not is_cylinder(scene, driver):
+        return low, high
+    return (max(low, 0.0), high) if start > 0 else (low, min(high, 0.0))
 
 
 def is_cylinder(scene: Scene, driver: Driver) -> bool:

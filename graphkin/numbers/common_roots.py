@@ -313,6 +313,8 @@ class FlatDyad(NamedTuple):
             here = self.reach(own, at)
             for _ in range(LEADING):
                 way = (v * v - here) / rise
+                if not (abs(way) > 0).any():
+                    break
                 at[:, j] += way
                 before, here = here, self.reach(own, at)
                 moved = (way != 0) & np.isfinite(here) & (here != before)

@@ -90,6 +90,10 @@ def labelled(label: str, lines: Sequence[str], width: int = 11) -> list[str]:
     return [f"{label if i == 0 else '':<{width}}{line}".rstrip() for i, line in enumerate(lines)]
 
 
+Say = Callable[[str], None]
+"""Receives in words how far a work is that takes seconds."""
+
+
 def listed(names: Iterable[str], most: int = 12) -> str:
     """Names with commas and a final ``and``; a long list is cut, with the number left out."""
     known = list(names)

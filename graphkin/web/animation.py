@@ -15,26 +15,34 @@ if TYPE_CHECKING:
 
     from graphkin.drawing.marks import Mark
     from graphkin.motion.cycle import Cycle
+    from graphkin.text.tables import Say
 
 
 def animation_files(
-    cycle: Cycle, stem: str, formats: Sequence[str], language: str | None = None
+    cycle: Cycle,
+    stem: str,
+    formats: Sequence[str],
+    language: str | None = None,
+    say: Say = lambda words: None,
 ) -> dict[str, bytes]:
     """The animation files of a cycle by name, for the formats ``gif`` and ``html``.
 
-    ``language`` None means the scene's own language. Raises SceneError where nothing can move.
+    ``language`` None means the scene's own language; ``say`` receives how far the work is. Raises
+    SceneError where nothing can move.
     """
     if not {"gif", "html"} & set(formats):
         return {}
     from graphkin.web.frames import motion
 
+    say("moving the mechanism")
     words = language_of(cycle.mechanism, language)
     found, files = motion(cycle, words), dict[str, bytes]()
     if "gif" in formats:
-        files[f"{stem}-motion.gif"] = gif(found, words)
+        files[f"{stem}-motion.gif"] = gif(found, words, say)
     if "html" in formats:
         from graphkin.web.player import player_page
 
+        say("writing the page that moves")
         files[f"{stem}-motion.html"] = player_page(found, words).encode("utf-8")
     return files
 
@@ -51,9 +59,9 @@ TASTED = 6
 """Number of pictures from which the colours are chosen."""
 
 
-def gif(motion: FrameSequence, words: Words) -> bytes:
+def gif(motion: FrameSequence, words: Words, say: Say = lambda words: None) -> bytes:
     """The GIF file of a motion, which repeats without end."""
-    few = in_few_colours(drawn(stage(motion, words)))
+    few = in_few_colours(drawn(stage(motion, words), say))
     first, *rest = (few[number] for number in motion.order)
     out = io.BytesIO()
     first.save(
@@ -62,16 +70,19 @@ def gif(motion: FrameSequence, words: Words) -> bytes:
     return out.getvalue()
 
 
-def drawn(set_up: Stage) -> list[Any]:
+def drawn(set_up: Stage, say: Say) -> list[Any]:
     """The pictures of all moments in full colour. Marks that do not move are painted once."""
     from PIL import Image
 
     under = painted(set_up.still)
     ground = Image.alpha_composite(Image.new("RGBA", under.size, "white"), under)
-    return [
-        Image.alpha_composite(ground, painted(set_up.moving(moment))).convert("RGB")
-        for moment in set_up.motion.moments
-    ]
+    pictures, moments = list[Any](), set_up.motion.moments
+    for number, moment in enumerate(moments, 1):
+        say(f"drawing picture {number} of {len(moments)}")
+        pictures.append(
+            Image.alpha_composite(ground, painted(set_up.moving(moment))).convert("RGB")
+        )
+    return pictures
 
 
 def painted(marks: Sequence[Mark]) -> Any:

@@ -7,6 +7,7 @@ from math import asin, degrees, sqrt
 import numpy as np
 import pytest
 
+from graphkin.diagnosis.ranges import closing
 from graphkin.mechanism import Mechanism, load
 from graphkin.motion import follower_limits
 from graphkin.motion.cycle import cycle
@@ -170,3 +171,12 @@ def test_the_length_of_a_cylinder_keeps_its_sign(sign):
     pin = np.hypot(0.3, 0.2)
     ends = sorted([sign * (0.7 - pin), sign * (0.7 + pin)])
     assert found.ranges == (pytest.approx(tuple(ends), abs=1e-9),)
+
+
+@pytest.mark.parametrize("sign", [1, -1])
+def test_the_range_of_check_leaves_out_lengths_of_the_other_sign(sign):
+    text = (FOLDER / "motion/boom-on-a-cylinder.toml").read_text("utf-8")
+    text = text.replace("position = 600", f"position = {sign * 600}")
+    pin = np.hypot(0.3, 0.2)
+    ends = sorted([sign * (0.7 - pin), sign * (0.7 + pin)])
+    assert closing(read_text(text, "boom")).ranges == [pytest.approx(ends, abs=1e-6)]

@@ -25,6 +25,7 @@ from graphkin.numbers.arithmetic import np
 from graphkin.scene.model import Parameter, Scene
 from graphkin.scene.parameters import plain
 from graphkin.text.errors import Problem, SceneError, message
+from graphkin.text.tables import Say
 
 Array = Any
 DRAWS = 4000
@@ -112,11 +113,13 @@ class FairRanges(Struct, frozen=True):
         return how_many(self.ranges) if self.ranges else 0
 
 
-def fair_ranges(lab: Lab) -> FairRanges:
+def fair_ranges(lab: Lab, say: Say = lambda words: None) -> FairRanges:
     """Try the whole space of a scene's parameters, and find the ranges in which all is fair.
 
-    Raises SceneError where no parameter of the scene has both ends.
+    ``say`` receives how far the work is. Raises SceneError where no parameter of the scene has both
+    ends.
     """
+    say("trying variants")
     space = space_of(lab.mechanism.scene)
     tried = drawn_within(lab, space, whole_box(space))
     alone = tuple(name for name in lab.mechanism.scene.parameters if name not in space)
@@ -129,10 +132,14 @@ def fair_ranges(lab: Lab) -> FairRanges:
         ((name, values),) = space.items()
         runs = runs_of(values, good)
         return FairRanges(tried, {name: runs} if runs else None, alone, tuple(exact))
+    say("drawing variants with a pencil" if limited else "narrowing the ranges")
     exact = drawn_exactly(lab, space, fair[:PENCILLED]) if limited else ()
     worst = max(space, key=tried.guilt)
-    boxes = [*between(whole_box(space), peeled(lab, tried))]
-    ranges = [in_box(lab, space, box, worst, tried.share == 1) for box in boxes]
+    say("narrowing the ranges")
+    boxes, ranges = [*between(whole_box(space), peeled(lab, tried))], []
+    for number, box in enumerate(boxes, 1):
+        say(f"trying ranges, {number} of {len(boxes)}")
+        ranges.append(in_box(lab, space, box, worst, tried.share == 1))
     best = max((each for each in ranges if each is not None), key=how_many, default=None)
     if best is None or not limited:
         return FairRanges(tried, best, alone, tuple(exact))

@@ -49,6 +49,7 @@ from graphkin.scene.file_limits import decoded, read_bytes
 from graphkin.scene.read_scene import read_text
 from graphkin.text import words
 from graphkin.text.errors import Problem, SceneError, message
+from graphkin.text.tables import Say
 from graphkin.writers.files import RESERVED, refuse_folder, write_all
 
 COMPONENT = {kind.sign: words("en")(kind.legend).partition(":")[0] for kind in COMPONENTS}
@@ -154,10 +155,13 @@ class OwnLab(Struct, frozen=True):
     proposed: ProposedRanges | None
 
 
-def lab_from(scene: Path, name: str, folder: Path, *, force: bool = False) -> OwnLab:
+def lab_from(
+    scene: Path, name: str, folder: Path, *, force: bool = False, say: Say = lambda words: None
+) -> OwnLab:
     """Make the folder of a lab for a scene, with the ranges in which all its variants are fair.
 
-    The scene is copied unchanged. Raises SceneError for a scene with a problem or without a
+    The scene is copied unchanged; ``say`` receives how far the work is. Raises SceneError for a
+    scene with a problem or without a
     parameter that has both ends, and for a name that is no folder name on some system; PageError
     for files in the way.
     """
@@ -169,7 +173,8 @@ def lab_from(scene: Path, name: str, folder: Path, *, force: bool = False) -> Ow
         place = Path(tried)
         (place / SCENE).write_bytes(data)
         lab = lab_of(rules_for(mechanism), place, mechanism, name)
-        found = fair_ranges(lab)
+        found = fair_ranges(lab, say)
+        say("counting for how many students the ranges have room")
         proposed = proposed_ranges(lab, found)
     rules = lab.text if proposed is None else rules_for(mechanism, proposed)
     files = write_all(folder / name, {SCENE: data, LAB: rules.encode("utf-8")}, force)

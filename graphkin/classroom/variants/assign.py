@@ -25,6 +25,7 @@ from graphkin.numbers.arithmetic import np
 from graphkin.scene.parameters import misfit, range_words
 from graphkin.scene.quantity import shortest
 from graphkin.text.errors import InTable, Problem, RosterError, message, problems_of
+from graphkin.text.tables import Say
 
 VAIN = 300
 """Consecutive draws that find room for nobody, after which nobody is drawn again."""
@@ -65,8 +66,15 @@ class Assigned(Struct, frozen=True):
         return "unfair" if self.flattest is not None else "undrawable"
 
 
-def assigned(lab: Lab, students: Sequence[Student], roster: str = "roster") -> list[Assigned]:
+def assigned(
+    lab: Lab,
+    students: Sequence[Student],
+    roster: str = "roster",
+    say: Say = lambda words: None,
+) -> list[Assigned]:
     """The data of each student by the lab's rule, the whole class judged in one batch.
+
+    ``say`` receives how far the work is.
 
     Data drawn from ranges are drawn again if they are unfair or too close to those of an earlier
     student, as often as the rule allows; the least unfair are kept.
@@ -86,8 +94,9 @@ def assigned(lab: Lab, students: Sequence[Student], roster: str = "roster") -> l
         raise RosterError(Problem(roster, found, message("at most {most}", most=MOST), hint))
     if lab.rule.counts:
         refuse_misfits(lab, students, roster)
+    say(f"data of {len(students)} students")
     every = fairest(lab, students)
-    return spaced(lab, every) if lab.fair.needs_keys else every
+    return spaced(lab, every, say) if lab.fair.needs_keys else every
 
 
 def entries(lab: Lab, students: Sequence[Student], roster: str) -> list[Student]:
@@ -109,7 +118,7 @@ def entries(lab: Lab, students: Sequence[Student], roster: str) -> list[Student]
     return found
 
 
-def spaced(lab: Lab, every: list[Assigned]) -> list[Assigned]:
+def spaced(lab: Lab, every: list[Assigned], say: Say) -> list[Assigned]:
     """The data of each student, drawn again where pencil errors or a neighbour's answers matter.
 
     A pencil must draw everything as exactly as the limit demands. No student's correct values may
@@ -124,6 +133,7 @@ def spaced(lab: Lab, every: list[Assigned]) -> list[Assigned]:
     while waiting:
         room = list[Fault | None]()
         for start in range(0, len(waiting), BLOCK):
+            say(f"comparing students, {len(kept)} of {len(every)} have data")
             block = [found[i] for i in waiting[start : start + BLOCK]]
             names = [(*each.settings.items(), each.computed) for each in block]
             new = {name: each for name, each in zip(names, block, strict=True) if name not in known}

@@ -143,10 +143,8 @@ class SeveralTrials(Trying, frozen=True, dict=True):
             return [array[:1] for array in known], share, table[row]
 
         cells = Cells(np.array([rows.index(tuple(signs))]), tried[None])
-        half, ranges = (
-            np.full(len(tried), room),
-            np.full((len(table), len(tried)), max(map(abs, first))),
-        )
+        half, size = np.full(len(tried), room), max(map(abs, first))
+        ranges = np.full((len(table), len(tried)), size)
         found = list[tuple[Array, Array]]()
         for k, choice in enumerate(self.choices):
             if choice is not None:
