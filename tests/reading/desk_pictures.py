@@ -2,7 +2,7 @@
 
     python -m tests.reading.desk_pictures FOLDER -o graphkin/manual/pictures
 
-FOLDER is what ``python -m tests.bench.reading N -o FOLDER`` keeps.
+FOLDER is what ``python -m tests.bench.reading 3 pump -o FOLDER`` keeps.
 """
 
 from __future__ import annotations
@@ -77,7 +77,7 @@ def main(folder: Path, name: str, out: Path) -> None:
 if __name__ == "__main__":
     parser = argparse.ArgumentParser()
     parser.add_argument("folder", type=Path)
-    parser.add_argument("name", nargs="?", default="p004")
+    parser.add_argument("name", nargs="?", default="p001")
     parser.add_argument("-o", type=Path, required=True)
     said = parser.parse_args()
     main(said.folder, said.name, said.o)

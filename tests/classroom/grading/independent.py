@@ -244,13 +244,13 @@ def marked(
     blank: tuple[str, ...] = (),
 ) -> Set:
     """What is right is right, what is ``lost`` earns nothing, nor does what is next to nothing; all
-    else follows. What a slip gives is right, too.
+    else follows. What a slip gives is right, too, and what it leaves out may be blank.
     """
     texts = written(found)
     earns = {}
     for name in task.fields:
         if name in blank:
-            texts[name], earns[name] = "", 0.0
+            texts[name], earns[name] = "", 1.0 if slip else 0.0
         elif task.is_right(name, as_written(texts[name])) or follows_rightly(task, name, found):
             earns[name] = 1.0
         elif name in lost or (not slip and task.is_easy(name, found)):
