@@ -54,7 +54,7 @@ def flattest_line(drawing: Drawing, start: float) -> Iterator[Mark]:
             factor=drawing.words.significant(worst.factor, 2),
         )
         if end - extent(text, HEIGHT)[0] >= start + APART:
-            yield Text(end, paper.below[3] + 0.8, text, "caption", HEIGHT, "end", name="flattest")
+            yield Text(end, paper.below[3] + 0.4, text, "caption", HEIGHT, "end", name="flattest")
             return
 
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
+from itertools import accumulate, pairwise
 
 from graphkin.construction.core.drawn_scene import Drawing
 from graphkin.documents.sentences import sentences
@@ -29,16 +30,19 @@ Numbered = tuple[str, str]
 def listed(drawing: Drawing, x: float, y: float, width: float, bottom: float) -> list[Mark]:
     """The sentences from a place on, with their lines as far apart as there is room.
 
-    Where characters of neighbouring lines would touch, lines are shortened. Raises PageError where
-    there are too many lines.
+    Where characters of neighbouring lines would touch, these lines are farther apart than others,
+    or lines are shortened. Raises PageError where there are too many lines.
     """
     for less in SHORTER:
         flown = both_ways(drawing, x, width - less)
         for leading in distances():
-            lines = lined(*flown, int((drawing.paper.marked[1] - y) / leading + 1))
+            above = int((drawing.paper.marked[1] - y) / leading + 1)
+            lines = lined(*flown, above)
             if y + (len(lines) - 1) * leading <= bottom:
-                if are_clear([line for _, line in lines], HEIGHT, leading):
-                    return written(lines, x, y, leading)
+                rows = clear_rows([line for _, line in lines], y, leading, bottom)
+                held = [row <= drawing.paper.marked[1] for row in rows[:above]]
+                if rows and all(held):
+                    return written(lines, x, rows)
                 break
     raise too_long(len(lines), message("ask for less on one sheet"))
 
@@ -61,7 +65,28 @@ def first_part(
     )
     lines = lined(wide[:said], narrow[:said], above)
     lines.append(("", drawing.words("page.goes_on" if said else "page.moved")))
-    return written(lines, x, y, leading), said
+    return written(lines, x, rows_of(y, leading, len(lines))), said
+
+
+def rows_of(y: float, leading: float, count: int) -> list[float]:
+    """The baselines of some lines at one distance."""
+    return [y + i * leading for i in range(count)]
+
+
+def clear_rows(lines: Sequence[str], y: float, leading: float, bottom: float) -> list[float]:
+    """The baselines of lines whose characters do not touch; empty where there is no room.
+
+    The lines are at one distance if possible, else each as far below the one above as it must be.
+    """
+    if are_clear(lines, HEIGHT, leading):
+        return rows_of(y, leading, len(lines))
+    least = sorted(distances())
+    gaps = [
+        next((gap for gap in least if are_clear([*pair], HEIGHT, gap)), MOST)
+        for pair in pairwise(lines)
+    ]
+    spare = bottom - y - sum(gaps)
+    return [*accumulate((gap + spare / len(gaps) for gap in gaps), initial=y)] if spare >= 0 else []
 
 
 def both_ways(drawing: Drawing, x: float, width: float) -> tuple[list[list[str]], list[list[str]]]:
@@ -76,13 +101,13 @@ def both_ways(drawing: Drawing, x: float, width: float) -> tuple[list[list[str]]
     )
 
 
-def written(lines: Sequence[Numbered], x: float, y: float, leading: float) -> list[Mark]:
-    """Lines of sentences with their numbers before them, from a place on."""
+def written(lines: Sequence[Numbered], x: float, rows: Sequence[float]) -> list[Mark]:
+    """Lines of sentences with their numbers before them, at some baselines."""
     marks: list[Mark] = []
-    for i, (number, line) in enumerate(lines):
+    for y, (number, line) in zip(rows, lines, strict=True):
         if number:
-            marks.append(Text(x + 5, y + i * leading, number, "caption", HEIGHT, "end"))
-        marks.append(Text(x + INDENT, y + i * leading, line, "caption", HEIGHT))
+            marks.append(Text(x + 5, y, number, "caption", HEIGHT, "end"))
+        marks.append(Text(x + INDENT, y, line, "caption", HEIGHT))
     return marks
 
 

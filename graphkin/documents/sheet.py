@@ -814,7 +814,7 @@ def below(drawing: Drawing, view: str) -> tuple[list[Mark], set[Moved], int]:
     if view == "task":
         return marks, moved, said
     text = checked_line(drawing)
-    marks.append(Text(left, low + 0.8, text, "caption", LETTERS, name="witness"))
+    marks.append(Text(left, low + 0.4, text, "caption", LETTERS, name="witness"))
     return [*marks, *flattest_line(drawing, left + extent(text, LETTERS)[0])], moved, said
 
 

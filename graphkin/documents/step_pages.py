@@ -20,7 +20,7 @@ from graphkin.construction.higher_class.closed_group import ClosedGroup
 from graphkin.construction.links.idle_links import IDLE
 from graphkin.documents.detail import insets, parted
 from graphkin.documents.flattest import crossings_on, group_closed, is_gap, names_of_crossing
-from graphkin.documents.listing import written
+from graphkin.documents.listing import rows_of, written
 from graphkin.documents.mark_dependencies import Target, ground_of, rests_on
 from graphkin.documents.sentences import SET_ON, sentences
 from graphkin.documents.sheet import (
@@ -546,4 +546,4 @@ def text_block(
         while shown and not shown[0][0]:
             shown = shown[1:]
         shown = [("", LEFT_OUT), *shown][:room]
-    yield from written(shown, at.left, y + 2.5, DONE[1])
+    yield from written(shown, at.left, rows_of(y + 2.5, DONE[1], len(shown)))

@@ -20,7 +20,7 @@ HEIGHT = 2.5
 """Height of the letters in mm."""
 PAD = 1.4
 """Least horizontal padding of a cell, both sides together, in mm."""
-BETWEEN, APART = 3, 0.5
+BETWEEN, APART = 3, 0.45
 """Space between adjacent tables, in mm, and between stacked tables, in rows."""
 
 
@@ -41,14 +41,14 @@ class Look(NamedTuple):
 
 PARTS = (1.0, 0.72, 0.5)
 """Factors on the widths of columns, from ample space to less and less."""
-HIGH = tuple(Look(*high, part) for high in ((4.9, 3.75), (5.2, 3.75), (5.6, 3.8)) for part in PARTS)
-"""Looks of tables with marks above letters, where space permits.
+HIGH = tuple(Look(*high, part) for high in ((4.9, 3.8), (5.3, 3.8), (5.6, 3.9)) for part in PARTS)
+"""Looks of tables with marks above letters.
 
 Indices of indices fit below them in higher rows.
 """
 LOOKS = tuple(Look(*low, part) for low in ((4.7, 3.2), (5.3, 3.5), (4.2, 3.0)) for part in PARTS)
 """Looks of tables, from ample space to less and less."""
-BY_HAND = tuple(Look(7.0, 4.5, part, 5.0) for part in (1.45, 1.3, 1.15, 1.0))
+BY_HAND = tuple(Look(7.0, 4.5, part, 5.3) for part in (1.45, 1.3, 1.15, 1.0))
 """Looks of tables to be filled in by hand."""
 NUMBER = re.compile(r"(\(?[−<\s\d]+)(.*)", re.DOTALL)
 """A number in a cell: the part before its decimal mark, and the rest."""
@@ -198,7 +198,7 @@ def on_sheets(
     wider than a sheet.
     """
     looks = looks_of(tables, by_hand=by_hand)
-    look = next((each for each in looks if all(table.fits(each) for table in tables)), looks[-1])
+    look = next((each for each in looks if all(table.fits(each) for table in tables)), looks[0])
     left, _, right, low = others
     sheets: list[list[Mark]] = []
     rest = list(tables)
@@ -228,7 +228,7 @@ def rejoined(blocks: Iterable[ColumnTable]) -> list[ColumnTable]:
 
 def looks_of(tables: Sequence[ColumnTable], *, by_hand: bool) -> tuple[Look, ...]:
     """The looks to try, the preferred first; those ``by_hand`` have space to write."""
-    raised = any("^" in row.cells[0] for table in tables for row in table.rows)
+    raised = any("^" in cell for t in tables for row in (t.head, *t.rows) for cell in row.cells)
     return BY_HAND if by_hand else (*(HIGH if raised else ()), *LOOKS)
 
 

@@ -56,7 +56,7 @@ BRIEF = "brief"
 SHAFT = 0.25
 """The widest shaft of a short vector, in mm."""
 
-DASHED = (2.4, 0.8)
+DASHED, LONG = (2.4, 0.8), (7.0, 1.0)
 CHAIN = (5.0, 0.8, 0.4, 0.8)
 SHORT_CHAIN = (3.2, 0.7, 0.7, 0.7)
 DOTTED = (0.7, 0.7)
@@ -211,6 +211,10 @@ STYLES: dict[str, Style] = {
 }
 
 
+IN_BLACK = dict.fromkeys(("relative-velocity", "relative-acceleration", "reaction"), LONG)
+"""The dashes of vectors that only their colour tells from others, in black ink."""
+
+
 @lru_cache(maxsize=512)
 def style_of(cls: str, ink: Ink = "colour", weight: float = 1.0) -> Style:
     """The style of a mark's classes, with fill and colour resolved. Raises KeyError if unknown.
@@ -231,6 +235,7 @@ def style_of(cls: str, ink: Ink = "colour", weight: float = 1.0) -> Style:
         first = replace(first, width=first.width + STRONGER if first.width else 0)
     if ink == "black":
         colour, fill = black(colour), black(fill)
+        first = replace(first, dash=IN_BLACK.get(names[0], first.dash))
     if weight != 1:
         first = replace(first, width=round(weight * first.width, 3))
     return replace(first, colour=colour, fill=fill)

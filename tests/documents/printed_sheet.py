@@ -36,7 +36,7 @@ class Printed:
             if re.fullmatch(r"\d+\.", line):
                 found.append("")
                 open_at = int(line[:-1])
-            elif line.startswith(("Checked by", "Flattest")):
+            elif line.startswith(ENDS):
                 open_at = -1
             elif open_at > 0:
                 found[-1] = f"{found[-1]} {line}".strip()
@@ -48,7 +48,12 @@ class Printed:
         stop = next(n for n, line in enumerate(self.lines) if line.startswith("Mechanism, scale"))
         pairs = zip(self.cells[::2], self.cells[1::2], strict=True)
         listed = [f"{name} {'' if value[0] == '(' else '= '}{value}" for name, value in pairs]
-        return "; ".join([*listed, " ".join(self.lines[:stop]).removeprefix("Given: ").strip()])
+        said, moved = self.lines[:stop], self.lines[stop:]
+        at = next((n for n, line in enumerate(moved) if line.startswith("Given: ")), None)
+        if at is not None:
+            rest = moved[at:]
+            said = rest[: next((n for n, x in enumerate(rest) if x.startswith(PARTS)), len(rest))]
+        return "; ".join([*listed, " ".join(said).removeprefix("Given: ").strip()])
 
     @property
     def scale(self) -> float:
@@ -62,6 +67,20 @@ class Printed:
         """What the links are by their numbers, as a task lists them."""
         line = next((line for line in self.lines if line.startswith("Links: ")), "Links: ")
         return dict(re.findall(r"(\d+) = ([^,]+)", line))
+
+
+ENDS = ("Checked by", "Flattest", "the rest is on", "Mechanism, scale", "Given: ", "Construction")
+"""How lines begin that end a sentence."""
+PARTS = ("Construction", "Mechanism, scale", "Checked by")
+"""How lines begin that end the data of a continuation sheet."""
+
+
+def printed_sheets(path: Path) -> Printed:
+    """The words of a sheet and of its continuation sheets, and the marks of the first."""
+    first = printed(path)
+    for more in sorted(path.parent.glob(f"{path.stem}-[0-9].svg")):
+        first.lines += printed(more).lines
+    return first
 
 
 def printed(path: Path) -> Printed:

@@ -29,7 +29,7 @@ from tests.documents.printed_sheet import (
     bare,
     canonical,
     number,
-    printed,
+    printed_sheets,
 )
 from tests.documents.reader_rules import SET, agrees, factored, says, times
 from tests.documents.ruler_and_compass import Circle, DefectError, Line, cross, crossings, dot
@@ -1068,7 +1068,8 @@ class Followed:
 
 def sheets(folder: Path, name: str, sheet: str) -> tuple[Printed, Printed]:
     """The key and the task of one sheet."""
-    key, task = (printed(folder / f"{name}-{sheet}-{view}.svg") for view in ("key", "task"))
+    names = (folder / f"{name}-{sheet}-{view}.svg" for view in ("key", "task"))
+    key, task = map(printed_sheets, names)
     return key, task
 
 

@@ -70,7 +70,7 @@ def test_lever_and_polygons_agree_and_the_sheet_says_it(name):
     drawing = forces_of(name)
     (lever,) = drawing.lever_balances()
     assert lever.difference(drawing) < 1e-12
-    (page,) = sheet_of(name, "key")
+    page, *_ = sheet_of(name, "key")
     (said,) = (mark.markup for mark in texts(page) if mark.name == "witness")
     assert "equations of equilibrium" in said and "lever and polygons" in said
 
@@ -95,7 +95,7 @@ def sign(value: float) -> int:
 
 @pytest.mark.parametrize("name", EVERY)
 def test_every_force_has_a_class_of_forces_and_a_name(name):
-    (page,) = sheet_of(name, "key")
+    page, *_ = sheet_of(name, "key")
     own = [m for m in page.marks if isinstance(m, LineMark) and style_class(m) in FORCES]
     assert own
     assert all(mark.name and mark.step is not None for mark in own)
@@ -105,7 +105,7 @@ def test_every_force_has_a_class_of_forces_and_a_name(name):
 def test_a_force_of_a_polygon_is_as_long_as_its_scale_says(name):
     """Law: each side, measured on the sheet, times k_F is the force of the step behind it."""
     drawing = forces_of(name)
-    (page,) = sheet_of(name, "key")
+    page, *_ = sheet_of(name, "key")
     k, sides = drawing.scales.kF / 1000, 0
     for kind in constructions(drawing.trace.program, PolygonStart):
         field = drawing.fields.polygons[kind.polygon]
@@ -125,7 +125,7 @@ def test_a_force_of_a_polygon_is_as_long_as_its_scale_says(name):
 @pytest.mark.parametrize("name", EVERY)
 def test_every_polygon_has_its_start_marked_and_its_links_named(name):
     drawing = forces_of(name)
-    (page,) = sheet_of(name, "key")
+    page, *_ = sheet_of(name, "key")
     starts = [*constructions(drawing.trace.program, PolygonStart)]
     captions = [mark.markup for mark in texts(page) if mark.name == "field-caption"]
     for start in starts:

@@ -105,8 +105,8 @@ def test_a_wrong_number_on_the_page_is_seen(folder):
     for sentence in key.sentences:
         right.follow(sentence)
         half = re.sub(
-            r"4 times as long as (\S+) is drawn: [\d.]+ mm",
-            r"2 times as long as \1 is drawn",
+            r"([\d.]+) times as long as (\S+) is drawn: [\d.]+ mm",
+            lambda found: f"{float(found[1]) / 2:g} times as long as {found[2]} is drawn",
             sentence,
         )
         wrong.follow(half)

@@ -160,7 +160,8 @@ def test_rows_of_a_task_are_high_enough_for_a_hand():
             ruled.setdefault(mark.x1, []).append(mark.y1)
     assert ruled
     for rows in ruled.values():
-        assert min(b - a for a, b in pairwise(sorted(rows))) >= 6.5
+        steps = sorted(b - a for a, b in pairwise(sorted(rows)))
+        assert min(step for step in steps if step > 5.4) >= 7 - 1e-9  # heads are printed
 
 
 @pytest.mark.parametrize("language", LANGUAGES)

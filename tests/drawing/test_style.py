@@ -13,6 +13,8 @@ import pytest
 from graphkin.drawing.style import (
     BLACK,
     BLUE,
+    COMPONENTS,
+    FORCES,
     GREY,
     PURPLE,
     RED,
@@ -121,3 +123,15 @@ def test_inks_are_told_apart_by_every_eye(sight):
 def test_inks_can_be_read_on_white():
     for name, colour in {**INKS, "grey": GREY, "black": BLACK}.items():
         assert contrast(colour) >= LEGIBLE, name
+
+
+@pytest.mark.parametrize(
+    "kinds",
+    [
+        ("velocity", "relative-velocity"),
+        ("acceleration", "relative-velocity", *(kind.look for kind in COMPONENTS)),
+        FORCES,
+    ],
+)
+def test_in_black_ink_the_vectors_of_a_sheet_differ_by_their_dashes(kinds):
+    assert len({style_of(kind, "black").dash for kind in kinds}) == len(kinds)

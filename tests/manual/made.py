@@ -317,9 +317,8 @@ def five_schools() -> str:
         own = svg_of((0.0, 0.0, page.width, page.height), name, page.marks, ink)
         own = own.replace("<svg ", f'<svg x="{x:g}" y="{y + CAPTION:g}" ', 1)
         own = scoped(own.replace('mm"', '"'), f"school{i}")
-        parts.append(
-            f'<text x="{x + 4:g}" y="{y + 10:g}" font-size="9" font-family="Graphkin Sans">{name}.toml</text>\n{own}'
-        )
+        place = f'x="{x + 4:g}" y="{y + 10:g}" font-size="9" font-family="Graphkin Sans"'
+        parts.append(f"<text {place}>{name}.toml</text>\n{own}")
     wide, high = 440.0 * ACROSS + APART, y + CAPTION + row
     view = f'width="{wide / 2:g}mm" height="{high / 2:g}mm" viewBox="0 0 {wide:g} {high:g}"'
     head = f'<svg xmlns="http://www.w3.org/2000/svg" {view} role="img">'

@@ -264,7 +264,8 @@ def put_arrow(plot: Plot, number: int, step: Step, value: Any) -> None:
     subject = middle(tail, tip) if short else (tail, tip)
     ask = plot.drawing.scene.ask
     wanted = ask.acceleration if plot.drawing.kind == "acceleration" else ask.velocity
-    spare = bool(vector.sign or vector.p or vector.q not in wanted)
+    lettered = step.plane is not Plane.MECHANISM  # a whole vector ends at its point's letter
+    spare = bool(lettered or vector.sign or vector.p or vector.q not in wanted)
     plot.board.labels.append(
         Label(name, cls, subject, 2.5, step.name, number, priority=1, led=short, spare=spare)
     )
