@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import re
 from pathlib import Path
 
@@ -11,8 +12,10 @@ from graphkin.classroom.sheet_files import sheet_files
 from graphkin.construction.core.kind import constructions
 from graphkin.construction.core.program import Part
 from graphkin.construction.forces.polygon import PolygonStart
+from graphkin.documents.diagrams_sheet import force_courses
 from graphkin.documents.force_sentences import force_relations
 from graphkin.documents.force_sheets import force_drawing, traced
+from graphkin.documents.positions import positions_of
 from graphkin.documents.scaling import sheet_motion
 from graphkin.documents.sheet_documents import drawings_of, hand_out, proved
 from graphkin.drawing.marks import LineMark, Page, Text, style_class
@@ -25,7 +28,7 @@ from graphkin.text.errors import StructureError
 from tests.chosen import FOLDER
 
 SCENES = Path(__file__).parents[1] / "scenes" / "forces"
-NAMES = ("class-three", "four-bar", "gas-engine", "gears", "rack", "ram", "shaper")
+NAMES = ("class-three", "four-bar", "gas-engine", "gears", "planetary", "rack", "ram", "shaper")
 EVERY = (*NAMES, "cam-rocker", "cylinders")
 """Those with a lever, and all: a cam has no point for it, and two drivers have no lever."""
 
@@ -233,3 +236,22 @@ def test_a_reaction_that_acts_beyond_its_field_is_noted_and_not_drawn():
     right = next(m.x1 for m in page.marks if isinstance(m, LineMark) and m.name == "field-border")
     own = [m for m in page.marks if isinstance(m, LineMark) and m.name == "x_5"]
     assert all(max(m.x1, m.x2) < right for m in own)
+
+
+def test_the_diagrams_of_a_motion_show_the_forces_of_each_position():
+    """The crosses of the moment and of a reaction are what the scene gives there."""
+    mechanism = load(SCENES / "gas-engine.toml")
+    found = positions_of(mechanism, words("en"))
+    at = found.planned_places
+    courses = {each.name: each for each in force_courses(found, at, at)}
+    assert {"M_b1", "R_01", "R_03", "R_32"} <= set(courses)
+    for k in (0, 5, 11):
+        phi = round(math.degrees(at[k])) % 360
+        here, verdict = load(SCENES / "gas-engine.toml", phi=phi).forces()
+        assert verdict.agrees
+        (balance,) = here.balance
+        assert courses["M_b1"].at_positions[k] == pytest.approx(balance.moment, rel=1e-9)
+        force = next(e.force for e in here.reactions if (e.name, e.link) == ("O", "1"))
+        assert courses["R_01"].at_positions[k] == pytest.approx(abs(force), rel=1e-9)
+    pages = {each.kind: each.pages for each in hand_out(mechanism, "diagrams")}["courses"]
+    assert any(text.name == "M_b1" or "M" in text.text for page in pages for text in texts(page))

@@ -4,7 +4,9 @@ from __future__ import annotations
 
 import math
 import random
+import re
 from collections.abc import Iterator
+from pathlib import Path
 
 import pytest
 from hypothesis import given
@@ -39,6 +41,7 @@ from tests.mechanisms import LAW, mechanism_of, mechanisms
 EVERY = [SLIDER, SWINGING, CROSSED, TWO_BLOCKS, SHARED.format(on=2), SHARED.format(on=4)]
 NAMES = ["RRP", "RPR", "RPP", "PRP", "RRR", "RRR-shared"]
 CLOSE = 1e-12
+SCENES = Path(__file__).parents[1] / "scenes" / "forces"
 
 
 @pytest.mark.parametrize("text", EVERY, ids=NAMES)
@@ -75,6 +78,20 @@ OTHERS = {
     "arm driven against an arm": ("excavator-absolute", "excavator-relative"),
 }
 """Scenes of the gallery by the kind of group whose forces they have."""
+
+
+@pytest.mark.parametrize("moment", [-60, 80])
+@pytest.mark.parametrize("angle", [0, 30, 200])
+@pytest.mark.parametrize("plain", [False, True])
+def test_a_planet_between_two_wheels_gives_the_forces_of_the_equations(moment, angle, plain):
+    """Also without teeth, which push along the tangent alone."""
+    text = (SCENES / "planetary.toml").read_text(encoding="utf-8")
+    text = text.replace("moment = -60", f"moment = {moment}")
+    text = text.replace("= 30\nspeed", f"= {angle}\nspeed")
+    if plain:
+        text = text.replace("module = 4\n", "")
+        text = re.sub(r"teeth = (\d+)", lambda m: f"radius = {2 * int(m[1])}", text)
+    assert max(differences(mechanism_of(text))) < 1e-11
 
 
 @pytest.mark.parametrize("seed", range(4))
