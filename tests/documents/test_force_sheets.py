@@ -27,7 +27,17 @@ from graphkin.text.errors import StructureError
 from tests.chosen import FOLDER
 
 SCENES = Path(__file__).parents[1] / "scenes" / "forces"
-NAMES = ("class-three", "four-bar", "gas-engine", "gears", "planetary", "rack", "ram", "shaper")
+NAMES = (
+    "class-three",
+    "four-bar",
+    "gas-engine",
+    "gears",
+    "planetary",
+    "rack",
+    "ram",
+    "shaper",
+    "tipper",
+)
 EVERY = (*NAMES, "cam-rocker", "cylinders")
 """Those with a lever, and all: a cam has no point for it, and two drivers have no lever."""
 
@@ -255,3 +265,13 @@ def test_the_diagrams_of_a_motion_show_the_forces_of_each_position():
     pages = {each.kind: each.pages for each in hand_out(mechanism, "diagrams")}["courses"]
     names = {getattr(mark, "name", "") for page in pages for mark in page.marks}
     assert {"M_b1", "R_01"} <= names
+
+
+def test_every_moment_on_a_link_is_on_the_mechanism():
+    """The given moment and the inertia moment of one link, each with its own sense."""
+    drawing = forces_of("gears")
+    wanted = {drawing.symbol(name) for name in ("M_3", "M_i3", "M_i2", "M_b1")}
+    shown = [mark for page in sheet_of("gears", "key") for mark in page.marks]
+    labels = [str(mark) for mark in shown if isinstance(mark, Text)]
+    assert all(any(symbol in label for label in labels) for symbol in wanted)
+    assert drawing.turnings("3")["M_3"] * drawing.turnings("3")["M_i3"] < 0

@@ -95,6 +95,10 @@ class ForceDrawing(Drawing, frozen=True):
         """The name of the moment on a link."""
         return next(iter(self.moments[link]))
 
+    def turnings(self, link: str) -> Mapping[str, float]:
+        """All moments on a link."""
+        return self.moments.get(link, {})
+
     @cached_property
     def moments(self) -> Mapping[str, Mapping[str, float]]:
         """The moments on each link by their names: that of its driver, then given ones."""

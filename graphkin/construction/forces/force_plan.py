@@ -671,7 +671,7 @@ class ForcePlan:
         assert isinstance(pair, Sliding)
         track, guide = pen.the("track", contact.links[0]), (self.guide(pair), pair.block)
         found = rack(pen, polygon, name, link, angle, centre, track, guide)
-        pen.want(PAIR_REACTION.target, name, found.force)
+        self.read_off(name, polygon)
         held = polygon.reaction(self.name(pair, link), polygon.last, polygon.start, closes=True)
         self.pressed(contact, link, found.force, found.pitch)
         point = pen.scene.link(pair.block).points[0]
