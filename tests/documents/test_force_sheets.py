@@ -36,10 +36,10 @@ NAMES = (
     "rack",
     "ram",
     "shaper",
-    "tipper",
+    *("tipper", "cam"),
 )
 EVERY = (*NAMES, "cam-rocker", "cylinders")
-"""Those with a lever, and all: a cam has no point for it, and two drivers have no lever."""
+"""Those with a lever, and all: a moment on a cam's rocker has no point, two drivers no lever."""
 
 
 def forces_of(name: str, language: str = "en"):

@@ -152,7 +152,7 @@ class ForceDrawing(Drawing, frozen=True):
         """The balance by the lever, if it is drawn."""
         if self.extents.lever is not None:
             for step in self.trace.program.steps:
-                if isinstance(step.of, LeverBalance) and step.role == "force":
+                if isinstance(step.of, LeverBalance) and step.role == step.of.last:
                     yield step.of
 
 

@@ -814,8 +814,9 @@ class ForcePlan:
     def lever(self, group: Crank | Driven | Cylinder, other: int) -> None:
         """The lever with every load; none where the driven point is at rest for all parameters."""
         pen, numbers = self.pen, (f"H_{number}" for number in count(1))
-        tip = self.driven_point(group)
-        if tip is None or group.driver.speed.is_zero():
+        tip, turns = self.driven_point(group), isinstance(group, Crank)
+        by_rate = tip is None and isinstance(group, Crank) and group.driver.against == FRAME
+        if not (tip or by_rate) or group.driver.speed.is_zero():
             return
         plan = LeverPlan(pen)
         forces, couples = [], []
@@ -832,8 +833,10 @@ class ForcePlan:
                     turned = plan.moved(link, each.name, masses[link].centre, each.place)
                 if turned != plan.pole:
                     forces.append(plan.put(each, turned, next(numbers)))
-        turns = isinstance(group, Crank)
         link = group.far if isinstance(group, Cylinder) else group.link
+        if tip is None:
+            plan.by_rate("M_" + sub("b", link), link, forces, couples, other)
+            return
         ends = (group.pivot, tip) if isinstance(group, Crank) else (tip, tip)
         names = "F_b" if turns else "F_" + sub("b", link), "M_" + sub("b", link)
         plan.balance(names, ends, forces, couples, other, turns=turns)
