@@ -206,7 +206,7 @@ def test_every_result_of_the_calculation_follows_from_its_figures(name):
             result = float(relation.result.replace(" ", ""))
             assert abs(abs(worth) - result) <= 2e-3 * result + 0.006, relation
             checked += 1
-    assert checked > 8
+    assert checked > 6
 
 
 def reckoned(put: str) -> float:
