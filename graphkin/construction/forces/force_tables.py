@@ -38,9 +38,8 @@ def force_tables(drawing: Drawing, *, empty: bool) -> list[CellTable]:
     heads = words("table.symbol"), words("table.millimetres"), "N"
     found = [CellTable(heads, rows, kind="sides")]
     if balance := balance_rows(drawing, empty=empty):
-        heads = words("table.balance"), words("table.by_polygon"), words("table.by_lever")
-        heads = heads[: len(balance[0].cells)]
-        found.append(CellTable(heads, balance, kind="balance"))
+        over = words("table.balance"), words("table.by_polygon"), words("table.by_lever")
+        found.append(CellTable(over[: len(balance[0].cells)], balance, kind="balance"))
     return [table for table in found if table.rows]
 
 
