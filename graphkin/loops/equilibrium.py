@@ -213,11 +213,8 @@ def touching_of(scene: Scene, motion: Motion) -> Iterator[Touching]:
         centre, track = pin_of(motion, each.wheel.centre), each.track
         if track is None:
             line, k = track_line(scene, each.rolling), motion.index[each.links[1]]
-            turned = complex(motion.heading[0, k])
-            start = complex(motion.origin.place[0, k]) + turned * line.point
-            way = turned * line.along
-            place = start + ((centre - start) * way.conjugate()).real * way
-            away = centre - place
+            away = 1j * complex(motion.heading[0, k]) * line.along * each.rolling.side
+            place = centre - radius(scene, each.wheel) * away / abs(away)
         else:
             other = pin_of(motion, track.centre)
             to_wheel = (centre - other) / abs(centre - other)

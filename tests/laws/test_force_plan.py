@@ -23,7 +23,9 @@ from graphkin.mechanism import Mechanism
 from graphkin.numbers.plane import cross
 from graphkin.scene.model import FRAME
 from graphkin.scene.read_scene import read_text
+from tests.chance.checking import told
 from tests.chance.forces import dyads
+from tests.chance.making import made
 from tests.chosen import FOLDER
 from tests.laws.force_routes import differences, loaded
 from tests.laws.test_forces import (
@@ -104,6 +106,13 @@ def test_every_other_group_gives_the_forces_of_the_equations(name, seed):
     if undrawn(made.scene, made.laid[0]) is not None:
         pytest.fail(f"{name} is not drawn")
     assert max(differences(made)) < 1e-9
+
+
+@pytest.mark.parametrize("seed", [41, 84, 94, 107, 128, 10028, 10094])
+def test_racks_aside_of_their_guides_and_guides_without_force_agree(seed):
+    """A rack's track off the line of its guide, and a couple beside a force that is rounding."""
+    case = told(seed, *made(seed))
+    assert max(differences(loaded(case.mechanism, random.Random(seed)))) < 1e-9
 
 
 def test_the_place_of_a_guide_s_reaction_is_that_of_the_solution():
